@@ -1,0 +1,45 @@
+//! An oriented plane.
+
+use super::{Point, Vector};
+
+/// The plane { x : normal·x = offset_mm }, with a unit normal; its positive side is where normal·x is larger.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Plane {
+    /// The unit normal.
+    pub normal: Vector,
+    /// The signed distance of the plane from the origin along the normal, mm.
+    pub offset_mm: f64,
+}
+
+impl Plane {
+    /// The plane through `point` with the direction of `normal` (any length but zero).
+    pub fn through(point: &Point, normal: &Vector) -> Self {
+        let normal = normal.normalize();
+        Self { normal, offset_mm: normal.dot(&point.coords) }
+    }
+
+    /// The signed distance of `point`, mm: positive on the side the normal points to.
+    pub fn distance(&self, point: &Point) -> f64 {
+        self.normal.dot(&point.coords) - self.offset_mm
+    }
+
+    /// The point of the plane nearest to the origin.
+    pub fn foot(&self) -> Point {
+        Point::from(self.normal * self.offset_mm)
+    }
+
+    /// Two unit vectors that span the plane and make (u, v, normal) right-handed.
+    pub fn basis(&self) -> (Vector, Vector) {
+        orthonormal_basis(&self.normal)
+    }
+}
+
+/// Two unit vectors (u, v) such that (u, v, n) is right-handed and orthonormal, for a unit `n`.
+///
+/// u is made from the coordinate axis least parallel to n, so the choice is stable for nearby normals
+/// except where two components tie.
+pub fn orthonormal_basis(n: &Vector) -> (Vector, Vector) {
+    let axis = Vector::ith(n.iamin(), 1.0);
+    let u = (axis - n * n.dot(&axis)).normalize();
+    (u, n.cross(&u))
+}

@@ -1,0 +1,19 @@
+//! Equipoise hollows a 3D model so that its printed, glued parts spin, stand or balance as asked.
+
+#![forbid(unsafe_code)]
+
+pub mod cut;
+pub mod geom;
+pub mod goal;
+pub mod hollow;
+pub mod interior;
+pub mod io;
+pub mod mass;
+pub mod mesh;
+pub mod printer;
+pub mod progress;
+pub mod report;
+pub mod shell;
+pub mod units;
+pub mod verify;
+pub mod voids;

@@ -1,0 +1,3 @@
+//! The `equipoise` command: parse, run, print, exit.
+
+fn main() {}

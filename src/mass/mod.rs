@@ -1,0 +1,9 @@
+//! Mass properties: the ten moments that add, and the body they describe.
+
+mod body;
+mod moments;
+mod of_mesh;
+
+pub use body::{Body, Principal};
+pub use moments::Moments;
+pub use of_mesh::moments_of_mesh;

@@ -1,0 +1,90 @@
+//! Indexed triangles: indices in range, and nothing else is promised.
+
+use crate::geom::{Aabb, Frame, Point};
+
+/// Vertices and the triangles that index them.
+///
+/// Holds: every index is in range and there are fewer than 2³² vertices. Nothing is said of closedness,
+/// orientation or finiteness; that is what [`super::Solid`] proves.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TriMesh {
+    vertices: Vec<Point>,
+    triangles: Vec<[u32; 3]>,
+}
+
+/// Why vertices and triangles do not make a [`TriMesh`].
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MeshError {
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {triangle} names vertex {vertex}, but there are only {vertices} vertices")]
+    IndexOutOfRange {
+        /// Which triangle, from 0.
+        triangle: usize,
+        /// The index it names.
+        vertex: u32,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+}
+
+impl TriMesh {
+    /// The mesh of these vertices (mm) and triangles, or the first index that is out of range.
+    pub fn new(vertices: Vec<Point>, triangles: Vec<[u32; 3]>) -> Result<Self, MeshError> {
+        let count = vertices.len();
+        for (triangle, corners) in triangles.iter().enumerate() {
+            if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= count) {
+                return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices: count });
+            }
+        }
+        Ok(Self { vertices, triangles })
+    }
+
+    /// The vertices, mm.
+    pub fn vertices(&self) -> &[Point] {
+        &self.vertices
+    }
+
+    /// The triangles as vertex indices.
+    pub fn triangles(&self) -> &[[u32; 3]] {
+        &self.triangles
+    }
+
+    /// The corners of triangle `index`.
+    pub fn corners(&self, index: usize) -> [Point; 3] {
+        self.triangles[index].map(|v| self.vertices[v as usize])
+    }
+
+    /// The corners of every triangle, in order.
+    pub fn iter_corners(&self) -> impl ExactSizeIterator<Item = [Point; 3]> + '_ {
+        self.triangles.iter().map(|t| t.map(|v| self.vertices[v as usize]))
+    }
+
+    /// The bounding box of the vertices.
+    pub fn aabb(&self) -> Aabb {
+        Aabb::of_points(&self.vertices)
+    }
+
+    /// The same triangles with each vertex moved by `f`.
+    pub fn map_vertices(&self, f: impl Fn(&Point) -> Point) -> Self {
+        Self { vertices: self.vertices.iter().map(f).collect(), triangles: self.triangles.clone() }
+    }
+
+    /// The same mesh in `frame`'s own coordinates.
+    pub fn in_frame(&self, frame: &Frame) -> Self {
+        self.map_vertices(|p| frame.to_local(p))
+    }
+
+    /// The same mesh with every triangle turned inside out.
+    pub fn reversed(&self) -> Self {
+        let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Self { vertices: self.vertices.clone(), triangles }
+    }
+
+    /// Both meshes side by side, nothing shared; `other`'s vertices come after this mesh's.
+    pub fn joined(mut self, other: &Self) -> Self {
+        let shift = self.vertices.len() as u32;
+        self.vertices.extend_from_slice(&other.vertices);
+        self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + shift)));
+        self
+    }
+}
