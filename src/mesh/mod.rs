@@ -2,6 +2,7 @@
 
 mod clip;
 mod defects;
+mod distance;
 mod hollowed;
 mod shells;
 mod solid;
@@ -10,6 +11,7 @@ pub(crate) mod union_find;
 
 pub use clip::{ClipError, Csg};
 pub use defects::Defects;
+pub use distance::MeshDistance;
 pub use hollowed::Hollowed;
 pub use shells::{bodies, shells, signed_volume, winding_number};
 pub use solid::Solid;
