@@ -181,7 +181,9 @@ mod tests {
                     (0..3).any(|a| boxes[i].min[a] > boxes[j].max[a] || boxes[j].min[a] > boxes[i].max[a]);
                 assert!(
                     shared || apart || triangle_triangle_distance_squared(&corners[i], &corners[j]) > 0.0,
-                    "triangles {i} and {j} meet"
+                    "triangles {:?} and {:?} meet",
+                    corners[i],
+                    corners[j]
                 );
             }
         }
