@@ -24,7 +24,7 @@ const MARGIN_MM: f64 = 1.0;
 /// How far the drawn triangles' sides may stray, and their simplification from them, as shares of the tolerance: half of
 /// it together, as a triangle's middle strays 4/3 as far as its sides.
 const DRAW_RATIO: f64 = 0.25;
-const SIMPLIFY_RATIO: f64 = 0.15;
+const SIMPLIFY_RATIO: f64 = 0.1;
 
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
