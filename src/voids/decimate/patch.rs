@@ -35,7 +35,7 @@ pub(super) fn next(edge: u32) -> u32 {
 }
 
 pub(super) fn last(edge: u32) -> u32 {
-    if edge % 3 == 0 { edge + 2 } else { edge - 1 }
+    if edge.is_multiple_of(3) { edge + 2 } else { edge - 1 }
 }
 
 /// Twice the area vector of a triangle.
