@@ -144,6 +144,12 @@ pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64
     if (0..3).map(edges).any(|(i, j)| segment_pierces(&s[i], &s[j], t) || segment_pierces(&t[i], &t[j], s)) {
         return 0.0;
     }
+    disjoint_triangles_distance_squared(s, t)
+}
+
+/// The squared distance between two triangles that are known not to meet, mm².
+pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
+    let edges = |k: usize| (k, (k + 1) % 3);
     let mut best = f64::INFINITY;
     for (i, j) in (0..3).map(edges) {
         best = best.min((closest_on_triangle(&s[i], t).point - s[i]).norm_squared());

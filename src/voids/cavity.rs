@@ -16,7 +16,7 @@ use crate::shell::Keep;
 const BIAS_MM: f64 = 0.006;
 
 /// What the wall may lack on the unsimplified triangles, mm.
-const DRAWN_LACK_MM: f64 = 0.004;
+const DRAWN_LACK_MM: f64 = 0.008;
 
 /// What the wall may lack on the final triangles, mm; the promise is 0.01, the rest is for rounding to `f32`.
 const FINAL_LACK_MM: f64 = 0.009;

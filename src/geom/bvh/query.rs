@@ -2,8 +2,8 @@
 
 use super::Bvh;
 use crate::geom::triangle::{
-    Feature, TrianglePoint, closest_on_triangle, segment_triangle_distance_squared, tangent_bound,
-    triangle_triangle_distance_squared,
+    Feature, TrianglePoint, closest_on_triangle, disjoint_triangles_distance_squared,
+    segment_triangle_distance_squared, tangent_bound, triangle_triangle_distance_squared,
 };
 use crate::geom::{Aabb, Point, Vector};
 
@@ -56,9 +56,8 @@ impl Bvh {
             |aabb| probe.bound(aabb),
             |best| *best,
             |best, slot| {
-                if probe.triangle_bound(&self.corners[slot]) < *best {
-                    let exact = triangle_triangle_distance_squared(corners, &self.corners[slot]).sqrt();
-                    *best = best.min(exact);
+                if probe.is_within(&self.corners[slot], *best) {
+                    *best = triangle_triangle_distance_squared(corners, &self.corners[slot]).sqrt();
                 }
             },
         )
@@ -69,16 +68,15 @@ impl Bvh {
         let probe = Probe::new(corners);
         let aabb = Aabb::of_points(corners);
         let limit_squared = limit_mm.max(0.0).powi(2);
+        let bound = |other: &Aabb| {
+            let is_apart = gap_squared(&aabb, other) >= limit_squared || probe.bound(other) >= limit_mm;
+            if is_apart { f64::INFINITY } else { 0.0 }
+        };
         self.visit(
             false,
-            |other| gap_squared(&aabb, other),
-            |hit| if *hit { f64::NEG_INFINITY } else { limit_squared },
-            |hit, slot| {
-                let other = &self.corners[slot];
-                *hit = *hit
-                    || (probe.triangle_bound(other) < limit_mm
-                        && triangle_triangle_distance_squared(corners, other) < limit_squared);
-            },
+            bound,
+            |hit| if *hit { f64::NEG_INFINITY } else { f64::MIN_POSITIVE },
+            |hit, slot| *hit = *hit || probe.is_within(&self.corners[slot], limit_mm),
         )
     }
 
@@ -206,6 +204,20 @@ impl<'a> Probe<'a> {
     /// A lower bound of the distance to a triangle.
     fn triangle_bound(&self, other: &[Point; 3]) -> f64 {
         self.bound_from(self.center - closest_on_triangle(&self.center, other).point)
+    }
+
+    /// Whether another triangle is nearer than `limit_mm`.
+    fn is_within(&self, other: &[Point; 3], limit_mm: f64) -> bool {
+        let bound = self.triangle_bound(other);
+        if bound >= limit_mm {
+            return false;
+        }
+        let gap = if bound > 0.0 {
+            disjoint_triangles_distance_squared
+        } else {
+            triangle_triangle_distance_squared
+        };
+        limit_mm > 0.0 && gap(self.corners, other) < limit_mm * limit_mm
     }
 
     /// The tangent bound of a convex set whose nearest point is at `center - offset`.
