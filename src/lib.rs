@@ -14,6 +14,7 @@ pub mod printer;
 pub mod progress;
 pub mod report;
 pub mod shell;
+pub mod toml_text;
 pub mod units;
 pub mod verify;
 pub mod voids;
