@@ -3,11 +3,13 @@
 #![forbid(unsafe_code)]
 
 pub mod cut;
+pub mod digest;
 pub mod geom;
 pub mod goal;
 pub mod hollow;
 pub mod interior;
 pub mod io;
+pub mod job;
 pub mod mass;
 pub mod mesh;
 pub mod printer;
