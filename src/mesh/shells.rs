@@ -1,0 +1,111 @@
+//! The connected shells of a closed mesh, and the bodies they bound.
+
+use super::TriMesh;
+use crate::geom::{Point, Vector};
+
+/// The connected shells of `mesh`, in the order of their first triangles; vertices and triangles keep their
+/// order. Vertices that no triangle names are dropped.
+///
+/// Two shells that touch in a vertex without sharing its index are two shells.
+pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
+    let shell_of = shell_of_vertices(mesh);
+    let mut shells = Vec::new();
+    let mut place = vec![usize::MAX; mesh.vertices().len()];
+    let mut parts: Vec<Vec<[u32; 3]>> = Vec::new();
+    for &triangle in mesh.triangles() {
+        let root = shell_of[triangle[0] as usize];
+        if place[root] == usize::MAX {
+            place[root] = parts.len();
+            parts.push(Vec::new());
+        }
+        parts[place[root]].push(triangle);
+    }
+    let mut new_index = vec![u32::MAX; mesh.vertices().len()];
+    for triangles in parts {
+        shells.push(compacted(mesh, triangles, &mut new_index));
+    }
+    shells
+}
+
+/// The bodies a closed, oriented mesh bounds: each outward shell together with the inward shells (cavities)
+/// directly inside it, ordered as the outward shells are. An inward shell in no body is dropped.
+///
+/// Costs the triangle count once for each pair of an inward and an outward shell.
+pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
+    let (outward, inward): (Vec<_>, Vec<_>) =
+        shells(mesh).into_iter().map(|s| (signed_volume(&s), s)).partition(|(volume, _)| *volume > 0.0);
+    let mut bodies: Vec<TriMesh> = outward.iter().map(|(_, shell)| shell.clone()).collect();
+    for (_, cavity) in &inward {
+        let holder = (0..outward.len())
+            .filter(|&i| winding_number(&outward[i].1, &cavity.vertices()[0]).abs() > 0.5)
+            .min_by(|&i, &j| outward[i].0.total_cmp(&outward[j].0));
+        if let Some(i) = holder {
+            bodies[i] = std::mem::take(&mut bodies[i]).joined(cavity);
+        }
+    }
+    bodies
+}
+
+/// The volume a closed mesh bounds, mm³; negative when it is wound inward. About 1e-12 relative.
+pub fn signed_volume(mesh: &TriMesh) -> f64 {
+    let center = mesh.aabb().center();
+    let sixfold: f64 = mesh
+        .iter_corners()
+        .map(|corners| corners.map(|c| c - center))
+        .map(|[a, b, c]: [Vector; 3]| a.dot(&b.cross(&c)))
+        .sum();
+    sixfold / 6.0
+}
+
+/// How often a closed mesh winds around `point`: 1 inside an outward shell, 0 outside, to rounding for a
+/// point off the surface (van Oosterom and Strackee, "The solid angle of a plane triangle", IEEE TBME 30,
+/// 1983).
+pub fn winding_number(mesh: &TriMesh, point: &Point) -> f64 {
+    let solid_angle: f64 = mesh.iter_corners().map(|corners| half_solid_angle(corners, point)).sum();
+    solid_angle / (2.0 * std::f64::consts::PI)
+}
+
+/// Half the signed solid angle of a triangle seen from `point`.
+fn half_solid_angle(corners: [Point; 3], point: &Point) -> f64 {
+    let [a, b, c] = corners.map(|corner| corner - point);
+    let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
+    let determinant = a.dot(&b.cross(&c));
+    determinant.atan2(la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb)
+}
+
+/// For each vertex a representative vertex of its shell.
+fn shell_of_vertices(mesh: &TriMesh) -> Vec<usize> {
+    let mut parent: Vec<usize> = (0..mesh.vertices().len()).collect();
+    for &[a, b, c] in mesh.triangles() {
+        for (from, to) in [(a, b), (b, c)] {
+            let (i, j) = (root(&mut parent, from as usize), root(&mut parent, to as usize));
+            parent[i.max(j)] = i.min(j);
+        }
+    }
+    (0..parent.len()).map(|v| root(&mut parent, v)).collect()
+}
+
+/// The representative of `v`, halving the path to it.
+fn root(parent: &mut [usize], mut v: usize) -> usize {
+    while parent[v] != v {
+        parent[v] = parent[parent[v]];
+        v = parent[v];
+    }
+    v
+}
+
+/// The mesh of some of `mesh`'s triangles with only the vertices they name. `new_index` is scratch space,
+/// `u32::MAX` for every vertex not yet met.
+fn compacted(mesh: &TriMesh, mut triangles: Vec<[u32; 3]>, new_index: &mut [u32]) -> TriMesh {
+    let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
+    used.sort_unstable();
+    used.dedup();
+    for (new, &old) in used.iter().enumerate() {
+        new_index[old as usize] = new as u32;
+    }
+    for corner in triangles.iter_mut().flatten() {
+        *corner = new_index[*corner as usize];
+    }
+    let vertices = used.iter().map(|&v| mesh.vertices()[v as usize]).collect();
+    TriMesh::new(vertices, triangles).unwrap_or_default()
+}
