@@ -6,6 +6,7 @@ mod hollowed;
 mod shells;
 mod solid;
 mod tri_mesh;
+pub(crate) mod union_find;
 
 pub use clip::{ClipError, Csg};
 pub use defects::Defects;

@@ -1,6 +1,6 @@
 //! The connected shells of a closed mesh, and the bodies they bound.
 
-use super::TriMesh;
+use super::{TriMesh, union_find::UnionFind};
 use crate::geom::{Point, Vector};
 
 /// The connected shells of `mesh`, in the order of their first triangles; vertices and triangles keep their
@@ -13,7 +13,7 @@ pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
     let mut place = vec![usize::MAX; mesh.vertices().len()];
     let mut parts: Vec<Vec<[u32; 3]>> = Vec::new();
     for &triangle in mesh.triangles() {
-        let root = shell_of[triangle[0] as usize];
+        let root = shell_of[triangle[0] as usize] as usize;
         if place[root] == usize::MAX {
             place[root] = parts.len();
             parts.push(Vec::new());
@@ -73,25 +73,15 @@ fn half_solid_angle(corners: [Point; 3], point: &Point) -> f64 {
     determinant.atan2(la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb)
 }
 
-/// For each vertex a representative vertex of its shell.
-fn shell_of_vertices(mesh: &TriMesh) -> Vec<usize> {
-    let mut parent: Vec<usize> = (0..mesh.vertices().len()).collect();
+/// For each vertex the least vertex of its shell.
+fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
+    let count = mesh.vertices().len();
+    let mut sets = UnionFind::new(count);
     for &[a, b, c] in mesh.triangles() {
-        for (from, to) in [(a, b), (b, c)] {
-            let (i, j) = (root(&mut parent, from as usize), root(&mut parent, to as usize));
-            parent[i.max(j)] = i.min(j);
-        }
+        sets.unite(a, b);
+        sets.unite(b, c);
     }
-    (0..parent.len()).map(|v| root(&mut parent, v)).collect()
-}
-
-/// The representative of `v`, halving the path to it.
-fn root(parent: &mut [usize], mut v: usize) -> usize {
-    while parent[v] != v {
-        parent[v] = parent[parent[v]];
-        v = parent[v];
-    }
-    v
+    (0..count as u32).map(|v| sets.root(v)).collect()
 }
 
 /// The mesh of some of `mesh`'s triangles with only the vertices they name. `new_index` is scratch space,
