@@ -7,7 +7,7 @@ mod crossings;
 mod figures;
 mod judge;
 #[cfg(test)]
-mod judge_tests;
+pub(crate) mod judge_tests;
 mod kit;
 mod measure;
 mod pose;
@@ -16,7 +16,7 @@ mod shells;
 mod stand_in;
 mod support;
 #[cfg(test)]
-mod test_meshes;
+pub(crate) mod test_meshes;
 mod wall;
 
 pub use check::{Check, Comparison, Limit};
