@@ -2,6 +2,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cli;
 pub mod cut;
 pub mod digest;
 pub mod geom;

@@ -250,6 +250,15 @@ mod tests {
         }
     }
 
+    proptest! {
+        #[test]
+        fn any_text_is_read_or_refused_without_a_panic(text in "\\PC*|[0-9.eE+µminc -]{0,12}") {
+            if let Ok(length) = text.parse::<Length>() {
+                prop_assert!(length.mm() > 0.0 && length.mm().is_finite());
+            }
+        }
+    }
+
     #[test]
     fn numbers_for_people_have_the_decimals_a_shop_can_use() {
         assert_eq!(show_mm(1.016), "1.016 mm");

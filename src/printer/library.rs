@@ -48,7 +48,7 @@ impl Library<'_> {
         }
         let is_path = id_or_path.contains(['/', '\\']) || id_or_path.ends_with(PROFILE_ENDING);
         if is_path || Path::new(id_or_path).is_file() {
-            self.read(id_or_path)
+            self.read(Path::new(id_or_path))
         } else {
             Err(self.unknown(id_or_path))
         }
@@ -59,10 +59,12 @@ impl Library<'_> {
         self.printers.iter().map(|profile| resolve(self, *profile)).collect()
     }
 
-    fn read(&self, path: &str) -> Result<Printer, ProfileError> {
+    /// The printer in that file.
+    pub fn read(&self, path: &Path) -> Result<Printer, ProfileError> {
         let text = std::fs::read_to_string(path)
-            .map_err(|source| ProfileError::Unreadable { path: path.into(), source })?;
-        resolve(self, Profile { id: path, file: path, text: &text })
+            .map_err(|source| ProfileError::Unreadable { path: path.to_owned(), source })?;
+        let file = path.to_string_lossy();
+        resolve(self, Profile { id: &file, file: &file, text: &text })
     }
 
     fn unknown(&self, id: &str) -> ProfileError {

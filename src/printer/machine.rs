@@ -1,8 +1,10 @@
 //! A printer with all its numbers settled.
 
+use std::path::Path;
+
 use serde::{Deserialize, Serialize};
 
-use super::{Material, MaterialError, ProfileError, Sourced, error::suggestion, library};
+use super::{Material, MaterialError, ProfileError, Quantity, Sourced, error::suggestion, library};
 
 /// What the steps of a printer's grid in x and y are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -122,6 +124,31 @@ impl Printer {
     /// Every built-in printer, in the order of their ids.
     pub fn all() -> Result<Vec<Self>, ProfileError> {
         library::BUILT_IN.all()
+    }
+
+    /// The printer described by the TOML file at `path`, even if a built-in one has that name.
+    pub fn read(path: &Path) -> Result<Self, ProfileError> {
+        library::BUILT_IN.read(path)
+    }
+
+    /// Every number of the profile's `[numbers]`, in the order of [`Quantity`].
+    pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
+        let mut numbers = vec![
+            (Quantity::PixelXMm, &self.pixel_x_mm),
+            (Quantity::PixelYMm, &self.pixel_y_mm),
+            (Quantity::LayerMm, &self.layer_mm),
+            (Quantity::MinWallMm, &self.min_wall_mm),
+            (Quantity::MinFeatureMm, &self.min_feature_mm),
+            (Quantity::MinOpeningMm, &self.min_opening_mm),
+            (Quantity::PinMinDiameterMm, &self.pin_min_diameter_mm),
+            (Quantity::PinLengthRatio, &self.pin_length_ratio),
+            (Quantity::ClearancePerSideMm, &self.clearance_per_side_mm),
+            (Quantity::SocketExtraDepthMm, &self.socket_extra_depth_mm),
+            (Quantity::ChamferMm, &self.chamfer_mm),
+            (Quantity::ToleranceLeastMm, &self.tolerance.least_mm),
+        ];
+        numbers.extend(self.tolerance.ratio.as_ref().map(|ratio| (Quantity::ToleranceRatio, ratio)));
+        numbers
     }
 
     /// The material of that id; the printer's default where none is asked for.

@@ -343,6 +343,15 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
     }
 
     #[test]
+    fn the_example_in_the_documentation_can_be_used() {
+        let page = include_str!("mod.rs").split("//! ```").nth(1).unwrap().trim_start_matches("toml");
+        let example: String =
+            page.lines().map(|line| line.trim_start_matches("//!").to_owned() + "\n").collect();
+        let printer = load(&example).unwrap();
+        assert_eq!((printer.id.as_str(), printer.materials[0].id.as_str()), ("shop-jet", "lot-7"));
+    }
+
+    #[test]
     fn all_faults_are_told_at_once() {
         let text = WHOLE.replace("dpi = 600", "value = -1").replace("value = 0.05", "value = 0");
         let ProfileError::Broken(Faults(faults)) = load(&text).unwrap_err() else { panic!() };
@@ -380,5 +389,15 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
         assert_eq!(plain.len(), 64);
         assert_ne!(plain, load(&format!("{WHOLE}\n# a remark")).unwrap().profile_sha256);
         assert_ne!(plain, load(&WHOLE.replace("polyjet", "sla")).unwrap().profile_sha256);
+    }
+
+    proptest::proptest! {
+        #[test]
+        fn a_profile_damaged_anywhere_is_read_or_refused_without_a_panic(at in 0..WHOLE.len(), by in "\\PC{0,3}") {
+            let damaged = format!("{}{by}{}", &WHOLE[..at], &WHOLE[(at + 1).min(WHOLE.len())..]);
+            if let Err(error) = load(&damaged) {
+                proptest::prop_assert!(error.to_string().contains("t.toml:"), "{error}");
+            }
+        }
     }
 }
