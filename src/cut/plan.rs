@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, TriMesh, signed_volume},
+    mesh::{Hollowed, TriMesh},
 };
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
@@ -265,7 +265,7 @@ fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Vec<VoidAccess> {
         let widest = openings.iter().max_by(|a, b| a.1.diameter_mm.total_cmp(&b.1.diameter_mm));
         VoidAccess {
             void,
-            volume_mm3: signed_volume(solid.mesh()),
+            volume_mm3: solid.mesh().signed_volume_mm3(),
             opened_by: openings.iter().map(|(i, _)| cut_id(*i)).collect(),
             opening_mm: widest.map_or(0.0, |(_, o)| o.diameter_mm),
             depth_mm: widest.map_or(0.0, |(_, o)| o.depth_mm),

@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     geom::Plane,
-    mesh::{Csg, TriMesh, bodies, shells, signed_volume, union_find::UnionFind},
+    mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
 /// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of that size would
@@ -70,7 +70,7 @@ pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutE
 /// Refuses a piece that encloses a cavity.
 pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     for (part, piece) in pieces.iter().enumerate() {
-        let cavities = shells(&piece.mesh).iter().filter(|shell| signed_volume(shell) < 0.0).count();
+        let cavities = shells(&piece.mesh).iter().filter(|shell| shell.signed_volume_mm3() < 0.0).count();
         if cavities > 0 {
             return Err(CutError::ClosedCavity { part, cavities });
         }
@@ -80,7 +80,7 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
 
 fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
     let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
-    Piece { volume_mm3: signed_volume(&mesh), caps, mesh }
+    Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
 }
 
 /// The faces that the plane has left on a piece, in the order of their first triangles.
@@ -91,8 +91,8 @@ fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
         mesh.triangles().iter().filter(|t| t.iter().all(|&v| on_plane[v as usize])).copied().collect();
     let mut sets = UnionFind::new(mesh.vertices().len());
     for &[a, b, c] in &flat {
-        sets.unite(a, b);
-        sets.unite(b, c);
+        sets.merge(a, b);
+        sets.merge(b, c);
     }
     let mut faces: Vec<(u32, Vec<[u32; 3]>)> = Vec::new();
     for triangle in flat {
