@@ -17,8 +17,10 @@ use crate::geom::Frame;
 use crate::mass::Moments;
 use crate::shell::Keep;
 
+pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
 pub use place::{GoalError, place};
+pub(crate) use support::edges as support_edges;
 
 /// What the object shall do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -261,7 +261,7 @@ mod tests {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
         // A column at the rim of the shadow, of about 4 · 8 · 1.3 mm, is wrong by a random part of a pitch² · 8 mm.
         let (pitch, rim) = (0.1, 42.0);
-        let deviation = (rim / pitch as f64).sqrt() * pitch * pitch * 8.0;
+        let deviation = f64::sqrt(rim / pitch) * pitch * pitch * 8.0;
         assert!((volume(&solid, &turned(), 1.0, pitch) - 512.0).abs() < deviation);
     }
 

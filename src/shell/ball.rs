@@ -55,3 +55,20 @@ impl OnRow for BallRow {
         [self.z - half, self.z + half]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_off_the_centre_meets_a_ball_in_the_chord_of_pythagoras_and_beside_it_not_at_all() {
+        let piece = Ball::new(Point::new(1.0, 2.0, 3.0), 5.0).into_piece(0.0);
+        assert_eq!((piece.y_range_mm(), piece.z_min_mm()), ([-3.0, 7.0], -2.0));
+        let Some((x_range, RowForm::Ball(row))) = piece.on_row(2.0) else { panic!("a ball") };
+        assert_eq!((x_range, row.stretch(4.0)), ([-4.0, 6.0], [-1.0, 7.0]));
+        let Some((_, RowForm::Ball(row))) = piece.on_row(5.0) else { panic!("a ball") };
+        assert_eq!(row.stretch(1.0), [-1.0, 7.0]);
+        assert!(row.stretch(5.5).iter().all(|z| z.is_nan()));
+        assert_eq!(piece.on_row(8.0), None);
+    }
+}

@@ -121,3 +121,51 @@ impl OnRow for CylinderRow {
         [self.z + low.max(first), self.z + high.min(last)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shell::fixtures::Random;
+
+    /// Whether a point is in the cylinder, by the definition.
+    fn holds(cylinder: &Cylinder, point: &Point) -> bool {
+        let from = point - cylinder.from;
+        let along = from.dot(&cylinder.axis);
+        (0.0..=cylinder.length).contains(&along) && (from - cylinder.axis * along).norm() <= cylinder.radius
+    }
+
+    /// How many of random points about the cylinder its columns find in it; each must be so by the definition.
+    fn check(axis: &Vector, random: &mut Random) -> usize {
+        let from = Point::new(1.0, -2.0, 0.5);
+        let cylinder = Cylinder::new(from, from + axis * 3.0, 1.5).unwrap();
+        let piece = cylinder.into_piece(0.0);
+        let is_found = |point: &Point| {
+            let Some(([low, high], RowForm::Cylinder(row))) = piece.on_row(point.y) else { return false };
+            let [bottom, top] = row.stretch(point.x);
+            low <= point.x && point.x <= high && bottom <= point.z && point.z <= top
+        };
+        let points = (0..2000).map(|_| from + axis * 1.5 + random.direction() * (3.0 * random.unit()));
+        let found = points.filter(|point| {
+            let found = is_found(point);
+            assert_eq!(found, holds(&cylinder, point), "{point} about the axis {axis}");
+            found
+        });
+        found.count()
+    }
+
+    #[test]
+    fn columns_meet_cylinders_of_any_direction_where_the_definition_says() {
+        let mut random = Random::new(1);
+        let nearly_up = Vector::new(1e-7, -1e-8, 1.0).normalize();
+        let fixed = [Vector::x(), -Vector::y(), Vector::z(), -Vector::z(), nearly_up];
+        let others: Vec<Vector> = (0..10).map(|_| random.direction()).collect();
+        for axis in fixed.iter().chain(&others) {
+            assert!(check(axis, &mut random) > 300);
+        }
+    }
+
+    #[test]
+    fn two_ends_in_one_place_make_no_cylinder() {
+        assert_eq!(Cylinder::new(Point::origin(), Point::origin(), 1.0), None);
+    }
+}

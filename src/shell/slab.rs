@@ -86,3 +86,54 @@ impl OnRow for SlabRow {
         [a.max(b).max(c.max(d)), e.min(f).min(g.min(h))]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shell::fixtures::Random;
+
+    const REACH: Reach = Reach { inward_mm: 0.8, outward_mm: 0.1 };
+
+    /// Whether a point is in the prism, by the definition: between the caps and inside all three sides.
+    fn holds(corners: &[Point; 3], normal: &Vector, point: &Point) -> bool {
+        let height = (point - corners[0]).dot(normal);
+        let is_left = |from: usize| {
+            (corners[(from + 1) % 3] - corners[from]).cross(&(point - corners[from])).dot(normal)
+        };
+        (-REACH.inward_mm..=REACH.outward_mm).contains(&height) && (0..3).all(|side| is_left(side) >= 0.0)
+    }
+
+    /// How many of random points about the triangle the columns find in its slab; each must be so by the definition.
+    fn check(corners: &[Point; 3], random: &mut Random) -> usize {
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+        let piece = Slab::piece(corners, &normal, REACH);
+        let is_found = |point: &Point| {
+            let Some(([low, high], RowForm::Slab(row))) = piece.on_row(point.y) else { return false };
+            let [bottom, top] = row.stretch(point.x);
+            low <= point.x && point.x <= high && bottom <= point.z && point.z <= top
+        };
+        let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
+        let points = (0..3000).map(|_| center + random.direction() * (1.5 * random.unit()));
+        let found = points.filter(|point| {
+            let found = is_found(point);
+            assert_eq!(found, holds(corners, &normal, point), "{point}");
+            found
+        });
+        found.count()
+    }
+
+    #[test]
+    fn columns_meet_slabs_of_any_direction_where_the_definition_says() {
+        let mut random = Random::new(4);
+        let flat = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
+        let upright = flat.map(|p| Point::new(p.x, 1.0, p.y));
+        let skew = flat.map(|p| Point::new(1.0 - p.x, p.y, p.x * 1e-11));
+        for corners in [flat, upright, skew] {
+            assert!(check(&corners, &mut random) > 200);
+        }
+        for _ in 0..10 {
+            let corners = [0, 1, 2].map(|_| Point::from(random.direction() * 1.5));
+            check(&corners, &mut random);
+        }
+    }
+}

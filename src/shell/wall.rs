@@ -1,5 +1,7 @@
 //! The wall and the keep-solid regions of a solid, in a goal frame.
 
+use rayon::prelude::*;
+
 use super::overlap::{overlaps_itself, triangle_y_ranges};
 use super::pieces::{self, Builder};
 use super::{Bins, Keep, Piece, Ruler};
@@ -56,8 +58,7 @@ impl Shell {
         let overlaps_itself = overlaps_itself(&surface);
         let mut pieces = Builder::new(&surface, wall_mm, !overlaps_itself).pieces(solid);
         pieces.extend(keeps.iter().flat_map(|keep| pieces::of_keep(keep, frame)));
-        pieces.sort_by(|a, b| a.z_min_mm().total_cmp(&b.z_min_mm()));
-        Ok(Self { surface, pieces, wall_mm, overlaps_itself })
+        Ok(Self { surface, pieces: from_low_to_high(&pieces), wall_mm, overlaps_itself })
     }
 
     /// The surface of the solid in the goal frame.
@@ -103,6 +104,14 @@ impl Shell {
     }
 }
 
+/// The pieces ascending in their lowest points, which keeps a column's intervals few while they are carved.
+fn from_low_to_high(pieces: &[Piece]) -> Vec<Piece> {
+    let mut order: Vec<(f64, usize)> =
+        pieces.par_iter().enumerate().map(|(index, piece)| (piece.z_min_mm(), index)).collect();
+    order.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    order.par_iter().map(|&(_, index)| pieces[index]).collect()
+}
+
 /// Whether the arguments of a shell make sense.
 fn check(frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<(), ShellError> {
     if !(wall_mm > 0.0 && wall_mm.is_finite()) {
@@ -117,4 +126,34 @@ fn check(frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<(), ShellError> 
         ends.into_iter().all(|c| c.is_finite()) && keep.radius_mm > 0.0 && keep.radius_mm.is_finite()
     };
     keeps.iter().position(|keep| !is_sound(keep)).map_or(Ok(()), |index| Err(ShellError::Keep { index }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Vector};
+    use crate::shell::fixtures;
+
+    #[test]
+    fn a_wall_a_region_or_a_frame_without_meaning_is_refused_by_name() {
+        let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
+        let identity = Frame::identity();
+        for wall_mm in [0.0, -1.0, f64::INFINITY] {
+            assert_eq!(Shell::new(&solid, &identity, wall_mm, &[]), Err(ShellError::Wall { wall_mm }));
+        }
+        assert!(matches!(Shell::new(&solid, &identity, f64::NAN, &[]), Err(ShellError::Wall { .. })));
+        let keeps = [Keep::ball(Point::origin(), 1.0), Keep::ball(Point::origin(), 0.0)];
+        assert_eq!(Shell::new(&solid, &identity, 1.0, &keeps), Err(ShellError::Keep { index: 1 }));
+        let stretched = Frame { axes: Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)), ..identity };
+        assert_eq!(Shell::new(&solid, &stretched, 1.0, &[]), Err(ShellError::Frame));
+    }
+
+    #[test]
+    fn a_cube_has_a_slab_for_each_face_and_next_to_nothing_else() {
+        let shell = Shell::new(&fixtures::cells(&[[0, 0, 0]], 10.0), &Frame::identity(), 1.0, &[]).unwrap();
+        // Twelve triangles, and the six flat diagonals.
+        assert_eq!(shell.pieces().len(), 12 + 6);
+        assert!(shell.pieces().is_sorted_by(|a, b| a.z_min_mm() <= b.z_min_mm()));
+        assert_eq!(shell.coarse_pitch(20), [0.5, 0.5]);
+    }
 }
