@@ -17,9 +17,9 @@ mod ruler;
 mod slab;
 mod wall;
 
-pub use bins::Bins;
-pub use crossings::{Crossing, RowCrossings, inside_stretches};
+pub(crate) use bins::Bins;
+pub(crate) use crossings::{RowCrossings, inside_stretches};
 pub use keep::Keep;
-pub use piece::{OnRow, Piece, RowForm};
-pub use ruler::Ruler;
+pub(crate) use piece::{OnRow, Piece, RowForm};
+pub(crate) use ruler::Ruler;
 pub use wall::{Shell, ShellError};

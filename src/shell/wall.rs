@@ -67,7 +67,7 @@ impl Shell {
     }
 
     /// The pieces that must stay, ascending in their lowest points.
-    pub fn pieces(&self) -> &[Piece] {
+    pub(crate) fn pieces(&self) -> &[Piece] {
         &self.pieces
     }
 
@@ -94,12 +94,12 @@ impl Shell {
     }
 
     /// The triangles of the surface that reach into each block of rows.
-    pub fn bin_triangles(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
+    pub(crate) fn bin_triangles(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
         Bins::of_ranges(triangle_y_ranges(&self.surface), rows, rows_per_block)
     }
 
     /// The pieces that reach into each block of rows.
-    pub fn bin_pieces(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
+    pub(crate) fn bin_pieces(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
         Bins::of_ranges(self.pieces.iter().map(Piece::y_range_mm), rows, rows_per_block)
     }
 }
