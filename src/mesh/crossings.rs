@@ -65,12 +65,16 @@ fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
     }
-    let spans = |sides: &[i8; 3]| sides.contains(&1) && sides.contains(&-1);
-    if !spans(&b_sides) && !b_sides.contains(&0) {
+    if !is_crossed(&b_sides) {
         return false;
     }
     let a_sides = a.map(|p| side(b, &p));
-    (spans(&b_sides) && a_side_passes(b, &b_sides, a)) || (spans(&a_sides) && a_side_passes(a, &a_sides, b))
+    is_crossed(&a_sides) && (a_side_passes(b, &b_sides, a) || a_side_passes(a, &a_sides, b))
+}
+
+/// Whether corners on these sides of a plane lie strictly on both.
+fn is_crossed(sides: &[i8; 3]) -> bool {
+    sides.contains(&1) && sides.contains(&-1)
 }
 
 /// Which side of the triangle's plane the point lies on: 1, 0 or −1.

@@ -36,17 +36,17 @@ pub enum DefectKind {
 }
 
 impl DefectKind {
-    /// What is wrong, in the plural.
+    /// What is wrong, in words that a count can follow.
     fn description(self) -> &'static str {
         match self {
-            Self::Empty => "mesh without triangles",
+            Self::Empty => "there are no triangles",
             Self::NotFinite => "vertices whose coordinates are not finite numbers",
             Self::RepeatedCorner => "triangles that name one vertex twice",
             Self::Hole => "holes (rims of edges with a triangle on one side only)",
             Self::CrowdedEdge => "edges shared by three or more triangles",
             Self::MisorientedEdge => "edges where the two triangles face opposite ways",
-            Self::NoVolume => "surface that encloses no volume",
-            Self::InsideOut => "surface that faces inward",
+            Self::NoVolume => "the surface encloses no volume",
+            Self::InsideOut => "the surface faces inward",
         }
     }
 
@@ -82,7 +82,10 @@ pub struct Defect {
 
 impl fmt::Display for Defect {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", self.count, self.kind.description())?;
+        f.write_str(self.kind.description())?;
+        if !self.places.is_empty() {
+            write!(f, ": {}", self.count)?;
+        }
         for (i, p) in self.places.iter().enumerate() {
             let lead = if i == 0 { ", first at" } else { " and" };
             write!(f, "{lead} ({}, {}, {}) mm", shown(p.x), shown(p.y), shown(p.z))?;
@@ -252,9 +255,10 @@ mod tests {
         let message = Solid::new(with_triangles(triangles)).unwrap_err().to_string();
         let lines: Vec<&str> = message.lines().collect();
         assert_eq!(lines[0], "the mesh does not bound a solid:");
-        assert!(lines[1].contains("1 triangles that name one vertex twice") && lines[1].contains("drop"));
+        assert!(lines[1].contains("triangles that name one vertex twice: 1") && lines[1].contains("drop"));
         assert!(
-            lines[2].contains("1 holes")
+            lines[2].contains("holes")
+                && lines[2].contains(": 1, first at")
                 && lines[2].contains("(0.00, 0.00, 5.00) mm")
                 && lines[2].contains("fill")
         );

@@ -55,7 +55,7 @@ impl fmt::Display for Repairs {
         let said: Vec<String> = done
             .iter()
             .filter(|(count, _)| *count > 0)
-            .map(|(count, what)| format!("{count} {what}"))
+            .map(|(count, what)| format!("{what}: {count}"))
             .collect();
         if said.is_empty() { f.write_str("nothing") } else { f.write_str(&said.join(", ")) }
     }
@@ -236,7 +236,7 @@ mod tests {
         let (mended, repairs) = repair(spoilt);
         assert_eq!(mended, unit_cube());
         assert_eq!((repairs.dropped_duplicates, repairs.dropped_degenerate), (2, 2));
-        assert_eq!(repairs.to_string(), "2 triangles without area dropped, 2 doubled triangles dropped");
+        assert_eq!(repairs.to_string(), "triangles without area dropped: 2, doubled triangles dropped: 2");
     }
 
     #[test]
