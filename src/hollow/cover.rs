@@ -1,6 +1,7 @@
 //! The proof over every height: a finite set of intervals in each of which no interior is better.
 
-use super::programme::{DualPoint, Programme, index};
+use super::programme::{DualPoint, HEIGHT_ROW, Programme, index};
+use super::reach::Vector10;
 use super::solution::Stage;
 use super::work::Work;
 use crate::goal::Objective;
@@ -39,12 +40,17 @@ impl Cover<'_> {
             let middle = 0.5 * (low + high);
             let programme = (self.programme_at)(middle);
             let stage = Stage::Cover { height_mm: work.to_mm(middle) };
-            let climb = work.climb(stage, &programme, start, COVER_TOLERANCE);
-            if work.is_cancelled() || climb.best.bound < self.target && climb.separator.is_none() {
+            let climb = work.climb(stage, &programme, start.clone(), COVER_TOLERANCE);
+            let half_width = 0.5 * (high - low);
+            let holds = if let Some(separator) = &climb.separator {
+                is_positive(work, climb.best.quadric, separator[HEIGHT_ROW].abs() * half_width)
+            } else if work.is_cancelled() || climb.best.bound < self.target {
                 return false;
-            }
-            start = climb.best.point;
-            if !self.holds_within(work, &programme, &start, 0.5 * (high - low)) {
+            } else {
+                start = climb.best.point;
+                self.holds_within(work, &programme, &start, half_width)
+            };
+            if !holds {
                 open.extend([[middle, high], [low, middle]]);
             }
         }
@@ -53,10 +59,14 @@ impl Cover<'_> {
 
     /// Whether a dual point at the middle of an interval proves the claim for all of it.
     fn holds_within(&self, work: &Work, programme: &Programme, point: &DualPoint, half_width: f64) -> bool {
-        let at_target = DualPoint { tau: self.target, ..point.clone() };
-        let mut quadric = programme.quadric(&at_target);
-        let multiplier = point.lambda[point.lambda.len() - 1];
-        quadric[index::ONE] -= self.relaxation * half_width * half_width + multiplier.abs() * half_width;
-        quadric.dot(&work.reach.least(&quadric)) >= 0.0
+        let quadric = programme.quadric(&DualPoint { tau: self.target, ..point.clone() });
+        let slack = self.relaxation * half_width * half_width + point.lambda[HEIGHT_ROW].abs() * half_width;
+        is_positive(work, quadric, slack)
     }
+}
+
+/// Whether (g − slack·e₁)·s ≥ 0 for every interior; one pass.
+fn is_positive(work: &Work, mut quadric: Vector10, slack: f64) -> bool {
+    quadric[index::ONE] -= slack;
+    quadric.dot(&work.reach.least(&quadric)) >= 0.0
 }

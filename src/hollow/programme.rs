@@ -95,6 +95,10 @@ fn top_rows(height: f64) -> DMatrix<f64> {
     stack(&rows)
 }
 
+/// Which row of a top's programme fixes the height of the centre, and which the mass.
+pub(super) const HEIGHT_ROW: usize = 4;
+pub(super) const MASS_ROW: usize = 5;
+
 fn axis_rows() -> Vec<Vector10> {
     [X, Y, XZ, YZ].into_iter().map(|moment| row(&[(moment, 1.0)])).collect()
 }

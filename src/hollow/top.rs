@@ -3,7 +3,7 @@
 use super::answer::{Answer, functional};
 use super::ascent::{Climb, End};
 use super::cover::{Cover, relaxation};
-use super::programme::{DualPoint, Programme, index};
+use super::programme::{DualPoint, HEIGHT_ROW, MASS_ROW, Programme, index};
 use super::solution::{Stage, Tangent, Warm};
 use super::status::Status;
 use super::valley::{Bottom, Sample, Valley};
@@ -11,7 +11,7 @@ use super::work::Work;
 use crate::goal::Objective;
 
 /// How exact the coarse look over all heights is: only the places of the valleys are wanted.
-const LOOK_TOLERANCE: f64 = 1e-2;
+const LOOK_TOLERANCE: f64 = 3e-3;
 /// How exact the ends of the range of heights are; the outer bounds are used.
 const RANGE_TOLERANCE: f64 = 1e-3;
 /// How much better another height might be than the bound over all heights says; a tenth of it would cost three times
@@ -163,10 +163,6 @@ fn climb_at(
 fn height_slope(climb: &Climb) -> f64 {
     -climb.best.point.lambda[HEIGHT_ROW] * climb.best.extreme.s[index::ONE] / climb.best.denominator
 }
-
-/// Which row of a top's programme fixes the height, and which the mass.
-const HEIGHT_ROW: usize = 4;
-const MASS_ROW: usize = 5;
 
 /// Spin-It's functional at a height, least over the mass: between the lightest interior and the one whose inertia
 /// alone is best, beyond which both terms grow.

@@ -31,41 +31,44 @@ pub(super) struct Bottom {
     pub curvature: f64,
 }
 
-/// A stretch in which the slope turns from falling to rising.
+/// A search for the place where the slope turns from falling to rising.
 #[derive(Debug, Clone)]
 pub(super) struct Valley {
+    /// The bottom lies between these, as far as exact samples tell.
     low: f64,
     high: f64,
-    /// What is known inside or at the ends, the two to draw the first secant through last.
+    /// No step is longer.
+    longest_step: f64,
+    /// Rough samples to aim by, then the exact ones; the secant goes through the last two.
     known: Vec<Sample>,
+    rough: usize,
 }
 
 impl Valley {
-    /// The whole range, nothing known.
+    /// A search over a range of which nothing is known.
     pub fn unknown(low: f64, high: f64) -> Self {
-        Self { low, high, known: Vec::new() }
+        Self { low, high, longest_step: high - low, known: Vec::new(), rough: 0 }
     }
 
-    /// Every stretch of the range in which samples, ascending, show a fall and then a rise; the ends of the range
-    /// count as walls.
+    /// A search for every place of the range where rough samples, ascending, show a fall and then a rise; the ends of
+    /// the range count as walls. The samples are aimed by, not trusted.
     pub fn all_between(low: f64, high: f64, samples: &[Sample]) -> Vec<Self> {
-        let (Some(first), Some(last)) = (samples.first(), samples.last()) else {
-            return vec![Self::unknown(low, high)];
+        let falls = |sample: Option<&Sample>, at_wall| sample.map_or(at_wall, |sample| sample.slope < 0.0);
+        let ends_fall = |gap: &usize| {
+            let before = gap.checked_sub(1).and_then(|i| samples.get(i));
+            falls(before, true) && !falls(samples.get(*gap), false)
         };
-        let mut valleys = Vec::new();
-        if first.slope >= 0.0 {
-            valleys.push(Self { low, high: first.at, known: vec![first.clone()] });
-        }
-        for pair in samples.windows(2).filter(|pair| pair[0].slope < 0.0 && pair[1].slope >= 0.0) {
-            valleys.push(Self { low: pair[0].at, high: pair[1].at, known: pair.to_vec() });
-        }
-        if last.slope < 0.0 {
-            valleys.push(Self { low: last.at, high, known: vec![last.clone()] });
-        }
-        valleys
+        let aimed = |gap: usize| Self {
+            longest_step: 2.0 * (high - low) / samples.len().max(1) as f64,
+            rough: (gap + 1).min(samples.len()) - gap.saturating_sub(1),
+            known: samples[gap.saturating_sub(1)..(gap + 1).min(samples.len())].to_vec(),
+            ..Self::unknown(low, high)
+        };
+        (0..=samples.len()).filter(ends_fall).map(aimed).collect()
     }
 
-    /// The bottom, by a secant on the slope that the bracket keeps from straying; none where no place can be sampled.
+    /// The bottom, by a secant on the slope that the exact samples keep from straying; none where no place can be
+    /// sampled.
     pub fn bottom(
         mut self,
         mut sample_at: impl FnMut(f64, Option<&Sample>) -> Option<Sample>,
@@ -84,25 +87,30 @@ impl Valley {
             self.known.push(sample);
         }
         let curvature = self.curvature();
-        let best = self.known.into_iter().min_by(|a, b| a.value.total_cmp(&b.value));
+        let best = self.known.drain(self.rough..).min_by(|a, b| a.value.total_cmp(&b.value));
         best.map(|sample| Bottom { sample, curvature })
     }
 
-    /// Where the line through the last two slopes vanishes; the middle where it strays from the bracket.
+    /// Where the line through the last two slopes vanishes, if that is downhill; never further than the longest step,
+    /// nor more than half way to an end of what is left.
     fn next_place(&self) -> f64 {
-        let middle = 0.5 * (self.low + self.high);
-        let [.., before, last] = &self.known[..] else { return middle };
-        let place = last.at - last.slope * (last.at - before.at) / (last.slope - before.slope);
-        if self.low < place && place < self.high { place } else { middle }
+        let Some(last) = self.known.last() else { return 0.5 * (self.low + self.high) };
+        let curvature = self.curvature();
+        let longest = self.longest_step.copysign(-last.slope);
+        let newton = if curvature > 0.0 { -last.slope / curvature } else { longest };
+        let place = last.at + if newton.abs() < longest.abs() { newton } else { longest };
+        let end = if last.slope < 0.0 { self.high } else { self.low };
+        if self.low < place && place < self.high { place } else { 0.5 * (last.at + end) }
     }
 
     fn is_at_bottom(&self, next: f64) -> bool {
-        let Some(last) = self.known.last() else { return false };
+        let Some(last) = self.known[self.rough..].last() else { return false };
         let promise = 0.5 * (last.slope * (next - last.at)).abs();
         promise <= PROMISE_RATIO * last.value.abs().max(LEAST_VALUE)
             || self.high - self.low <= NARROW_RATIO * (self.low.abs() + self.high.abs())
     }
 
+    /// The growth of the slope between the last two samples; zero where there are not two.
     fn curvature(&self) -> f64 {
         match &self.known[..] {
             [.., before, last] if last.at != before.at => (last.slope - before.slope) / (last.at - before.at),

@@ -16,6 +16,10 @@ pub type Matrix10 = SMatrix<f64, 10, 10>;
 /// interior no longer feeds every core. The pieces, and so the bits of the sums, are the same for any thread count.
 const BLOCK_COLUMNS: usize = 2048;
 
+/// A surface counts as upright in a cell when q changes along the column by less than this part of what it changes
+/// across the cell. Much above 1, exact derivatives are replaced by means; much below, upright planes are not seen.
+const UPRIGHT_RATIO: f64 = 0.5;
+
 /// The exponents (i, j, k) of x, y, z in each of the ten monomials.
 const EXPONENTS: [[usize; 3]; 10] = [
     [0, 0, 0],
@@ -43,7 +47,9 @@ pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
 /// The moments of { q > 0 } over the columns, and their derivative by q's ten coefficients.
 ///
 /// The derivative is W = Σ m mᵀ / |∂q/∂z| · cell area over the roots inside the intervals: symmetric and positive
-/// semidefinite (THEORY §2). A column that q only touches has no derivative and adds none.
+/// semidefinite (THEORY §2). A column that q only touches has no derivative and adds none. Where the surface stands so
+/// upright that whole columns are emptied or kept at once, the sum over columns has no derivative, and W holds that of
+/// the body made of their cells.
 pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
     let sums = pass::<true>(columns, quadric);
     (sums.moments(columns.pitch_mm), sums.derivative(columns.pitch_mm))
@@ -86,6 +92,8 @@ struct Row {
     c0: [f64; 3],
     c1: [f64; 2],
     c2: f64,
+    /// The halves of a cell's sides times ∂q/∂x = a₀ + a₁x + a₂z and ∂q/∂y = b₀ + b₁x + b₂z.
+    across: [[f64; 3]; 2],
     /// ∫1, x∫1, x²∫1, ∫z, x∫z, ∫z² over what is emptied.
     emptied: [f64; 6],
     /// xⁱ Σ zᵏ/|∂q/∂z| over the roots, at `[k][i]` for i + k ≤ 4.
@@ -110,6 +118,10 @@ impl Row {
             c0: [g + gy * y + gyy * (y * y + var_y) + gxx * var_x, gx + gxy * y, gxx],
             c1: [gz + gyz * y, gxz],
             c2: gzz + 0.0, // turns −0 into +0, on which the roots at infinity rely
+            across: [
+                [gx + gxy * y, 2.0 * gxx, gxz].map(|slope| slope * 0.5 * pitch_mm[0]),
+                [gy + 2.0 * gyy * y, gxy, gyz].map(|slope| slope * 0.5 * pitch_mm[1]),
+            ],
             emptied: [0.0; 6],
             roots: [[0.0; 5]; 5],
         }
@@ -149,9 +161,27 @@ impl Row {
             self.add_emptied(x, integrals);
             if DERIVATIVE {
                 let inside = |z: f64| if a < z && z < b { crossing.weight } else { 0.0 };
-                self.add_roots(x, [(lo, inside(crossing.lo)), (hi, inside(crossing.hi))]);
+                let roots = [(lo, inside(crossing.lo)), (hi, inside(crossing.hi))];
+                self.add_roots(x, self.wall_through_cell(x, [a, b]).unwrap_or(roots));
             }
         }
+    }
+
+    /// Where q hardly changes along an interval but does across its cell, the surface stands upright in the cell and
+    /// the column's own roots say nothing of it. Its density, as two Gauss points of the interval; none elsewhere.
+    #[inline]
+    fn wall_through_cell(&self, x: f64, [a, b]: [f64; 2]) -> Option<[(f64, f64); 2]> {
+        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+        let spread: f64 = self.across.iter().map(|[s, sx, sz]| (s + sx * x + sz * middle).abs()).sum();
+        let slope = self.c1[0] + x * self.c1[1] + 2.0 * self.c2 * middle;
+        if half * slope.abs() + half * half * self.c2.abs() >= UPRIGHT_RATIO * spread {
+            return None;
+        }
+        let c1 = self.c1[0] + x * self.c1[1];
+        let value = self.c0[0] + x * (self.c0[1] + x * self.c0[2]) + middle * (c1 + middle * self.c2);
+        let weight = if value.abs() < spread { half / (2.0 * spread) } else { 0.0 };
+        let offset = half / 3f64.sqrt();
+        Some([(middle - offset, weight), (middle + offset, weight)])
     }
 
     #[inline]
