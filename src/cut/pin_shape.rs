@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geom::{Point, Vector, orthonormal_basis},
-    mesh::{TriMesh},
+    mesh::TriMesh,
 };
 
 /// Sides of the polygon that stands for a circle: at 3 mm across its flats lie 3 µm inside the circle, below any

@@ -1,0 +1,137 @@
+//! The whole region that may be emptied, as a closed surface that keeps the wall.
+
+use rayon::prelude::*;
+
+use super::extract::{Extractor, Surface};
+use super::field::Resolution;
+use super::wall_field::WallField;
+use super::{CavitySpec, VoidError};
+use crate::geom::{Bvh, Point};
+use crate::mesh::{Csg, Solid, TriMesh};
+use crate::progress::Progress;
+use crate::shell::Keep;
+
+/// The surface is drawn this much deeper than the wall, mm, so that chords over inward curves may sag a little:
+/// less costs triangles along every inward edge, more is itself a deviation.
+const BIAS_MM: f64 = 0.006;
+
+/// What the wall may lack on the unsimplified triangles, mm.
+const DRAWN_LACK_MM: f64 = 0.004;
+
+/// What the wall may lack on the final triangles, mm; the promise is 0.01, the rest is for rounding to `f32`.
+const FINAL_LACK_MM: f64 = 0.009;
+
+/// Coarsest cell over the wall: the region nearer than the wall is two walls thick, so cells below one wall see it.
+const COARSE_RATIO: f64 = 0.8;
+
+/// How often coarse cells may be halved; an arc of the wall's radius sags (1/16)²/8 walls in the finest ones.
+const HALVINGS: i32 = 3;
+
+/// How often coarse cells are halved at sharp creases, where a chop is safe and only costs a little volume.
+const CREASE_HALVINGS: i32 = 1;
+
+/// Rounds of exact checks before the whole surface is drawn deeper.
+const CHECK_ROUNDS: usize = 5;
+
+/// How much deeper the surface is drawn when the checks fail, mm, and how often that is tried.
+const DEEPER_MM: f64 = 0.01;
+const ATTEMPTS: usize = 3;
+
+/// What a simplification may move, as a share of the tolerance; halved as long as the checks fail.
+const SIMPLIFY_RATIOS: [f64; 2] = [0.25, 0.125];
+
+/// The model and what must stay solid: what the walls are measured against.
+struct Limits<'a> {
+    surface: &'a Bvh,
+    spec: &'a CavitySpec<'a>,
+}
+
+impl Limits<'_> {
+    /// Whether a triangle of the cavity leaves the wall and the keeps alone, but for `lack_mm`.
+    fn allow(&self, corners: &[Point; 3], lack_mm: f64) -> bool {
+        let keeps_clear = |keep: &Keep| keep_distance(keep, corners) >= keep.radius_mm - lack_mm;
+        !self.surface.is_triangle_within(corners, self.spec.wall_mm - lack_mm)
+            && self.spec.keeps.iter().all(keeps_clear)
+    }
+
+    /// The triangles that do not.
+    fn violators(&self, mesh: &TriMesh, lack_mm: f64) -> Vec<usize> {
+        let indices: Vec<usize> = (0..mesh.triangles().len()).collect();
+        indices.into_par_iter().filter(|&i| !self.allow(&mesh.corners(i), lack_mm)).collect()
+    }
+}
+
+/// The distance from a keep's axis to a triangle.
+fn keep_distance(keep: &Keep, corners: &[Point; 3]) -> f64 {
+    crate::geom::triangle::segment_triangle_distance_squared(&keep.from, &keep.to, corners).sqrt()
+}
+
+/// The cavity's surface, as the boolean engine has it.
+pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> Result<Csg, VoidError> {
+    let surface = Bvh::new(solid.mesh().iter_corners());
+    let limits = Limits { surface: &surface, spec };
+    for attempt in 0..ATTEMPTS {
+        let bias_mm = BIAS_MM + DEEPER_MM * attempt as f64;
+        if let Some(drawn) = draw(&limits, bias_mm, progress)? {
+            return simplified(&limits, &drawn);
+        }
+    }
+    Err(VoidError::WallNotKept { wall_mm: spec.wall_mm })
+}
+
+/// The surface at the wall's distance plus the bias, refined until no triangle breaks the limits; `None` if that
+/// cannot be had.
+fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<TriMesh>, VoidError> {
+    let spec = limits.spec;
+    let coarse_mm = COARSE_RATIO * spec.wall_mm;
+    let field = WallField {
+        surface: limits.surface,
+        keeps: spec.keeps,
+        iso_mm: spec.wall_mm + bias_mm,
+        keep_margin_mm: bias_mm,
+        coarse_mm,
+    };
+    let resolution = Resolution {
+        finest_mm: coarse_mm / f64::from(1 << HALVINGS),
+        crease_mm: coarse_mm / f64::from(1 << CREASE_HALVINGS),
+        outside_mm: bias_mm + DRAWN_LACK_MM,
+        inside_mm: (spec.tolerance_mm - BIAS_MM).max(BIAS_MM),
+    };
+    let aabb = limits.surface.aabb();
+    let mut extractor = Extractor::new(&field, &aabb, resolution)
+        .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;
+    let mut dirty = extractor.leaves();
+    for round in 0..CHECK_ROUNDS {
+        progress.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
+        stop_if_cancelled(progress)?;
+        extractor.settle(dirty);
+        let Surface { vertices, triangles, leaves } = extractor.surface();
+        let mesh = TriMesh::new(vertices, triangles)?;
+        let violators = limits.violators(&mesh, DRAWN_LACK_MM);
+        if violators.is_empty() {
+            return Ok(Some(mesh));
+        }
+        let bad = violators.into_iter().flat_map(|i| extractor.to_divide(leaves[i])).collect();
+        dirty = extractor.divide(bad);
+    }
+    Ok(None)
+}
+
+/// The name under which the extraction reports its progress.
+const PHASE: &str = "cavity";
+
+fn stop_if_cancelled(progress: &Progress) -> Result<(), VoidError> {
+    if progress.is_cancelled() { Err(VoidError::Cancelled) } else { Ok(()) }
+}
+
+/// The drawn surface with fewer triangles, as few as the limits allow.
+fn simplified(limits: &Limits, drawn: &TriMesh) -> Result<Csg, VoidError> {
+    let full = Csg::of_mesh(drawn)?;
+    for ratio in SIMPLIFY_RATIOS {
+        let simple = full.simplify(ratio * limits.spec.tolerance_mm);
+        if limits.violators(&simple.to_mesh()?, FINAL_LACK_MM).is_empty() {
+            return Ok(simple);
+        }
+    }
+    Ok(full)
+}

@@ -1,0 +1,55 @@
+//! Marching tetrahedra: the pieces of surface inside one tetrahedron.
+//!
+//! Every piece lies in its own tetrahedron and meets its neighbours' in whole edges, so the surface is a
+//! 2-manifold free of self-intersection by construction. Doi & Koide, IEICE Trans. E74, 1991.
+
+use super::roots::{VertexKey, corner_key, crossing_key};
+
+/// For each corner an even order of the corners that begins with it.
+const APEX_FIRST: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
+
+/// For each pair of corners an even order of the corners that begins with it.
+const PAIR_FIRST: [[usize; 4]; 6] =
+    [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];
+
+/// A triangle or a quadrilateral of surface, counter-clockwise as seen from outside the region.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Piece {
+    /// Three vertices.
+    Triangle([VertexKey; 3]),
+    /// Four vertices, not in one plane; either diagonal stays in the tetrahedron.
+    Quad([VertexKey; 4]),
+}
+
+/// The piece of surface between the positive and the other corners of a positively oriented tetrahedron.
+pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece> {
+    let cross = |i: usize, j: usize| crossing_key(corners[i], corners[j]);
+    match positive.iter().filter(|&&p| p).count() {
+        0 | 4 => None,
+        2 => PAIR_FIRST
+            .iter()
+            .find(|order| positive[order[0]] && positive[order[1]])
+            .map(|&[a, b, c, d]| Piece::Quad([cross(a, c), cross(a, d), cross(b, d), cross(b, c)])),
+        count => {
+            let apex = positive.iter().position(|&p| p == (count == 1))?;
+            let [a, b, c, d] = APEX_FIRST[apex];
+            let [c, d] = if count == 1 { [c, d] } else { [d, c] };
+            Some(Piece::Triangle([cross(a, b), cross(a, c), cross(a, d)]))
+        }
+    }
+}
+
+/// The positive part of a tetrahedron's face on the boundary of the octree, as a fan.
+pub(super) fn cap(corners: [u32; 3], positive: [bool; 3]) -> Vec<[VertexKey; 3]> {
+    let mut ring: Vec<VertexKey> = Vec::with_capacity(4);
+    for i in 0..3 {
+        let j = (i + 1) % 3;
+        if positive[i] {
+            ring.push(corner_key(corners[i]));
+        }
+        if positive[i] != positive[j] {
+            ring.push(crossing_key(corners[i], corners[j]));
+        }
+    }
+    (2..ring.len()).map(|k| [ring[0], ring[k - 1], ring[k]]).collect()
+}

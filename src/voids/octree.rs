@@ -1,0 +1,266 @@
+//! An octree whose leaves differ at most by a factor two across faces and edges.
+
+use rayon::prelude::*;
+
+use super::field::{Field, Known};
+use crate::geom::{Aabb, Point};
+
+/// A position on the finest grid: half the finest cell is one unit.
+pub(super) type Grid = [i32; 3];
+
+/// The finest cell's size in units; even, so that centres fall on the grid.
+pub(super) const FINEST_UNITS: i32 = 2;
+
+/// The largest root in units that a packed grid position can name (21 bits an axis).
+const ROOT_UNITS_MAX: i32 = 1 << 20;
+
+/// A cell is sure to be free of the surface only beyond this share of its circumradius: its lattice points may
+/// be pushed off the surface, which must not depend on the last bit.
+const FREE_RATIO: f64 = 1.0 + 1e-9;
+
+/// Half a cube's diagonal over its side.
+const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
+
+/// The twelve neighbours across edges and six across faces.
+pub(super) const NEIGHBOURS: [Grid; 18] = [
+    [-1, 0, 0],
+    [1, 0, 0],
+    [0, -1, 0],
+    [0, 1, 0],
+    [0, 0, -1],
+    [0, 0, 1],
+    [-1, -1, 0],
+    [-1, 1, 0],
+    [1, -1, 0],
+    [1, 1, 0],
+    [-1, 0, -1],
+    [-1, 0, 1],
+    [1, 0, -1],
+    [1, 0, 1],
+    [0, -1, -1],
+    [0, -1, 1],
+    [0, 1, -1],
+    [0, 1, 1],
+];
+
+/// A cube of the tree.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cell {
+    /// The corner with the least coordinates.
+    pub corner: Grid,
+    /// The side, units.
+    pub size: i32,
+    /// The first of its eight children, or 0 for a leaf.
+    children: u32,
+    /// Whether the surface is sure not to enter it.
+    pub is_free: bool,
+    /// The function at its centre.
+    pub center: Known,
+}
+
+impl Cell {
+    /// Whether it has no children.
+    pub fn is_leaf(&self) -> bool {
+        self.children == 0
+    }
+
+    /// The grid position of the centre.
+    pub fn center_grid(&self) -> Grid {
+        self.corner.map(|c| c + self.size / 2)
+    }
+
+    /// The corner of the neighbour of the same size in a direction.
+    pub fn neighbour_corner(&self, direction: Grid) -> Grid {
+        [0, 1, 2].map(|i| self.corner[i] + direction[i] * self.size)
+    }
+}
+
+/// The tree, and where it lies.
+#[derive(Debug, Clone)]
+pub(super) struct Octree {
+    cells: Vec<Cell>,
+    origin: Point,
+    unit_mm: f64,
+}
+
+impl Octree {
+    /// One cell that holds `aabb`, for a finest cell of `finest_mm`; `None` if that takes more cells across than
+    /// a grid position can count.
+    pub fn new(aabb: &Aabb, finest_mm: f64, field: &impl Field) -> Option<Self> {
+        let unit_mm = finest_mm / f64::from(FINEST_UNITS);
+        let needed = aabb.size().max() / unit_mm;
+        let mut size = FINEST_UNITS;
+        while f64::from(size) < needed {
+            size = if size < ROOT_UNITS_MAX { size * 2 } else { return None };
+        }
+        let half_mm = f64::from(size) * unit_mm / 2.0;
+        let at = aabb.center();
+        let origin = at - crate::geom::Vector::repeat(half_mm);
+        let center = Known { at, sample: field.sample(&at, &[]) };
+        let root = Cell { corner: [0; 3], size, children: 0, is_free: false, center };
+        Some(Self { cells: vec![root], origin, unit_mm })
+    }
+
+    /// All cells, parents before children; leaves and inner ones.
+    pub fn cells(&self) -> &[Cell] {
+        &self.cells
+    }
+
+    /// The cell of this number.
+    pub fn cell(&self, index: u32) -> &Cell {
+        &self.cells[index as usize]
+    }
+
+    /// The side of the whole, units.
+    pub fn root_size(&self) -> i32 {
+        self.cells[0].size
+    }
+
+    /// A length of so many units, mm.
+    pub fn length_mm(&self, units: i32) -> f64 {
+        f64::from(units) * self.unit_mm
+    }
+
+    /// The place of a grid position.
+    pub fn point(&self, grid: Grid) -> Point {
+        self.origin + crate::geom::Vector::from(grid.map(f64::from)) * self.unit_mm
+    }
+
+    /// The cell of this size at this corner, or the leaf that holds it; `None` outside the root.
+    pub fn at(&self, corner: Grid, size: i32) -> Option<u32> {
+        let root = self.root_size();
+        if corner.iter().any(|&c| c < 0 || c >= root) {
+            return None;
+        }
+        let mut index = 0;
+        loop {
+            let cell = &self.cells[index as usize];
+            if cell.is_leaf() || cell.size <= size {
+                return Some(index);
+            }
+            let half = cell.size / 2;
+            let bit = |i: usize| u32::from(corner[i] - cell.corner[i] >= half) << i;
+            index = cell.children + bit(0) + bit(1) + bit(2);
+        }
+    }
+
+    /// Whether the place of the cell's neighbour of the same size is divided.
+    pub fn is_divided(&self, corner: Grid, size: i32) -> bool {
+        self.at(corner, size).is_some_and(|index| !self.cell(index).is_leaf())
+    }
+
+    /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new leaves.
+    pub fn grow(&mut self, field: &impl Field) -> Vec<u32> {
+        let mut fresh = vec![0];
+        let mut made = Vec::new();
+        while !fresh.is_empty() {
+            let coarse: Vec<u32> = fresh.into_iter().filter(|&i| self.is_too_coarse(i, field)).collect();
+            fresh = self.split(&coarse, field);
+            made.extend_from_slice(&fresh);
+        }
+        let balanced = self.balance(made.clone(), field);
+        made.extend(balanced);
+        self.leaves_of(made)
+    }
+
+    /// Divides these leaves and whatever must follow for balance. Gives the new leaves.
+    pub fn refine(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
+        let mut made = self.split(leaves, field);
+        let balanced = self.balance(made.clone(), field);
+        made.extend(balanced);
+        self.leaves_of(made)
+    }
+
+    fn leaves_of(&self, cells: Vec<u32>) -> Vec<u32> {
+        cells.into_iter().filter(|&i| self.cell(i).is_leaf()).collect()
+    }
+
+    fn is_too_coarse(&self, index: u32, field: &impl Field) -> bool {
+        let cell = self.cell(index);
+        !cell.is_free
+            && cell.size > FINEST_UNITS
+            && field.is_too_coarse(&cell.center, self.length_mm(cell.size))
+    }
+
+    /// Divides leaves that are more than twice as large as a neighbour across a face or an edge.
+    fn balance(&mut self, mut fresh: Vec<u32>, field: &impl Field) -> Vec<u32> {
+        let mut made = Vec::new();
+        while !fresh.is_empty() {
+            let mut large: Vec<u32> = fresh.par_iter().flat_map_iter(|&i| self.too_large_beside(i)).collect();
+            large.sort_unstable();
+            large.dedup();
+            fresh = self.split(&large, field);
+            // A divided leaf's children may still be too large for the neighbour that asked.
+            made.extend_from_slice(&fresh);
+            fresh = self.widened(&fresh);
+        }
+        made
+    }
+
+    /// These cells and the leaves around them.
+    pub fn widened(&self, cells: &[u32]) -> Vec<u32> {
+        let around = |&i: &u32| {
+            let cell = *self.cell(i);
+            NEIGHBOURS.iter().flat_map(move |&direction| self.touching(&cell, direction)).chain([i])
+        };
+        let mut all: Vec<u32> = cells.par_iter().flat_map_iter(around).collect();
+        all.sort_unstable();
+        all.dedup();
+        all.retain(|&i| self.cell(i).is_leaf());
+        all
+    }
+
+    /// The leaves that touch a cell from the side of `direction`.
+    fn touching(&self, cell: &Cell, direction: Grid) -> Vec<u32> {
+        let mut stack: Vec<u32> = self.at(cell.neighbour_corner(direction), cell.size).into_iter().collect();
+        let mut found = Vec::new();
+        while let Some(index) = stack.pop() {
+            let other = self.cell(index);
+            if other.is_leaf() {
+                found.push(index);
+            } else {
+                stack.extend((other.children..other.children + 8).filter(|&c| touches(cell, self.cell(c))));
+            }
+        }
+        found
+    }
+
+    fn too_large_beside(&self, index: u32) -> impl Iterator<Item = u32> + '_ {
+        let cell = *self.cell(index);
+        let neighbours = NEIGHBOURS.iter().filter(move |_| cell.is_leaf());
+        neighbours
+            .filter_map(move |&direction| self.at(cell.neighbour_corner(direction), cell.size))
+            .filter(move |&other| self.cell(other).size > 2 * cell.size)
+    }
+
+    /// Divides leaves into eight each and samples the centres. Gives the children.
+    fn split(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
+        let first = self.cells.len() as u32;
+        let children: Vec<Cell> = leaves
+            .par_iter()
+            .flat_map_iter(|&i| (0..8).map(move |k| (i, k)))
+            .map(|(i, k)| self.child(i, k, field))
+            .collect();
+        for (k, &leaf) in leaves.iter().enumerate() {
+            self.cells[leaf as usize].children = first + 8 * k as u32;
+        }
+        self.cells.extend(children);
+        (first..self.cells.len() as u32).collect()
+    }
+
+    fn child(&self, parent: u32, number: i32, field: &impl Field) -> Cell {
+        let parent = self.cell(parent);
+        let size = parent.size / 2;
+        let corner = [0, 1, 2].map(|i| parent.corner[i] + (number >> i & 1) * size);
+        let at = self.point(corner.map(|c| c + size / 2));
+        let center = Known { at, sample: field.sample(&at, &[parent.center]) };
+        let radius_mm = self.length_mm(size) * CIRCUMRADIUS * FREE_RATIO;
+        let is_free = parent.is_free || field.is_free(&center, radius_mm);
+        Cell { corner, size, children: 0, is_free, center }
+    }
+}
+
+/// Whether two closed cubes have a point in common.
+fn touches(a: &Cell, b: &Cell) -> bool {
+    (0..3).all(|i| a.corner[i] <= b.corner[i] + b.size && b.corner[i] <= a.corner[i] + a.size)
+}

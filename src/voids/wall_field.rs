@@ -1,0 +1,76 @@
+//! The region that may be emptied as a function: inside, farther from the surface than the wall, outside the keeps.
+
+use super::field::{Field, Known, Sample};
+use crate::geom::triangle::closest_on_segment;
+use crate::geom::{Bvh, NO_HINT, Point, Vector};
+use crate::shell::Keep;
+
+/// min(d − iso, distance to every keep − its radius), with d the distance to the model's surface, positive inside.
+///
+/// 1-Lipschitz. The side is told by winding numbers, so it is right for meshes that overlap themselves too.
+pub(super) struct WallField<'a> {
+    /// The model's triangles.
+    pub surface: &'a Bvh,
+    /// What stays solid besides the wall.
+    pub keeps: &'a [Keep],
+    /// The distance at which the surface is drawn, mm: the wall and a little.
+    pub iso_mm: f64,
+    /// How much larger the keeps are drawn, mm.
+    pub keep_margin_mm: f64,
+    /// The largest cell that may hold the surface, mm.
+    pub coarse_mm: f64,
+}
+
+impl WallField<'_> {
+    /// Whether `p`, at distance `clearance_mm` from the surface, is inside: as the nearby points whose empty balls
+    /// overlap its own, or by a ray.
+    fn is_inside(&self, p: &Point, clearance_mm: f64, nearby: &[Known]) -> bool {
+        let overlaps = |k: &&Known| (k.at - p).norm() < k.sample.clearance_mm + clearance_mm;
+        match nearby.iter().find(overlaps) {
+            Some(known) => known.sample.inside,
+            None => self.surface.winding(p) > 0,
+        }
+    }
+
+    /// The value and gradient that the keeps alone would give.
+    fn keep_value(&self, p: &Point) -> Option<(f64, Vector)> {
+        let value = |keep: &Keep| {
+            let offset = p - closest_on_segment(p, &keep.from, &keep.to);
+            let distance = offset.norm();
+            (distance - keep.radius_mm - self.keep_margin_mm, offset / distance.max(f64::MIN_POSITIVE))
+        };
+        self.keeps.iter().map(value).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+}
+
+impl Field for WallField<'_> {
+    fn sample(&self, p: &Point, nearby: &[Known]) -> Sample {
+        let mut hints = [NO_HINT; 2];
+        hints.iter_mut().zip(nearby).for_each(|(hint, known)| *hint = known.sample.hint);
+        let Some(nearest) = self.surface.closest(p, f64::INFINITY, &hints) else {
+            return Sample::plain(f64::NEG_INFINITY, Vector::zeros());
+        };
+        let clearance_mm = nearest.distance_squared.sqrt();
+        let inside = self.is_inside(p, clearance_mm, nearby);
+        let side = if inside { 1.0 } else { -1.0 };
+        let direction = (p - nearest.point) / clearance_mm.max(f64::MIN_POSITIVE);
+        let wall = (side * clearance_mm - self.iso_mm, direction * side);
+        let (value, gradient) = match self.keep_value(p) {
+            Some(keep) if keep.0 < wall.0 => keep,
+            _ => wall,
+        };
+        Sample { value, gradient, clearance_mm, inside, hint: nearest.hint }
+    }
+
+    fn is_free(&self, center: &Known, radius_mm: f64) -> bool {
+        center.sample.value.abs() > radius_mm
+    }
+
+    fn is_too_coarse(&self, _center: &Known, size_mm: f64) -> bool {
+        size_mm > self.coarse_mm * (1.0 + 1e-9)
+    }
+
+    fn matters(&self, _center: &Point, _radius_mm: f64) -> bool {
+        true
+    }
+}
