@@ -1,11 +1,27 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 
+mod box_tree;
+mod crossings;
 mod defects;
+mod edges;
+mod facts;
+mod fans;
 mod hollowed;
+mod orient;
+pub mod primitives;
+mod repair;
+mod shells;
 mod solid;
 mod tri_mesh;
+mod union_find;
+mod unstitch;
+mod weld;
 
-pub use defects::Defects;
+pub use crossings::Crossings;
+pub use defects::{Defect, DefectKind, Defects};
+pub use facts::MeshFacts;
 pub use hollowed::Hollowed;
+pub use repair::{Repairs, repair};
 pub use solid::Solid;
-pub use tri_mesh::{MeshError, TriMesh};
+pub use tri_mesh::{MeshError, TriMesh, scaled};
+pub use weld::weld;
