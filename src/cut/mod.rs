@@ -1,1 +1,28 @@
-//! cut
+//! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
+
+mod cover;
+mod distance;
+mod error;
+mod family;
+mod opening;
+mod outline;
+mod part;
+mod pattern;
+mod pin_shape;
+mod pins;
+mod plan;
+mod pose;
+mod request;
+mod score;
+mod search;
+mod section;
+mod sides;
+mod split;
+
+pub use error::CutError;
+pub use part::{Part, parts};
+pub use pin_shape::PinSite;
+pub use plan::{Cut, CutPlan, JointNote, VoidAccess, plan, plan_for_cuts};
+pub use pose::{Pose, apply};
+pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
+pub use section::{Point2, Ring, Section};

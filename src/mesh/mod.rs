@@ -1,6 +1,8 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 
+mod bodies;
 mod box_tree;
+mod clip;
 mod crossings;
 mod defects;
 mod edges;
@@ -13,10 +15,12 @@ mod repair;
 mod shells;
 mod solid;
 mod tri_mesh;
-mod union_find;
+pub(crate) mod union_find;
 mod unstitch;
 mod weld;
 
+pub use bodies::{bodies, shells, winding_number};
+pub use clip::{ClipError, Csg};
 pub use crossings::Crossings;
 pub use defects::{Defect, DefectKind, Defects};
 pub use facts::MeshFacts;

@@ -4,7 +4,7 @@
 /// algorithm", J. ACM 22, 1975; path halving). The smallest member stands for its set, so the answer does
 /// not depend on the order of the merges.
 #[derive(Debug, Clone)]
-pub(super) struct UnionFind(Vec<u32>);
+pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
     /// Every number alone in its set.

@@ -1,0 +1,65 @@
+//! Why no cut plan or no parts could be made.
+
+use crate::mesh::ClipError;
+
+/// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by their ids.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum CutError {
+    /// A length of the request is not positive or not finite.
+    #[error("{name} is {value}, but must be a positive number")]
+    BadRequest {
+        /// The field of the request.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// More voids than a plan can tell apart.
+    #[error("there are {voids} voids, but a plan handles at most {limit}; fill the smallest")]
+    TooManyVoids {
+        /// How many there are.
+        voids: usize,
+        /// How many a plan handles.
+        limit: usize,
+    },
+    /// No plane of the family opens these voids wide enough.
+    #[error(
+        "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; fill the void or accept a smaller opening",
+        list(voids)
+    )]
+    Unopenable {
+        /// The voids.
+        voids: Vec<usize>,
+        /// The widest opening found for the worst of them, mm.
+        widest_mm: f64,
+        /// The opening asked for, mm.
+        needed_mm: f64,
+    },
+    /// A cut of the plan has a normal without length or a point that is not finite.
+    #[error("cut {cut} is degenerate: its normal must have a length and all its numbers must be finite")]
+    DegenerateCut {
+        /// The cut's id.
+        cut: String,
+    },
+    /// A part would enclose a cavity.
+    #[error("part {part} would enclose {cavities} closed cavities; add a cut that opens them")]
+    ClosedCavity {
+        /// Which part, from 0.
+        part: usize,
+        /// How many cavities.
+        cavities: usize,
+    },
+    /// A pin of the plan does not stand on a cut face.
+    #[error("pin {pin} does not stand between two cut faces; move it or drop it from the plan")]
+    PinOffFace {
+        /// The pin's id.
+        pin: String,
+    },
+    /// A boolean failed.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+}
+
+/// The numbers with commas between them.
+fn list(numbers: &[usize]) -> String {
+    numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,132 @@
+//! The family of planes a plan is chosen from.
+
+use rayon::prelude::*;
+
+use super::{cover::VoidSet, request::PlanRequest};
+use crate::{
+    geom::{Plane, Point, Vector},
+    mass::{Body, moments_of_mesh},
+    mesh::{Hollowed, TriMesh},
+};
+
+/// How many directions are spread over the half sphere: about 10° apart. Fewer miss skew planes through three
+/// voids, more cost time in proportion.
+const SPREAD_DIRECTIONS: usize = 160;
+
+/// How many offsets are tried in each interval in which the same voids are met.
+const OFFSETS_PER_INTERVAL: usize = 9;
+
+/// Intervals narrower than this hold no offset that a printer could tell from their ends, mm.
+const MIN_INTERVAL_MM: f64 = 0.02;
+
+/// A plane that may be cut, and the voids whose extent it meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Candidate {
+    pub(crate) plane: Plane,
+    /// The voids the plane meets; it may open fewer wide enough.
+    pub(crate) met: VoidSet,
+    /// A cheap guess of the narrowest opening, mm: that of ellipsoids of the voids' extents.
+    pub(crate) guess_mm: f64,
+}
+
+/// The extent of a void along a direction.
+#[derive(Debug, Clone, Copy)]
+struct Extent {
+    low_mm: f64,
+    high_mm: f64,
+    /// The diameter of the ball of the void's volume, mm.
+    breadth_mm: f64,
+}
+
+/// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets into cells that
+/// meet the same voids; each cell is sampled. Sorted by direction, then offset.
+pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
+    let breadths: Vec<f64> = hollowed.voids.iter().map(|void| breadth_mm(void.mesh())).collect();
+    let directions = directions(hollowed, request);
+    let rows: Vec<Vec<Candidate>> = directions
+        .par_iter()
+        .map(|normal| {
+            let extents = hollowed.voids.iter().zip(&breadths).map(|(v, &b)| extent(v.mesh(), normal, b));
+            in_direction(normal, &extents.collect::<Vec<_>>())
+        })
+        .collect();
+    rows.concat()
+}
+
+/// The directions of the family: the model's axes, the principal axes of the solid and of every void, the goal's axis
+/// and its perpendiculars, and a Fibonacci spiral over the half sphere (Swinbank and Purser, "Fibonacci
+/// grids", Q. J. R. Meteorol. Soc. 132, 2006).
+fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
+    let mut directions = vec![Vector::x(), Vector::y(), Vector::z()];
+    let axis = request.axis.direction.normalize();
+    let (u, v) = crate::geom::orthonormal_basis(&axis);
+    directions.extend([axis, u, v]);
+    let solids = std::iter::once(&hollowed.outer).chain(&hollowed.voids);
+    directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
+    directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
+    directions.retain(|d| d.iter().all(|c| c.is_finite()));
+    directions
+}
+
+/// Point `index` of the spiral over the upper half sphere.
+fn on_half_sphere(index: usize) -> Vector {
+    let z = (index as f64 + 0.5) / SPREAD_DIRECTIONS as f64;
+    let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let (sin, cos) = (golden_angle * index as f64).sin_cos();
+    let radius = (1.0 - z * z).sqrt();
+    Vector::new(radius * cos, radius * sin, z)
+}
+
+/// The principal axes of the region a mesh bounds.
+fn principal_axes(mesh: &TriMesh) -> [Vector; 3] {
+    let axes = Body::new(&moments_of_mesh(mesh), 1.0).principal().axes;
+    [0, 1, 2].map(|i| axes.column(i).into_owned().normalize())
+}
+
+/// The diameter of the ball that has the volume of the mesh, mm.
+fn breadth_mm(mesh: &TriMesh) -> f64 {
+    (moments_of_mesh(mesh).volume().abs() * 6.0 / std::f64::consts::PI).cbrt()
+}
+
+/// The extent of a mesh along `normal`.
+fn extent(mesh: &TriMesh, normal: &Vector, breadth_mm: f64) -> Extent {
+    let heights = mesh.vertices().iter().map(|p: &Point| normal.dot(&p.coords));
+    let (low_mm, high_mm) =
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
+    Extent { low_mm, high_mm, breadth_mm }
+}
+
+impl Extent {
+    fn meets(&self, offset_mm: f64) -> bool {
+        self.low_mm < offset_mm && offset_mm < self.high_mm
+    }
+
+    /// The opening of an ellipsoid of this extent and volume at the offset, mm.
+    fn guess_mm(&self, offset_mm: f64) -> f64 {
+        let length = self.high_mm - self.low_mm;
+        let across = (self.breadth_mm.powi(3) / length).sqrt();
+        let part = (offset_mm - self.low_mm) * (self.high_mm - offset_mm) / (length * length / 4.0);
+        across * part.max(0.0).sqrt()
+    }
+}
+
+/// The candidates normal to one direction.
+fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
+    let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
+    ends.sort_by(f64::total_cmp);
+    let cells = ends.windows(2).filter(|cell| cell[1] - cell[0] >= MIN_INTERVAL_MM);
+    let offsets = cells.flat_map(|cell| {
+        let step = (cell[1] - cell[0]) / OFFSETS_PER_INTERVAL as f64;
+        (0..OFFSETS_PER_INTERVAL).map(move |i| cell[0] + step * (i as f64 + 0.5))
+    });
+    offsets.map(|offset_mm| candidate(normal, offset_mm, extents)).filter(|c| c.met != 0).collect()
+}
+
+fn candidate(normal: &Vector, offset_mm: f64, extents: &[Extent]) -> Candidate {
+    let met = || extents.iter().enumerate().filter(|(_, e)| e.meets(offset_mm));
+    Candidate {
+        plane: Plane { normal: *normal, offset_mm },
+        met: met().fold(0, |set, (i, _)| set | 1 << i),
+        guess_mm: met().map(|(_, e)| e.guess_mm(offset_mm)).fold(f64::INFINITY, f64::min),
+    }
+}

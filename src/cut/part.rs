@@ -1,0 +1,130 @@
+//! The parts: the pieces of the cut body with pins and sockets, each a solid, laid for printing.
+
+use std::collections::HashMap;
+
+use rayon::prelude::*;
+
+use super::{
+    error::CutError,
+    pin_shape::PinSite,
+    plan::{CutPlan, part_id},
+    pose::{Pose, laid, sides_down},
+    request::PlanRequest,
+    section::Chart,
+    split::{Piece, check_no_cavity, piece_at, split},
+};
+use crate::{
+    geom::{Plane, Point, Vector},
+    mesh::{Csg, Hollowed, Solid},
+};
+
+/// One part of a kit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// The part's name: P01, P02, … in order of falling volume.
+    pub id: String,
+    /// The part in the model frame, mm.
+    pub solid: Solid,
+    /// How it is laid in the printer.
+    pub pose: Pose,
+    /// The pins that stand out of it.
+    pub pins: Vec<PinSite>,
+    /// The pins of other parts that its sockets receive.
+    pub sockets: Vec<PinSite>,
+    /// The voids that it holds a piece of, as indices into the hollowed body's.
+    pub voids: Vec<usize>,
+}
+
+impl Part {
+    /// What its pins add to the piece of the hollowed body, less what its sockets take away, mm³.
+    ///
+    /// Summed over the parts and the hollowed body's volume, this is the volume of all parts to 1e-6 relative.
+    pub fn added_volume_mm3(&self) -> f64 {
+        let pins: f64 = self.pins.iter().map(PinSite::pin_volume_mm3).sum();
+        let sockets: f64 = self.sockets.iter().map(PinSite::socket_volume_mm3).sum();
+        pins - sockets
+    }
+}
+
+/// The pieces that carry a pin and its socket.
+struct Seat<'a> {
+    site: &'a PinSite,
+    carrier: usize,
+    receiver: usize,
+    cut: usize,
+}
+
+/// The parts of the hollowed body cut by the plan, the largest first: every part is closed, oriented and 2-manifold, and
+/// encloses no cavity.
+pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Result<Vec<Part>, CutError> {
+    let planes = plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
+    let pieces = split(&hollowed.to_mesh(), &planes)?;
+    check_no_cavity(&pieces)?;
+    let seats =
+        plan.pins.iter().map(|pin| seat(plan, &planes, &pieces, pin)).collect::<Result<Vec<_>, _>>()?;
+    let void_of = void_vertices(hollowed);
+    let part = |(index, piece): (usize, &Piece)| {
+        let carried = || seats.iter().filter(move |seat| seat.carrier == index);
+        let received = || seats.iter().filter(move |seat| seat.receiver == index);
+        let pin_cuts: Vec<usize> = carried().map(|seat| seat.cut).collect();
+        let pins: Vec<PinSite> = carried().map(|seat| seat.site.clone()).collect();
+        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).collect();
+        let solid = fitted(piece, &pins, &sockets)?;
+        Ok(Part {
+            id: part_id(index),
+            pose: laid(solid.mesh(), &sides_down(piece, &planes, &pin_cuts, request), request),
+            solid,
+            pins,
+            sockets,
+            voids: voids_of(piece, &void_of),
+        })
+    };
+    pieces.par_iter().enumerate().map(part).collect()
+}
+
+/// Which pieces a pin joins.
+fn seat<'a>(
+    plan: &CutPlan,
+    planes: &[Plane],
+    pieces: &[Piece],
+    site: &'a PinSite,
+) -> Result<Seat<'a>, CutError> {
+    let lost = || CutError::PinOffFace { pin: site.id.clone() };
+    let cut = plan.cuts.iter().position(|cut| cut.id == site.cut).ok_or_else(lost)?;
+    let at = Chart::of_plane(&planes[cut]).flat(&Point::from(site.center_mm));
+    let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
+    let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
+    let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(lost)?;
+    Ok(Seat { site, carrier, receiver, cut })
+}
+
+/// The piece with its pins united and its sockets taken away.
+fn fitted(piece: &Piece, pins: &[PinSite], sockets: &[PinSite]) -> Result<Solid, CutError> {
+    let mut body = Csg::of_mesh(&piece.mesh)?;
+    for pin in pins {
+        body = body.union(&Csg::of_mesh(&pin.pin_body())?)?;
+    }
+    for socket in sockets {
+        body = body.subtract(&Csg::of_mesh(&socket.socket_body())?)?;
+    }
+    Ok(body.to_solid()?)
+}
+
+/// Which void each vertex of a void belongs to, by the bits of its coordinates.
+fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], usize> {
+    let voids = hollowed.voids.iter().enumerate();
+    voids.flat_map(|(i, void)| void.mesh().vertices().iter().map(move |p| (bits(p), i))).collect()
+}
+
+fn bits(p: &Point) -> [u64; 3] {
+    [p.x, p.y, p.z].map(f64::to_bits)
+}
+
+/// The voids whose vertices the piece has, ascending.
+fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], usize>) -> Vec<usize> {
+    let mut voids: Vec<usize> =
+        piece.mesh.vertices().iter().filter_map(|p| void_of.get(&bits(p)).copied()).collect();
+    voids.sort_unstable();
+    voids.dedup();
+    voids
+}

@@ -1,0 +1,89 @@
+//! Whether pins enter sockets they are not meant for.
+
+use super::section::Point2;
+
+/// The end view of a pin and its socket, looking along the pin, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Peg {
+    pub(crate) at: Point2,
+    pub(crate) pin_mm: f64,
+    pub(crate) socket_mm: f64,
+}
+
+/// How much more than its nominal play a printed pin may be forced, mm: the common tolerance of the printers.
+pub(crate) const FORCE_TOLERANCE_MM: f64 = 0.1;
+
+/// Whether the pins of one joint enter the sockets of another, or of their own joint in a second way.
+///
+/// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first two pins
+/// could take, so it costs the square of the sockets. One pin alone enters every wider socket.
+pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
+    let own = pins == sockets;
+    let Some((first, rest)) = pins.split_first() else { return false };
+    let Some(second) = rest.first() else { return !own && sockets.iter().any(|s| enters(first, s)) };
+    (0..sockets.len()).any(|i| {
+        (0..sockets.len()).filter(|&j| j != i && !(own && (i, j) == (0, 1))).any(|j| {
+            enters(first, &sockets[i])
+                && enters(second, &sockets[j])
+                && turned_fit(pins, sockets, [&sockets[i], &sockets[j]])
+        })
+    })
+}
+
+/// Whether a pin is thin enough for a socket.
+fn enters(pin: &Peg, socket: &Peg) -> bool {
+    pin.pin_mm <= socket.socket_mm + FORCE_TOLERANCE_MM
+}
+
+/// Whether all pins find a socket once the first two sit in `seats`.
+fn turned_fit(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
+    let (from, to) = (pins[1].at - pins[0].at, seats[1].at - seats[0].at);
+    let play = |pin: &Peg, socket: &Peg| (socket.socket_mm - pin.pin_mm).max(0.0) / 2.0 + FORCE_TOLERANCE_MM;
+    let slack = play(&pins[0], seats[0]) + play(&pins[1], seats[1]);
+    if (from.norm() - to.norm()).abs() > slack || from.norm() == 0.0 || to.norm() == 0.0 {
+        return false;
+    }
+    let (a, b) = (from.normalize(), to.normalize());
+    let (cos, sin) = (a.dot(&b), a.perp(&b));
+    pins[2..].iter().all(|pin| {
+        let arm = pin.at - pins[0].at;
+        let turned =
+            seats[0].at + nalgebra::Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
+        let lever = 1.0 + arm.norm() / from.norm();
+        sockets.iter().any(|s| enters(pin, s) && (s.at - turned).norm() <= play(pin, s) + lever * slack)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn peg(x: f64, y: f64, diameter: f64) -> Peg {
+        Peg { at: Point2::new(x, y), pin_mm: diameter, socket_mm: diameter + 0.2 }
+    }
+
+    #[test]
+    fn two_equal_pins_fit_turned_by_half_and_two_unequal_ones_do_not() {
+        let equal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 2.0)];
+        let unequal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
+        assert!(fits(&equal, &equal));
+        assert!(!fits(&unequal, &unequal));
+    }
+
+    #[test]
+    fn an_equilateral_triangle_turns_onto_itself_and_a_scalene_one_does_not() {
+        let equilateral = [peg(0.0, 0.0, 2.0), peg(8.0, 0.0, 2.0), peg(4.0, 48f64.sqrt(), 2.0)];
+        let scalene = [peg(0.0, 0.0, 2.0), peg(12.0, 0.0, 2.0), peg(3.0, 7.0, 2.0)];
+        assert!(fits(&equilateral, &equilateral));
+        assert!(!fits(&scalene, &scalene));
+    }
+
+    #[test]
+    fn a_moved_and_turned_copy_of_a_pattern_is_recognised() {
+        let pattern = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
+        let copy = [peg(5.0, 14.0, 2.0), peg(5.0, 5.0, 1.5)];
+        let wider = [peg(5.0, 15.0, 2.0), peg(5.0, 5.0, 1.5)];
+        assert!(fits(&pattern, &copy));
+        assert!(!fits(&pattern, &wider));
+    }
+}

@@ -1,0 +1,292 @@
+//! The cut plan: which planes, and where the pins go.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    error::CutError,
+    opening::opening,
+    pattern::Peg,
+    pin_shape::PinSite,
+    pins::{PinScene, Placement, needed_room_mm, place},
+    pose::{laid, sides_down},
+    request::PlanRequest,
+    score::Scene,
+    search::{Found, smallest_plans},
+    split::{Joint, Piece, check_no_cavity, joints, split},
+};
+use crate::{
+    geom::{Plane, Point, Vector},
+    mesh::{Hollowed, TriMesh},
+};
+
+/// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CutPlan {
+    /// The cuts, all of them through the whole model.
+    pub cuts: Vec<Cut>,
+    /// The pins that align the parts.
+    pub pins: Vec<PinSite>,
+    /// Which parts meet where.
+    pub joints: Vec<JointNote>,
+    /// How each void is opened, in the order of the hollowed body's voids.
+    pub voids: Vec<VoidAccess>,
+    /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
+    pub notes: Vec<String>,
+}
+
+/// A plane cut.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Cut {
+    /// The cut's name: C1, C2, …
+    pub id: String,
+    /// A point of the plane in the model frame, mm.
+    pub point_mm: [f64; 3],
+    /// The unit normal.
+    pub normal: [f64; 3],
+}
+
+/// Two parts that meet at a cut.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JointNote {
+    /// The cut's id.
+    pub cut: String,
+    /// The ids of the parts below and above the cut.
+    pub parts: [String; 2],
+    /// The area to be glued, sockets not taken off, mm².
+    pub area_mm2: f64,
+    /// The ids of the pins between them.
+    pub pins: Vec<String>,
+    /// Whether the pins let the parts together one way only.
+    pub one_way: bool,
+}
+
+/// How a void is opened.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VoidAccess {
+    /// The void's index in the hollowed body.
+    pub void: usize,
+    /// The void's volume, mm³.
+    pub volume_mm3: f64,
+    /// The ids of the cuts that pass through it.
+    pub opened_by: Vec<String>,
+    /// The diameter of the largest disc that passes its widest cut, mm.
+    pub opening_mm: f64,
+    /// The greatest distance of the void's surface from that cut, mm.
+    pub depth_mm: f64,
+}
+
+impl Cut {
+    /// The cut's plane, or why it is none.
+    pub fn plane(&self) -> Result<Plane, CutError> {
+        let (point, normal) = (Point::from(self.point_mm), Vector::from(self.normal));
+        let plane = Plane::through(&point, &normal);
+        let is_plane = plane.offset_mm.is_finite() && (plane.normal.norm() - 1.0).abs() < f64::EPSILON.sqrt();
+        if is_plane { Ok(plane) } else { Err(CutError::DegenerateCut { cut: self.id.clone() }) }
+    }
+}
+
+/// How near a vertex may lie to a planned cut, mm: nearer, a face along the cut could leave sheets without volume.
+const VERTEX_GAP_MM: f64 = 1e-6;
+/// How often a cut is moved on by twice the gap to find an offset without vertices.
+const NUDGES: usize = 200;
+/// How many of the best plans are cut for trial before the best is taken as it is.
+const TRIED_PLANS: usize = 3;
+/// How many further cuts may be made so that parts fit the build volume.
+const MAX_FITTING_CUTS: usize = 8;
+
+/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms (opening, room for
+/// pins, smallest part, distance from the contact point, seam), further cuts where a part would not fit
+/// the build volume, and pins for every joint.
+///
+/// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how many. About a
+/// second for 200k triangles and ten voids.
+pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
+    check(request)?;
+    let scene = Scene::new(hollowed, request);
+    let mut notes = Vec::new();
+    let (mut planes, mut pieces) = opening_cuts(&scene, &mut notes)?;
+    fit_build_volume(&scene, &mut planes, &mut pieces, &mut notes)?;
+    check_no_cavity(&pieces)?;
+    Ok(described(&scene, &planes, &pieces, notes))
+}
+
+/// The plan for cuts given by the user: pins, joints and openings as in [`plan`].
+pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -> Result<CutPlan, CutError> {
+    check(request)?;
+    let scene = Scene::new(hollowed, request);
+    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let pieces = split(&scene.material, &planes)?;
+    check_no_cavity(&pieces)?;
+    Ok(described(&scene, &planes, &pieces, Vec::new()))
+}
+
+/// Refuses lengths that cannot be.
+fn check(request: &PlanRequest) -> Result<(), CutError> {
+    let pins = &request.pins;
+    let positive = [
+        ("min_opening_mm", request.min_opening_mm),
+        ("wall_mm", request.wall_mm),
+        ("pins.min_diameter_mm", pins.min_diameter_mm),
+        ("pins.length_ratio", pins.length_ratio),
+        ("axis.direction", request.axis.direction.norm()),
+    ];
+    let not_negative = [
+        ("pins.clearance_mm", pins.clearance_mm),
+        ("pins.chamfer_mm", pins.chamfer_mm),
+        ("pins.bottom_relief_mm", pins.bottom_relief_mm),
+        ("pixel_mm", request.pixel_mm),
+        ("layer_mm", request.layer_mm),
+    ];
+    let bad = positive.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
+    let bad = bad.or(not_negative.into_iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())));
+    bad.map_or(Ok(()), |(name, value)| Err(CutError::BadRequest { name, value }))
+}
+
+/// The best of the smallest plans, and its pieces.
+fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, Vec<Piece>), CutError> {
+    if scene.hollowed.voids.is_empty() {
+        return Ok((Vec::new(), split(&scene.material, &[])?));
+    }
+    let found = smallest_plans(scene)?;
+    notes.push(proof_note(&found));
+    let mut failure = None;
+    for planes in found.plans.iter().take(TRIED_PLANS) {
+        let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
+        let pieces = split(&scene.material, &planes)?;
+        match check_no_cavity(&pieces) {
+            Ok(()) => return Ok((planes, pieces)),
+            Err(error) => failure = Some(error),
+        }
+    }
+    Err(failure.unwrap_or(CutError::ClosedCavity { part: 0, cavities: scene.hollowed.voids.len() }))
+}
+
+fn proof_note(found: &Found) -> String {
+    let cuts = found.plans.first().map_or(0, Vec::len);
+    let (family, nodes) = (found.family, found.nodes);
+    if found.is_proved {
+        format!(
+            "{cuts} cut(s): fewer do not open every void (exact cover over {family} planes, {nodes} nodes)"
+        )
+    } else {
+        format!("{cuts} cut(s): fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
+    }
+}
+
+/// The plane, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
+fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
+    let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
+    heights.sort_by(f64::total_cmp);
+    let is_free = |offset_mm: f64| {
+        let next = heights.partition_point(|&h| h < offset_mm - VERTEX_GAP_MM);
+        heights.get(next).is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
+    };
+    let offsets = (0..NUDGES).map(|i| plane.offset_mm + 2.0 * VERTEX_GAP_MM * i as f64);
+    let offset_mm = offsets.into_iter().find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
+    Plane { normal: plane.normal, offset_mm }
+}
+
+/// Whether the piece fits the build volume in some pose.
+fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
+    laid(&piece.mesh, &sides_down(piece, planes, &[], request), request).fits
+}
+
+/// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
+fn fit_build_volume(
+    scene: &Scene,
+    planes: &mut Vec<Plane>,
+    pieces: &mut Vec<Piece>,
+    notes: &mut Vec<String>,
+) -> Result<(), CutError> {
+    for _ in 0..MAX_FITTING_CUTS {
+        let Some(piece) = pieces.iter().find(|piece| !fits(piece, planes, scene.request)) else {
+            return Ok(());
+        };
+        let aabb = piece.mesh.aabb();
+        let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
+        planes.push(off_vertices(&scene.material, &middle));
+        *pieces = split(&scene.material, planes)?;
+        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(planes.len() - 1)));
+    }
+    Ok(())
+}
+
+/// The plan's data for these cuts and pieces.
+fn described(scene: &Scene, planes: &[Plane], pieces: &[Piece], mut notes: Vec<String>) -> CutPlan {
+    let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
+    let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
+    let mut placed: Vec<Vec<Peg>> = Vec::new();
+    for joint in joints(pieces) {
+        let placement = place(&pin_scene, &joint, &placed);
+        placed.push(placement.pegs.clone());
+        notes.extend(shortage(scene.request, &joint, &placement));
+        joint_notes.push(joint_note(pieces, &joint, &placement, pins.len()));
+        pins.extend(placement.sites.into_iter().map(|site| PinSite { cut: cut_id(joint.cut), ..site }));
+    }
+    for (index, pin) in pins.iter_mut().enumerate() {
+        pin.id = pin_id(index);
+    }
+    let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
+    CutPlan { cuts, pins, joints: joint_notes, voids: accesses(scene.hollowed, planes), notes }
+}
+
+fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {
+    JointNote {
+        cut: cut_id(joint.cut),
+        parts: [part_id(joint.below), part_id(joint.above)],
+        area_mm2: joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum(),
+        pins: (0..placement.sites.len()).map(|i| pin_id(first_pin + i)).collect(),
+        one_way: placement.is_one_way,
+    }
+}
+
+/// What to say of a joint that has not at least two pins that fit one way only.
+fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<String> {
+    let name = format!("joint {}–{}", part_id(joint.below), part_id(joint.above));
+    let (widest, needed) = (placement.widest_mm, needed_room_mm(request));
+    match placement.sites.len() {
+        0 if widest < needed => {
+            Some(format!("{name}: no room for pins: widest section {widest:.1} mm, needs {needed:.1} mm"))
+        }
+        0 => Some(format!("{name}: no room for pins: the material behind the cut is too thin for a socket")),
+        1 => Some(format!("{name}: room for one pin only; mind the turn when gluing")),
+        _ if !placement.is_one_way => {
+            Some(format!("{name}: the pins fit in more than one way; mind the turn when gluing"))
+        }
+        _ => None,
+    }
+}
+
+/// How the cuts open each void.
+fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Vec<VoidAccess> {
+    let access = |(void, solid): (usize, &crate::mesh::Solid)| {
+        let openings: Vec<_> =
+            planes.iter().enumerate().filter_map(|(i, p)| Some((i, opening(solid.mesh(), p)?))).collect();
+        let widest = openings.iter().max_by(|a, b| a.1.diameter_mm.total_cmp(&b.1.diameter_mm));
+        VoidAccess {
+            void,
+            volume_mm3: solid.mesh().signed_volume_mm3(),
+            opened_by: openings.iter().map(|(i, _)| cut_id(*i)).collect(),
+            opening_mm: widest.map_or(0.0, |(_, o)| o.diameter_mm),
+            depth_mm: widest.map_or(0.0, |(_, o)| o.depth_mm),
+        }
+    };
+    hollowed.voids.iter().enumerate().map(access).collect()
+}
+
+fn cut(index: usize, plane: &Plane) -> Cut {
+    Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into() }
+}
+
+fn cut_id(index: usize) -> String {
+    format!("C{}", index + 1)
+}
+
+fn pin_id(index: usize) -> String {
+    format!("N{}", index + 1)
+}
+
+/// The name of the part with this index.
+pub(crate) fn part_id(index: usize) -> String {
+    format!("P{:02}", index + 1)
+}

@@ -1,0 +1,120 @@
+//! How good a plan is: a few named terms, each 0 (nothing to improve) to 1 (bad), weighed and added.
+
+use super::{
+    opening::{Opening, opening},
+    pins::needed_room_mm,
+    request::PlanRequest,
+    section::Section,
+    sides::Sides,
+};
+use crate::{
+    geom::Plane,
+    mass::moments_of_mesh,
+    mesh::{Hollowed, TriMesh},
+};
+
+/// The body that is to be cut, with what every plane is compared against.
+pub(crate) struct Scene<'a> {
+    pub(crate) hollowed: &'a Hollowed,
+    pub(crate) request: &'a PlanRequest,
+    /// The surface of the material: the outside and the voids turned inside out.
+    pub(crate) material: TriMesh,
+    volume_mm3: f64,
+    diagonal_mm: f64,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Self {
+        let material = hollowed.to_mesh();
+        let volume_mm3 = moments_of_mesh(&material).volume();
+        let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
+        Self { hollowed, request, material, volume_mm3, diagonal_mm }
+    }
+
+    /// How the plane opens each void of `met`; `None` for those it misses.
+    pub(crate) fn openings(&self, plane: &Plane, met: super::cover::VoidSet) -> Vec<Option<Opening>> {
+        let voids = self.hollowed.voids.iter().enumerate();
+        voids.map(|(i, void)| (met >> i & 1 == 1).then(|| opening(void.mesh(), plane)).flatten()).collect()
+    }
+}
+
+/// Openings wider than this many times the least asked for are no better.
+const AMPLE_OPENING_RATIO: f64 = 3.0;
+/// Parts larger than this share of the material are not too small.
+const AMPLE_PART_RATIO: f64 = 0.02;
+/// Cuts farther than this from the contact point do not disturb it, mm.
+const AMPLE_CONTACT_MM: f64 = 3.0;
+
+/// Weight of the narrowest opening: washing out is what cuts are for.
+const OPENING_WEIGHT: f64 = 1.0;
+/// Weight of a joint without room for pins: parts that cannot be aligned spoil the balance.
+const ROOM_WEIGHT: f64 = 2.0;
+/// Weight of crumbs: they are lost, or glued wrongly.
+const SMALL_PART_WEIGHT: f64 = 2.0;
+/// Weight of a cut through the contact point: the tip wears along a seam.
+const CONTACT_WEIGHT: f64 = 1.0;
+/// Weight of a seam as long as the circle about the model: looks, and glue.
+const SEAM_WEIGHT: f64 = 0.5;
+
+/// What a cut does to the body, apart from the voids it opens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Burden {
+    /// The visible length of the seam, mm.
+    pub(crate) seam_mm: f64,
+    /// The diameter of the largest disc of material in the joint that has the least, mm (0 when below what pins need).
+    pub(crate) room_mm: f64,
+    /// The volume of the smallest piece over that of the body.
+    pub(crate) smallest_ratio: f64,
+    /// The distance of the cut from the contact point, mm.
+    pub(crate) contact_mm: f64,
+}
+
+/// What the plane does to the body. Costs two passes over the triangles.
+pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
+    let sides = Sides::new(&scene.material, *plane, Section::of_mesh(&scene.material, plane));
+    let seams = sides.polygons.iter().map(|rings| sides.section.rings[rings[0]].length_mm());
+    Burden {
+        seam_mm: seams.sum(),
+        room_mm: least_room_mm(&sides, needed_room_mm(scene.request)),
+        smallest_ratio: sides.piece_volumes_mm3().first().map_or(0.0, |v| v / scene.volume_mm3),
+        contact_mm: plane.distance(&scene.request.axis.point).abs(),
+    }
+}
+
+/// The room of the joint with the least of it; of each joint its roomiest polygon counts. Room short of
+/// `needed_mm` counts by halves.
+fn least_room_mm(sides: &Sides, needed_mm: f64) -> f64 {
+    let mut joints: Vec<([u32; 2], f64)> = Vec::new();
+    for group in 0..sides.polygons.len() {
+        let room_mm = sides.disc_diameter_mm(group, needed_mm / 2.0);
+        let pair = sides.neighbours(group);
+        match joints.iter_mut().find(|(name, _)| *name == pair) {
+            Some((_, most)) => *most = most.max(room_mm),
+            None => joints.push((pair, room_mm)),
+        }
+    }
+    let least = joints.iter().map(|(_, room)| *room).fold(f64::INFINITY, f64::min);
+    if least.is_finite() { least } else { 0.0 }
+}
+
+impl Burden {
+    /// The weighed terms of one cut, 0 at best.
+    pub(crate) fn penalty(&self, scene: &Scene) -> f64 {
+        let needed_mm = needed_room_mm(scene.request);
+        ROOM_WEIGHT * shortfall(self.room_mm, needed_mm)
+            + SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO)
+            + CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM)
+            + SEAM_WEIGHT * self.seam_mm / (std::f64::consts::PI * scene.diagonal_mm)
+    }
+}
+
+/// The weighed term of the narrowest of the voids' openings (mm), 0 at best.
+pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
+    let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
+    OPENING_WEIGHT * openings_mm.map(|mm| shortfall(mm, ample_mm)).fold(0.0, f64::max)
+}
+
+/// How far `value` falls short of `ample`: 0 when it does not, 1 when it is nothing.
+fn shortfall(value: f64, ample: f64) -> f64 {
+    (1.0 - value / ample).clamp(0.0, 1.0)
+}

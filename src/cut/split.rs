@@ -1,0 +1,169 @@
+//! The body cut by all planes: its pieces, their cut faces, and which faces meet.
+
+use super::{
+    error::CutError,
+    outline::Outline,
+    section::{Chart, Point2},
+};
+use crate::{
+    geom::Plane,
+    mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
+};
+
+/// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of that size would
+/// be a hundredth of a millimetre across, and no printer makes it.
+const SHEET_VOLUME_MM3: f64 = 1e-6;
+
+/// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut keeps 1e-6 away from
+/// the model's own vertices.
+const ON_PLANE_MM: f64 = 1e-7;
+
+/// A piece of the cut body, bounded by its own surface and by cut faces.
+pub(crate) struct Piece {
+    pub(crate) mesh: TriMesh,
+    pub(crate) volume_mm3: f64,
+    pub(crate) caps: Vec<Cap>,
+}
+
+/// A connected flat face that a cut has left on a piece.
+pub(crate) struct Cap {
+    /// Which cut.
+    pub(crate) cut: usize,
+    /// Whether the piece lies above the plane, so that the face looks against the plane's normal.
+    pub(crate) is_above: bool,
+    pub(crate) outline: Outline,
+    pub(crate) area_mm2: f64,
+    triangles: Vec<[Point2; 3]>,
+}
+
+/// Two pieces that meet at a cut.
+pub(crate) struct Joint {
+    pub(crate) cut: usize,
+    /// The piece below the plane.
+    pub(crate) below: usize,
+    /// The piece above it.
+    pub(crate) above: usize,
+    /// The cut faces between them, as caps of the piece below.
+    pub(crate) caps: Vec<usize>,
+}
+
+/// The pieces of a closed mesh between the planes, the largest first, each proved free of closed cavities.
+pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
+    let mut cells = vec![Csg::of_mesh(mesh)?];
+    for plane in planes {
+        let mut halves = Vec::new();
+        for cell in &cells {
+            let (above, below) = cell.split_by_plane(plane)?;
+            halves.extend([above, below].into_iter().filter(|half| !half.is_empty()));
+        }
+        cells = halves;
+    }
+    let mut pieces = Vec::new();
+    for cell in &cells {
+        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, planes)));
+    }
+    pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
+    pieces.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    Ok(pieces)
+}
+
+/// Refuses a piece that encloses a cavity.
+pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
+    for (part, piece) in pieces.iter().enumerate() {
+        let cavities = shells(&piece.mesh).iter().filter(|shell| shell.signed_volume_mm3() < 0.0).count();
+        if cavities > 0 {
+            return Err(CutError::ClosedCavity { part, cavities });
+        }
+    }
+    Ok(())
+}
+
+fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
+    let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
+    Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
+}
+
+/// The faces that the plane has left on a piece, in the order of their first triangles.
+fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
+    let on_plane: Vec<bool> =
+        mesh.vertices().iter().map(|p| plane.distance(p).abs() <= ON_PLANE_MM).collect();
+    let flat: Vec<[u32; 3]> =
+        mesh.triangles().iter().filter(|t| t.iter().all(|&v| on_plane[v as usize])).copied().collect();
+    let mut sets = UnionFind::new(mesh.vertices().len());
+    for &[a, b, c] in &flat {
+        sets.merge(a, b);
+        sets.merge(b, c);
+    }
+    let mut faces: Vec<(u32, Vec<[u32; 3]>)> = Vec::new();
+    for triangle in flat {
+        let name = sets.root(triangle[0]);
+        match faces.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, triangles)) => triangles.push(triangle),
+            None => faces.push((name, vec![triangle])),
+        }
+    }
+    let chart = Chart::of_plane(plane);
+    faces.iter().map(|(_, triangles)| cap(mesh, triangles, &chart, cut)).filter(Cap::has_area).collect()
+}
+
+fn cap(mesh: &TriMesh, triangles: &[[u32; 3]], chart: &Chart, cut: usize) -> Cap {
+    let flat = |v: u32| chart.flat(&mesh.vertices()[v as usize]);
+    let boundary = boundary_edges(triangles).into_iter().map(|(a, b)| [flat(a), flat(b)]).collect();
+    let triangles: Vec<[Point2; 3]> = triangles.iter().map(|t| t.map(flat)).collect();
+    let signed: f64 = triangles.iter().map(|[a, b, c]| (b - a).perp(&(c - a)) / 2.0).sum();
+    Cap { cut, is_above: signed < 0.0, outline: Outline::new(boundary), area_mm2: signed.abs(), triangles }
+}
+
+/// The directed edges without an opposite among the triangles, sorted.
+fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
+    let mut edges: Vec<(u32, u32)> =
+        triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    edges.sort_unstable();
+    let is_inner = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
+    edges.iter().filter(|edge| !is_inner(edge)).copied().collect()
+}
+
+impl Cap {
+    fn has_area(&self) -> bool {
+        self.area_mm2 > 0.0
+    }
+
+    /// Whether the face holds a point of the plane.
+    pub(crate) fn holds(&self, p: &Point2) -> bool {
+        self.triangles.iter().any(|[a, b, c]| {
+            let signs = [(a, b), (b, c), (c, a)].map(|(from, to)| (to - from).perp(&(p - from)));
+            signs.iter().all(|&s| s >= 0.0) || signs.iter().all(|&s| s <= 0.0)
+        })
+    }
+
+    /// The centroid of the largest triangle: a point well inside the face.
+    fn inner_point(&self) -> Point2 {
+        let area = |[a, b, c]: &[Point2; 3]| (b - a).perp(&(c - a)).abs();
+        let largest = self.triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t)));
+        largest.map_or(Point2::origin(), |[a, b, c]| Point2::from((a.coords + b.coords + c.coords) / 3.0))
+    }
+}
+
+/// The piece whose face of this cut, on this side, holds the point.
+pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2) -> Option<usize> {
+    pieces.iter().position(|piece| {
+        piece.caps.iter().any(|cap| cap.cut == cut && cap.is_above == is_above && cap.holds(p))
+    })
+}
+
+/// All pairs of pieces that meet at a cut, ordered by cut, then by the pieces.
+pub(crate) fn joints(pieces: &[Piece]) -> Vec<Joint> {
+    let mut joints: Vec<Joint> = Vec::new();
+    for (below, piece) in pieces.iter().enumerate() {
+        for (index, cap) in piece.caps.iter().enumerate().filter(|(_, cap)| !cap.is_above) {
+            let Some(above) = piece_at(pieces, cap.cut, true, &cap.inner_point()) else { continue };
+            let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (cap.cut, below, above);
+            match joints.iter_mut().find(same) {
+                Some(joint) => joint.caps.push(index),
+                None => joints.push(Joint { cut: cap.cut, below, above, caps: vec![index] }),
+            }
+        }
+    }
+    joints.sort_by_key(|joint| (joint.cut, joint.below, joint.above));
+    joints
+}
