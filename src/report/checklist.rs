@@ -108,7 +108,7 @@ pub struct PrinterRow {
     pub layer_mm: f64,
     /// The edges of the build volume, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
-    /// What is left in the voids after printing, such as `soluble`, `breakaway`, `powder`, `resin`.
+    /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or `none`.
     pub support: String,
     /// The least opening through which a void can be cleaned, mm.
     pub minimum_opening_mm: f64,
@@ -127,9 +127,11 @@ pub struct MaterialRow {
     pub density_g_cm3: f64,
     /// Where the density is from.
     pub density_source: String,
-    /// By how much it may be wrong, as a share; unknown when the source does not say, and then no weighing window is
-    /// printed.
-    pub density_tolerance_ratio: Option<f64>,
+    /// How sure that source is, such as `read` or `recalled`.
+    pub density_sure: String,
+    /// How far the mass of a sound print may be from volume × density, as a share; no weighing window is printed where
+    /// it is not known.
+    pub density_spread_ratio: Option<f64>,
 }
 
 /// The goal as it was placed on the model.

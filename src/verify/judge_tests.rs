@@ -10,7 +10,7 @@ const WALL: f64 = 3.0;
 
 /// A box top 60 × 40 × 12 mm that floats 10 mm over its contact, hollow, cut through the middle into two equal
 /// trays: the lower lies as in the model, the upper is turned over.
-fn sound() -> Evidence {
+pub(crate) fn sound() -> Evidence {
     let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
     let corner = Vector::new(-30.0, -20.0, 10.0);
     let turned = Matrix::from_diagonal(&Vector::new(1.0, -1.0, -1.0));

@@ -38,3 +38,6 @@ pub use promise::{
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use wall::smallest_wall_mm;
+
+#[cfg(test)]
+pub(crate) use stand_in::weld;
