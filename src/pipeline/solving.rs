@@ -1,7 +1,7 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
-use crate::hollow::{Problem, Settings, Solution, Status, solve, solve_from};
+use crate::hollow::{Problem, Settings, Solution, refine, solve};
 use crate::interior::Columns;
 use crate::mass::Moments;
 use crate::progress::Progress;
@@ -70,8 +70,8 @@ fn solution_on(setup: &Setup, columns: &Columns, from: Option<&Solved>, fixed: M
     let problem = Problem { goal: &setup.placement.goal, fixed, columns };
     let settings = Settings::default();
     match from.filter(|level| level.solution.is_usable()) {
-        Some(level) => solve_from(&problem, &level.solution, &settings),
-        None => solve(&problem, &settings),
+        Some(level) => refine(&problem, &settings, &level.solution, &Progress::silent()),
+        None => solve(&problem, &settings, &Progress::silent()),
     }
 }
 
@@ -81,7 +81,7 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
     Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
-        remedies: solution.status.remedies(goal),
+        remedies: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
         proof_quadric: solution.quadric.0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),
