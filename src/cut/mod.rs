@@ -1,5 +1,6 @@
 //! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
 
+mod access;
 mod cover;
 mod distance;
 mod error;
@@ -19,10 +20,16 @@ mod section;
 mod sides;
 mod split;
 
+#[cfg(test)]
+mod scenes;
+#[cfg(test)]
+mod tests;
+
+pub use access::VoidAccess;
 pub use error::CutError;
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
-pub use plan::{Cut, CutPlan, JointNote, VoidAccess, plan, plan_for_cuts};
+pub use plan::{Cut, CutPlan, JointNote, plan, plan_for_cuts};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use section::{Point2, Ring, Section};

@@ -1,10 +1,11 @@
 //! The cut plan: which planes, and where the pins go.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    access::{VoidAccess, access},
     error::CutError,
-    opening::opening,
     pattern::Peg,
     pin_shape::PinSite,
     pins::{PinScene, Placement, needed_room_mm, place},
@@ -16,7 +17,7 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, TriMesh, signed_volume},
+    mesh::{Hollowed, TriMesh},
 };
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
@@ -60,21 +61,6 @@ pub struct JointNote {
     pub one_way: bool,
 }
 
-/// How a void is opened.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct VoidAccess {
-    /// The void's index in the hollowed body.
-    pub void: usize,
-    /// The void's volume, mm³.
-    pub volume_mm3: f64,
-    /// The ids of the cuts that pass through it.
-    pub opened_by: Vec<String>,
-    /// The diameter of the largest disc that passes its widest cut, mm.
-    pub opening_mm: f64,
-    /// The greatest distance of the void's surface from that cut, mm.
-    pub depth_mm: f64,
-}
-
 impl Cut {
     /// The cut's plane, or why it is none.
     pub fn plane(&self) -> Result<Plane, CutError> {
@@ -107,7 +93,7 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let (mut planes, mut pieces) = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut planes, &mut pieces, &mut notes)?;
     check_no_cavity(&pieces)?;
-    Ok(described(&scene, &planes, &pieces, notes))
+    described(&scene, &planes, &pieces, notes)
 }
 
 /// The plan for cuts given by the user: pins, joints and openings as in [`plan`].
@@ -117,7 +103,7 @@ pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let pieces = split(&scene.material, &planes)?;
     check_no_cavity(&pieces)?;
-    Ok(described(&scene, &planes, &pieces, Vec::new()))
+    described(&scene, &planes, &pieces, Vec::new())
 }
 
 /// Refuses lengths that cannot be.
@@ -149,16 +135,19 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, V
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
-    let mut failure = None;
+    let mut narrow = None;
     for planes in found.plans.iter().take(TRIED_PLANS) {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let pieces = split(&scene.material, &planes)?;
-        match check_no_cavity(&pieces) {
-            Ok(()) => return Ok((planes, pieces)),
-            Err(error) => failure = Some(error),
+        let voids = accesses(scene.hollowed, &planes)?;
+        if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
+            let pieces = split(&scene.material, &planes)?;
+            return Ok((planes, pieces));
         }
+        narrow = narrow.or(Some(planes));
     }
-    Err(failure.unwrap_or(CutError::ClosedCavity { part: 0, cavities: scene.hollowed.voids.len() }))
+    let planes = narrow.unwrap_or_default();
+    let pieces = split(&scene.material, &planes)?;
+    Ok((planes, pieces))
 }
 
 fn proof_note(found: &Found) -> String {
@@ -212,7 +201,12 @@ fn fit_build_volume(
 }
 
 /// The plan's data for these cuts and pieces.
-fn described(scene: &Scene, planes: &[Plane], pieces: &[Piece], mut notes: Vec<String>) -> CutPlan {
+fn described(
+    scene: &Scene,
+    planes: &[Plane],
+    pieces: &[Piece],
+    mut notes: Vec<String>,
+) -> Result<CutPlan, CutError> {
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
     let mut placed: Vec<Vec<Peg>> = Vec::new();
@@ -227,7 +221,9 @@ fn described(scene: &Scene, planes: &[Plane], pieces: &[Piece], mut notes: Vec<S
         pin.id = pin_id(index);
     }
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
-    CutPlan { cuts, pins, joints: joint_notes, voids: accesses(scene.hollowed, planes), notes }
+    let voids = accesses(scene.hollowed, planes)?;
+    notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
+    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, notes })
 }
 
 fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {
@@ -238,6 +234,14 @@ fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin:
         pins: (0..placement.sites.len()).map(|i| pin_id(first_pin + i)).collect(),
         one_way: placement.is_one_way,
     }
+}
+
+/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.
+fn narrow(request: &PlanRequest, void: &VoidAccess) -> Option<String> {
+    let (index, opening, asked) = (void.void, void.opening_mm, request.min_opening_mm);
+    let note =
+        || format!("void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm");
+    (opening < asked).then(note)
 }
 
 /// What to say of a joint that has not at least two pins that fit one way only.
@@ -258,27 +262,16 @@ fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
 }
 
 /// How the cuts open each void.
-fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Vec<VoidAccess> {
-    let access = |(void, solid): (usize, &crate::mesh::Solid)| {
-        let openings: Vec<_> =
-            planes.iter().enumerate().filter_map(|(i, p)| Some((i, opening(solid.mesh(), p)?))).collect();
-        let widest = openings.iter().max_by(|a, b| a.1.diameter_mm.total_cmp(&b.1.diameter_mm));
-        VoidAccess {
-            void,
-            volume_mm3: signed_volume(solid.mesh()),
-            opened_by: openings.iter().map(|(i, _)| cut_id(*i)).collect(),
-            opening_mm: widest.map_or(0.0, |(_, o)| o.diameter_mm),
-            depth_mm: widest.map_or(0.0, |(_, o)| o.depth_mm),
-        }
-    };
-    hollowed.voids.iter().enumerate().map(access).collect()
+fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Result<Vec<VoidAccess>, CutError> {
+    hollowed.voids.par_iter().enumerate().map(|(i, void)| access(i, void, planes)).collect()
 }
 
 fn cut(index: usize, plane: &Plane) -> Cut {
     Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into() }
 }
 
-fn cut_id(index: usize) -> String {
+/// The name of the cut with this index.
+pub(crate) fn cut_id(index: usize) -> String {
     format!("C{}", index + 1)
 }
 

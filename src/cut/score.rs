@@ -39,7 +39,7 @@ impl<'a> Scene<'a> {
 }
 
 /// Openings wider than this many times the least asked for are no better.
-const AMPLE_OPENING_RATIO: f64 = 3.0;
+pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
 /// Parts larger than this share of the material are not too small.
 const AMPLE_PART_RATIO: f64 = 0.02;
 /// Cuts farther than this from the contact point do not disturb it, mm.
@@ -51,6 +51,8 @@ const OPENING_WEIGHT: f64 = 1.0;
 const ROOM_WEIGHT: f64 = 2.0;
 /// Weight of crumbs: they are lost, or glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
+/// Weight of each piece a cut leaves beyond two: every part is one more to print, clean and glue.
+const EXTRA_PART_WEIGHT: f64 = 0.2;
 /// Weight of a cut through the contact point: the tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as long as the circle about the model: looks, and glue.
@@ -63,6 +65,8 @@ pub(crate) struct Burden {
     pub(crate) seam_mm: f64,
     /// The diameter of the largest disc of material in the joint that has the least, mm (0 when below what pins need).
     pub(crate) room_mm: f64,
+    /// How many pieces it leaves beyond two.
+    pub(crate) extra_parts: usize,
     /// The volume of the smallest piece over that of the body.
     pub(crate) smallest_ratio: f64,
     /// The distance of the cut from the contact point, mm.
@@ -73,10 +77,12 @@ pub(crate) struct Burden {
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let sides = Sides::new(&scene.material, *plane, Section::of_mesh(&scene.material, plane));
     let seams = sides.polygons.iter().map(|rings| sides.section.rings[rings[0]].length_mm());
+    let volumes_mm3 = sides.piece_volumes_mm3();
     Burden {
         seam_mm: seams.sum(),
+        extra_parts: volumes_mm3.len().saturating_sub(2),
         room_mm: least_room_mm(&sides, needed_room_mm(scene.request)),
-        smallest_ratio: sides.piece_volumes_mm3().first().map_or(0.0, |v| v / scene.volume_mm3),
+        smallest_ratio: volumes_mm3.first().map_or(0.0, |v| v / scene.volume_mm3),
         contact_mm: plane.distance(&scene.request.axis.point).abs(),
     }
 }
@@ -103,6 +109,7 @@ impl Burden {
         let needed_mm = needed_room_mm(scene.request);
         ROOM_WEIGHT * shortfall(self.room_mm, needed_mm)
             + SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO)
+            + EXTRA_PART_WEIGHT * self.extra_parts as f64
             + CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM)
             + SEAM_WEIGHT * self.seam_mm / (std::f64::consts::PI * scene.diagonal_mm)
     }
