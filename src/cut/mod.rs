@@ -13,6 +13,7 @@ mod pin_shape;
 mod pins;
 mod plan;
 mod pose;
+mod rejoin;
 mod request;
 mod score;
 mod search;

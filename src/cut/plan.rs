@@ -10,6 +10,7 @@ use super::{
     pin_shape::PinSite,
     pins::{PinScene, Placement, needed_room_mm, place},
     pose::{laid, sides_down},
+    rejoin::{Cutting, pieces},
     request::PlanRequest,
     score::Scene,
     search::{Found, smallest_plans},
@@ -23,7 +24,7 @@ use crate::{
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutPlan {
-    /// The cuts, all of them through the whole model.
+    /// The cuts.
     pub cuts: Vec<Cut>,
     /// The pins that align the parts.
     pub pins: Vec<PinSite>,
@@ -31,6 +32,9 @@ pub struct CutPlan {
     pub joints: Vec<JointNote>,
     /// How each void is opened, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
+    /// Whether pieces that a cut parts needlessly stay joined.
+    #[serde(default)]
+    pub rejoins: bool,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -93,10 +97,10 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let (mut planes, mut pieces) = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut planes, &mut pieces, &mut notes)?;
     check_no_cavity(&pieces)?;
-    described(&scene, &planes, &pieces, notes)
+    Ok(CutPlan { rejoins: true, ..described(&scene, &planes, &pieces, notes)? })
 }
 
-/// The plan for cuts given by the user: pins, joints and openings as in [`plan`].
+/// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
 pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request);
@@ -140,14 +144,20 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, V
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
         if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
-            let pieces = split(&scene.material, &planes)?;
+            let pieces = pieces_of(scene, &planes)?;
             return Ok((planes, pieces));
         }
         narrow = narrow.or(Some(planes));
     }
     let planes = narrow.unwrap_or_default();
-    let pieces = split(&scene.material, &planes)?;
+    let pieces = pieces_of(scene, &planes)?;
     Ok((planes, pieces))
+}
+
+/// The pieces between the planes, joined again where a cut parts them needlessly.
+fn pieces_of(scene: &Scene, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
+    let (hollowed, material, request) = (scene.hollowed, &scene.material, scene.request);
+    pieces(&Cutting { hollowed, material, planes, request }, true)
 }
 
 fn proof_note(found: &Found) -> String {
@@ -194,7 +204,7 @@ fn fit_build_volume(
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         planes.push(off_vertices(&scene.material, &middle));
-        *pieces = split(&scene.material, planes)?;
+        *pieces = pieces_of(scene, planes)?;
         notes.push(format!("cut {}: a part would not fit the build volume", cut_id(planes.len() - 1)));
     }
     Ok(())
@@ -223,7 +233,7 @@ fn described(
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
     let voids = accesses(scene.hollowed, planes)?;
     notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
-    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, notes })
+    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, rejoins: false, notes })
 }
 
 fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {

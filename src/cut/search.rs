@@ -16,7 +16,7 @@ use crate::geom::Plane;
 const ROUNDS: [usize; 3] = [64, 512, 4096];
 
 /// How many planes of the smallest covers are judged in full: two or three milliseconds each on 100k triangles.
-const JUDGED_PLANES: usize = 32;
+const JUDGED_PLANES: usize = 48;
 
 /// How many smallest covers are compared.
 const COMPARED_COVERS: usize = 20_000;

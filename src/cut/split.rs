@@ -47,6 +47,26 @@ pub(crate) struct Joint {
     pub(crate) caps: Vec<usize>,
 }
 
+impl Joint {
+    /// Whether a piece is one of the two.
+    pub(crate) fn touches(&self, piece: usize) -> bool {
+        self.below == piece || self.above == piece
+    }
+
+    /// The other piece of the two.
+    pub(crate) fn other(&self, piece: usize) -> usize {
+        if self.below == piece { self.above } else { self.below }
+    }
+}
+
+impl Piece {
+    /// Whether the piece lies above a plane that does not pass through it.
+    pub(crate) fn is_above(&self, plane: &Plane) -> bool {
+        let heights = self.mesh.vertices().iter().map(|p| plane.distance(p));
+        heights.fold(0.0, |far: f64, h| if h.abs() > far.abs() { h } else { far }) > 0.0
+    }
+}
+
 /// The pieces of a closed mesh between the planes, the largest first, each proved free of closed cavities.
 pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
     let mut cells = vec![Csg::of_mesh(mesh)?];
@@ -78,7 +98,8 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     Ok(())
 }
 
-fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
+/// A piece with its cut faces.
+pub(crate) fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
     let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
     Piece { volume_mm3: signed_volume(&mesh), caps, mesh }
 }
