@@ -2,18 +2,22 @@
 
 #![forbid(unsafe_code)]
 
+pub mod cli;
 pub mod cut;
+pub mod digest;
 pub mod geom;
 pub mod goal;
 pub mod hollow;
 pub mod interior;
 pub mod io;
+pub mod job;
 pub mod mass;
 pub mod mesh;
 pub mod printer;
 pub mod progress;
 pub mod report;
 pub mod shell;
+pub mod toml_text;
 pub mod units;
 pub mod verify;
 pub mod voids;

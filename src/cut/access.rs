@@ -8,10 +8,7 @@ use super::{
     plan::cut_id,
     split::{Piece, split},
 };
-use crate::{
-    geom::Plane,
-    mesh::{Solid, signed_volume},
-};
+use crate::{geom::Plane, mesh::Solid};
 
 /// How a void is opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -29,6 +26,14 @@ pub struct VoidAccess {
     pub depth_mm: f64,
 }
 
+impl VoidAccess {
+    /// A void that no cut opens.
+    pub(crate) fn closed(void: usize, solid: &Solid) -> Self {
+        let volume_mm3 = solid.mesh().signed_volume_mm3();
+        Self { void, volume_mm3, opened_by: Vec::new(), opening_mm: 0.0, depth_mm: 0.0 }
+    }
+}
+
 /// How the planes open a void: it is cut into its pieces, and each piece's mouths are measured.
 pub(crate) fn access(void: usize, solid: &Solid, planes: &[Plane]) -> Result<VoidAccess, CutError> {
     let pieces = split(solid.mesh(), planes)?;
@@ -38,7 +43,7 @@ pub(crate) fn access(void: usize, solid: &Solid, planes: &[Plane]) -> Result<Voi
     let hidden = mouths.iter().filter(|mouth| !is_dimple(mouth.depth_mm, mouth.diameter_mm));
     Ok(VoidAccess {
         void,
-        volume_mm3: signed_volume(solid.mesh()),
+        volume_mm3: solid.mesh().signed_volume_mm3(),
         opened_by: (0..planes.len()).filter(met).map(cut_id).collect(),
         opening_mm: hidden.map(|mouth| mouth.diameter_mm).fold(widest_mm, f64::min),
         depth_mm: mouths.iter().map(|mouth| mouth.depth_mm).fold(0.0, f64::max),
@@ -57,7 +62,7 @@ fn widest_mouth(piece: &Piece, planes: &[Plane]) -> Mouth {
         |cap: &super::split::Cap| cap.outline.largest_disc(0.0).map_or(0.0, |disc| 2.0 * disc.radius_mm);
     let widest = piece.caps.iter().map(|cap| (cap.cut, disc_mm(cap))).max_by(|a, b| a.1.total_cmp(&b.1));
     let Some((cut, diameter_mm)) = widest else {
-        return Mouth { diameter_mm: 0.0, depth_mm: f64::INFINITY };
+        return Mouth { diameter_mm: 0.0, depth_mm: piece.mesh.aabb().size().norm() };
     };
     let heights = piece.mesh.vertices().iter().map(|p| planes[cut].distance(p).abs());
     Mouth { diameter_mm, depth_mm: heights.fold(0.0, f64::max) }

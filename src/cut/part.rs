@@ -9,20 +9,20 @@ use super::{
     pin_shape::PinSite,
     plan::{CutPlan, part_id},
     pose::{Pose, laid, sides_down},
-    rejoin::{Cutting, pieces},
+    rejoin::rejoined,
     request::PlanRequest,
     section::Chart,
-    split::{Piece, check_no_cavity, piece_at},
+    split::{Piece, check_no_cavity, piece_at, split},
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Csg, Hollowed, Solid, TriMesh, signed_volume},
+    mesh::{Csg, Hollowed, Solid, TriMesh},
 };
 
 /// One part of a kit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// The part's name: P01, P02, … in order of falling volume.
+    /// The part's name: P01, P02, …
     pub id: String,
     /// The part in the model frame, mm.
     pub solid: Solid,
@@ -55,13 +55,18 @@ struct Seat<'a> {
     cut: usize,
 }
 
-/// The parts of the hollowed body cut by the plan, the largest first: every part is closed, oriented and 2-manifold, and
-/// encloses no cavity.
+/// The parts of the hollowed body cut by the plan: every part is closed, oriented and 2-manifold, and encloses no
+/// cavity, unless the plan has no cuts at all.
+///
+/// The body may differ a little from the one the plan was made for, as when voids were solved for again: cuts,
+/// pins and parts keep their names.
 pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Result<Vec<Part>, CutError> {
     let planes = plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
-    let cutting = Cutting { hollowed, material: &hollowed.to_mesh(), planes: &planes, request };
-    let pieces = pieces(&cutting, plan.rejoins)?;
-    check_no_cavity(&pieces)?;
+    let bridges = plan.bridges(&planes);
+    let pieces = rejoined(split(&hollowed.to_mesh(), &planes)?, &planes, &bridges)?;
+    if !planes.is_empty() {
+        check_no_cavity(&pieces)?;
+    }
     let seats =
         plan.pins.iter().map(|pin| seat(plan, &planes, &pieces, pin)).collect::<Result<Vec<_>, _>>()?;
     let void_of = void_vertices(hollowed);
@@ -127,7 +132,7 @@ fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
         return Ok(solid);
     }
     let simple = body.simplify(SHORT_EDGE_MM).to_solid()?;
-    let (before, after) = (signed_volume(solid.mesh()), signed_volume(simple.mesh()));
+    let (before, after) = (solid.mesh().signed_volume_mm3(), simple.mesh().signed_volume_mm3());
     let is_same = (after - before).abs() <= VOLUME_CHANGE_RATIO * before;
     Ok(if is_same { simple } else { solid })
 }

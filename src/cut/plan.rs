@@ -10,15 +10,16 @@ use super::{
     pin_shape::PinSite,
     pins::{PinScene, Placement, needed_room_mm, place},
     pose::{laid, sides_down},
-    rejoin::{Cutting, pieces},
+    rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
     score::Scene,
     search::{Found, smallest_plans},
+    section::Chart,
     split::{Joint, Piece, check_no_cavity, joints, split},
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, TriMesh},
+    mesh::{Hollowed, Solid, TriMesh},
 };
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
@@ -32,9 +33,9 @@ pub struct CutPlan {
     pub joints: Vec<JointNote>,
     /// How each void is opened, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
-    /// Whether pieces that a cut parts needlessly stay joined.
+    /// Where a cut leaves the body whole.
     #[serde(default)]
-    pub rejoins: bool,
+    pub uncut: Vec<UncutFace>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -50,6 +51,15 @@ pub struct Cut {
     pub normal: [f64; 3],
 }
 
+/// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing would be opened.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UncutFace {
+    /// The cut's id.
+    pub cut: String,
+    /// A point of the face in the model frame, mm.
+    pub point_mm: [f64; 3],
+}
+
 /// Two parts that meet at a cut.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JointNote {
@@ -63,6 +73,30 @@ pub struct JointNote {
     pub pins: Vec<String>,
     /// Whether the pins let the parts together one way only.
     pub one_way: bool,
+}
+
+impl CutPlan {
+    /// The plan that cuts nothing and leaves every void closed.
+    pub fn uncut(hollowed: &Hollowed) -> Self {
+        let closed = |(void, solid): (usize, &Solid)| VoidAccess::closed(void, solid);
+        Self {
+            cuts: Vec::new(),
+            pins: Vec::new(),
+            joints: Vec::new(),
+            voids: hollowed.voids.iter().enumerate().map(closed).collect(),
+            uncut: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// The faces left whole, in the coordinates of the cuts' planes; faces on no cut of the plan are left out.
+    pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
+        let bridge = |face: &UncutFace| {
+            let cut = self.cuts.iter().position(|cut| cut.id == face.cut)?;
+            Some(Bridge { cut, at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)) })
+        };
+        self.uncut.iter().filter_map(bridge).collect()
+    }
 }
 
 impl Cut {
@@ -94,10 +128,9 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     check(request)?;
     let scene = Scene::new(hollowed, request);
     let mut notes = Vec::new();
-    let (mut planes, mut pieces) = opening_cuts(&scene, &mut notes)?;
-    fit_build_volume(&scene, &mut planes, &mut pieces, &mut notes)?;
-    check_no_cavity(&pieces)?;
-    Ok(CutPlan { rejoins: true, ..described(&scene, &planes, &pieces, notes)? })
+    let mut layout = opening_cuts(&scene, &mut notes)?;
+    fit_build_volume(&scene, &mut layout, &mut notes)?;
+    described(&scene, &layout, notes)
 }
 
 /// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
@@ -106,8 +139,25 @@ pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -
     let scene = Scene::new(hollowed, request);
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let pieces = split(&scene.material, &planes)?;
-    check_no_cavity(&pieces)?;
-    described(&scene, &planes, &pieces, Vec::new())
+    described(&scene, &Layout { planes, pieces, bridges: Vec::new() }, Vec::new())
+}
+
+/// Cuts, and the pieces they leave.
+struct Layout {
+    planes: Vec<Plane>,
+    pieces: Vec<Piece>,
+    bridges: Vec<Bridge>,
+}
+
+impl Layout {
+    /// The pieces between the planes, left joined where a cut would part them needlessly.
+    fn new(scene: &Scene, planes: Vec<Plane>) -> Result<Self, CutError> {
+        let pieces = split(&scene.material, &planes)?;
+        let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
+        let bridges = bridges(&cutting, &pieces);
+        let pieces = rejoined(pieces, &planes, &bridges)?;
+        Ok(Self { planes, pieces, bridges })
+    }
 }
 
 /// Refuses lengths that cannot be.
@@ -133,9 +183,9 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
 }
 
 /// The best of the smallest plans, and its pieces.
-fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, Vec<Piece>), CutError> {
+fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutError> {
     if scene.hollowed.voids.is_empty() {
-        return Ok((Vec::new(), split(&scene.material, &[])?));
+        return Layout::new(scene, Vec::new());
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
@@ -144,20 +194,11 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, V
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
         if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
-            let pieces = pieces_of(scene, &planes)?;
-            return Ok((planes, pieces));
+            return Layout::new(scene, planes);
         }
         narrow = narrow.or(Some(planes));
     }
-    let planes = narrow.unwrap_or_default();
-    let pieces = pieces_of(scene, &planes)?;
-    Ok((planes, pieces))
-}
-
-/// The pieces between the planes, joined again where a cut parts them needlessly.
-fn pieces_of(scene: &Scene, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-    let (hollowed, material, request) = (scene.hollowed, &scene.material, scene.request);
-    pieces(&Cutting { hollowed, material, planes, request }, true)
+    Layout::new(scene, narrow.unwrap_or_default())
 }
 
 fn proof_note(found: &Found) -> String {
@@ -191,32 +232,24 @@ fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
 }
 
 /// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
-fn fit_build_volume(
-    scene: &Scene,
-    planes: &mut Vec<Plane>,
-    pieces: &mut Vec<Piece>,
-    notes: &mut Vec<String>,
-) -> Result<(), CutError> {
+fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>) -> Result<(), CutError> {
     for _ in 0..MAX_FITTING_CUTS {
-        let Some(piece) = pieces.iter().find(|piece| !fits(piece, planes, scene.request)) else {
-            return Ok(());
-        };
+        let is_large = |piece: &&Piece| !fits(piece, &layout.planes, scene.request);
+        let Some(piece) = layout.pieces.iter().find(is_large) else { return Ok(()) };
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
-        planes.push(off_vertices(&scene.material, &middle));
-        *pieces = pieces_of(scene, planes)?;
-        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(planes.len() - 1)));
+        let middle = off_vertices(&scene.material, &middle);
+        let planes = layout.planes.iter().copied().chain([middle]).collect();
+        *layout = Layout::new(scene, planes)?;
+        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
     }
     Ok(())
 }
 
 /// The plan's data for these cuts and pieces.
-fn described(
-    scene: &Scene,
-    planes: &[Plane],
-    pieces: &[Piece],
-    mut notes: Vec<String>,
-) -> Result<CutPlan, CutError> {
+fn described(scene: &Scene, layout: &Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
+    let Layout { planes, pieces, bridges } = layout;
+    check_no_cavity(pieces)?;
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
     let mut placed: Vec<Vec<Peg>> = Vec::new();
@@ -233,7 +266,14 @@ fn described(
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
     let voids = accesses(scene.hollowed, planes)?;
     notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
-    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, rejoins: false, notes })
+    let uncut = bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect();
+    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
+}
+
+fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
+    let plane = &planes[bridge.cut];
+    let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
+    UncutFace { cut: cut_id(bridge.cut), point_mm }
 }
 
 fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {

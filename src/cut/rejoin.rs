@@ -7,11 +7,11 @@ use super::{
     pose::{laid, sides_down},
     request::PlanRequest,
     section::{Chart, Point2, Section},
-    split::{Cap, Joint, Piece, joints, piece, split},
+    split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
 };
 use crate::{
     geom::{Plane, Point},
-    mesh::{Csg, Hollowed, TriMesh},
+    mesh::{Csg, Hollowed, TriMesh, union_find::UnionFind},
 };
 
 /// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same points but for
@@ -24,54 +24,74 @@ const SHADOW_CELLS: usize = 96;
 /// What is cut, by what, for which printer.
 pub(crate) struct Cutting<'a> {
     pub(crate) hollowed: &'a Hollowed,
-    pub(crate) material: &'a TriMesh,
     pub(crate) planes: &'a [Plane],
     pub(crate) request: &'a PlanRequest,
 }
 
-/// The pieces of the body between the planes, the largest first; where `rejoins`, pieces are joined again that
-/// * touch a single other piece, and no void opens in the face between them;
-/// * are not in the way of what is taken off on their side of the cut;
-/// * still fit the build volume together.
-pub(crate) fn pieces(cutting: &Cutting, rejoins: bool) -> Result<Vec<Piece>, CutError> {
-    let pieces = split(cutting.material, cutting.planes)?;
-    if !rejoins || pieces.len() < 3 {
-        return Ok(pieces);
-    }
-    let group_of = groups(cutting, &pieces);
-    let mut names: Vec<usize> = group_of.clone();
-    names.sort_unstable();
-    names.dedup();
-    let united = names.par_iter().map(|&name| {
-        let members = (0..pieces.len()).filter(|&i| group_of[i] == name).map(|i| &pieces[i]);
-        united(&members.collect::<Vec<_>>(), cutting.planes)
-    });
-    let mut united = united.collect::<Result<Vec<Piece>, CutError>>()?;
-    united.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
-    Ok(united)
+/// A place on a cut where the body is left whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bridge {
+    pub(crate) cut: usize,
+    /// A point well inside the face that is not cut, in the plane's coordinates.
+    pub(crate) at: Point2,
 }
 
-/// For each piece the piece it stays joined to, or itself.
-fn groups(cutting: &Cutting, pieces: &[Piece]) -> Vec<usize> {
+/// Where pieces had better stay joined: a piece that touches a single other one, where
+/// * no void opens in the face between them,
+/// * the piece is not in the way of what is taken off on its side of the cut,
+/// * both together fit the build volume.
+///
+/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a third.
+pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let joints = joints(pieces);
+    if joints.len() < 2 {
+        return Vec::new();
+    }
     let mouths = mouths(cutting);
-    let is_open: Vec<bool> = joints.iter().map(|joint| has_mouth(joint, pieces, &mouths)).collect();
-    let mut group_of: Vec<usize> = (0..pieces.len()).collect();
-    // Pieces come the largest first: the smallest is offered first.
-    for index in (0..pieces.len()).rev() {
-        let touching: Vec<usize> = (0..joints.len()).filter(|&j| joints[j].touches(index)).collect();
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    order.sort_by(|&i, &j| pieces[i].volume_mm3.total_cmp(&pieces[j].volume_mm3));
+    let mut is_host = vec![false; pieces.len()];
+    let mut is_guest = vec![false; pieces.len()];
+    let mut bridges = Vec::new();
+    for index in order {
+        let touching: Vec<&Joint> = joints.iter().filter(|joint| joint.touches(index)).collect();
         let [joint] = touching[..] else { continue };
-        let host = joints[joint].other(index);
-        if !is_open[joint]
-            && group_of[host] == host
-            && !group_of.iter().enumerate().any(|(i, &group)| i != index && group == index)
-            && comes_free(cutting, pieces, (&joints[joint], index))
+        let host = joint.other(index);
+        if !is_host[index]
+            && !is_guest[host]
+            && !has_mouth(joint, pieces, &mouths)
+            && comes_free(cutting, pieces, (joint, index))
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
-            group_of[index] = host;
+            (is_guest[index], is_host[host]) = (true, true);
+            let at =
+                |&cap: &usize| Bridge { cut: joint.cut, at: pieces[joint.below].caps[cap].inner_point() };
+            bridges.extend(joint.caps.iter().map(at));
         }
     }
-    group_of
+    bridges
+}
+
+/// The pieces with those made one that meet at a bridge. A bridge on no cut face changes nothing.
+pub(crate) fn rejoined(
+    pieces: Vec<Piece>,
+    planes: &[Plane],
+    bridges: &[Bridge],
+) -> Result<Vec<Piece>, CutError> {
+    let mut sets = UnionFind::new(pieces.len());
+    for bridge in bridges {
+        let side = |is_above| piece_at(&pieces, bridge.cut, is_above, &bridge.at);
+        if let (Some(below), Some(above)) = (side(false), side(true)) {
+            sets.merge(below as u32, above as u32);
+        }
+    }
+    let mut groups: Vec<Vec<Piece>> = pieces.iter().map(|_| Vec::new()).collect();
+    for (index, piece) in pieces.into_iter().enumerate() {
+        groups[sets.root(index as u32) as usize].push(piece);
+    }
+    groups.retain(|group| !group.is_empty());
+    let united = groups.into_par_iter().map(|group| united(group, planes));
+    Ok(in_order(united.collect::<Result<_, _>>()?))
 }
 
 /// The corners of every void's section by every plane.
@@ -109,11 +129,17 @@ fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     laid(&both, &sides_down(b, cutting.planes, &[], cutting.request), cutting.request).fits
 }
 
-/// One piece of several that touch.
-fn united(members: &[&Piece], planes: &[Plane]) -> Result<Piece, CutError> {
-    let mut bodies = members.iter().rev().map(|member| Csg::of_mesh(&member.mesh));
-    let first = bodies.next().unwrap_or_else(|| Csg::of_mesh(&TriMesh::default()))?;
-    let body = bodies.try_fold(first, |sum, body| sum.union(&body?))?;
+/// One piece of several that touch; the smaller are united first, which is cheap.
+fn united(mut members: Vec<Piece>, planes: &[Plane]) -> Result<Piece, CutError> {
+    members.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    let Some(smallest) = members.pop() else { return Ok(piece(TriMesh::default(), planes)) };
+    if members.is_empty() {
+        return Ok(smallest);
+    }
+    let mut body = Csg::of_mesh(&smallest.mesh)?;
+    for member in members.iter().rev() {
+        body = body.union(&Csg::of_mesh(&member.mesh)?)?;
+    }
     Ok(piece(body.to_mesh()?, planes))
 }
 
@@ -172,5 +198,58 @@ impl Shadow {
         let cells = columns.flat_map(move |i| rows.clone().map(move |j| i * SHADOW_CELLS + j));
         let low = heights.into_iter().fold(f64::INFINITY, f64::min);
         (low, heights.into_iter().fold(f64::NEG_INFINITY, f64::max), cells)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{
+        scenes::{cuboid, request},
+        split::split,
+    };
+    use crate::{geom::Vector, mesh::Solid};
+
+    fn union(boxes: &[([f64; 3], [f64; 3])]) -> Solid {
+        let bodies = boxes.iter().map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());
+        bodies.reduce(|sum, body| sum.union(&body).unwrap()).unwrap().to_solid().unwrap()
+    }
+
+    /// The pieces that the plane z = 15 leaves and those left after joining again.
+    fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
+        let planes = [Plane { normal: Vector::z(), offset_mm: 15.0 }];
+        let pieces = split(&hollowed.to_mesh(), &planes).unwrap();
+        let bridges = bridges(&Cutting { hollowed, planes: &planes, request: &request() }, &pieces);
+        (pieces.len(), rejoined(pieces, &planes, &bridges).unwrap())
+    }
+
+    #[test]
+    fn the_solid_legs_of_a_table_are_not_cut_off_with_the_hollow_one() {
+        let leg = |x: f64, y: f64| ([x, y, 0.0], [x + 10.0, y + 10.0, 31.0]);
+        let outer = union(&[
+            ([0.0, 0.0, 30.0], [50.0, 50.0, 40.0]),
+            leg(0.0, 0.0),
+            leg(40.0, 0.0),
+            leg(0.0, 40.0),
+            leg(40.0, 40.0),
+        ]);
+        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])] };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (5, 2));
+        let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
+        assert!((volume - hollowed.to_mesh().signed_volume_mm3()).abs() < 1e-9 * volume);
+    }
+
+    #[test]
+    fn a_solid_hook_over_the_hollow_tower_is_cut_or_the_tower_could_not_be_lifted() {
+        let outer = union(&[
+            ([0.0, 0.0, 0.0], [50.0, 10.0, 5.0]),
+            ([0.0, 0.0, 0.0], [10.0, 10.0, 30.0]),
+            ([40.0, 0.0, 0.0], [50.0, 10.0, 40.0]),
+            ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
+        ]);
+        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])] };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (3, 3));
     }
 }

@@ -27,15 +27,15 @@ impl<'a> Sides<'a> {
         for &[a, b, c] in mesh.triangles() {
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 if above[from as usize] == above[to as usize] {
-                    sets.unite(from, to);
+                    sets.merge(from, to);
                 }
             }
         }
         for group in &polygons {
             let outer = &section.rings[group[0]];
             for hole in group[1..].iter().map(|&i| &section.rings[i]) {
-                sets.unite(outer.above, hole.above);
-                sets.unite(outer.below, hole.below);
+                sets.merge(outer.above, hole.above);
+                sets.merge(outer.below, hole.below);
             }
         }
         let piece_of = (0..mesh.vertices().len() as u32).map(|v| sets.root(v)).collect();

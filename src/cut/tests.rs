@@ -7,7 +7,7 @@ use super::{
 use crate::{
     geom::{Point, Vector},
     mass::moments_of_mesh,
-    mesh::{Csg, Hollowed, Solid, shells, signed_volume},
+    mesh::{Csg, Hollowed, Solid, shells},
 };
 
 fn volume(solid: &Solid) -> f64 {
@@ -24,7 +24,7 @@ fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
         assert!(!void.opened_by.is_empty());
     }
     for part in &parts {
-        assert!(shells(part.solid.mesh()).iter().all(|shell| signed_volume(shell) > 0.0));
+        assert!(shells(part.solid.mesh()).iter().all(|shell| shell.signed_volume_mm3() > 0.0));
         let heights = part.solid.mesh().vertices().iter().map(|p| apply(&part.pose.print_from_model, p).z);
         assert_eq!(heights.fold(f64::INFINITY, f64::min), 0.0);
     }
@@ -151,13 +151,9 @@ fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_arou
         let flat = corner * (std::f64::consts::PI / pin_shape::SIDES as f64).cos();
         assert!((flat - pin_radius - request.pins.clearance_mm).abs() < 1e-9, "{flat} {pin_radius}");
         let far = Point::from(pin.center_mm) + axis * pin.socket_depth_mm;
-        let segment = [Point::from(pin.center_mm), far];
-        let surface = body.to_mesh();
-        let least = surface
-            .iter_corners()
-            .map(|c| distance::segment_triangle_squared(&segment, &c))
-            .fold(f64::INFINITY, f64::min);
-        assert!(least.sqrt() >= corner + request.wall_mm - 1e-9);
+        let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
+        let least = surface.segment_distance(&Point::from(pin.center_mm), &far, f64::INFINITY);
+        assert!(least >= corner + request.wall_mm - 1e-9);
     }
 }
 
@@ -266,4 +262,25 @@ fn a_section_of_a_box_is_a_rectangle_with_the_holes_of_its_voids() {
     // The equator of the test ball is a regular 24-gon.
     let hole = 24.0 / 2.0 * 16.0 * (2.0 * std::f64::consts::PI / 24.0).sin();
     assert!((section.area_mm2() - (600.0 - 2.0 * hole)).abs() < 1e-9);
+}
+
+#[test]
+fn a_body_left_uncut_keeps_its_closed_voids_in_one_part() {
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+    let plan = CutPlan::uncut(&body);
+    let parts = parts(&body, &plan, &request()).unwrap();
+    assert_eq!((parts.len(), plan.voids[0].opening_mm), (1, 0.0));
+    assert_eq!(parts[0].pose.lies, "upright");
+    assert_volumes_add_up(&body, &parts);
+}
+
+#[test]
+fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
+    let body = |radius| with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, radius]]);
+    let plan = plan(&body(12.0), &request()).unwrap();
+    let ids = |radius| -> Vec<(String, usize)> {
+        let parts = parts(&body(radius), &plan, &request()).unwrap();
+        parts.iter().map(|part| (part.id.clone(), part.pins.len())).collect()
+    };
+    assert_eq!(ids(12.0), ids(12.02));
 }

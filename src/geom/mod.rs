@@ -1,11 +1,14 @@
 //! Points, frames, planes and boxes: the geometry that knows nothing of meshes.
 
 mod aabb;
+mod bvh;
 mod frame;
 mod plane;
 mod quadric;
+pub mod triangle;
 
 pub use aabb::Aabb;
+pub use bvh::{Bvh, NO_HINT, Nearest};
 pub use frame::Frame;
 pub use plane::{Plane, orthonormal_basis};
 pub use quadric::Quadric;

@@ -1,0 +1,112 @@
+//! Building the hierarchy: binned surface-area heuristic, depth first.
+//!
+//! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IEEE RT 2007.
+
+use super::{Bvh, Node};
+use crate::geom::{Aabb, Point};
+
+/// Triangles a leaf may hold: below, box tests dominate; above, triangle tests do.
+const LEAF_SIZE: usize = 4;
+
+/// Bins per axis: fewer make poorer trees, more only cost building time.
+const BINS: usize = 16;
+
+/// What the builder knows of a triangle.
+#[derive(Clone, Copy)]
+struct Item {
+    aabb: Aabb,
+    center: Point,
+    id: u32,
+}
+
+pub(super) fn build(triangles: Vec<[Point; 3]>) -> Bvh {
+    let mut items: Vec<Item> = triangles.iter().enumerate().map(|(id, corners)| item(id, corners)).collect();
+    let mut nodes = Vec::with_capacity(items.len());
+    if !items.is_empty() {
+        subdivide(&mut items, 0, &mut nodes);
+    }
+    let ids: Vec<u32> = items.iter().map(|item| item.id).collect();
+    let corners = ids.iter().map(|&id| triangles[id as usize]).collect();
+    Bvh { nodes, corners, ids }
+}
+
+fn item(id: usize, corners: &[Point; 3]) -> Item {
+    let aabb = Aabb::of_points(corners);
+    Item { aabb, center: aabb.center(), id: id as u32 }
+}
+
+/// Appends the tree over `items`, whose first triangle is number `first` of the whole.
+fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
+    let aabb = items.iter().fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
+    let index = nodes.len();
+    nodes.push(Node { aabb, first: first as u32, count: items.len() as u32 });
+    if items.len() <= LEAF_SIZE {
+        return;
+    }
+    let middle = partition(items);
+    let (left, right) = items.split_at_mut(middle);
+    nodes[index].count = 0;
+    subdivide(left, first, nodes);
+    nodes[index].first = nodes.len() as u32;
+    subdivide(right, first + middle, nodes);
+}
+
+/// Reorders the items in two parts and gives the size of the first.
+fn partition(items: &mut [Item]) -> usize {
+    let centers = items.iter().fold(Aabb::EMPTY, |sum, item| sum.grown_over(&item.center));
+    let axis = centers.size().imax();
+    let (low, extent) = (centers.min[axis], centers.size()[axis]);
+    let bin_of = |item: &Item| (((item.center[axis] - low) / extent * BINS as f64) as usize).min(BINS - 1);
+    if let Some(split) = (extent > 0.0).then(|| best_split(items, bin_of)).flatten() {
+        let mut ordered: Vec<Item> = Vec::with_capacity(items.len());
+        ordered.extend(items.iter().filter(|item| bin_of(item) < split));
+        let middle = ordered.len();
+        ordered.extend(items.iter().filter(|item| bin_of(item) >= split));
+        items.copy_from_slice(&ordered);
+        return middle;
+    }
+    items.len() / 2
+}
+
+/// The bin before which to split so that the expected cost of a query is least.
+fn best_split(items: &[Item], bin_of: impl Fn(&Item) -> usize) -> Option<usize> {
+    let mut bins = [(Aabb::EMPTY, 0usize); BINS];
+    for item in items {
+        let (aabb, count) = &mut bins[bin_of(item)];
+        *aabb = aabb.union(&item.aabb);
+        *count += 1;
+    }
+    let right = suffix_costs(&bins);
+    let (mut aabb, mut count) = (Aabb::EMPTY, 0);
+    let mut best = (f64::INFINITY, None);
+    for split in 1..BINS {
+        aabb = aabb.union(&bins[split - 1].0);
+        count += bins[split - 1].1;
+        let cost = half_area(&aabb) * count as f64 + right[split];
+        if count > 0 && count < items.len() && cost < best.0 {
+            best = (cost, Some(split));
+        }
+    }
+    best.1
+}
+
+/// For each bin, the area times the count of everything from it on.
+fn suffix_costs(bins: &[(Aabb, usize); BINS]) -> [f64; BINS] {
+    let mut costs = [0.0; BINS];
+    let (mut aabb, mut count) = (Aabb::EMPTY, 0);
+    for split in (0..BINS).rev() {
+        aabb = aabb.union(&bins[split].0);
+        count += bins[split].1;
+        costs[split] = half_area(&aabb) * count as f64;
+    }
+    costs
+}
+
+/// Half the surface of a box; zero if it is empty.
+fn half_area(aabb: &Aabb) -> f64 {
+    if aabb.is_empty() {
+        return 0.0;
+    }
+    let size = aabb.size();
+    size.x * size.y + size.y * size.z + size.z * size.x
+}

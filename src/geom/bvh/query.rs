@@ -1,0 +1,327 @@
+//! Asking the hierarchy: nearest point, distances of triangles and segments, winding along a ray.
+
+use super::Bvh;
+use crate::geom::triangle::{
+    Feature, TrianglePoint, closest_on_triangle, segment_triangle_distance_squared, tangent_bound,
+    triangle_triangle_distance_squared,
+};
+use crate::geom::{Aabb, Point, Vector};
+
+/// "No triangle is known to be near."
+pub const NO_HINT: u32 = u32::MAX;
+
+/// Deepest stack of postponed boxes. The trees are a few times log₂ n deep; a deeper one would only be slower,
+/// as the stack then grows on the heap.
+const STACK: usize = 64;
+
+/// The triangle nearest to a point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearest {
+    /// The squared distance, mm².
+    pub distance_squared: f64,
+    /// The nearest point.
+    pub point: Point,
+    /// The triangle's index as the caller numbered it.
+    pub triangle: u32,
+    /// Where on the triangle the point lies.
+    pub feature: Feature,
+    /// A token by which a query near this one starts with a good bound.
+    pub hint: u32,
+}
+
+impl Bvh {
+    /// The point of all triangles nearest to `p`, if one is nearer than `limit_mm`.
+    ///
+    /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]); they save time and change the answer only
+    /// among triangles equally near up to rounding.
+    pub fn closest(&self, p: &Point, limit_mm: f64, hints: &[u32]) -> Option<Nearest> {
+        let mut search = Search { best: limit_mm * limit_mm, found: None };
+        for &hint in hints.iter().filter(|&&hint| hint != NO_HINT) {
+            search.offer(p, self, hint as usize);
+        }
+        self.visit(
+            search,
+            |aabb| aabb.distance_squared(p),
+            |search| search.best,
+            |search, slot| search.offer(p, self, slot),
+        )
+        .nearest(self)
+    }
+
+    /// The least distance from a triangle to all triangles, or `limit_mm` if none is nearer; 0 where they meet.
+    pub fn triangle_distance(&self, corners: &[Point; 3], limit_mm: f64) -> f64 {
+        let probe = Probe::new(corners);
+        self.visit(
+            limit_mm,
+            |aabb| probe.bound(aabb),
+            |best| *best,
+            |best, slot| {
+                if probe.triangle_bound(&self.corners[slot]) < *best {
+                    let exact = triangle_triangle_distance_squared(corners, &self.corners[slot]).sqrt();
+                    *best = best.min(exact);
+                }
+            },
+        )
+    }
+
+    /// Whether a triangle comes nearer than `limit_mm` to any of the triangles.
+    pub fn is_triangle_within(&self, corners: &[Point; 3], limit_mm: f64) -> bool {
+        let probe = Probe::new(corners);
+        let limit_squared = limit_mm * limit_mm;
+        self.visit(
+            false,
+            |aabb| probe.bound(aabb),
+            |hit| if *hit { f64::NEG_INFINITY } else { limit_mm },
+            |hit, slot| {
+                let other = &self.corners[slot];
+                *hit = *hit
+                    || (probe.triangle_bound(other) < limit_mm
+                        && triangle_triangle_distance_squared(corners, other) < limit_squared);
+            },
+        )
+    }
+
+    /// The least distance from the segment to all triangles, or `limit_mm` if none is nearer; 0 where they meet.
+    pub fn segment_distance(&self, a: &Point, b: &Point, limit_mm: f64) -> f64 {
+        let ends = [*a, *b, *b];
+        let probe = Probe::new(&ends);
+        self.visit(
+            limit_mm,
+            |aabb| probe.bound(aabb),
+            |best| *best,
+            |best, slot| {
+                let exact = segment_triangle_distance_squared(a, b, &self.corners[slot]).sqrt();
+                *best = best.min(exact);
+            },
+        )
+    }
+
+    /// How often the surface winds around `p`: the signed crossings of the ray from `p` along +z.
+    ///
+    /// For a closed mesh 1 inside, 0 outside; where a mesh overlaps itself the count adds up. A ray through an
+    /// edge or a corner is counted once, by exact predicates (Shewchuk 1997). Meaningless on the surface itself.
+    pub fn winding(&self, p: &Point) -> i32 {
+        self.visit(
+            0,
+            |aabb| if is_above(p, aabb) { 0.0 } else { f64::INFINITY },
+            |_| f64::INFINITY,
+            |winding, slot| *winding += crossing(p, &self.corners[slot]),
+        )
+    }
+
+    /// Goes through the tree, nearer child first: `bound` is a box's lower bound, `limit` the value below which
+    /// boxes still matter, `leaf` sees a triangle; the state is the answer.
+    #[inline]
+    fn visit<S>(
+        &self,
+        mut state: S,
+        bound: impl Fn(&Aabb) -> f64,
+        limit: impl Fn(&S) -> f64,
+        mut leaf: impl FnMut(&mut S, usize),
+    ) -> S {
+        let mut stack: Vec<(u32, f64)> = Vec::with_capacity(STACK);
+        if let Some(root) = self.nodes.first() {
+            stack.push((0, bound(&root.aabb)));
+        }
+        while let Some((index, lower)) = stack.pop() {
+            if lower >= limit(&state) {
+                continue;
+            }
+            let node = &self.nodes[index as usize];
+            if node.count > 0 {
+                Self::leaf_range(node).for_each(|slot| leaf(&mut state, slot));
+                continue;
+            }
+            let left = (index + 1, bound(&self.nodes[index as usize + 1].aabb));
+            let right = (node.first, bound(&self.nodes[node.first as usize].aabb));
+            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
+            stack.extend([far, near].into_iter().filter(|child| child.1 < limit(&state)));
+        }
+        state
+    }
+}
+
+/// The best answer so far of a nearest-point query.
+struct Search {
+    best: f64,
+    found: Option<(usize, TrianglePoint)>,
+}
+
+impl Search {
+    #[inline]
+    fn offer(&mut self, p: &Point, bvh: &Bvh, slot: usize) {
+        let Some(corners) = bvh.corners.get(slot) else { return };
+        let candidate = closest_on_triangle(p, corners);
+        let distance_squared = (candidate.point - p).norm_squared();
+        if distance_squared < self.best {
+            self.best = distance_squared;
+            self.found = Some((slot, candidate));
+        }
+    }
+
+    fn nearest(self, bvh: &Bvh) -> Option<Nearest> {
+        self.found.map(|(slot, TrianglePoint { point, feature })| Nearest {
+            distance_squared: self.best,
+            point,
+            triangle: bvh.ids[slot],
+            feature,
+            hint: slot as u32,
+        })
+    }
+}
+
+/// A triangle that asks for its distance: what is needed to bound it cheaply.
+struct Probe<'a> {
+    corners: &'a [Point; 3],
+    center: Point,
+}
+
+impl<'a> Probe<'a> {
+    fn new(corners: &'a [Point; 3]) -> Self {
+        let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
+        Self { corners, center }
+    }
+
+    /// A lower bound of the distance to a box.
+    fn bound(&self, aabb: &Aabb) -> f64 {
+        let nearest = self.center.coords.sup(&aabb.min.coords).inf(&aabb.max.coords);
+        self.bound_from(self.center.coords - nearest)
+    }
+
+    /// A lower bound of the distance to a triangle.
+    fn triangle_bound(&self, other: &[Point; 3]) -> f64 {
+        self.bound_from(self.center - closest_on_triangle(&self.center, other).point)
+    }
+
+    /// The tangent bound of a convex set whose nearest point is at `center - offset`.
+    fn bound_from(&self, offset: Vector) -> f64 {
+        let distance = offset.norm();
+        if distance <= 0.0 {
+            return 0.0;
+        }
+        tangent_bound(&self.center, distance, &(offset / distance), self.corners)
+    }
+}
+
+/// Whether the ray from `p` along +z may meet the box.
+fn is_above(p: &Point, aabb: &Aabb) -> bool {
+    aabb.max.z >= p.z && aabb.min.x <= p.x && p.x <= aabb.max.x && aabb.min.y <= p.y && p.y <= aabb.max.y
+}
+
+/// +1 or −1 if the ray from `p` along +z leaves or enters through the triangle, else 0.
+///
+/// The projected triangle's winding about `p` by half-open edge crossings, so that triangles sharing an edge
+/// share no ray and miss none.
+fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
+    let winding: i32 = (0..3).map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3])).sum();
+    if winding == 0 {
+        return 0;
+    }
+    let [a, b, c] = corners.map(|v| robust::Coord3D { x: v.x, y: v.y, z: v.z });
+    let below = robust::orient3d(a, b, c, robust::Coord3D { x: p.x, y: p.y, z: p.z });
+    if below * f64::from(winding) > 0.0 { winding } else { 0 }
+}
+
+/// The crossing of the ray from `p` along +x, in the plane, with an edge: +1 upward, −1 downward.
+fn edge_crossing(p: &Point, from: &Point, to: &Point) -> i32 {
+    let upward = from.y <= p.y && p.y < to.y;
+    let downward = to.y <= p.y && p.y < from.y;
+    if !upward && !downward {
+        return 0;
+    }
+    let [a, b, q] = [from, to, p].map(|v| robust::Coord { x: v.x, y: v.y });
+    let side = robust::orient2d(a, b, q);
+    i32::from(upward && side > 0.0) - i32::from(downward && side < 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Deterministic numbers in [0, 1): the fractional parts of multiples of irrational numbers.
+    fn noise(index: usize, axis: usize) -> f64 {
+        let step = [0.754_877_666_246_693, 0.569_840_290_998_053, 0.430_159_709_001_947][axis];
+        (index as f64 * step * (1.0 + 0.1 * axis as f64)).fract()
+    }
+
+    fn noise_point(index: usize, scale: f64) -> Point {
+        Point::new(noise(index, 0), noise(index, 1), noise(index, 2)) * scale
+    }
+
+    fn soup(count: usize) -> Vec<[Point; 3]> {
+        (0..count)
+            .map(|i| {
+                let a = noise_point(3 * i, 10.0);
+                [a, a + noise_point(3 * i + 1, 1.0).coords, a - noise_point(3 * i + 2, 1.0).coords]
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_closest_point_is_that_of_brute_force_with_and_without_hints() {
+        let triangles = soup(500);
+        let bvh = Bvh::new(triangles.clone());
+        let mut hint = NO_HINT;
+        for i in 0..400 {
+            let p = noise_point(7 * i + 5, 12.0);
+            let brute = triangles
+                .iter()
+                .map(|t| (closest_on_triangle(&p, t).point - p).norm_squared())
+                .fold(f64::INFINITY, f64::min);
+            let plain = bvh.closest(&p, f64::INFINITY, &[]).unwrap();
+            let hinted = bvh.closest(&p, f64::INFINITY, &[hint]).unwrap();
+            assert_eq!(plain.distance_squared, brute);
+            assert_eq!(hinted.distance_squared, brute);
+            hint = plain.hint;
+        }
+    }
+
+    #[test]
+    fn nothing_is_found_beyond_the_limit() {
+        let bvh = Bvh::new(soup(50));
+        let far = Point::new(100.0, 0.0, 0.0);
+        assert!(bvh.closest(&far, 50.0, &[]).is_none());
+        assert!(Bvh::new(Vec::new()).closest(&far, f64::INFINITY, &[]).is_none());
+    }
+
+    #[test]
+    fn triangle_and_segment_distances_are_those_of_brute_force() {
+        let triangles = soup(300);
+        let bvh = Bvh::new(triangles.clone());
+        for i in 0..200 {
+            let a = noise_point(11 * i + 3, 14.0);
+            let t = [a, a + noise_point(11 * i + 4, 2.0).coords, a - noise_point(11 * i + 5, 2.0).coords];
+            let brute = triangles
+                .iter()
+                .map(|s| triangle_triangle_distance_squared(&t, s))
+                .fold(f64::INFINITY, f64::min)
+                .sqrt();
+            let found = bvh.triangle_distance(&t, f64::INFINITY);
+            assert!((found - brute).abs() < 1e-12, "{found} {brute}");
+            assert!(bvh.is_triangle_within(&t, brute + 1e-9));
+            assert!(!bvh.is_triangle_within(&t, brute - 1e-9));
+            let segment = triangles
+                .iter()
+                .map(|s| segment_triangle_distance_squared(&t[0], &t[1], s))
+                .fold(f64::INFINITY, f64::min)
+                .sqrt();
+            assert!((bvh.segment_distance(&t[0], &t[1], f64::INFINITY) - segment).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_ray_through_edges_and_corners_is_counted_once() {
+        let top = Point::new(0.0, 0.0, 1.0);
+        let bottom = Point::new(0.0, 0.0, -1.0);
+        let ring = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Point::new(x, y, 0.0));
+        let octahedron =
+            (0..4).flat_map(|i| [[ring[i], ring[(i + 1) % 4], top], [ring[(i + 1) % 4], ring[i], bottom]]);
+        let bvh = Bvh::new(octahedron);
+        for inside in [Point::origin(), Point::new(0.5, 0.0, 0.1), Point::new(0.0, -0.25, -0.5)] {
+            assert_eq!(bvh.winding(&inside), 1, "{inside}");
+        }
+        for outside in [Point::new(0.0, 0.0, -2.0), Point::new(0.0, 0.0, 2.0), Point::new(1.0, 0.0, -0.5)] {
+            assert_eq!(bvh.winding(&outside), 0, "{outside}");
+        }
+    }
+}

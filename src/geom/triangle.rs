@@ -1,0 +1,266 @@
+//! Closest points and distances of points, segments and triangles, in closed form.
+
+use super::{Point, Vector};
+
+/// The part of a triangle on which a closest point lies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Feature {
+    /// Inside the face.
+    Face,
+    /// Inside the edge from corner `i` to corner `i + 1`.
+    Edge(u8),
+    /// On corner `i`.
+    Vertex(u8),
+}
+
+/// The point of a triangle closest to a query, and where on the triangle it lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TrianglePoint {
+    /// The closest point.
+    pub point: Point,
+    /// Where it lies.
+    pub feature: Feature,
+}
+
+/// The point of the triangle nearest to `p`, by its Voronoi regions; a triangle without area counts as its edges.
+///
+/// Accurate to a few roundings of the coordinates. Ericson, *Real-Time Collision Detection*, 2005, §5.1.5.
+#[inline]
+pub fn closest_on_triangle(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
+    let [a, b, c] = corners;
+    let (ab, ac, ap) = (b - a, c - a, p - a);
+    let (d1, d2) = (ab.dot(&ap), ac.dot(&ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return at_vertex(corners, 0);
+    }
+    let bp = p - b;
+    let (d3, d4) = (ab.dot(&bp), ac.dot(&bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return at_vertex(corners, 1);
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return at_edge(a + ab * (d1 / (d1 - d3)), 0);
+    }
+    let cp = p - c;
+    let (d5, d6) = (ab.dot(&cp), ac.dot(&cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return at_vertex(corners, 2);
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return at_edge(a + ac * (d2 / (d2 - d6)), 2);
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return at_edge(b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))), 1);
+    }
+    let sum = va + vb + vc;
+    if sum > 0.0 {
+        return TrianglePoint { point: a + ab * (vb / sum) + ac * (vc / sum), feature: Feature::Face };
+    }
+    closest_on_edges(p, corners)
+}
+
+fn at_vertex(corners: &[Point; 3], i: u8) -> TrianglePoint {
+    TrianglePoint { point: corners[i as usize], feature: Feature::Vertex(i) }
+}
+
+fn at_edge(point: Point, i: u8) -> TrianglePoint {
+    TrianglePoint { point, feature: Feature::Edge(i) }
+}
+
+/// The nearest point of the three edges: the answer for a triangle that has no area.
+fn closest_on_edges(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
+    let candidate = |i: usize| at_edge(closest_on_segment(p, &corners[i], &corners[(i + 1) % 3]), i as u8);
+    let distance = |c: &TrianglePoint| (c.point - p).norm_squared();
+    [candidate(1), candidate(2)]
+        .into_iter()
+        .fold(candidate(0), |best, other| if distance(&other) < distance(&best) { other } else { best })
+}
+
+/// The point of the segment from `a` to `b` nearest to `p`.
+#[inline]
+pub fn closest_on_segment(p: &Point, a: &Point, b: &Point) -> Point {
+    let ab = b - a;
+    let length_squared = ab.norm_squared();
+    if length_squared <= 0.0 {
+        return *a;
+    }
+    a + ab * (ab.dot(&(p - a)) / length_squared).clamp(0.0, 1.0)
+}
+
+/// The squared distance between two segments, mm². Ericson 2005, §5.1.9.
+pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
+    let (d1, d2, r) = (p[1] - p[0], q[1] - q[0], p[0] - q[0]);
+    let (a, e) = (d1.norm_squared(), d2.norm_squared());
+    if a <= 0.0 || e <= 0.0 {
+        let (from, line) = if a <= 0.0 { (p[0], q) } else { (q[0], p) };
+        return (closest_on_segment(from, line[0], line[1]) - from).norm_squared();
+    }
+    let (b, c, f) = (d1.dot(&d2), d1.dot(&r), d2.dot(&r));
+    let denominator = a * e - b * b;
+    let s = if denominator > 0.0 { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
+    let t = ((b * s + f) / e).clamp(0.0, 1.0);
+    let s = ((b * t - c) / a).clamp(0.0, 1.0);
+    (r + d1 * s - d2 * t).norm_squared()
+}
+
+/// Whether the segment from `a` to `b` crosses the triangle (touching counts, up to rounding).
+fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
+    let [u, v, w] = corners;
+    let normal = (v - u).cross(&(w - u));
+    let (from, to) = (normal.dot(&(a - u)), normal.dot(&(b - u)));
+    if from * to > 0.0 || from == to {
+        return false;
+    }
+    let direction = b - a;
+    let volume = |p: &Point, q: &Point| direction.dot(&(p - a).cross(&(q - a)));
+    let sides = [volume(u, v), volume(v, w), volume(w, u)];
+    sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0)
+}
+
+/// The squared distance between the segment from `a` to `b` and the triangle, mm²; zero where they meet.
+pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point; 3]) -> f64 {
+    if segment_pierces(a, b, corners) {
+        return 0.0;
+    }
+    let to_face = |p: &Point| (closest_on_triangle(p, corners).point - p).norm_squared();
+    let to_edge = |i: usize| segment_segment_distance_squared([a, b], [&corners[i], &corners[(i + 1) % 3]]);
+    (0..3).map(to_edge).fold(to_face(a).min(to_face(b)), f64::min)
+}
+
+/// The squared distance between two triangles, mm²; zero where they meet.
+///
+/// Exact up to rounding: the least of the nine edge pairs and the six corner–face pairs, unless an edge of one
+/// passes through the other.
+pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
+    let edges = |k: usize| (k, (k + 1) % 3);
+    if (0..3).map(edges).any(|(i, j)| segment_pierces(&s[i], &s[j], t) || segment_pierces(&t[i], &t[j], s)) {
+        return 0.0;
+    }
+    let mut best = f64::INFINITY;
+    for (i, j) in (0..3).map(edges) {
+        best = best.min((closest_on_triangle(&s[i], t).point - s[i]).norm_squared());
+        best = best.min((closest_on_triangle(&t[i], s).point - t[i]).norm_squared());
+        for (k, l) in (0..3).map(edges) {
+            best = best.min(segment_segment_distance_squared([&s[i], &s[j]], [&t[k], &t[l]]));
+        }
+    }
+    best
+}
+
+/// The least distance from any corner of `convex` to a convex set, bounded from below, mm.
+///
+/// The distance to a convex set is a convex function, so its tangent plane at `from` (value `distance_mm`,
+/// unit gradient `gradient`) lies below it everywhere; over a triangle the plane is least at a corner.
+#[inline]
+pub fn tangent_bound(from: &Point, distance_mm: f64, gradient: &Vector, corners: &[Point; 3]) -> f64 {
+    let steps = corners.map(|corner| gradient.dot(&(corner - from)));
+    distance_mm + steps[0].min(steps[1]).min(steps[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn point() -> impl Strategy<Value = Point> {
+        prop::array::uniform3(-2.0..2.0f64).prop_map(|[x, y, z]| Point::new(x, y, z))
+    }
+
+    fn triangle() -> impl Strategy<Value = [Point; 3]> {
+        prop::array::uniform3(point())
+    }
+
+    /// Points of a triangle on a barycentric grid of `n` steps.
+    fn grid(t: &[Point; 3], n: usize) -> Vec<Point> {
+        let mut points = Vec::new();
+        for i in 0..=n {
+            for j in 0..=n - i {
+                let (u, v) = (i as f64 / n as f64, j as f64 / n as f64);
+                points.push(t[0] + (t[1] - t[0]) * u + (t[2] - t[0]) * v);
+            }
+        }
+        points
+    }
+
+    const STEPS: usize = 24;
+
+    /// The grid's points are at most this far from any point of the triangle.
+    fn spacing(t: &[Point; 3]) -> f64 {
+        let longest = (0..3).map(|i| (t[(i + 1) % 3] - t[i]).norm()).fold(0.0, f64::max);
+        longest / STEPS as f64
+    }
+
+    proptest! {
+        #[test]
+        fn the_closest_point_is_in_the_triangle_and_no_grid_point_is_nearer(p in point(), t in triangle()) {
+            let found = closest_on_triangle(&p, &t);
+            let distance = (found.point - p).norm();
+            let best = grid(&t, STEPS).iter().map(|g| (g - p).norm()).fold(f64::INFINITY, f64::min);
+            prop_assert!(distance <= best + 1e-12);
+            prop_assert!(distance >= best - spacing(&t));
+        }
+
+        #[test]
+        fn triangle_distance_agrees_with_a_dense_grid(s in triangle(), t in triangle()) {
+            let exact = triangle_triangle_distance_squared(&s, &t).sqrt();
+            let best = grid(&s, STEPS)
+                .iter()
+                .map(|g| (closest_on_triangle(g, &t).point - g).norm())
+                .fold(f64::INFINITY, f64::min);
+            prop_assert!(exact <= best + 1e-12);
+            prop_assert!(exact >= best - spacing(&s));
+            let swapped = triangle_triangle_distance_squared(&t, &s).sqrt();
+            prop_assert!((exact - swapped).abs() <= 1e-9);
+        }
+
+        #[test]
+        fn segment_distance_agrees_with_sampling(a in point(), b in point(), t in triangle()) {
+            let exact = segment_triangle_distance_squared(&a, &b, &t).sqrt();
+            let best = (0..=200)
+                .map(|k| a + (b - a) * (f64::from(k) / 200.0))
+                .map(|p| (closest_on_triangle(&p, &t).point - p).norm())
+                .fold(f64::INFINITY, f64::min);
+            prop_assert!(exact <= best + 1e-12);
+            prop_assert!(exact >= best - (b - a).norm() / 200.0);
+        }
+
+        #[test]
+        fn the_tangent_bound_is_below_the_distance(s in triangle(), t in triangle()) {
+            let center = Point::from((s[0].coords + s[1].coords + s[2].coords) / 3.0);
+            let offset = center - closest_on_triangle(&center, &t).point;
+            prop_assume!(offset.norm() > 1e-6);
+            let bound = tangent_bound(&center, offset.norm(), &offset.normalize(), &s);
+            prop_assert!(bound <= triangle_triangle_distance_squared(&s, &t).sqrt() + 1e-9);
+        }
+    }
+
+    #[test]
+    fn features_are_named_by_the_region_of_the_query() {
+        let t = [Point::origin(), Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0)];
+        let feature = |x, y| closest_on_triangle(&Point::new(x, y, 1.0), &t).feature;
+        assert_eq!(feature(0.25, 0.25), Feature::Face);
+        assert_eq!(feature(0.5, -1.0), Feature::Edge(0));
+        assert_eq!(feature(1.0, 1.0), Feature::Edge(1));
+        assert_eq!(feature(-1.0, 0.5), Feature::Edge(2));
+        assert_eq!(feature(-1.0, -1.0), Feature::Vertex(0));
+        assert_eq!(feature(2.0, -0.5), Feature::Vertex(1));
+        assert_eq!(feature(-0.5, 2.0), Feature::Vertex(2));
+    }
+
+    #[test]
+    fn a_triangle_without_area_counts_as_its_longest_edge() {
+        let t = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(1.0, 0.0, 0.0)];
+        let found = closest_on_triangle(&Point::new(1.5, 1.0, 0.0), &t);
+        assert!((found.point - Point::new(1.5, 0.0, 0.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn crossing_triangles_are_at_distance_zero() {
+        let s = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
+        let t = [Point::new(0.5, 0.5, -1.0), Point::new(0.5, 0.5, 1.0), Point::new(5.0, 5.0, 0.5)];
+        assert_eq!(triangle_triangle_distance_squared(&s, &t), 0.0);
+    }
+}

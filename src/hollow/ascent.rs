@@ -1,0 +1,265 @@
+//! The dual ascent: a damped Newton method that raises the bound and the trial ratio together.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::programme::{DualPoint, Programme};
+use super::reach::{Extreme, Reach, Vector10};
+use crate::progress::Progress;
+
+/// The damping of a cold start, as a part of the mean curvature. Smaller, and the first steps overshoot into regions
+/// where the model is worthless; larger, and a warm start needs two passes more.
+const FIRST_DAMPING: f64 = 1e-3;
+/// Damping below this part is none; above the greatest the steps are shorter than rounding.
+const LEAST_DAMPING: f64 = 1e-12;
+const GREATEST_DAMPING: f64 = 1e9;
+/// How the damping follows the model's fortune.
+const EASE: f64 = 0.1;
+const TIGHTEN: f64 = 8.0;
+/// A step is taken when it gains at least this part of what the model promised; above the second the damping eases.
+const LEAST_GAIN_RATIO: f64 = 0.05;
+const GOOD_GAIN_RATIO: f64 = 0.5;
+/// Curvature below which a quadric counts as cutting nothing: the damping then stands on this.
+const LEAST_CURVATURE: f64 = 1e-4;
+/// Gains below this are rounding: a step that promises no more is judged by whether it comes nearer to the optimum.
+const ROUNDING_GAIN: f64 = 1e-13;
+/// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the rows.
+const SUSPICIOUS_MULTIPLIER: f64 = 20.0;
+
+/// A dual point, its quadric's extreme interior, and what they prove.
+#[derive(Debug, Clone)]
+pub(super) struct Visit {
+    pub point: DualPoint,
+    /// The quadric's coefficients in the solver's units.
+    pub quadric: Vector10,
+    pub extreme: Extreme,
+    /// D = min over K at this point.
+    dual: f64,
+    /// As − b
+    pub misses: DVector<f64>,
+    /// The ratio of the extreme interior, which meets the rows up to `misses`.
+    pub value: f64,
+    /// No interior that meets the rows has a smaller ratio.
+    pub bound: f64,
+    /// The denominator of the extreme interior.
+    pub denominator: f64,
+}
+
+impl Visit {
+    fn new(reach: &Reach, programme: &Programme, point: DualPoint) -> Self {
+        let quadric = programme.quadric(&point);
+        let extreme = reach.extreme(&quadric);
+        let dual = quadric.dot(&extreme.s) - programme.rhs.dot(&point.lambda);
+        let denominator = programme.denominator_at(&extreme.s);
+        Self {
+            misses: &programme.rows * extreme.s - &programme.rhs,
+            value: programme.numerator_at(&extreme.s) / denominator,
+            bound: programme.bound(point.tau, dual),
+            quadric,
+            extreme,
+            dual,
+            denominator,
+            point,
+        }
+    }
+
+    /// How far the rows are from met, in the solver's units.
+    pub fn residual(&self) -> f64 {
+        self.misses.amax()
+    }
+
+    /// Value over bound, as a part of the value (of one where it is smaller than a thousandth).
+    pub fn gap_ratio(&self) -> f64 {
+        (self.value - self.bound) / self.value.abs().max(1e-3)
+    }
+
+    fn is_within(&self, tolerance: f64) -> bool {
+        self.residual() <= tolerance && self.gap_ratio().abs() <= tolerance
+    }
+
+    fn error(&self) -> f64 {
+        self.residual().max(self.gap_ratio().abs())
+    }
+}
+
+/// How an ascent ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum End {
+    /// Residual and gap are within the tolerance.
+    Converged,
+    /// No step gains any more.
+    Stalled,
+    /// These rows cannot be met: at best they are missed by this much, in the solver's units.
+    Infeasible(f64),
+    /// The passes are used up.
+    PassLimit,
+    /// The caller has cancelled.
+    Cancelled,
+}
+
+/// Where an ascent came to.
+#[derive(Debug, Clone)]
+pub(super) struct Climb {
+    pub best: Visit,
+    pub end: End,
+    /// The separating multipliers, where the rows cannot be met.
+    pub separator: Option<DVector<f64>>,
+}
+
+/// What an ascent may cost and whom it obeys.
+#[derive(Clone, Copy)]
+pub(super) struct Budget<'a> {
+    pub tolerance: f64,
+    pub passes: usize,
+    pub progress: &'a Progress<'a>,
+}
+
+/// Climbs from `start` until residual and gap are within the budget's tolerance.
+///
+/// D(y, λ, τ) = min_K g·s is concave; {D ≥ 0} is convex and the greatest τ in it is the optimum. Each pass gives D,
+/// its gradient and its curvature, and each step maximises the damped quadratic model over y ∈ Y and all λ, with τ
+/// moved to where D vanishes (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967). Damping
+/// follows Levenberg and Marquardt. Near the optimum every step squares the error.
+pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budget: Budget) -> Climb {
+    let last_pass = reach.passes() + budget.passes;
+    let mut here = Visit::new(reach, programme, start);
+    let mut stride = Stride { damping: FIRST_DAMPING, moves_ratio: programme.is_ratio() };
+    loop {
+        let done = |end| Climb { best: here.clone(), end, separator: None };
+        if here.is_within(budget.tolerance) {
+            return done(End::Converged);
+        }
+        if budget.progress.is_cancelled() {
+            return done(End::Cancelled);
+        }
+        if reach.passes() >= last_pass {
+            return done(End::PassLimit);
+        }
+        if stride.damping > GREATEST_DAMPING {
+            return done(End::Stalled);
+        }
+        let step = Step::from(&here, programme, &stride);
+        let there = Visit::new(reach, programme, step.to.clone());
+        if stride.judge(&here, &there, &step, programme.is_ratio()) {
+            here = there;
+            if is_suspicious(&here, programme)
+                && let Some(proof) = separation(reach, programme, &here, budget)
+            {
+                return proof;
+            }
+        }
+    }
+}
+
+/// How boldly the next step goes.
+struct Stride {
+    damping: f64,
+    /// Whether τ moves with the step; it rests while the model is too poor to predict what moving it does.
+    moves_ratio: bool,
+}
+
+impl Stride {
+    /// Whether `there` is to be taken; adapts the damping to how well the model foresaw it.
+    fn judge(&mut self, here: &Visit, there: &Visit, step: &Step, is_ratio: bool) -> bool {
+        let promised = step.promised - step.standing;
+        let gained = there.dual - step.standing;
+        let gain_ratio = if promised > ROUNDING_GAIN {
+            gained / promised
+        } else if there.error() < here.error() {
+            1.0
+        } else {
+            0.0
+        };
+        if gain_ratio < LEAST_GAIN_RATIO {
+            self.damping *= TIGHTEN;
+            self.moves_ratio = false;
+            return false;
+        }
+        if gain_ratio > GOOD_GAIN_RATIO {
+            self.damping = (self.damping * EASE).max(LEAST_DAMPING);
+        }
+        self.moves_ratio = is_ratio;
+        true
+    }
+}
+
+/// A step, and what the model says of it.
+struct Step {
+    to: DualPoint,
+    /// The model's D at `to`.
+    promised: f64,
+    /// The model's D at the old y and λ, with τ moved.
+    standing: f64,
+}
+
+impl Step {
+    /// Maximises D + r·d − ½ dᵀ(H + μI)d over the step d = (dy, dλ) with y + dy ∈ Y.
+    fn from(here: &Visit, programme: &Programme, stride: &Stride) -> Self {
+        let turning = programme.turning();
+        let w = &here.extreme.w;
+        let ratio_step = if stride.moves_ratio { here.dual / here.denominator } else { 0.0 };
+        let eased = w * programme.denominator * ratio_step;
+        let mut slope = &turning * here.extreme.s;
+        slope.rows_mut(programme.directions.nrows(), programme.rhs.len()).copy_from(&here.misses);
+        let curvature = &turning * w * turning.transpose();
+        let (y, lambda) = maximise(&curvature, &(&slope + &turning * eased), here, programme, stride.damping);
+
+        let weights = &y - &here.point.y;
+        let multipliers = &lambda - &here.point.lambda;
+        let step = DVector::from_iterator(slope.len(), weights.iter().chain(multipliers.iter()).copied());
+        let falls = ratio_step * here.denominator;
+        let standing = here.dual - falls - 0.5 * ratio_step * programme.denominator.dot(&eased);
+        let promised = standing + slope.dot(&step) + (&turning * eased).dot(&step)
+            - 0.5 * step.dot(&(&curvature * &step));
+        Self { to: DualPoint { y, lambda, tau: here.point.tau + ratio_step }, promised, standing }
+    }
+}
+
+/// The maximiser of the damped model: λ is eliminated, y is found on its set, λ follows.
+fn maximise(
+    curvature: &DMatrix<f64>,
+    slope: &DVector<f64>,
+    here: &Visit,
+    programme: &Programme,
+    damping: f64,
+) -> (DVector<f64>, DVector<f64>) {
+    let (k, m) = (programme.directions.nrows(), programme.rhs.len());
+    let n = k + m;
+    let mean = (curvature.trace() / n as f64).max(LEAST_CURVATURE);
+    let damped = curvature + DMatrix::identity(n, n) * (mean * damping);
+    let (yy, yl, ll) =
+        (damped.view((0, 0), (k, k)), damped.view((0, k), (k, m)), damped.view((k, k), (m, m)));
+    let (slope_y, slope_l) = (slope.rows(0, k).into_owned(), slope.rows(k, m).into_owned());
+    let Some(inner) = ll.into_owned().cholesky() else {
+        return (here.point.y.clone(), &here.point.lambda + slope_l / mean);
+    };
+    let schur = yy - yl * inner.solve(&yl.transpose());
+    let reduced = slope_y - yl * inner.solve(&slope_l);
+    let y = programme.set.minimise(&schur, &(reduced + &schur * &here.point.y), &here.point.y);
+    let follows = inner.solve(&(slope_l - yl.tr_mul(&(&y - &here.point.y))));
+    (y, &here.point.lambda + follows)
+}
+
+fn is_suspicious(visit: &Visit, programme: &Programme) -> bool {
+    let multipliers = visit.point.lambda.norm();
+    programme.is_homogeneous() && multipliers > SUSPICIOUS_MULTIPLIER * (1.0 + visit.point.tau.abs())
+}
+
+/// The proof that no interior meets the rows, if the multipliers point to one: D > 0 along them alone.
+fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budget) -> Option<Climb> {
+    let direction = visit.point.lambda.normalize();
+    let feasibility = programme.feasibility();
+    let start = DualPoint { y: direction, lambda: DVector::zeros(0), tau: 0.0 };
+    if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
+        return None;
+    }
+    let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, ..budget });
+    let separator = Some(proof.best.point.y.clone());
+    (proof.best.bound > 0.0).then(|| Climb {
+        end: End::Infeasible(proof.best.bound),
+        separator,
+        best: proof.best,
+    })
+}
+
+/// How sharply the least miss of rows that cannot be met is found; any positive bound is a proof.
+const PROOF_TOLERANCE: f64 = 1e-3;
