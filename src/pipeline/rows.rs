@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, assembly::WrittenPart};
-use crate::geom::Vector;
 use crate::cut::PinSite;
+use crate::geom::Vector;
 use crate::goal::{Goal, GoalKind, Objective, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
@@ -190,23 +190,29 @@ fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
 
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
     let found = &sheet.judgement.parts;
-    sheet.assembly.parts.iter().zip(found).map(|(written, facts)| {
-        let part = &written.part;
-        PartRow {
-            id: part.id.clone(),
-            file: written.file.clone(),
-            sha256: crate::digest::sha256_hex(&[&written.bytes]),
-            triangles: facts.surface.triangles,
-            volume_mm3: facts.surface.volume_mm3,
-            mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
-            size_mm: facts.size_mm,
-            lies: lies(written, sheet),
-            print_from_model: written.evidence().pose,
-            pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
-            sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
-            picture: Some(crate::report::part_picture_file(&part.id)),
-        }
-    }).collect()
+    sheet
+        .assembly
+        .parts
+        .iter()
+        .zip(found)
+        .map(|(written, facts)| {
+            let part = &written.part;
+            PartRow {
+                id: part.id.clone(),
+                file: written.file.clone(),
+                sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                triangles: facts.surface.triangles,
+                volume_mm3: facts.surface.volume_mm3,
+                mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
+                size_mm: facts.size_mm,
+                lies: lies(written, sheet),
+                print_from_model: written.evidence().pose,
+                pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
+                sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
+                picture: Some(crate::report::part_picture_file(&part.id)),
+            }
+        })
+        .collect()
 }
 
 fn pin_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
@@ -242,24 +248,27 @@ fn joint_id(index: usize) -> String {
 
 fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
     let joints = sheet.assembly.plan.joints.iter().enumerate();
-    joints.map(|(index, joint)| JointRow {
-        id: joint_id(index),
-        cut: joint.cut.clone(),
-        parts: joint.parts.clone(),
-        area_mm2: joint.area_mm2,
-        pins: joint.pins.len(),
-        clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
-        note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
-    }).collect()
+    joints
+        .map(|(index, joint)| JointRow {
+            id: joint_id(index),
+            cut: joint.cut.clone(),
+            parts: joint.parts.clone(),
+            area_mm2: joint.area_mm2,
+            pins: joint.pins.len(),
+            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
+            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
+        })
+        .collect()
 }
 
 fn warnings(sheet: &Sheet) -> Vec<String> {
     let setup = sheet.setup;
     let placement = setup.placement.warnings.iter().map(ToString::to_string);
-    let repairs = (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
+    let repairs =
+        (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
     let refused = sheet.assembly.refused_mm3;
-    let small = (refused > 0.0)
-        .then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
+    let small =
+        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
     placement.chain(repairs).chain(small).collect()
 }
 

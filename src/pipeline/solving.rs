@@ -31,8 +31,7 @@ impl Solved {
     ) -> Result<Result<Self, Impossible>, Error> {
         progress.report(phase::SOLVE, 0.0);
         let goal = &setup.placement.goal;
-        let shell =
-            Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
+        let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
         let mut level: Option<Self> = None;
         for (done, pitch_mm) in pitches(setup, &shell).into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
@@ -60,8 +59,11 @@ impl Solved {
 /// The pitches from coarse to fine; the last is the printer's own.
 fn pitches(setup: &Setup, shell: &Shell) -> Vec<[f64; 2]> {
     let is_coarser = |pitch: &[f64; 2]| pitch[0] > 1.5 * setup.pitch_mm[0];
-    let mut pitches: Vec<[f64; 2]> =
-        [COARSE_COLUMNS, MIDDLE_COLUMNS].map(|n| shell.coarse_pitch(n)).into_iter().filter(is_coarser).collect();
+    let mut pitches: Vec<[f64; 2]> = [COARSE_COLUMNS, MIDDLE_COLUMNS]
+        .map(|n| shell.coarse_pitch(n))
+        .into_iter()
+        .filter(is_coarser)
+        .collect();
     pitches.push(setup.pitch_mm);
     pitches
 }
