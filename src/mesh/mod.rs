@@ -23,7 +23,6 @@ mod weld;
 pub use bodies::{bodies, shells, winding_number};
 pub use clip::{ClipError, Csg};
 pub use crossings::Crossings;
-pub use defects::Defects;
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
 pub use facts::MeshFacts;
