@@ -3,8 +3,8 @@
 use super::*;
 use crate::geom::Plane;
 use crate::geom::{Point, Vector};
+use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
-use crate::verify::weld;
 use crate::verify::{Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
 
 /// The checklist of a sound kit, and what it was judged on.

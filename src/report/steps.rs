@@ -90,7 +90,7 @@ fn dry_fit(sheet: &Checklist) -> Markup {
                 li {
                     strong { (joint.id) } ": " (joint.parts[0]) " on " (joint.parts[1]) " along " (joint.cut) ". "
                     @if joint.pins == 0 { "No pins: align the outlines by eye and touch." }
-                    @else { (counted(joint.pins, "pin")) " must seat fully; they fit one way only. No gap, no step at the seam." }
+                    @else { (counted(joint.pins, "pin")) " must seat fully. No gap and no step at the seam." }
                 }
             }
         }

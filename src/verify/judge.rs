@@ -2,13 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::stand_in::weld;
 use super::{
     Check, Figures, Kind, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments, checks, smallest_wall_mm,
 };
 use crate::mass::moments_of_mesh;
-use crate::mesh::TriMesh;
+use crate::mesh::{TriMesh, weld};
 
 /// What lies before the judge: the promises, and the meshes as they were read back from the files.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,10 +2,9 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use sha2::{Digest, Sha256};
-
-use super::stand_in::{ReadError, read_model};
 use super::{Check, Evidence, Judgement, Limit, PartEvidence, Promise, SCHEMA, judge};
+use crate::digest::sha256_hex;
+use crate::io::{ReadError, read_model};
 use crate::mesh::TriMesh;
 
 /// The checklist of a kit.
@@ -91,7 +90,7 @@ fn changed_files(folder: &Path, promise: &Promise) -> Result<Vec<String>, Verify
         if !lies_within(file) {
             return Err(VerifyError::Outside { file: file.clone() });
         }
-        if sha256_hex(&read_file(&folder.join(file))?) != *sha256 {
+        if sha256_hex(&[&read_file(&folder.join(file))?]) != *sha256 {
             changed.push(file.clone());
         }
     }
@@ -107,11 +106,6 @@ fn files_check(changed: &[String]) -> Check {
 /// Whether a relative path stays below the folder it is joined to.
 fn lies_within(file: &str) -> bool {
     !file.is_empty() && Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
-}
-
-/// The SHA-256 of some bytes, in hex.
-pub fn sha256_hex(bytes: &[u8]) -> String {
-    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {

@@ -1,9 +1,8 @@
 //! What one written file holds: its shape, how it lies, and its exact moments.
 
-use super::stand_in::weld;
-use super::{Pose, Shells, crossings};
+use super::{Pose, Shells};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Solid, TriMesh};
+use crate::mesh::{Crossings, Solid, TriMesh, weld};
 
 /// One part as it was read back.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,7 +53,7 @@ impl SurfaceFacts {
         Self {
             triangles: welded.triangles().len(),
             defect: Solid::new(welded.clone()).err().map(|defects| defects.to_string()),
-            crossings: crossings(welded).len(),
+            crossings: Crossings::of(welded).pairs,
             volume_mm3: moments_of_mesh(welded).volume(),
         }
     }

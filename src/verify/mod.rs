@@ -1,19 +1,18 @@
 //! The independent judge: it sees the written files, the goal and the printer, and nothing of how they were made.
 
-mod box_tree;
 mod check;
 mod checks;
-mod crossings;
 mod figures;
 mod judge;
 #[cfg(test)]
 pub(crate) mod judge_tests;
 mod kit;
+#[cfg(test)]
+mod kit_tests;
 mod measure;
 mod pose;
 mod promise;
 mod shells;
-mod stand_in;
 mod support;
 #[cfg(test)]
 pub(crate) mod test_meshes;
@@ -25,10 +24,9 @@ pub use checks::{
     RESTING_LIMIT_MM, SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
     checks,
 };
-pub use crossings::crossings;
 pub use figures::{Figures, Setting};
 pub use judge::{Evidence, Judgement, judge, setting};
-pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, sha256_hex, verify_kit};
+pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pose::Pose;
 pub use promise::{
@@ -38,6 +36,3 @@ pub use promise::{
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use wall::smallest_wall_mm;
-
-#[cfg(test)]
-pub(crate) use stand_in::weld;

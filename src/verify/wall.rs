@@ -1,7 +1,7 @@
 //! The smallest wall between the voids and the outside.
 
 use super::Shells;
-use super::stand_in::MeshDistance;
+use crate::mesh::MeshDistance;
 
 /// The smallest distance between the cavities of a hollowed body and its outer surface, mm: between triangles, not
 /// between samples. None if there is no cavity.
