@@ -5,14 +5,17 @@
 pub mod cli;
 pub mod cut;
 pub mod digest;
+pub mod error;
 pub mod geom;
 pub mod goal;
+pub mod guide;
 pub mod hollow;
 pub mod interior;
 pub mod io;
 pub mod job;
 pub mod mass;
 pub mod mesh;
+pub mod pipeline;
 pub mod printer;
 pub mod progress;
 pub mod report;

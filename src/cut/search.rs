@@ -7,7 +7,7 @@ use super::{
     error::CutError,
     family::{Candidate, candidates},
     opening::Opening,
-    score::{Burden, Scene, burden, opening_penalty},
+    score::{AMPLE_OPENING_RATIO, Burden, Scene, burden, opening_penalty},
 };
 use crate::geom::Plane;
 
@@ -16,7 +16,7 @@ use crate::geom::Plane;
 const ROUNDS: [usize; 3] = [64, 512, 4096];
 
 /// How many planes of the smallest covers are judged in full: two or three milliseconds each on 100k triangles.
-const JUDGED_PLANES: usize = 32;
+const JUDGED_PLANES: usize = 48;
 
 /// How many smallest covers are compared.
 const COMPARED_COVERS: usize = 20_000;
@@ -54,7 +54,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         return Err(CutError::TooManyVoids { voids, limit: MAX_VOIDS });
     }
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
-    let family = promising_first(candidates(scene.hollowed, scene.request), all);
+    let family = promising_first(candidates(scene.hollowed, scene.request), (all, ample_guess_mm(scene)));
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.chosen.len(), cover.nodes));
     let mut exact: Vec<Exact> = Vec::new();
@@ -78,8 +78,9 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 
 /// The family with the most promising planes first: those that can take part in a smallest cover, in turn one for
 /// each set of voids met; among planes that meet the same voids the best offset of each direction, then
-/// the second best, and so on, each by the opening guessed.
-fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
+/// the second best, and so on, each by the opening guessed. Guesses above `ample_mm` are equal, so that the axes, which
+/// lead the family, come before skew directions that are no better.
+fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
     let classes = classes(&family, all);
     let class_of = |c: &Candidate| classes.binary_search_by_key(&c.met, |&(met, _)| met).unwrap_or_default();
     let least = classes.iter().map(|&(_, rest)| rest).min().unwrap_or_default();
@@ -89,7 +90,8 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
         row.sort_by(|a, b| b.guess_mm.total_cmp(&a.guess_mm));
         places.extend(row.into_iter().enumerate());
     }
-    places.sort_by(|(i, a), (j, b)| i.cmp(j).then(b.guess_mm.total_cmp(&a.guess_mm)));
+    let capped = |c: &Candidate| c.guess_mm.min(ample_mm);
+    places.sort_by(|(i, a), (j, b)| i.cmp(j).then(capped(b).total_cmp(&capped(a))));
     let mut taken = vec![0; classes.len()];
     let mut turns: Vec<((bool, usize), Candidate)> = Vec::with_capacity(places.len());
     for (_, candidate) in places {
@@ -99,6 +101,11 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
     }
     turns.sort_by_key(|&(turn, _)| turn);
     turns.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// A guessed opening above which a plane need not be wider, mm; twice what scores count, as guesses err.
+fn ample_guess_mm(scene: &Scene) -> f64 {
+    2.0 * AMPLE_OPENING_RATIO * scene.request.min_opening_mm
 }
 
 /// The different sets of voids met, ascending, each with how many further planes would open the rest at least.

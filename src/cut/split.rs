@@ -6,7 +6,7 @@ use super::{
     section::{Chart, Point2},
 };
 use crate::{
-    geom::Plane,
+    geom::{Plane, Vector},
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
@@ -47,7 +47,27 @@ pub(crate) struct Joint {
     pub(crate) caps: Vec<usize>,
 }
 
-/// The pieces of a closed mesh between the planes, the largest first, each proved free of closed cavities.
+impl Joint {
+    /// Whether a piece is one of the two.
+    pub(crate) fn touches(&self, piece: usize) -> bool {
+        self.below == piece || self.above == piece
+    }
+
+    /// The other piece of the two.
+    pub(crate) fn other(&self, piece: usize) -> usize {
+        if self.below == piece { self.above } else { self.below }
+    }
+}
+
+impl Piece {
+    /// Whether the piece lies above a plane that does not pass through it.
+    pub(crate) fn is_above(&self, plane: &Plane) -> bool {
+        let heights = self.mesh.vertices().iter().map(|p| plane.distance(p));
+        heights.fold(0.0, |far: f64, h| if h.abs() > far.abs() { h } else { far }) > 0.0
+    }
+}
+
+/// The pieces of a closed mesh between the planes, in the order of [`in_order`].
 pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
     let mut cells = vec![Csg::of_mesh(mesh)?];
     for plane in planes {
@@ -63,8 +83,18 @@ pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutE
         pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, planes)));
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
-    pieces.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
-    Ok(pieces)
+    Ok(in_order(pieces))
+}
+
+/// Puts pieces in the order in which parts are numbered: along a direction askew to everything, so that solving again
+/// and cutting slightly different voids by the same plan keeps the numbers, which an order by volume would not
+/// for the halves of a symmetric model.
+pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
+    let askew = Vector::new(0.331, 0.497, 0.802);
+    let place = |piece: &Piece| askew.dot(&piece.mesh.aabb().center().coords);
+    let mut placed: Vec<(f64, Piece)> = pieces.into_iter().map(|piece| (place(&piece), piece)).collect();
+    placed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    placed.into_iter().map(|(_, piece)| piece).collect()
 }
 
 /// Refuses a piece that encloses a cavity.
@@ -78,7 +108,8 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     Ok(())
 }
 
-fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
+/// A piece with its cut faces.
+pub(crate) fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
     let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
     Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
 }
@@ -137,7 +168,7 @@ impl Cap {
     }
 
     /// The centroid of the largest triangle: a point well inside the face.
-    fn inner_point(&self) -> Point2 {
+    pub(crate) fn inner_point(&self) -> Point2 {
         let area = |[a, b, c]: &[Point2; 3]| (b - a).perp(&(c - a)).abs();
         let largest = self.triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t)));
         largest.map_or(Point2::origin(), |[a, b, c]| Point2::from((a.coords + b.coords + c.coords) / 3.0))

@@ -9,17 +9,19 @@ use crate::geom::{Plane, Point, Vector};
 /// Ears are cut off in the polygon's own plane (Meisters, "Polygons have ears", Amer. Math. Monthly 82, 1975), so
 /// that concave polygons come out right. Every corner stays a corner, those on a straight side too, because
 /// the neighbouring faces may use them. A polygon that crosses itself or has no area gives a fan of
-/// what is left. Quadratic in the corners; cubic for the worst polygons.
+/// what is left. Linear for convex polygons, quadratic for most; cubic for the worst.
 pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
     let mut ring = face.to_vec();
     let mut triangles = Vec::with_capacity(face.len().saturating_sub(2));
     if ring.len() > 3 {
         let flat = flattened(vertices, face);
+        let mut dents = dents(&flat);
         let mut places: Vec<usize> = (0..face.len()).collect();
-        while let Some(ear) = next_ear(&flat, &places) {
+        while let Some(ear) = next_ear(&flat, &places, &dents) {
             let [before, at, after] = around(places.len(), ear).map(|i| face[places[i]]);
             triangles.push([before, at, after]);
-            places.remove(ear);
+            let cut = places.remove(ear);
+            dents.retain(|&dent| dent != cut);
         }
         ring = places.iter().map(|&i| face[i]).collect();
     }
@@ -45,15 +47,24 @@ fn around(n: usize, i: usize) -> [usize; 3] {
     [(i + n - 1) % n, i, (i + 1) % n]
 }
 
+/// The corners that do not bulge outward: only they can lie in an ear, and cutting ears makes no new ones.
+fn dents(flat: &[Coord<f64>]) -> Vec<usize> {
+    let bulges = |i: usize| {
+        let [a, b, c] = around(flat.len(), i).map(|i| flat[i]);
+        orient2d(a, b, c) > 0.0
+    };
+    (0..flat.len()).filter(|&i| !bulges(i)).collect()
+}
+
 /// The first corner of a ring of more than three that can be cut off.
-fn next_ear(flat: &[Coord<f64>], places: &[usize]) -> Option<usize> {
+fn next_ear(flat: &[Coord<f64>], places: &[usize], dents: &[usize]) -> Option<usize> {
     let n = places.len();
     if n <= 3 {
         return None;
     }
     (0..n).find(|&i| {
         let [a, b, c] = around(n, i).map(|i| flat[places[i]]);
-        orient2d(a, b, c) > 0.0 && !places.iter().any(|&p| blocks(flat[p], [a, b, c]))
+        orient2d(a, b, c) > 0.0 && !dents.iter().any(|&dent| blocks(flat[dent], [a, b, c]))
     })
 }
 
@@ -110,6 +121,23 @@ mod tests {
         assert!(areas.iter().all(|&a| a > 0.0));
         // Twenty by five, less ten notches two wide and four deep that run to a point.
         assert!((areas.iter().sum::<f64>() - (100.0 - 40.0)).abs() < 1e-9);
+    }
+
+    #[test]
+    fn stars_of_all_shapes_are_covered_once() {
+        for seed in 0..50 {
+            let n = 5 + seed % 40;
+            let spike = |i: usize| 1.0 + ((i * i * 7 + i * seed * 13) % 11) as f64;
+            let turn = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
+            let star = points(
+                &(0..n).map(|i| (spike(i) * turn(i).cos(), spike(i) * turn(i).sin())).collect::<Vec<_>>(),
+            );
+            let face: Vec<u32> = (0..n as u32).collect();
+            let areas = areas(&star, &ear_clip(&star, &face));
+            let whole: f64 = (0..n).map(|i| spike(i) * spike((i + 1) % n) * turn(1).sin() / 2.0).sum();
+            assert!(areas.len() == n - 2 && areas.iter().all(|&a| a >= 0.0), "{seed}");
+            assert!((areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-12, "{seed}");
+        }
     }
 
     #[test]

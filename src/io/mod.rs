@@ -9,5 +9,5 @@ pub mod stl;
 mod tests;
 
 pub use obj::ObjError;
-pub use read::{ContentError, ReadError, decode_model, read_model};
+pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};
 pub use stl::{StlError, WriteError};

@@ -66,15 +66,20 @@ pub enum ContentError {
 /// Every coordinate of the result is finite and there is at least one triangle. The triangles of an
 /// STL file come back as a soup, three vertices each: see [`crate::mesh::weld`] and [`crate::mesh::repair`].
 pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
+    let bytes = read_bytes(path)?;
+    decode_model(&bytes).map_err(|source| ReadError::Content { path: path.to_path_buf(), source })
+}
+
+/// The bytes of the model file at `path`; what is no readable file is told as such.
+pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let owned = || path.to_path_buf();
     if path.is_dir() {
         return Err(ReadError::Directory { path: owned() });
     }
-    let bytes = std::fs::read(path).map_err(|source| match source.kind() {
+    std::fs::read(path).map_err(|source| match source.kind() {
         ErrorKind::NotFound => ReadError::Missing { path: owned() },
         _ => ReadError::Unreadable { path: owned(), source },
-    })?;
-    decode_model(&bytes).map_err(|source| ReadError::Content { path: owned(), source })
+    })
 }
 
 /// The triangles in the bytes of an STL or OBJ file; see [`read_model`].

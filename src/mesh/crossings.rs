@@ -27,7 +27,7 @@ impl Crossings {
     /// fast robust geometric predicates", DCG 18, 1997). Triangles that only touch, with all of one on one side of
     /// the other, do not cross. A pair crosses when a side of one passes from one side of the other to the other
     /// side through it (not through a corner only), or when both lie in one plane and share an area. Vertices must be finite.
-    /// About 0.2 s for 100 000 triangles on two cores; the count does not depend on the number of threads.
+    /// About 0.3 s for 100 000 triangles on two cores; the count does not depend on the number of threads.
     pub fn of(mesh: &TriMesh) -> Self {
         let boxes: Vec<Aabb> = mesh.iter_corners().map(|corners| Aabb::of_points(&corners)).collect();
         let tree = BoxTree::new(boxes.iter().copied());

@@ -1,7 +1,9 @@
 //! From the quadric to written parts that meet the goal: voids, cuts, parts, and the correction of their defect.
 
 use super::{Error, Setup, Solved, phase, stopwatch::Stopwatch, tuning::is_tuned};
-use crate::cut::{CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference, parts, plan};
+use crate::cut::{
+    CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference, parts, plan, plan_for_cuts,
+};
 use crate::hollow::Solution;
 use crate::io::stl;
 use crate::job::CutMode;
@@ -10,7 +12,7 @@ use crate::mesh::{Hollowed, TriMesh};
 use crate::printer::PrintPose;
 use crate::progress::Progress;
 use crate::verify::{PartEvidence, Pose, assembly_moments};
-use crate::voids::{Cavity, CavitySpec};
+use crate::voids::{Cavity, CavitySpec, Voids as Bodies};
 
 /// Rounds of measuring and solving again, at most. Two bring the parts to a micrometre; a third would only follow
 /// pins that came to lie elsewhere.
@@ -133,10 +135,9 @@ impl Source<'_> {
 
     fn voids(&self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
         let (setup, frame) = (self.setup, &self.setup.placement.goal.frame);
-        let bodies =
-            self.cavity.void_bodies(&solution.quadric, frame, setup.printer.min_opening_mm.value)?;
-        let hollowed = Hollowed { outer: setup.model.solid.clone(), voids: bodies.voids };
-        Ok(Voids { solution, fixed, hollowed, refused_mm3: bodies.refused_mm3, rounds })
+        let Bodies { bodies, dropped_mm3, .. } = self.cavity.void_bodies(&solution.quadric, frame)?;
+        let hollowed = Hollowed { outer: setup.model.solid.clone(), voids: bodies };
+        Ok(Voids { solution, fixed, hollowed, refused_mm3: dropped_mm3, rounds })
     }
 
     /// The voids whose uncut mesh meets the goal's constraints, before cuts and pins.
@@ -158,7 +159,7 @@ impl Source<'_> {
         let request = plan_request(self.setup);
         let plan = match self.setup.job.cut {
             CutMode::Auto => plan(&voids.hollowed, &request)?,
-            CutMode::Never => CutPlan::uncut(&voids.hollowed),
+            CutMode::Never => plan_for_cuts(&voids.hollowed, &request, &[])?,
         };
         let goal = &self.setup.placement.goal;
         let most = voids.rounds + MAX_ROUNDS;
@@ -180,7 +181,8 @@ impl Source<'_> {
 fn assembled(setup: &Setup, voids: Voids, plan: CutPlan, request: &PlanRequest) -> Result<Assembly, Error> {
     let parts = parts(&voids.hollowed, &plan, request)?;
     let (job, count) = (setup.name(), parts.len());
-    let written = parts.into_iter().map(|part| WrittenPart::of(part, &job, count)).collect::<Result<_, _>>()?;
+    let written =
+        parts.into_iter().map(|part| WrittenPart::of(part, &job, count)).collect::<Result<_, _>>()?;
     let Voids { solution, fixed, hollowed, refused_mm3, rounds } = voids;
     Ok(Assembly { solution, fixed, hollowed, refused_mm3, plan, parts: written, rounds })
 }
@@ -192,6 +194,7 @@ fn cavity_spec(setup: &Setup) -> CavitySpec<'_> {
         wall_mm: setup.wall.wall_mm,
         tolerance_mm: (SURFACE_TOLERANCE_PIXELS * pixel_mm).max(FINEST_SURFACE_TOLERANCE_MM),
         keeps: &setup.placement.keeps,
+        min_void_mm: setup.printer.min_opening_mm.value,
     }
 }
 

@@ -73,7 +73,8 @@ fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
     let mut judgement = judge(&evidence);
     let figure = rows::promised_figure(setup.placement.goal.kind, setup.placement.goal.objective);
     let reached = judgement.assembly.value_of(figure);
-    let promise = Promise { promise: reached.map(|value| PromisedFigure { figure, value }), ..evidence.promise };
+    let promise =
+        Promise { promise: reached.map(|value| PromisedFigure { figure, value }), ..evidence.promise };
     judgement.checks = checks(&promise, &judgement);
     (promise, judgement)
 }

@@ -5,14 +5,18 @@ use std::collections::BTreeMap;
 use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, assembly::WrittenPart};
 use crate::cut::PinSite;
+use crate::geom::Vector;
 use crate::goal::{Goal, GoalKind, Objective, Warning};
 use crate::hollow;
-use crate::printer::Sourced;
+use crate::printer::{Sourced, Support};
 use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{Aim, FigureName, Judgement, Kind, PromisedFigure};
+
+/// A face whose normal has this much of the vertical is level, within 0.8°.
+const LEVEL_COSINE: f64 = 0.9999;
 
 /// Everything a checklist is filled from.
 pub struct Sheet<'a> {
@@ -105,7 +109,7 @@ fn printer_row(setup: &Setup) -> PrinterRow {
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
         build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
-        support: printer.support.to_string(),
+        support: support_word(printer.support).to_owned(),
         minimum_opening_mm: printer.min_opening_mm.value,
         sources: sources(setup),
     }
@@ -135,7 +139,8 @@ fn material_row(setup: &Setup) -> MaterialRow {
         name: material.name.clone(),
         density_g_cm3: material.density_g_cm3.value,
         density_source: material.density_g_cm3.provenance(),
-        density_tolerance_ratio: Some(material.density_spread_ratio.value),
+        density_sure: material.density_g_cm3.sure.to_string(),
+        density_spread_ratio: Some(material.density_spread_ratio.value),
     }
 }
 
@@ -185,23 +190,29 @@ fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
 
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
     let found = &sheet.judgement.parts;
-    sheet.assembly.parts.iter().zip(found).map(|(written, facts)| {
-        let part = &written.part;
-        PartRow {
-            id: part.id.clone(),
-            file: written.file.clone(),
-            sha256: crate::digest::sha256_hex(&[&written.bytes]),
-            triangles: facts.surface.triangles,
-            volume_mm3: facts.surface.volume_mm3,
-            mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
-            size_mm: facts.size_mm,
-            lies: part.pose.lies.clone(),
-            print_from_model: written.evidence().pose,
-            pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
-            sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
-            picture: Some(crate::report::part_picture_file(&part.id)),
-        }
-    }).collect()
+    sheet
+        .assembly
+        .parts
+        .iter()
+        .zip(found)
+        .map(|(written, facts)| {
+            let part = &written.part;
+            PartRow {
+                id: part.id.clone(),
+                file: written.file.clone(),
+                sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                triangles: facts.surface.triangles,
+                volume_mm3: facts.surface.volume_mm3,
+                mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
+                size_mm: facts.size_mm,
+                lies: lies(written, sheet),
+                print_from_model: written.evidence().pose,
+                pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
+                sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
+                picture: Some(crate::report::part_picture_file(&part.id)),
+            }
+        })
+        .collect()
 }
 
 fn pin_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
@@ -237,24 +248,27 @@ fn joint_id(index: usize) -> String {
 
 fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
     let joints = sheet.assembly.plan.joints.iter().enumerate();
-    joints.map(|(index, joint)| JointRow {
-        id: joint_id(index),
-        cut: joint.cut.clone(),
-        parts: joint.parts.clone(),
-        area_mm2: joint.area_mm2,
-        pins: joint.pins.len(),
-        clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
-        note: joint.note.clone(),
-    }).collect()
+    joints
+        .map(|(index, joint)| JointRow {
+            id: joint_id(index),
+            cut: joint.cut.clone(),
+            parts: joint.parts.clone(),
+            area_mm2: joint.area_mm2,
+            pins: joint.pins.len(),
+            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
+            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
+        })
+        .collect()
 }
 
 fn warnings(sheet: &Sheet) -> Vec<String> {
     let setup = sheet.setup;
     let placement = setup.placement.warnings.iter().map(ToString::to_string);
-    let repairs = (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
+    let repairs =
+        (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
     let refused = sheet.assembly.refused_mm3;
-    let small = (refused > 0.0)
-        .then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
+    let small =
+        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
     placement.chain(repairs).chain(small).collect()
 }
 
@@ -272,7 +286,47 @@ fn log_row(row: &hollow::LogRow) -> LogRow {
     ];
     let finite = figures.into_iter().filter(|(_, value)| value.is_finite());
     LogRow {
-        phase: row.stage.to_string(),
+        phase: stage_words(row.stage),
         figures: finite.map(|(name, value)| (name.to_owned(), value)).collect(),
     }
+}
+
+fn stage_words(stage: hollow::Stage) -> String {
+    use hollow::Stage;
+    match stage {
+        Stage::Goal => "goal".to_owned(),
+        Stage::Dominance => "dominance".to_owned(),
+        Stage::HeightRange => "range of heights".to_owned(),
+        Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
+        Stage::AtMass { height_mm, volume_mm3 } => {
+            format!("centre at {height_mm:.3} mm, {volume_mm3:.0} mm³ of material")
+        }
+        Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
+    }
+}
+
+fn support_word(support: Support) -> &'static str {
+    match support {
+        Support::Soluble => "soluble",
+        Support::Breakaway => "breakaway",
+        Support::WaterJet => "water-jet",
+        Support::None => "none",
+    }
+}
+
+/// How a part lies on the plate, in words: which of its cut faces looks down or up.
+fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
+    let pose = written.evidence().pose;
+    let center = written.part.solid.mesh().aabb().center();
+    let facing = |cut: &crate::cut::Cut| {
+        let plane = cut.plane().ok()?;
+        let outward: Vector = -plane.normal * plane.distance(&center).signum();
+        match (pose.rotation() * outward).z {
+            z if z < -LEVEL_COSINE => Some(format!("cut {} down", cut.id)),
+            z if z > LEVEL_COSINE => Some(format!("cut {} up", cut.id)),
+            _ => None,
+        }
+    };
+    let facing: Vec<String> = sheet.assembly.plan.cuts.iter().filter_map(facing).collect();
+    if facing.is_empty() { "as the model stands".to_owned() } else { facing.join(", ") }
 }

@@ -1,7 +1,7 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
-use crate::hollow::{Problem, Settings, Solution, Status, solve, solve_from};
+use crate::hollow::{Problem, Settings, Solution, refine, solve};
 use crate::interior::Columns;
 use crate::mass::Moments;
 use crate::progress::Progress;
@@ -31,8 +31,7 @@ impl Solved {
     ) -> Result<Result<Self, Impossible>, Error> {
         progress.report(phase::SOLVE, 0.0);
         let goal = &setup.placement.goal;
-        let shell =
-            Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
+        let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
         let mut level: Option<Self> = None;
         for (done, pitch_mm) in pitches(setup, &shell).into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
@@ -60,8 +59,11 @@ impl Solved {
 /// The pitches from coarse to fine; the last is the printer's own.
 fn pitches(setup: &Setup, shell: &Shell) -> Vec<[f64; 2]> {
     let is_coarser = |pitch: &[f64; 2]| pitch[0] > 1.5 * setup.pitch_mm[0];
-    let mut pitches: Vec<[f64; 2]> =
-        [COARSE_COLUMNS, MIDDLE_COLUMNS].map(|n| shell.coarse_pitch(n)).into_iter().filter(is_coarser).collect();
+    let mut pitches: Vec<[f64; 2]> = [COARSE_COLUMNS, MIDDLE_COLUMNS]
+        .map(|n| shell.coarse_pitch(n))
+        .into_iter()
+        .filter(is_coarser)
+        .collect();
     pitches.push(setup.pitch_mm);
     pitches
 }
@@ -70,8 +72,8 @@ fn solution_on(setup: &Setup, columns: &Columns, from: Option<&Solved>, fixed: M
     let problem = Problem { goal: &setup.placement.goal, fixed, columns };
     let settings = Settings::default();
     match from.filter(|level| level.solution.is_usable()) {
-        Some(level) => solve_from(&problem, &level.solution, &settings),
-        None => solve(&problem, &settings),
+        Some(level) => refine(&problem, &settings, &level.solution, &Progress::silent()),
+        None => solve(&problem, &settings, &Progress::silent()),
     }
 }
 
@@ -81,7 +83,7 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
     Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
-        remedies: solution.status.remedies(goal),
+        remedies: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
         proof_quadric: solution.quadric.0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),

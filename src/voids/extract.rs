@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::field::{Field, Known, Resolution};
-use super::lattice::{Tetrahedron, tetrahedra_of};
+use super::lattice::{Across, Links};
 use super::march::{Piece, cap, piece};
-use super::nodes::Nodes;
+use super::nodes::{Nodes, Numbers};
 use super::octree::{FINEST_UNITS, Octree};
-use super::roots::{Roots, VertexKey};
+use super::roots::{Roots, VertexKey, is_crossing};
 use super::table::IndexMap;
 use crate::geom::{Aabb, Point};
 
@@ -22,7 +22,12 @@ pub(super) struct Extractor<'a, F> {
     tree: Octree,
     nodes: Nodes,
     roots: Roots,
+    /// For each cell the pieces of surface in its tetrahedra.
+    pieces: Vec<Vec<Placed>>,
 }
+
+/// A piece of surface, and the two leaves in which it lies.
+type Placed = (Piece, [u32; 2]);
 
 /// Triangles, and the two leaves in which each lies.
 pub(super) struct Surface {
@@ -42,12 +47,19 @@ impl<'a, F: Field> Extractor<'a, F> {
     pub fn new(field: &'a F, aabb: &Aabb, resolution: Resolution) -> Option<Self> {
         let mut tree = Octree::new(aabb, resolution.finest_mm, field)?;
         tree.grow(field);
-        Some(Self { field, resolution, tree, nodes: Nodes::default(), roots: Roots::default() })
+        Some(Self {
+            field,
+            resolution,
+            tree,
+            nodes: Nodes::default(),
+            roots: Roots::default(),
+            pieces: Vec::new(),
+        })
     }
 
     /// All leaves.
     pub fn leaves(&self) -> Vec<u32> {
-        (0..self.tree.cells().len() as u32).filter(|&i| self.tree.cell(i).is_leaf()).collect()
+        (0..self.tree.cells().len() as u32).filter(|&i| self.tree.is_leaf(i)).collect()
     }
 
     /// Divides leaves until the triangles in and around `dirty` keep the tolerances.
@@ -70,8 +82,8 @@ impl<'a, F: Field> Extractor<'a, F> {
 
     /// The triangles as they are now.
     pub fn surface(&mut self) -> Surface {
+        self.roots.refresh(&self.nodes, self.field);
         let leaves = self.leaves();
-        self.prepare(&leaves);
         let named: Vec<Named> = leaves.par_iter().flat_map_iter(|&leaf| self.triangles_of(leaf)).collect();
         self.numbered(&named)
     }
@@ -84,57 +96,55 @@ impl<'a, F: Field> Extractor<'a, F> {
         both.into_iter().filter(move |&(_, size)| size == largest && size > 0).map(|(leaf, _)| leaf)
     }
 
-    /// Makes ready the corners and crossings that the leaves' triangles need.
+    /// Marches through the leaves' tetrahedra and makes ready the crossings.
     fn prepare(&mut self, leaves: &[u32]) {
-        self.nodes.prepare(&self.tree, leaves, self.field);
-        let keys: Vec<VertexKey> = leaves.par_iter().flat_map_iter(|&leaf| self.crossings_of(leaf)).collect();
+        let linked: Vec<(u32, Links)> =
+            leaves.par_iter().map(|&leaf| (leaf, Links::new(&self.tree, leaf))).collect();
+        let numbers = self.nodes.prepare(&self.tree, &linked, self.field);
+        let marched: Vec<Vec<Placed>> = linked
+            .par_iter()
+            .zip(&numbers)
+            .map(|((leaf, links), numbers)| self.march(*leaf, links, numbers))
+            .collect();
+        let keys: Vec<VertexKey> = marched.par_iter().flat_map_iter(|pieces| crossings_of(pieces)).collect();
         self.roots.prepare(&self.nodes, keys.into_iter(), self.field);
-    }
-
-    /// The crossings in a leaf's tetrahedra, each once.
-    fn crossings_of(&self, leaf: u32) -> Vec<VertexKey> {
-        let mut keys = Vec::new();
-        self.pieces_of(leaf, &mut |piece, _| match piece {
-            Piece::Triangle(t) => keys.extend(t),
-            Piece::Quad(q) => keys.extend(q),
-        });
-        keys.sort_unstable();
-        keys.dedup();
-        keys
+        self.pieces.resize(self.tree.cells().len(), Vec::new());
+        for (&leaf, pieces) in leaves.iter().zip(marched) {
+            self.pieces[leaf as usize] = pieces;
+        }
     }
 
     /// The pieces of surface in a leaf's tetrahedra.
-    fn pieces_of(&self, leaf: u32, emit: &mut impl FnMut(Piece, [u32; 2])) {
-        tetrahedra_of(&self.tree, leaf, &mut |tetrahedron| {
-            let Some((corners, positive)) = self.signs(&tetrahedron) else { return };
-            if let Some(piece) = piece(corners, positive) {
-                emit(piece, tetrahedron.leaves);
-            }
-            if tetrahedron.is_on_boundary() {
+    fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<Placed> {
+        let mut pieces = Vec::new();
+        links.for_each(|tetrahedron| {
+            let corners = tetrahedron.slots.map(|slot| numbers.at(slot));
+            let positive = corners.map(|corner| self.nodes.is_positive(corner));
+            let across = links.across[tetrahedron.face];
+            let leaves = [leaf, if let Across::Leaf(other) = across { other } else { leaf }];
+            pieces.extend(piece(corners, positive).map(|piece| (piece, leaves)));
+            if across == Across::Boundary {
                 let [_, b, c, d] = corners;
                 let faces = cap([b, c, d], [positive[1], positive[2], positive[3]]);
-                faces.into_iter().for_each(|face| emit(Piece::Triangle(face), tetrahedron.leaves));
+                pieces.extend(faces.into_iter().map(|face| (Piece::Triangle(face), leaves)));
             }
         });
-    }
-
-    fn signs(&self, tetrahedron: &Tetrahedron) -> Option<([u32; 4], [bool; 4])> {
-        let [a, b, c, d] = tetrahedron.keys.map(|key| self.nodes.number(key));
-        let corners = [a?, b?, c?, d?];
-        Some((corners, corners.map(|corner| self.nodes.node(corner).placed.sample.is_positive())))
+        pieces
     }
 
     /// The triangles in a leaf's tetrahedra; quadrilaterals are cut along the diagonal that bends less.
     fn triangles_of(&self, leaf: u32) -> Vec<Named> {
         let mut triangles = Vec::new();
-        self.pieces_of(leaf, &mut |piece, leaves| match piece {
-            Piece::Triangle(t) => triangles.push((t, leaves)),
-            Piece::Quad([a, b, c, d]) => {
-                let is_first = self.bend(a, c).abs() <= self.bend(b, d).abs();
-                let halves = if is_first { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
-                triangles.extend(halves.map(|half| (half, leaves)));
+        for &(piece, leaves) in &self.pieces[leaf as usize] {
+            match piece {
+                Piece::Triangle(t) => triangles.push((t, leaves)),
+                Piece::Quad([a, b, c, d]) => {
+                    let is_first = self.bend(a, c).abs() <= self.bend(b, d).abs();
+                    let halves = if is_first { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+                    triangles.extend(halves.map(|half| (half, leaves)));
+                }
             }
-        });
+        }
         triangles
     }
 
@@ -198,6 +208,21 @@ impl<'a, F: Field> Extractor<'a, F> {
         let leaves = named.iter().map(|&(_, leaves)| leaves).collect();
         Surface { vertices, triangles, leaves }
     }
+}
+
+/// The crossings that pieces of surface name, each once.
+fn crossings_of(pieces: &[Placed]) -> Vec<VertexKey> {
+    let mut keys: Vec<VertexKey> = Vec::with_capacity(4 * pieces.len());
+    for (piece, _) in pieces {
+        match piece {
+            Piece::Triangle(t) => keys.extend(t),
+            Piece::Quad(q) => keys.extend(q),
+        }
+    }
+    keys.retain(|&key| is_crossing(key));
+    keys.sort_unstable();
+    keys.dedup();
+    keys
 }
 
 /// How far the surface is estimated to stray from the chord between two of its points, mm: positive where the

@@ -5,31 +5,13 @@
 //! tetrahedra fit together; where all leaves are equal they are those of the body-centred cubic lattice
 //! (Labelle & Shewchuk, "Isosurface Stuffing", SIGGRAPH 2007).
 
-use super::octree::{Cell, Grid, Octree};
+use super::octree::{Cell, Grid, NEIGHBOURS, Octree};
 
 /// A packed grid position.
 pub(super) type Key = u64;
 
 /// Bits of a packed coordinate; an octree's root is small enough for it.
 const KEY_BITS: u32 = 21;
-
-/// A tetrahedron with positive volume.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Tetrahedron {
-    /// Its corners. Where it stands on the boundary of the octree, the last three lie there.
-    pub keys: [Key; 4],
-    /// The two leaves in which it lies; the same one twice on the boundary of the octree.
-    pub leaves: [u32; 2],
-    /// The smaller leaf's size, units.
-    pub size: i32,
-}
-
-impl Tetrahedron {
-    /// Whether its last three corners lie on the boundary of the octree.
-    pub fn is_on_boundary(&self) -> bool {
-        self.leaves[0] == self.leaves[1]
-    }
-}
 
 /// The name of a grid position.
 pub(super) fn key(grid: Grid) -> Key {
@@ -42,98 +24,156 @@ pub(super) fn grid(key: Key) -> Grid {
     [2, 1, 0].map(|i| (key >> (i * KEY_BITS) & mask) as i32)
 }
 
-/// The six face directions as (axis, sign).
-const FACES: [(usize, i32); 6] = [(0, -1), (0, 1), (1, -1), (1, 1), (2, -1), (2, 1)];
+/// A corner of a leaf's tetrahedra as the leaf numbers them: 0 to 26 are the places 0, 1, 2 half sides along x, then
+/// y, then z; 27 + f is the far end across face f, a neighbour's centre or the face's own on the boundary.
+pub(super) type Slot = u8;
 
-/// A face's corners in the two axes that follow its own, counter-clockwise about the axis.
-const RING: [[i32; 2]; 4] = [[0, 0], [1, 0], [1, 1], [0, 1]];
+/// How many slots there are.
+pub(super) const SLOTS: Slot = 33;
+
+/// The first far end.
+const FAR: Slot = 27;
+
+/// The leaf's own centre.
+const CENTER: Slot = 13;
+
+/// What lies across a leaf's face.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Across {
+    /// Nothing that this leaf answers for.
+    Nothing,
+    /// The boundary of the octree.
+    Boundary,
+    /// A leaf of the same size or larger.
+    Leaf(u32),
+}
+
+/// What a leaf needs to know to make its tetrahedra.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Links {
+    /// What lies across each face, in the order of the first six of [`NEIGHBOURS`].
+    pub across: [Across; 6],
+    /// Bit 4 f + i: edge i of face f is halved.
+    halved: u32,
+}
+
+/// A tetrahedron with positive volume; where it stands on the boundary of the octree, its last three corners lie
+/// there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Tetrahedron {
+    /// The face of the leaf inside it.
+    pub face: usize,
+    /// Its corners.
+    pub slots: [Slot; 4],
+}
+
+/// A face's corners in half sides, in the two axes that follow its own, counter-clockwise about the axis.
+const RING: [[i32; 2]; 4] = [[0, 0], [2, 0], [2, 2], [0, 2]];
 
 /// The direction in those two axes that leads away from the face across the edge from corner i to corner i + 1.
-const ACROSS: [[i32; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
+const BEYOND: [[i32; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 
-/// The tetrahedra that a leaf answers for: those across its faces to leaves of its size (once for each pair) or
-/// larger, and to the boundary of the octree. Pairs without surface between them are left out.
-pub(super) fn tetrahedra_of(tree: &Octree, leaf: u32, emit: &mut impl FnMut(Tetrahedron)) {
-    let cell = tree.cell(leaf);
-    for (axis, sign) in FACES {
-        let direction = unit(axis, sign);
-        match tree.at(cell.neighbour_corner(direction), cell.size) {
-            None => on_boundary(tree, leaf, (axis, sign), emit),
-            Some(other) => {
-                let neighbour = tree.cell(other);
-                let is_ours = neighbour.size > cell.size || sign > 0;
-                if neighbour.is_leaf() && is_ours && !(cell.is_free && neighbour.is_free) {
-                    let pair = ([leaf, other], neighbour.center_grid());
-                    around_face(tree, (axis, sign), pair, emit);
+impl Links {
+    /// The links of a leaf: it answers for its faces to leaves of its size (once for each pair) or larger, and to the
+    /// boundary; not for pairs without surface between them.
+    pub fn new(tree: &Octree, leaf: u32) -> Self {
+        let cell = tree.cell(leaf);
+        let across = [0, 1, 2, 3, 4, 5].map(|face| across(tree, cell, face));
+        let is_idle = across.iter().all(|&a| a == Across::Nothing);
+        Self { across, halved: if is_idle { 0 } else { halved(tree, cell) } }
+    }
+
+    /// Every tetrahedron that the leaf answers for.
+    pub fn for_each(&self, mut visit: impl FnMut(Tetrahedron)) {
+        for face in (0..6).filter(|&face| self.across[face] != Across::Nothing) {
+            for i in 0..4 {
+                let ends = ends(face, i);
+                let middle = (ends[0] + ends[1]) / 2;
+                let mut segment = |from: Slot, to: Slot| {
+                    visit(Tetrahedron { face, slots: [CENTER, FAR + face as Slot, from, to] });
+                };
+                if self.halved >> (4 * face + i) & 1 == 1 {
+                    segment(ends[0], middle);
+                    segment(middle, ends[1]);
+                } else {
+                    segment(ends[0], ends[1]);
                 }
+            }
+        }
+    }
+
+    /// The slots in use, as a set of bits.
+    pub fn used(&self) -> u64 {
+        let mut used = 0;
+        self.for_each(|t| t.slots.iter().for_each(|&slot| used |= 1 << slot));
+        used
+    }
+
+    /// The grid position of a slot.
+    pub fn position(&self, tree: &Octree, cell: &Cell, slot: Slot) -> Grid {
+        let half = cell.size / 2;
+        if slot < FAR {
+            let steps = [slot % 3, slot / 3 % 3, slot / 9].map(i32::from);
+            return [0, 1, 2].map(|i| cell.corner[i] + steps[i] * half);
+        }
+        let face = usize::from(slot - FAR);
+        match self.across[face] {
+            Across::Leaf(other) => tree.cell(other).center_grid(),
+            _ => {
+                let center = cell.center_grid();
+                [0, 1, 2].map(|i| center[i] + NEIGHBOURS[face][i] * half)
             }
         }
     }
 }
 
-/// The tetrahedra between a leaf and the boundary of the octree, unless the leaf is free and outside.
-fn on_boundary(tree: &Octree, leaf: u32, face: (usize, i32), emit: &mut impl FnMut(Tetrahedron)) {
-    let cell = tree.cell(leaf);
-    if cell.is_free && !cell.center.sample.is_positive() {
-        return;
-    }
-    let mut apex = cell.center_grid();
-    apex[face.0] += face.1 * cell.size / 2;
-    around_face(tree, face, ([leaf, leaf], apex), emit);
+/// The axis of a face, and whether it looks along it.
+fn axis(face: usize) -> (usize, bool) {
+    (face / 2, face % 2 == 1)
 }
 
-/// The tetrahedra of a leaf's centre and `apex` with the edges of the leaf's face between them.
-fn around_face(
-    tree: &Octree,
-    (axis, sign): (usize, i32),
-    (leaves, apex): ([u32; 2], Grid),
-    emit: &mut impl FnMut(Tetrahedron),
-) {
-    let cell = tree.cell(leaves[0]);
-    let centers = [key(cell.center_grid()), key(apex)];
-    for i in 0..4 {
-        let ends =
-            [face_corner(cell, (axis, sign), RING[i]), face_corner(cell, (axis, sign), RING[(i + 1) % 4])];
-        let ends = if sign > 0 { ends } else { [ends[1], ends[0]] };
-        let mut segment = |from: Grid, to: Grid| {
-            let keys = [centers[0], centers[1], key(from), key(to)];
-            emit(Tetrahedron { keys, leaves, size: cell.size });
-        };
-        if is_edge_halved(tree, cell, (axis, sign), ACROSS[i]) {
-            let middle = [0, 1, 2].map(|k| (ends[0][k] + ends[1][k]) / 2);
-            segment(ends[0], middle);
-            segment(middle, ends[1]);
-        } else {
-            segment(ends[0], ends[1]);
-        }
-    }
-}
-
-/// Whether a finer leaf touches the edge of the face: only the two places beyond the edge can be divided.
-fn is_edge_halved(tree: &Octree, cell: &Cell, (axis, sign): (usize, i32), across: [i32; 2]) -> bool {
-    let mut direction = in_face(axis, across);
-    if tree.is_divided(cell.neighbour_corner(direction), cell.size) {
-        return true;
-    }
-    direction[axis] = sign;
-    tree.is_divided(cell.neighbour_corner(direction), cell.size)
-}
-
-fn face_corner(cell: &Cell, (axis, sign): (usize, i32), ring: [i32; 2]) -> Grid {
-    let mut step = in_face(axis, ring);
-    step[axis] = i32::from(sign > 0);
-    [0, 1, 2].map(|i| cell.corner[i] + step[i] * cell.size)
+/// The ends of a face's edge, so that centre, far end and these are positively oriented.
+fn ends(face: usize, i: usize) -> [Slot; 2] {
+    let (axis, is_up) = axis(face);
+    let slot = |ring: [i32; 2]| {
+        let mut steps = in_face(axis, ring);
+        steps[axis] = if is_up { 2 } else { 0 };
+        (steps[0] + 3 * steps[1] + 9 * steps[2]) as Slot
+    };
+    let (from, to) = (slot(RING[i]), slot(RING[(i + 1) % 4]));
+    if is_up { [from, to] } else { [to, from] }
 }
 
 fn in_face(axis: usize, [u, v]: [i32; 2]) -> Grid {
-    let mut step = [0; 3];
-    step[(axis + 1) % 3] = u;
-    step[(axis + 2) % 3] = v;
-    step
+    let mut steps = [0; 3];
+    steps[(axis + 1) % 3] = u;
+    steps[(axis + 2) % 3] = v;
+    steps
 }
 
-fn unit(axis: usize, sign: i32) -> Grid {
-    let mut step = [0; 3];
-    step[axis] = sign;
-    step
+fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
+    let Some(other) = tree.at(cell.neighbour_corner(NEIGHBOURS[face]), cell.size) else {
+        let is_outside = cell.is_free && !cell.center.sample.is_positive();
+        return if is_outside { Across::Nothing } else { Across::Boundary };
+    };
+    let neighbour = tree.cell(other);
+    let is_ours = tree.is_leaf(other) && (neighbour.size > cell.size || axis(face).1);
+    if is_ours && !(cell.is_free && neighbour.is_free) { Across::Leaf(other) } else { Across::Nothing }
+}
+
+/// Which edges of which faces are touched by a finer leaf: of the four places around an edge only the two beyond the
+/// pair of leaves can be divided.
+fn halved(tree: &Octree, cell: &Cell) -> u32 {
+    let mut bits = 0;
+    for face in 0..6 {
+        let (axis, is_up) = axis(face);
+        for (i, &beyond) in BEYOND.iter().enumerate() {
+            let mut direction = in_face(axis, beyond);
+            let beside = tree.is_divided(cell.neighbour_corner(direction), cell.size);
+            direction[axis] = if is_up { 1 } else { -1 };
+            let is_halved = beside || tree.is_divided(cell.neighbour_corner(direction), cell.size);
+            bits |= u32::from(is_halved) << (4 * face + i);
+        }
+    }
+    bits
 }

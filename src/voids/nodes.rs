@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::field::{Field, Known, Sample};
-use super::lattice::{Key, grid, key, tetrahedra_of};
+use super::lattice::{Key, Links, SLOTS, Slot, grid, key};
 use super::octree::Octree;
 use super::table::IndexMap;
 
@@ -31,10 +31,27 @@ pub(super) struct Node {
 pub(super) struct Nodes {
     index: IndexMap,
     nodes: Vec<Node>,
+    /// Whether each lies in the region; apart, so that many fit the cache.
+    positive: Vec<bool>,
+}
+
+/// The numbers of the corners of a leaf's tetrahedra.
+#[derive(Debug, Clone)]
+pub(super) struct Numbers {
+    used: u64,
+    numbers: Vec<u32>,
+}
+
+impl Numbers {
+    /// The number of the corner in a slot in use.
+    pub fn at(&self, slot: Slot) -> u32 {
+        let before = self.used & ((1 << slot) - 1);
+        self.numbers[before.count_ones() as usize]
+    }
 }
 
 /// A corner that a leaf needs.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy)]
 struct Need {
     key: Key,
     size: i32,
@@ -42,38 +59,48 @@ struct Need {
 }
 
 impl Nodes {
-    /// The number of a corner that was made ready.
-    pub fn number(&self, key: Key) -> Option<u32> {
-        self.index.get(&key).copied()
-    }
-
     /// A corner by its number.
     pub fn node(&self, number: u32) -> &Node {
         &self.nodes[number as usize]
     }
 
-    /// Makes ready every corner of the leaves' tetrahedra.
-    pub fn prepare(&mut self, tree: &Octree, leaves: &[u32], field: &impl Field) {
-        let needs: Vec<Need> = leaves.par_iter().flat_map_iter(|&leaf| needs_of(tree, leaf)).collect();
+    /// Whether a corner lies in the region.
+    pub fn is_positive(&self, number: u32) -> bool {
+        self.positive[number as usize]
+    }
+
+    /// Makes ready every corner of the leaves' tetrahedra, and gives their numbers for each leaf.
+    pub fn prepare(&mut self, tree: &Octree, leaves: &[(u32, Links)], field: &impl Field) -> Vec<Numbers> {
+        let needs: Vec<(u64, Vec<Need>)> = leaves.par_iter().map(|entry| needs_of(tree, entry)).collect();
         let mut fresh: Vec<Need> = Vec::new();
         let mut shrunk: Vec<u32> = Vec::new();
-        let known = self.nodes.len() as u32;
-        for need in needs {
-            let number = *self.index.entry(need.key).or_insert_with(|| {
-                fresh.push(need);
-                known + fresh.len() as u32 - 1
-            });
-            if number >= known {
-                let size = &mut fresh[(number - known) as usize].size;
-                *size = need.size.min(*size);
-            } else if need.size < self.nodes[number as usize].size {
-                self.nodes[number as usize].size = need.size;
-                shrunk.push(number);
-            }
+        let mut numbers = Vec::with_capacity(needs.len());
+        for (used, needs) in needs {
+            let numbered = needs.iter().map(|need| self.meet(need, &mut fresh, &mut shrunk)).collect();
+            numbers.push(Numbers { used, numbers: numbered });
         }
         let made: Vec<Node> = fresh.par_iter().map(|need| make(tree, need, field)).collect();
+        self.positive.extend(made.iter().map(|node| node.raw.sample.is_positive()));
         self.nodes.extend(made);
         self.replace(tree, shrunk, field);
+        numbers
+    }
+
+    /// The number of a corner: of a known one, or the next one.
+    fn meet(&mut self, need: &Need, fresh: &mut Vec<Need>, shrunk: &mut Vec<u32>) -> u32 {
+        let known = self.nodes.len() as u32;
+        let next = known + fresh.len() as u32;
+        let number = *self.index.entry(need.key).or_insert(next);
+        if number == next {
+            fresh.push(*need);
+        } else if number >= known {
+            let size = &mut fresh[(number - known) as usize].size;
+            *size = need.size.min(*size);
+        } else if need.size < self.nodes[number as usize].size {
+            self.nodes[number as usize].size = need.size;
+            shrunk.push(number);
+        }
+        number
     }
 
     /// Places corners anew whose smallest cell has shrunk.
@@ -91,13 +118,13 @@ impl Nodes {
     }
 }
 
-/// The corners of a leaf's tetrahedra, each once.
-fn needs_of(tree: &Octree, leaf: u32) -> Vec<Need> {
-    let mut needs = Vec::new();
-    tetrahedra_of(tree, leaf, &mut |t| needs.extend(t.keys.map(|key| Need { key, size: t.size, leaf })));
-    needs.sort_unstable();
-    needs.dedup();
-    needs
+/// The corners of a leaf's tetrahedra, each once, in the order of their slots.
+fn needs_of(tree: &Octree, &(leaf, links): &(u32, Links)) -> (u64, Vec<Need>) {
+    let used = links.used();
+    let cell = tree.cell(leaf);
+    let slots = (0..SLOTS).filter(|&slot| used >> slot & 1 == 1);
+    let need = |slot| Need { key: key(links.position(tree, cell, slot)), size: cell.size, leaf };
+    (used, slots.map(need).collect())
 }
 
 fn make(tree: &Octree, need: &Need, field: &impl Field) -> Node {

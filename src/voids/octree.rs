@@ -50,8 +50,6 @@ pub(super) struct Cell {
     pub corner: Grid,
     /// The side, units.
     pub size: i32,
-    /// The first of its eight children, or 0 for a leaf.
-    children: u32,
     /// Whether the surface is sure not to enter it.
     pub is_free: bool,
     /// The function at its centre.
@@ -59,11 +57,6 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Whether it has no children.
-    pub fn is_leaf(&self) -> bool {
-        self.children == 0
-    }
-
     /// The grid position of the centre.
     pub fn center_grid(&self) -> Grid {
         self.corner.map(|c| c + self.size / 2)
@@ -79,6 +72,8 @@ impl Cell {
 #[derive(Debug, Clone)]
 pub(super) struct Octree {
     cells: Vec<Cell>,
+    /// For each cell the first of its eight children, or 0 for a leaf; apart, so that a descent stays in the cache.
+    children: Vec<u32>,
     origin: Point,
     unit_mm: f64,
 }
@@ -97,8 +92,8 @@ impl Octree {
         let at = aabb.center();
         let origin = at - crate::geom::Vector::repeat(half_mm);
         let center = Known { at, sample: field.sample(&at, &[]) };
-        let root = Cell { corner: [0; 3], size, children: 0, is_free: false, center };
-        Some(Self { cells: vec![root], origin, unit_mm })
+        let root = Cell { corner: [0; 3], size, is_free: false, center };
+        Some(Self { cells: vec![root], children: vec![0], origin, unit_mm })
     }
 
     /// All cells, parents before children; leaves and inner ones.
@@ -132,21 +127,26 @@ impl Octree {
         if corner.iter().any(|&c| c < 0 || c >= root) {
             return None;
         }
-        let mut index = 0;
+        let (mut index, mut half) = (0, root / 2);
         loop {
-            let cell = &self.cells[index as usize];
-            if cell.is_leaf() || cell.size <= size {
+            let children = self.children[index as usize];
+            if children == 0 || half < size {
                 return Some(index);
             }
-            let half = cell.size / 2;
-            let bit = |i: usize| u32::from(corner[i] - cell.corner[i] >= half) << i;
-            index = cell.children + bit(0) + bit(1) + bit(2);
+            let bit = |i: usize| u32::from(corner[i] & half != 0) << i;
+            index = children + bit(0) + bit(1) + bit(2);
+            half /= 2;
         }
+    }
+
+    /// Whether a cell has no children.
+    pub fn is_leaf(&self, index: u32) -> bool {
+        self.children[index as usize] == 0
     }
 
     /// Whether the place of the cell's neighbour of the same size is divided.
     pub fn is_divided(&self, corner: Grid, size: i32) -> bool {
-        self.at(corner, size).is_some_and(|index| !self.cell(index).is_leaf())
+        self.at(corner, size).is_some_and(|index| !self.is_leaf(index))
     }
 
     /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new leaves.
@@ -172,7 +172,7 @@ impl Octree {
     }
 
     fn leaves_of(&self, cells: Vec<u32>) -> Vec<u32> {
-        cells.into_iter().filter(|&i| self.cell(i).is_leaf()).collect()
+        cells.into_iter().filter(|&i| self.is_leaf(i)).collect()
     }
 
     fn is_too_coarse(&self, index: u32, field: &impl Field) -> bool {
@@ -206,7 +206,7 @@ impl Octree {
         let mut all: Vec<u32> = cells.par_iter().flat_map_iter(around).collect();
         all.sort_unstable();
         all.dedup();
-        all.retain(|&i| self.cell(i).is_leaf());
+        all.retain(|&i| self.is_leaf(i));
         all
     }
 
@@ -215,11 +215,11 @@ impl Octree {
         let mut stack: Vec<u32> = self.at(cell.neighbour_corner(direction), cell.size).into_iter().collect();
         let mut found = Vec::new();
         while let Some(index) = stack.pop() {
-            let other = self.cell(index);
-            if other.is_leaf() {
+            let children = self.children[index as usize];
+            if children == 0 {
                 found.push(index);
             } else {
-                stack.extend((other.children..other.children + 8).filter(|&c| touches(cell, self.cell(c))));
+                stack.extend((children..children + 8).filter(|&c| touches(cell, self.cell(c))));
             }
         }
         found
@@ -227,7 +227,7 @@ impl Octree {
 
     fn too_large_beside(&self, index: u32) -> impl Iterator<Item = u32> + '_ {
         let cell = *self.cell(index);
-        let neighbours = NEIGHBOURS.iter().filter(move |_| cell.is_leaf());
+        let neighbours = NEIGHBOURS.iter().filter(move |_| self.is_leaf(index));
         neighbours
             .filter_map(move |&direction| self.at(cell.neighbour_corner(direction), cell.size))
             .filter(move |&other| self.cell(other).size > 2 * cell.size)
@@ -242,9 +242,10 @@ impl Octree {
             .map(|(i, k)| self.child(i, k, field))
             .collect();
         for (k, &leaf) in leaves.iter().enumerate() {
-            self.cells[leaf as usize].children = first + 8 * k as u32;
+            self.children[leaf as usize] = first + 8 * k as u32;
         }
         self.cells.extend(children);
+        self.children.resize(self.cells.len(), 0);
         (first..self.cells.len() as u32).collect()
     }
 
@@ -256,7 +257,7 @@ impl Octree {
         let center = Known { at, sample: field.sample(&at, &[parent.center]) };
         let radius_mm = self.length_mm(size) * CIRCUMRADIUS * FREE_RATIO;
         let is_free = parent.is_free || field.is_free(&center, radius_mm);
-        Cell { corner, size, children: 0, is_free, center }
+        Cell { corner, size, is_free, center }
     }
 }
 

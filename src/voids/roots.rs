@@ -28,6 +28,12 @@ pub(super) fn corner_key(a: u32) -> VertexKey {
     (u64::from(a) << 32) | u64::from(a)
 }
 
+/// Whether a name is a crossing's.
+pub(super) fn is_crossing(key: VertexKey) -> bool {
+    let (a, b) = ends(key);
+    a != b
+}
+
 /// The two corners in a name.
 fn ends(key: VertexKey) -> (u32, u32) {
     ((key >> 32) as u32, key as u32)
@@ -35,6 +41,7 @@ fn ends(key: VertexKey) -> (u32, u32) {
 
 /// A crossing, and how often its corners had moved when it was found.
 struct Root {
+    key: VertexKey,
     found: Known,
     version: u32,
 }
@@ -54,6 +61,13 @@ impl Roots {
             return Some(&nodes.node(a).placed);
         }
         self.index.get(&key).map(|&i| &self.roots[i as usize].found)
+    }
+
+    /// Finds anew the crossings of edges whose corners have moved.
+    pub fn refresh(&mut self, nodes: &Nodes, field: &impl Field) {
+        let stale = |root: &&Root| root.version != version(nodes, root.key);
+        let keys: Vec<VertexKey> = self.roots.iter().filter(stale).map(|root| root.key).collect();
+        self.prepare(nodes, keys.into_iter(), field);
     }
 
     /// Finds the crossings of these edges that are new or whose corners have moved.
@@ -88,7 +102,7 @@ fn version(nodes: &Nodes, key: VertexKey) -> u32 {
 fn find(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
     let (a, b) = ends(key);
     let found = crossing(&nodes.node(a).placed, &nodes.node(b).placed, field);
-    Root { found, version: version(nodes, key) }
+    Root { key, found, version: version(nodes, key) }
 }
 
 /// The zero of the function on the segment between two points of different sign, by the Illinois method

@@ -67,11 +67,12 @@ impl Bvh {
     /// Whether a triangle comes nearer than `limit_mm` to any of the triangles.
     pub fn is_triangle_within(&self, corners: &[Point; 3], limit_mm: f64) -> bool {
         let probe = Probe::new(corners);
+        let aabb = Aabb::of_points(corners);
         let limit_squared = limit_mm * limit_mm;
         self.visit(
             false,
-            |aabb| probe.bound(aabb),
-            |hit| if *hit { f64::NEG_INFINITY } else { limit_mm },
+            |other| gap_squared(&aabb, other),
+            |hit| if *hit { f64::NEG_INFINITY } else { limit_squared },
             |hit, slot| {
                 let other = &self.corners[slot];
                 *hit = *hit
@@ -201,6 +202,12 @@ impl<'a> Probe<'a> {
         }
         tangent_bound(&self.center, distance, &(offset / distance), self.corners)
     }
+}
+
+/// The squared distance between two boxes, mm²; zero where they overlap.
+fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
+    let gap = (a.min - b.max).sup(&(b.min - a.max)).sup(&Vector::zeros());
+    gap.norm_squared()
 }
 
 /// Whether the ray from `p` along +z may meet the box.

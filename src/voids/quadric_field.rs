@@ -1,0 +1,98 @@
+//! A quadric's positive region as a function in model coordinates.
+
+use super::field::{Field, Known, Sample};
+use crate::geom::{Aabb, Frame, Matrix, Point, Quadric};
+
+/// sign(q) times the lower bound of the distance to q = 0 that the second-order Taylor series gives.
+///
+/// |q(x + v) − q(x)| ≤ |∇q| |v| + ‖H‖ |v|²/2, so no zero is nearer than 2|q| / (|∇q| + √(|∇q|² + 2‖H‖|q|)); near
+/// the surface this is the distance itself, and it is finite at a cone's apex.
+pub(super) struct QuadricField<'a> {
+    quadric: &'a Quadric,
+    frame: &'a Frame,
+    /// The spectral norm of the second derivatives.
+    curvature: f64,
+    /// Where the surface must be drawn within tolerance.
+    region: Aabb,
+    /// The largest cell that may hold the surface, mm.
+    coarse_mm: f64,
+    /// The largest cell where the surface turns within a cell, mm.
+    singular_mm: f64,
+}
+
+impl<'a> QuadricField<'a> {
+    /// The function of a quadric given in `frame`, to be drawn in `region`.
+    pub fn new(
+        quadric: &'a Quadric,
+        frame: &'a Frame,
+        region: Aabb,
+        [coarse_mm, singular_mm]: [f64; 2],
+    ) -> Self {
+        let curvature = hessian(quadric).symmetric_eigenvalues().amax();
+        Self { quadric, frame, curvature, region, coarse_mm, singular_mm }
+    }
+}
+
+/// The second derivatives.
+fn hessian(&Quadric([_, _, _, _, xy, yz, xz, xx, yy, zz]): &Quadric) -> Matrix {
+    Matrix::new(2.0 * xx, xy, xz, xy, 2.0 * yy, yz, xz, yz, 2.0 * zz)
+}
+
+impl Field for QuadricField<'_> {
+    fn sample(&self, p: &Point, _nearby: &[Known]) -> Sample {
+        let local = self.frame.to_local(p);
+        let (value, gradient) = (self.quadric.value(&local), self.quadric.gradient(&local));
+        let slope = gradient.norm();
+        let reach = slope + (slope * slope + 2.0 * self.curvature * value.abs()).sqrt();
+        let distance = if value == 0.0 {
+            0.0
+        } else if reach > 0.0 {
+            2.0 * value / reach
+        } else {
+            f64::INFINITY.copysign(value)
+        };
+        let direction = if slope > 0.0 { gradient / slope } else { gradient };
+        Sample::plain(distance, self.frame.direction_to_model(&direction))
+    }
+
+    fn is_free(&self, center: &Known, radius_mm: f64) -> bool {
+        center.sample.value.abs() > radius_mm
+    }
+
+    fn is_too_coarse(&self, center: &Known, size_mm: f64) -> bool {
+        let slope = self.quadric.gradient(&self.frame.to_local(&center.at)).norm();
+        let turns = self.curvature * size_mm > TURN_RATIO * slope;
+        size_mm > self.coarse_mm || (turns && size_mm > self.singular_mm && self.matters(&center.at, size_mm))
+    }
+
+    fn matters(&self, center: &Point, radius_mm: f64) -> bool {
+        self.region.distance_squared(center) <= radius_mm * radius_mm
+    }
+}
+
+/// A surface turns too much within a cell when its gradient may change by more than this share of itself: at 0.5 two
+/// sheets or a small ellipsoid cannot hide between the lattice's corners.
+const TURN_RATIO: f64 = 0.5;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+
+    #[test]
+    fn the_value_never_exceeds_the_distance_to_a_ball_and_meets_it_at_the_surface() {
+        let ball = Quadric([-25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+        let frame = Frame::with_axis(Point::new(1.0, 2.0, 3.0), &Vector::new(1.0, 1.0, 0.3));
+        let field = QuadricField::new(&ball, &frame, Aabb::EMPTY, [1.0, 1.0]);
+        for i in 0..200 {
+            let radius = 0.05 * f64::from(i);
+            let value = field.sample(&(frame.origin + Vector::new(0.6, 0.0, 0.8) * radius), &[]).value;
+            assert!(value.abs() <= (radius - 5.0).abs() + 1e-12);
+            assert_eq!(value > 0.0, radius > 5.0);
+        }
+        let near = field.sample(&(frame.origin + Vector::new(0.0, 5.001, 0.0)), &[]);
+        // The bound's relative error is about distance over radius.
+        assert!((near.value - 0.001).abs() < 1e-6);
+        assert!((near.gradient - Vector::y()).norm() < 1e-12);
+    }
+}

@@ -1,0 +1,78 @@
+//! The part of a box in which a quadric is positive, as a closed surface.
+
+use super::VoidError;
+use super::extract::Extractor;
+use super::field::{Field, Known, Resolution};
+use super::quadric_field::QuadricField;
+use crate::geom::{Aabb, Frame, Quadric};
+use crate::mesh::{Csg, TriMesh};
+
+/// The coarsest cells, mm: larger ones save nothing, as the quadrics' radii are of the model's size.
+const COARSE_MM: f64 = 4.0;
+
+/// How often coarse cells may be halved; the finest follow a radius of 0.4 mm to 0.01 mm.
+const HALVINGS: i32 = 5;
+
+/// The largest cell near a singular point, in tolerances: what hides in it is too thin to print.
+const SINGULAR_TOLERANCES: f64 = 20.0;
+
+/// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in the box.
+const MARGIN_MM: f64 = 1.0;
+
+/// What a simplification of the region may move, as a share of the tolerance.
+const SIMPLIFY_RATIO: f64 = 0.1;
+
+/// Half a cube's diagonal over its side.
+const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
+
+/// The part of a box where a quadric is positive.
+pub(super) enum Region {
+    /// None of it.
+    Nothing,
+    /// All of it.
+    Everything,
+    /// Some of it; the body reaches beyond the box.
+    Part(Csg),
+}
+
+/// The part of `aabb` in which the quadric, given in `frame`, is positive, within half of `tolerance_mm`.
+pub(super) fn positive_region(
+    quadric: &Quadric,
+    frame: &Frame,
+    aabb: &Aabb,
+    tolerance_mm: f64,
+) -> Result<Region, VoidError> {
+    let sizes = [COARSE_MM, SINGULAR_TOLERANCES * tolerance_mm];
+    let field = QuadricField::new(quadric, frame, *aabb, sizes);
+    let at = aabb.center();
+    let center = Known { at, sample: field.sample(&at, &[]) };
+    if aabb.is_empty() || field.is_free(&center, aabb.size().max() * CIRCUMRADIUS) {
+        let is_all = !aabb.is_empty() && center.sample.is_positive();
+        return Ok(if is_all { Region::Everything } else { Region::Nothing });
+    }
+    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), sizes[1], tolerance_mm)?;
+    if mesh.triangles().is_empty() {
+        return Ok(Region::Nothing);
+    }
+    Ok(Region::Part(Csg::of_mesh(&mesh)?.simplify(SIMPLIFY_RATIO * tolerance_mm)))
+}
+
+fn draw(
+    field: &QuadricField,
+    aabb: &Aabb,
+    singular_mm: f64,
+    tolerance_mm: f64,
+) -> Result<TriMesh, VoidError> {
+    let resolution = Resolution {
+        finest_mm: COARSE_MM / f64::from(1 << HALVINGS),
+        crease_mm: singular_mm,
+        outside_mm: tolerance_mm / 2.0,
+        inside_mm: tolerance_mm / 2.0,
+    };
+    let mut extractor = Extractor::new(field, aabb, resolution)
+        .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;
+    let leaves = extractor.leaves();
+    extractor.settle(leaves);
+    let surface = extractor.surface();
+    Ok(TriMesh::new(surface.vertices, surface.triangles)?)
+}
