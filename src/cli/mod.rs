@@ -1,10 +1,18 @@
 //! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
 
 pub mod args;
+pub mod inspect;
+pub mod prepare;
 pub mod printers;
 pub mod show;
+pub mod verify;
 
+use std::error::Error;
 use std::process::ExitCode;
+
+use args::{Cli, Command};
+use prepare::Voice;
+use show::Manner;
 
 /// How a command ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -31,5 +39,26 @@ impl Exit {
 impl From<Exit> for ExitCode {
     fn from(exit: Exit) -> Self {
         Self::from(exit.code())
+    }
+}
+
+/// Runs the command on as many threads as it asks for, and prints what came of it on the standard output.
+pub fn run(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
+    let threads = cli.global.threads.map_or(0, |threads| threads.get());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    pool.install(|| dispatch(cli, manner))
+}
+
+fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
+    let voice = Voice { manner, json: cli.global.json };
+    let out = &mut std::io::stdout();
+    match cli.command {
+        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, out)?),
+        Command::Inspect(args) => Ok(inspect::inspect(&args, voice, out)?),
+        Command::Printers(args) => {
+            printers::run(args.action, voice.json, out)?;
+            Ok(Exit::Kept)
+        }
+        Command::Verify(args) => Ok(verify::verify(&args.kit, voice, out)?),
     }
 }

@@ -6,6 +6,7 @@ use super::{
     error::CutError,
     opening::is_dimple,
     plan::cut_id,
+    sight::{Seen, Walls},
     split::{Piece, split},
 };
 use crate::{geom::Plane, mesh::Solid};
@@ -24,13 +25,15 @@ pub struct VoidAccess {
     pub opening_mm: f64,
     /// The greatest distance of a point of its surface from the mouth of its piece, mm.
     pub depth_mm: f64,
+    /// The share of its wall that is in sight from the middle of the widest mouth of each piece; of a sample of triangles.
+    pub sight_ratio: f64,
 }
 
 impl VoidAccess {
     /// A void that no cut opens.
     pub(crate) fn closed(void: usize, solid: &Solid) -> Self {
         let volume_mm3 = solid.mesh().signed_volume_mm3();
-        Self { void, volume_mm3, opened_by: Vec::new(), opening_mm: 0.0, depth_mm: 0.0 }
+        Self { void, volume_mm3, opened_by: Vec::new(), opening_mm: 0.0, depth_mm: 0.0, sight_ratio: 0.0 }
     }
 }
 
@@ -39,6 +42,7 @@ pub(crate) fn access(void: usize, solid: &Solid, planes: &[Plane]) -> Result<Voi
     let pieces = split(solid.mesh(), planes)?;
     let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
     let mouths: Vec<Mouth> = pieces.iter().map(|piece| widest_mouth(piece, planes)).collect();
+    let walls = Walls::of(solid);
     let widest_mm = mouths.iter().map(|mouth| mouth.diameter_mm).fold(0.0, f64::max);
     let hidden = mouths.iter().filter(|mouth| !is_dimple(mouth.depth_mm, mouth.diameter_mm));
     Ok(VoidAccess {
@@ -47,6 +51,11 @@ pub(crate) fn access(void: usize, solid: &Solid, planes: &[Plane]) -> Result<Voi
         opened_by: (0..planes.len()).filter(met).map(cut_id).collect(),
         opening_mm: hidden.map(|mouth| mouth.diameter_mm).fold(widest_mm, f64::min),
         depth_mm: mouths.iter().map(|mouth| mouth.depth_mm).fold(0.0, f64::max),
+        sight_ratio: pieces
+            .iter()
+            .map(|piece| walls.seen(piece, planes))
+            .fold(Seen::default(), Seen::and)
+            .ratio(),
     })
 }
 

@@ -18,6 +18,7 @@ mod score;
 mod search;
 mod section;
 mod sides;
+mod sight;
 mod split;
 
 #[cfg(test)]

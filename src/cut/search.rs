@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{
-    cover::{MAX_VOIDS, VoidSet, covers_of_size, smallest_cover},
+    cover::{MAX_VOIDS, VoidSet, covers_of_size, greedy_cover, smallest_cover},
     error::CutError,
     family::{Candidate, candidates},
     opening::Opening,
@@ -56,7 +56,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let family = promising_first(candidates(scene.hollowed, scene.request), (all, ample_guess_mm(scene)));
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
-    let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.chosen.len(), cover.nodes));
+    let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut exact: Vec<Exact> = Vec::new();
     let mut best = None;
     for round in ROUNDS.map(|round| round.min(family.len())) {
@@ -69,10 +69,11 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     }
     let cover = best.ok_or_else(|| unopenable(scene, &exact))?;
     Ok(Found {
-        plans: ranked(scene, &exact, [cover.chosen.len(), voids]),
+        plans: ranked(scene, &exact, &cover.chosen),
         family: family.len(),
         nodes: cover.nodes + bound_nodes,
-        is_proved: cover.chosen.len() == least || exact.len() == family.len(),
+        is_proved: cover.chosen.len() == least
+            || (exact.len() == family.len() && cover.chosen.len() == cover.at_least),
     })
 }
 
@@ -108,13 +109,12 @@ fn ample_guess_mm(scene: &Scene) -> f64 {
     2.0 * AMPLE_OPENING_RATIO * scene.request.min_opening_mm
 }
 
-/// The different sets of voids met, ascending, each with how many further planes would open the rest at least.
+/// The different sets of voids met, ascending, each with how many further planes open the rest by greedy choice.
 fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
     let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     sets.sort_unstable();
     sets.dedup();
-    let rest =
-        |set: VoidSet| smallest_cover(&sets, all & !set).map_or(usize::MAX, |cover| cover.chosen.len());
+    let rest = |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
     sets.par_iter().map(|&set| (set, rest(set))).collect()
 }
 
@@ -126,11 +126,15 @@ fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     Exact { plane: candidate.plane, openings, opened }
 }
 
-/// The smallest covers by exact planes, the best first.
-fn ranked(scene: &Scene, exact: &[Exact], [size, voids]: [usize; 2]) -> Vec<Vec<Plane>> {
+/// The covers as small as `known`, the best first; `known` alone where the search for others ends empty.
+fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
+    let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = exact.iter().map(|e| e.opened).collect();
-    let covers = covers_of_size(&opened, all, [size, COMPARED_COVERS]);
+    let mut covers = covers_of_size(&opened, all, [known.len(), COMPARED_COVERS]);
+    if covers.is_empty() {
+        covers.push(known.to_vec());
+    }
     let by_opening = |cover: &Vec<usize>| opening_penalty(scene, openings_mm(exact, cover, voids));
     let mut covers: Vec<(f64, Vec<usize>)> = covers.into_iter().map(|c| (by_opening(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));

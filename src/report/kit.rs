@@ -19,6 +19,13 @@ pub enum Existing {
     Replace,
 }
 
+impl Existing {
+    /// Whether a kit may take `target`, looked at before any work is done; see [`Kit::write`].
+    pub fn allows(self, target: &Path) -> Result<(), KitError> {
+        may_take(target, self)
+    }
+}
+
 /// Why a kit was not written; nothing is left behind.
 #[derive(Debug, thiserror::Error)]
 pub enum KitError {
