@@ -13,6 +13,8 @@ const SIZE_PX: [usize; 2] = [720, 560];
 /// from shape, not so much that the cut is foreshortened.
 const TURN: f64 = 0.45;
 const LIFT: f64 = 0.35;
+/// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow that is open upward.
+const PART_LIFT: f64 = 0.7;
 /// How far parts are drawn apart, as a share of the model's longest side.
 const APART_RATIO: f64 = 0.3;
 
@@ -94,15 +96,15 @@ impl View {
         // The cut holds the axis and the wider side.
         let normal = if size.x < size.y { Vector::x() } else { -Vector::y() };
         let cut = Plane::through(&frame.to_model(&local.center()), &frame.direction_to_model(&normal));
-        let toward = turned(&cut.normal, &frame.axis());
+        let toward = turned(&cut.normal, &frame.axis(), LIFT);
         Self { camera: Camera { toward_viewer: toward, up: frame.axis(), size_px: SIZE_PX }, cut }
     }
 }
 
-/// The direction to a viewer who faces `normal` from a little to the right and a little above.
-fn turned(normal: &Vector, up: &Vector) -> Vector {
+/// The direction to a viewer who faces `normal` from a little to the right and `lift` radians above.
+fn turned(normal: &Vector, up: &Vector, lift: f64) -> Vector {
     let right = up.cross(normal);
-    (normal * TURN.cos() + right * TURN.sin()) * LIFT.cos() + up * LIFT.sin()
+    (normal * TURN.cos() + right * TURN.sin()) * lift.cos() + up * lift.sin()
 }
 
 fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
@@ -160,7 +162,7 @@ fn part_shot(index: usize, part: &PartEvidence) -> Shot<'_> {
         caption: format!("{} as it lies on the plate.", part.id),
         scene: Scene { items: vec![still(&part.mesh, part_color(index))], cut: None },
         camera: Camera {
-            toward_viewer: turned(&-Vector::y(), &Vector::z()),
+            toward_viewer: turned(&-Vector::y(), &Vector::z(), PART_LIFT),
             up: Vector::z(),
             size_px: SIZE_PX,
         },

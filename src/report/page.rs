@@ -111,7 +111,7 @@ fn parts(sheet: &Checklist) -> Markup {
         h2 { "Parts" }
         table {
             tr {
-                th { "Part" } th { "File" } th class="n" { "Mass" } th class="n" { "Volume" } th { "Size on the plate" }
+                th { "Part and file" } th class="n" { "Mass" } th class="n" { "Volume" } th { "Size on the plate" }
                 th { "Lies" } th { "Pins, sockets" } th { "SHA-256" }
             }
             @for part in &sheet.parts { (part_line(sheet, part)) }
@@ -123,8 +123,7 @@ fn parts(sheet: &Checklist) -> Markup {
 fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
     html! {
         tr {
-            td { strong { (part.id) } }
-            td { code { (part.file) } }
+            td { strong { (part.id) } br; code { (part.file) } }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
             td class="n" { (quantity(part.volume_mm3 / 1000.0, "cm³")) }
             td { (extent(&part.size_mm)) }

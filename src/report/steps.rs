@@ -69,17 +69,18 @@ fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
                 (quantity(void.depth_mm, "mm")) " deep"
             }
             ". " (void.clean)
-            @if needs_sight(sheet) && void.sight_ratio < ALL_IN_SIGHT_RATIO {
-                " " (format!("{:.0} %", (1.0 - void.sight_ratio) * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
+            @if let Some(hidden) = hidden_ratio(sheet, void) {
+                " " (format!("{:.0} %", hidden * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
             }
             " Full of support it would make the parts " (quantity(full_g, "g")) " heavier, about."
         }
     }
 }
 
-/// Whether support must be seen to be removed.
-fn needs_sight(sheet: &Checklist) -> bool {
-    matches!(sheet.printer.support.as_str(), "breakaway" | "water-jet")
+/// The share of a void's wall that is out of sight, if there is one and support must be seen to be removed.
+fn hidden_ratio(sheet: &Checklist, void: &VoidRow) -> Option<f64> {
+    let needs_sight = matches!(sheet.printer.support.as_str(), "breakaway" | "water-jet");
+    void.sight_ratio.filter(|sight| needs_sight && *sight < ALL_IN_SIGHT_RATIO).map(|sight| 1.0 - sight)
 }
 
 fn dry_fit(sheet: &Checklist) -> Markup {
@@ -171,7 +172,7 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
                 )
             });
             let hang = format!("Its centre of mass lies {height} above the contact point, on the axis.");
-            speed.into_iter().chain([hang]).collect()
+            tip(sheet).into_iter().chain(speed).chain([hang]).collect()
         }
         Kind::Yoyo => vec![
             "Hung by its spin point it stays in any position: it is balanced.".to_owned(),
@@ -188,6 +189,15 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
             tilt.into_iter().chain([height]).collect()
         }
     }
+}
+
+/// What to add under a top whose contact point hangs in the air.
+fn tip(sheet: &Checklist) -> Option<String> {
+    let gap_mm = sheet.goal.contact_gap_mm;
+    (gap_mm > 0.0).then(|| {
+        let gap = quantity(gap_mm, "mm");
+        format!("Its contact point hangs {gap} below it: glue on a tip of that length, as light as may be; the figures do not count its mass.")
+    })
 }
 
 /// A line to write on.

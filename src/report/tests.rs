@@ -106,6 +106,8 @@ fn the_page_says_what_to_do_in_order() {
         "no room for pins",
         "all promises kept",
         "Flush with the water",
+        "10 % of its wall is out of sight",
+        "glue on a tip of that length",
     ] {
         assert!(page.contains(said), "{said}");
     }

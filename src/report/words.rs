@@ -8,6 +8,9 @@ const SIGNIFICANT_DIGITS: i32 = 4;
 /// Below this a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
 
+/// Below this share the gap of a certificate is rounding, of either sign.
+const NO_GAP_RATIO: f64 = 1e-9;
+
 /// A number to four digits without closing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0` for zero of either sign.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
@@ -73,11 +76,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
-        format!(
-            "The calculated optimum is {}; between it and the proof lies {} of it.",
-            quantity(proof.value, unit),
-            number(proof.gap_ratio)
-        ),
+        format!("The calculated optimum is {}; {}.", quantity(proof.value, unit), gap(proof.gap_ratio)),
     ];
     words.extend(proof.written_value.map(|written| {
         let share = reached_ratio(proof, written);
@@ -88,6 +87,15 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         )
     }));
     words
+}
+
+/// The distance between the optimum and its proof, in words.
+fn gap(ratio: f64) -> String {
+    if ratio.abs() <= NO_GAP_RATIO {
+        format!("between it and the proof lies less than {} of it", number(NO_GAP_RATIO))
+    } else {
+        format!("between it and the proof lies {} of it", number(ratio))
+    }
 }
 
 /// The share of the best possible that was reached, 1 at the bound.
