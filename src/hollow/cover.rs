@@ -69,3 +69,26 @@ impl Cover<'_> {
         quadric.dot(&self.heights.work.reach.least(&quadric)) >= 0.0
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::work::Work;
+    use super::super::{Settings, worlds};
+    use super::*;
+    use crate::progress::Progress;
+
+    #[test]
+    fn a_true_claim_is_proved_and_a_false_one_is_not() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &progress);
+        let heights = Heights { work: &work, objective: Objective::CriticalSpeed };
+        let range = Heights::range(&work).unwrap();
+        let best = heights.lowest(range).unwrap().sample;
+        for (share, expected) in [(1.1, true), (1.01, true), (0.99, false), (0.5, false)] {
+            // The ratio is −g/ω², so a target further below zero is a weaker claim.
+            let cover = Cover { heights, target: share * best.value };
+            assert_eq!(cover.holds_over(range, &best.climb.best.point), expected, "{share}");
+        }
+    }
+}
