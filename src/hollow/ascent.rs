@@ -136,7 +136,7 @@ pub(super) struct Budget<'a> {
 pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes;
     let mut here = Visit::new(reach, programme, start);
-    let mut stride = Stride { damping: budget.first_damping, moves_ratio: programme.is_ratio() };
+    let mut stride = Stride::first(programme, budget);
     loop {
         let done = |end| Climb { best: here.clone(), end, separator: None };
         if here.is_within(budget.tolerance) {
@@ -151,17 +151,14 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         if stride.damping > GREATEST_DAMPING {
             return done(End::Stalled);
         }
-        let step = Step::from(&here, programme, &stride);
-        let settled =
-            programme.is_ratio() && !stride.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs();
-        let step = if settled {
-            stride = Stride { damping: budget.first_damping, moves_ratio: true };
-            Step::from(&here, programme, &stride)
-        } else {
-            step
-        };
+        let mut step = Step::from(&here, programme, &stride);
+        let is_settled = stride.leaves_only_the_ratio(&here, &step, programme);
+        if is_settled {
+            stride = Stride::first(programme, budget);
+            step = Step::from(&here, programme, &stride);
+        }
         let there = Visit::new(reach, programme, step.to.clone());
-        if settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
+        if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
             if is_suspicious(&here, programme)
                 && let Some(proof) = separation(reach, programme, &here, budget)
@@ -180,6 +177,15 @@ struct Stride {
 }
 
 impl Stride {
+    fn first(programme: &Programme, budget: Budget) -> Self {
+        Self { damping: budget.first_damping, moves_ratio: programme.is_ratio() }
+    }
+
+    /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says of it.
+    fn leaves_only_the_ratio(&self, here: &Visit, step: &Step, programme: &Programme) -> bool {
+        programme.is_ratio() && !self.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs()
+    }
+
     /// Whether `there` is to be taken; adapts the damping to how well the model foresaw it.
     fn judge(&mut self, here: &Visit, there: &Visit, step: &Step, is_ratio: bool) -> bool {
         let promised = step.gain();
