@@ -8,7 +8,7 @@ use crate::goal::Objective;
 
 /// Intervals examined at most. A smooth valley takes about twenty.
 const MOST_INTERVALS: usize = 160;
-/// How exact an interval's ascent is; its bound is rigorous however exact it is.
+/// How exact an interval's ascent is at first; its bound is rigorous however exact it is.
 const COVER_TOLERANCE: f64 = 1e-3;
 
 /// A claim about all heights: no interior, wherever its centre, has a ratio below `target`.
@@ -49,7 +49,10 @@ impl Cover<'_> {
         let work = self.heights.work;
         let mut programme = self.heights.programme(height);
         programme.stage = Stage::Cover { height_mm: work.to_mm(height) };
-        let climb = work.climb(&programme, start.clone(), COVER_TOLERANCE);
+        let mut climb = work.climb(&programme, start.clone(), COVER_TOLERANCE);
+        if climb.separator.is_none() && climb.best.bound < self.target {
+            climb = work.climb(&programme, climb.best.point, 0.0);
+        }
         if let Some(separator) = &climb.separator {
             let slack = separator[HEIGHT_ROW].abs() * half_width;
             return Some(self.is_positive(climb.best.quadric, slack));
