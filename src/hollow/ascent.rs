@@ -6,9 +6,11 @@ use super::programme::{DualPoint, HEIGHT_ROW, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
 use crate::progress::Progress;
 
-/// The damping of a cold start, as a part of the mean curvature. Smaller, and the first steps overshoot into regions
-/// where the model is worthless; larger, and a warm start needs two passes more.
-const FIRST_DAMPING: f64 = 1e-3;
+/// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and the first steps
+/// overshoot to where the model is worthless; ten times more costs a pass an ascent.
+pub(super) const COLD_DAMPING: f64 = 1e-2;
+/// The first damping near a known answer, where the model is good. A hundred times more costs a pass an ascent.
+pub(super) const WARM_DAMPING: f64 = 1e-4;
 /// Damping below this part is none; above the greatest the steps are shorter than rounding.
 const LEAST_DAMPING: f64 = 1e-12;
 const GREATEST_DAMPING: f64 = 1e9;
@@ -27,6 +29,9 @@ const ROUNDING_GAIN: f64 = 1e-13;
 const SETTLED_RATIO: f64 = 0.03;
 /// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the rows.
 const SUSPICIOUS_MULTIPLIER: f64 = 20.0;
+
+/// How sharply the least miss of rows that cannot be met is found; any positive bound is a proof.
+const PROOF_TOLERANCE: f64 = 1e-3;
 
 /// A dual point, its quadric's extreme interior, and what they prove.
 #[derive(Debug, Clone)]
@@ -118,6 +123,7 @@ pub(super) struct Climb {
 pub(super) struct Budget<'a> {
     pub tolerance: f64,
     pub passes: usize,
+    pub first_damping: f64,
     pub progress: &'a Progress<'a>,
 }
 
@@ -130,7 +136,7 @@ pub(super) struct Budget<'a> {
 pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes;
     let mut here = Visit::new(reach, programme, start);
-    let mut stride = Stride { damping: FIRST_DAMPING, moves_ratio: programme.is_ratio() };
+    let mut stride = Stride::first(programme, budget);
     loop {
         let done = |end| Climb { best: here.clone(), end, separator: None };
         if here.is_within(budget.tolerance) {
@@ -145,17 +151,14 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         if stride.damping > GREATEST_DAMPING {
             return done(End::Stalled);
         }
-        let step = Step::from(&here, programme, &stride);
-        let settled =
-            programme.is_ratio() && !stride.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs();
-        let step = if settled {
-            stride = Stride { damping: FIRST_DAMPING, moves_ratio: true };
-            Step::from(&here, programme, &stride)
-        } else {
-            step
-        };
+        let mut step = Step::from(&here, programme, &stride);
+        let is_settled = stride.leaves_only_the_ratio(&here, &step, programme);
+        if is_settled {
+            stride = Stride::first(programme, budget);
+            step = Step::from(&here, programme, &stride);
+        }
         let there = Visit::new(reach, programme, step.to.clone());
-        if settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
+        if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
             if is_suspicious(&here, programme)
                 && let Some(proof) = separation(reach, programme, &here, budget)
@@ -174,6 +177,15 @@ struct Stride {
 }
 
 impl Stride {
+    fn first(programme: &Programme, budget: Budget) -> Self {
+        Self { damping: budget.first_damping, moves_ratio: programme.is_ratio() }
+    }
+
+    /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says of it.
+    fn leaves_only_the_ratio(&self, here: &Visit, step: &Step, programme: &Programme) -> bool {
+        programme.is_ratio() && !self.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs()
+    }
+
     /// Whether `there` is to be taken; adapts the damping to how well the model foresaw it.
     fn judge(&mut self, here: &Visit, there: &Visit, step: &Step, is_ratio: bool) -> bool {
         let promised = step.gain();
@@ -285,12 +297,66 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     }
     let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, ..budget });
     let separator = Some(proof.best.point.y.clone());
-    (proof.best.bound > 0.0).then(|| Climb {
-        end: End::Infeasible(proof.best.bound),
-        separator,
-        best: proof.best,
-    })
+    let end = End::Infeasible(proof.best.bound);
+    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end, separator })
 }
 
-/// How sharply the least miss of rows that cannot be met is found; any positive bound is a proof.
-const PROOF_TOLERANCE: f64 = 1e-3;
+#[cfg(test)]
+mod tests {
+    use super::super::reach::Scale;
+    use super::super::worlds;
+    use super::*;
+    use crate::goal::Objective;
+
+    /// A dual point of the egg's dominance where no column is about to be touched or left by the quadric.
+    fn world_and_point() -> (worlds::World, DualPoint) {
+        let point = DualPoint {
+            y: DVector::from_vec(vec![0.3, -0.2]),
+            lambda: DVector::from_vec(vec![0.05, -0.07, 0.3, 0.2, 0.11]),
+            tau: 0.9,
+        };
+        (worlds::egg(Objective::Dominance), point)
+    }
+
+    #[test]
+    fn the_slope_and_curvature_of_the_dual_are_those_of_finite_differences() {
+        let (world, point) = world_and_point();
+        let reach = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
+        let programme = Programme::yoyo_dominance(&reach);
+        let here = Visit::new(&reach, &programme, point.clone());
+        let curvature = &programme.rows * here.extreme.w * programme.rows.transpose();
+        for row in 0..5 {
+            // Central differences: the slope's error is 1e-8 of the curvature's change, far below 1e-6.
+            let step = 1e-4;
+            let at = |shift: f64| {
+                let mut moved = point.clone();
+                moved.lambda[row] += shift;
+                Visit::new(&reach, &programme, moved)
+            };
+            let (more, less) = (at(step), at(-step));
+            let slope = (more.dual - less.dual) / (2.0 * step);
+            assert!((slope - here.misses[row]).abs() < 1e-6, "{row}: {slope} {}", here.misses[row]);
+            // The curvature is a sum over 2 000 columns, of which a few cross their ends within the step.
+            let bend = (&more.misses - &less.misses) / (-2.0 * step);
+            let error = (bend - curvature.column(row)).amax();
+            assert!(error < 2e-2 * curvature.amax(), "{row}: {error}");
+        }
+    }
+
+    #[test]
+    fn a_bound_never_exceeds_the_optimum_wherever_the_dual_is_asked() {
+        let (world, point) = world_and_point();
+        let reach = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
+        let programme = Programme::yoyo_dominance(&reach);
+        let progress = Progress::silent();
+        let budget = Budget { tolerance: 1e-9, passes: 60, first_damping: COLD_DAMPING, progress: &progress };
+        let best = climb(&reach, &programme, programme.cold_start(&reach), budget);
+        assert_eq!(best.end, End::Converged);
+        for i in 0..60 {
+            let mut other = point.clone();
+            other.lambda *= f64::from(i) * 0.05;
+            other.tau = 0.4 + 0.02 * f64::from(i);
+            assert!(Visit::new(&reach, &programme, other).bound <= best.best.value + 1e-8, "{i}");
+        }
+    }
+}

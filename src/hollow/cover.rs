@@ -8,7 +8,7 @@ use crate::goal::Objective;
 
 /// Intervals examined at most. A smooth valley takes about twenty.
 const MOST_INTERVALS: usize = 160;
-/// How exact an interval's ascent is; its bound is rigorous however exact it is.
+/// How exact an interval's ascent is at first; its bound is rigorous however exact it is.
 const COVER_TOLERANCE: f64 = 1e-3;
 
 /// A claim about all heights: no interior, wherever its centre, has a ratio below `target`.
@@ -49,7 +49,10 @@ impl Cover<'_> {
         let work = self.heights.work;
         let mut programme = self.heights.programme(height);
         programme.stage = Stage::Cover { height_mm: work.to_mm(height) };
-        let climb = work.climb(&programme, start.clone(), COVER_TOLERANCE);
+        let mut climb = work.climb(&programme, start.clone(), COVER_TOLERANCE);
+        if climb.separator.is_none() && climb.best.bound < self.target {
+            climb = work.climb(&programme, climb.best.point, 0.0);
+        }
         if let Some(separator) = &climb.separator {
             let slack = separator[HEIGHT_ROW].abs() * half_width;
             return Some(self.is_positive(climb.best.quadric, slack));
@@ -67,5 +70,28 @@ impl Cover<'_> {
     fn is_positive(&self, mut quadric: Vector10, slack: f64) -> bool {
         quadric[index::ONE] -= slack;
         quadric.dot(&self.heights.work.reach.least(&quadric)) >= 0.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::work::Work;
+    use super::super::{Settings, worlds};
+    use super::*;
+    use crate::progress::Progress;
+
+    #[test]
+    fn a_true_claim_is_proved_and_a_false_one_is_not() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &progress);
+        let heights = Heights { work: &work, objective: Objective::CriticalSpeed };
+        let range = Heights::range(&work).unwrap();
+        let best = heights.lowest(range).unwrap().sample;
+        for (share, expected) in [(1.1, true), (1.01, true), (0.99, false), (0.5, false)] {
+            // The ratio is −g/ω², so a target further below zero is a weaker claim.
+            let cover = Cover { heights, target: share * best.value };
+            assert_eq!(cover.holds_over(range, &best.climb.best.point), expected, "{share}");
+        }
     }
 }

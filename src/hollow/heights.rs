@@ -91,3 +91,40 @@ impl Heights<'_> {
         Answer::new(self.objective, self.work.climb(&programme, start, 0.0))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Settings, worlds};
+    use super::*;
+    use crate::progress::Progress;
+
+    #[test]
+    fn the_slope_by_the_height_is_that_of_finite_differences() {
+        let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.2 };
+        for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.8)] {
+            let world = worlds::egg_on_its_side(objective);
+            let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+            let work = Work::new(&problem, &settings, &progress);
+            let heights = Heights { work: &work, objective };
+            let [low, high] = Heights::range(&work).unwrap();
+            let (height, step) = (0.6 * low + 0.4 * high, 3e-3 * (high - low));
+            let at = |height| heights.sample(height, None, 0.0).unwrap();
+            let difference = (at(height + step).value - at(height - step).value) / (2.0 * step);
+            // The bend of the slope costs about 5e-4 at this step (it is quadratic in it), and values exact to 1e-8 as much.
+            let slope = at(height).slope;
+            assert!((slope / difference - 1.0).abs() < 2e-3, "{objective:?}: {slope} {difference}");
+        }
+    }
+
+    #[test]
+    fn no_interior_that_is_balanced_has_its_centre_outside_the_range() {
+        let world = worlds::rings(Objective::CriticalSpeed);
+        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &progress);
+        let [low, high] = Heights::range(&work).unwrap().map(|height| work.to_mm(height));
+        worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
+            let height = moments.centroid().z;
+            assert!(low <= height && height <= high);
+        });
+    }
+}

@@ -96,3 +96,35 @@ impl<'a> Reach<'a> {
         self.passes.get()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::worlds;
+    use super::*;
+    use crate::goal::Objective;
+
+    #[test]
+    fn no_other_quadric_empties_to_a_lower_point() {
+        let world = worlds::egg(Objective::Dominance);
+        let scale = Scale::of(&world.fixed);
+        let reach = Reach::new(&world.columns, &world.fixed, scale);
+        let along = |seed| Vector10::from(worlds::some_quadric(seed, 1.0).0);
+        for seed in 0..20 {
+            let g = along(seed);
+            let least = g.dot(&reach.extreme(&g).s);
+            assert!((20..80).all(|other| g.dot(&reach.least(&along(other))) >= least - 1e-12), "{seed}");
+        }
+    }
+
+    #[test]
+    fn moments_and_quadrics_keep_their_product_from_unit_to_unit() {
+        let world = worlds::egg(Objective::Dominance);
+        let scale = Scale::of(&world.fixed);
+        let g = Vector10::from(worlds::some_quadric(3, 1.0).0);
+        let s = scale.moments_to_units(&world.fixed);
+        let in_mm: f64 = scale.quadric_to_mm(&g).0.iter().zip(world.fixed.0).map(|(g, s)| g * s).sum();
+        assert!((in_mm - g.dot(&s)).abs() < 1e-12);
+        assert!((scale.moments_to_mm(&s).0[9] / world.fixed.0[9] - 1.0).abs() < 1e-14);
+        assert!((s[0] - 1.0).abs() < 1e-14 && (s[7] + s[8] + s[9] - 1.0).abs() < 1e-14);
+    }
+}

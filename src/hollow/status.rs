@@ -150,3 +150,34 @@ impl Obstacle {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::worlds;
+    use super::*;
+    use crate::goal::Objective;
+
+    #[test]
+    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
+        let goal = worlds::egg(Objective::Dominance).goal;
+        let proofs = [
+            (Status::NotDominant { least_ratio: 1.0637 }, "1.064"),
+            (Status::UnstableForEveryInterior { least_ratio: 1.389, proved: true }, "1.389"),
+            (Status::CannotStand { greatest_angle_rad: -0.0239 }, "1.369°"),
+            (
+                Status::ConstraintsInfeasible {
+                    obstacle: Obstacle::Center,
+                    least_miss: 0.0169,
+                    separator: Quadric([0.0; 10]),
+                },
+                "1.69 %",
+            ),
+        ];
+        for (status, number) in proofs {
+            assert!(status.is_impossible());
+            assert!(status.explain(&goal).contains(number), "{}", status.explain(&goal));
+            assert!(!status.remedies(&goal).is_empty());
+        }
+        assert!(!Status::Solved.is_impossible() && Status::Solved.remedies(&goal).is_empty());
+    }
+}

@@ -7,7 +7,7 @@ use super::solution::Tangent;
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
 /// A descent ends when the next step promises less than this part of the value: the value is then exact to twice it.
-const PROMISE_RATIO: f64 = 1e-9;
+const PROMISE_RATIO: f64 = 1e-8;
 /// Values below this count as this large, lest a value near zero ask for impossible precision.
 const LEAST_VALUE: f64 = 1e-3;
 /// The longest step from a hint, as a part of its place: on finer or corrected columns the bottom hardly moves.

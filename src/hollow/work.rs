@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::ascent::{Budget, Climb, End, climb};
+use super::ascent::{Budget, COLD_DAMPING, Climb, End, WARM_DAMPING, climb};
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Reach, Scale};
@@ -17,6 +17,7 @@ pub(super) struct Work<'a> {
     pub reach: Reach<'a>,
     pub settings: &'a Settings,
     progress: &'a Progress<'a>,
+    first_damping: f64,
     log: RefCell<Vec<LogRow>>,
 }
 
@@ -25,7 +26,13 @@ impl<'a> Work<'a> {
         // The scale is the solid's own, so that dual points stay valid when `fixed` is corrected.
         let scale = Scale::of(&problem.goal.solid);
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
-        Self { goal: problem.goal, reach, settings, progress, log: RefCell::default() }
+        let first_damping = COLD_DAMPING;
+        Self { goal: problem.goal, reach, settings, progress, first_damping, log: RefCell::default() }
+    }
+
+    /// The same bench for a search that starts near its answer.
+    pub fn warmed(self) -> Self {
+        Self { first_damping: WARM_DAMPING, ..self }
     }
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
@@ -34,6 +41,7 @@ impl<'a> Work<'a> {
         let budget = Budget {
             tolerance: tolerance.max(self.settings.tolerance),
             passes: self.settings.passes_per_ascent,
+            first_damping: self.first_damping,
             progress: self.progress,
         };
         let climb = climb(&self.reach, programme, start, budget);
