@@ -106,18 +106,23 @@ pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     (r + d1 * s - d2 * t).norm_squared()
 }
 
-/// Whether the segment from `a` to `b` crosses the triangle (touching counts, up to rounding).
+/// Whether the segment from `a` to `b` passes through the triangle's plane inside it; touching counts, lying in the
+/// plane does not. Decided exactly (Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997).
 fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
     let [u, v, w] = corners;
-    let normal = (v - u).cross(&(w - u));
-    let (from, to) = (normal.dot(&(a - u)), normal.dot(&(b - u)));
-    if from * to > 0.0 || from == to {
+    let (from, to) = (side(u, v, w, a), side(u, v, w, b));
+    if from * to > 0 || (from == 0 && to == 0) {
         return false;
     }
-    let direction = b - a;
-    let volume = |p: &Point, q: &Point| direction.dot(&(p - a).cross(&(q - a)));
-    let sides = [volume(u, v), volume(v, w), volume(w, u)];
-    sides.iter().all(|&s| s >= 0.0) || sides.iter().all(|&s| s <= 0.0)
+    let turns = [side(a, b, u, v), side(a, b, v, w), side(a, b, w, u)];
+    turns.iter().all(|&turn| turn >= 0) || turns.iter().all(|&turn| turn <= 0)
+}
+
+/// On which side of the plane through `a`, `b` and `c` the point `d` lies: −1, 0 or 1.
+fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
+    let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D { x: p.x, y: p.y, z: p.z });
+    let volume = robust::orient3d(a, b, c, d);
+    i32::from(volume > 0.0) - i32::from(volume < 0.0)
 }
 
 /// The squared distance between the segment from `a` to `b` and the triangle, mm²; zero where they meet.
@@ -255,6 +260,21 @@ mod tests {
         let t = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(1.0, 0.0, 0.0)];
         let found = closest_on_triangle(&Point::new(1.5, 1.0, 0.0), &t);
         assert!((found.point - Point::new(1.5, 0.0, 0.0)).norm() < 1e-15);
+    }
+
+    #[test]
+    fn triangles_in_one_plane_are_apart_unless_they_overlap() {
+        // A plane in which rounding leaves no volume exactly zero.
+        let at =
+            |u: f64, v: f64| Point::new(0.1 * u + 0.3 * v, 0.7 * u - 0.2 * v, 0.9 * u + 0.1 * v + 1.0 / 3.0);
+        let s = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
+        let apart = [at(3.0, 0.0), at(4.0, 0.1), at(3.0, 1.3)];
+        // The nearest corners are two units of u apart; the sides between them lean by less than a fifth.
+        let expected = (at(3.0, 0.0) - at(1.0, 0.0)).norm();
+        let found = triangle_triangle_distance_squared(&s, &apart).sqrt();
+        assert!(found <= expected && found > 0.8 * expected, "{found} {expected}");
+        let across = [at(0.2, -1.0), at(0.4, -1.0), at(0.3, 2.0)];
+        assert!(triangle_triangle_distance_squared(&s, &across) < 1e-24);
     }
 
     #[test]

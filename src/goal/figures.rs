@@ -87,9 +87,11 @@ fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
         GoalKind::Yoyo => 0.0,
         GoalKind::Stand => return None,
     };
+    let gamma_c = if goal.kind == GoalKind::Top { gamma_c } else { 0.0 };
     let (i_xx, i_yy, i_zz) = (yy + zz - steiner, xx + zz - steiner, xx + yy);
     let flatness = (i_xx * i_xx + 2.0 * xy * xy + i_yy * i_yy) / (i_zz * i_zz);
-    Some(gamma_c * (z / goal.solid.0[3]).powi(2) + gamma_i * flatness)
+    let lowering = if gamma_c > 0.0 { gamma_c * (z / goal.solid.0[3]).powi(2) } else { 0.0 };
+    Some(lowering + gamma_i * flatness)
 }
 
 /// The least tilt that brings the centre of mass over an edge of the support, rad.

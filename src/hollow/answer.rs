@@ -6,7 +6,7 @@ use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
 use super::status::{Obstacle, Status};
 use super::work::Work;
-use crate::goal::{Objective, to_rpm};
+use crate::goal::{GoalKind, Objective, to_rpm};
 use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
@@ -53,12 +53,7 @@ impl Answer {
             certificate: self.certificate(&work),
             moments: scale.moments_to_mm(&best.extreme.s),
             passes: work.reach.passes(),
-            warm: Warm {
-                point: best.point.clone(),
-                height: self.height,
-                mass: self.mass,
-                bound_over_heights: self.bound_over_heights,
-            },
+            warm: Warm { point: best.point.clone(), height: self.height, mass: self.mass },
             log: work.into_log(),
         }
     }
@@ -80,7 +75,8 @@ impl Answer {
     fn certificate(&self, work: &Work) -> Certificate {
         let figure = figure_of(self.objective, self.verdict);
         let best = &self.climb.best;
-        let in_figure = |ratio| self.in_figure(work, figure, ratio);
+        let impossible = matches!(self.climb.end, End::Infeasible(_));
+        let in_figure = |ratio| if impossible { f64::NAN } else { self.in_figure(work, figure, ratio) };
         Certificate {
             figure,
             value: in_figure(best.value),
@@ -106,9 +102,11 @@ impl Answer {
 /// Spin-It's functional of an interior with these moments and this inertia ratio.
 pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
     let Objective::SpinIt { gamma_c, gamma_i } = objective else { return ratio * ratio };
+    if gamma_c == 0.0 || work.goal.kind != GoalKind::Top {
+        return gamma_i * ratio * ratio;
+    }
     let lever = s[index::Z] / work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
-    let lowering = if gamma_c > 0.0 { gamma_c * lever * lever } else { 0.0 };
-    lowering + gamma_i * ratio * ratio
+    gamma_c * lever * lever + gamma_i * ratio * ratio
 }
 
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::programme::{DualPoint, Programme};
+use super::programme::{DualPoint, HEIGHT_ROW, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
 use crate::progress::Progress;
 
@@ -22,6 +22,9 @@ const GOOD_GAIN_RATIO: f64 = 0.5;
 const LEAST_CURVATURE: f64 = 1e-4;
 /// Gains below this are rounding: a step that promises no more is judged by whether it comes nearer to the optimum.
 const ROUNDING_GAIN: f64 = 1e-13;
+/// When no y and λ promise to raise D by more than this part of it, it is τ that has to move, as Dinkelbach's method
+/// always may; larger, and τ moves on a D that is far from its maximum.
+const SETTLED_RATIO: f64 = 0.03;
 /// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the rows.
 const SUSPICIOUS_MULTIPLIER: f64 = 20.0;
 
@@ -70,6 +73,11 @@ impl Visit {
     /// Value over bound, as a part of the value (of one where it is smaller than a thousandth).
     pub fn gap_ratio(&self) -> f64 {
         (self.value - self.bound) / self.value.abs().max(1e-3)
+    }
+
+    /// The derivative of a top's ratio by the height of its centre, by the envelope theorem: −λ_ℓ s₁/(e·s).
+    pub fn height_slope(&self) -> f64 {
+        -self.point.lambda[HEIGHT_ROW] * self.extreme.s[index::ONE] / self.denominator
     }
 
     fn is_within(&self, tolerance: f64) -> bool {
@@ -138,8 +146,16 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
             return done(End::Stalled);
         }
         let step = Step::from(&here, programme, &stride);
+        let settled =
+            programme.is_ratio() && !stride.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs();
+        let step = if settled {
+            stride = Stride { damping: FIRST_DAMPING, moves_ratio: true };
+            Step::from(&here, programme, &stride)
+        } else {
+            step
+        };
         let there = Visit::new(reach, programme, step.to.clone());
-        if stride.judge(&here, &there, &step, programme.is_ratio()) {
+        if settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
             if is_suspicious(&here, programme)
                 && let Some(proof) = separation(reach, programme, &here, budget)
@@ -160,7 +176,7 @@ struct Stride {
 impl Stride {
     /// Whether `there` is to be taken; adapts the damping to how well the model foresaw it.
     fn judge(&mut self, here: &Visit, there: &Visit, step: &Step, is_ratio: bool) -> bool {
-        let promised = step.promised - step.standing;
+        let promised = step.gain();
         let gained = there.dual - step.standing;
         let gain_ratio = if promised > ROUNDING_GAIN {
             gained / promised
@@ -192,6 +208,11 @@ struct Step {
 }
 
 impl Step {
+    /// What the model promises the step to gain over standing still.
+    fn gain(&self) -> f64 {
+        self.promised - self.standing
+    }
+
     /// Maximises D + r·d − ½ dᵀ(H + μI)d over the step d = (dy, dλ) with y + dy ∈ Y.
     fn from(here: &Visit, programme: &Programme, stride: &Stride) -> Self {
         let turning = programme.turning();
@@ -200,43 +221,53 @@ impl Step {
         let eased = w * programme.denominator * ratio_step;
         let mut slope = &turning * here.extreme.s;
         slope.rows_mut(programme.directions.nrows(), programme.rhs.len()).copy_from(&here.misses);
-        let curvature = &turning * w * turning.transpose();
-        let (y, lambda) = maximise(&curvature, &(&slope + &turning * eased), here, programme, stride.damping);
+        let model = Model { slope: slope + &turning * eased, curvature: &turning * w * turning.transpose() };
+        let (y, lambda) = model.maximiser(&here.point, programme, stride.damping);
 
-        let weights = &y - &here.point.y;
-        let multipliers = &lambda - &here.point.lambda;
-        let step = DVector::from_iterator(slope.len(), weights.iter().chain(multipliers.iter()).copied());
-        let falls = ratio_step * here.denominator;
-        let standing = here.dual - falls - 0.5 * ratio_step * programme.denominator.dot(&eased);
-        let promised = standing + slope.dot(&step) + (&turning * eased).dot(&step)
-            - 0.5 * step.dot(&(&curvature * &step));
+        let (dy, dl) = (&y - &here.point.y, &lambda - &here.point.lambda);
+        let step = DVector::from_iterator(dy.len() + dl.len(), dy.iter().chain(dl.iter()).copied());
+        let fall = ratio_step * here.denominator + 0.5 * ratio_step * programme.denominator.dot(&eased);
+        let standing = here.dual - fall;
+        let promised = standing + model.gain(&step);
         Self { to: DualPoint { y, lambda, tau: here.point.tau + ratio_step }, promised, standing }
     }
 }
 
-/// The maximiser of the damped model: λ is eliminated, y is found on its set, λ follows.
-fn maximise(
-    curvature: &DMatrix<f64>,
-    slope: &DVector<f64>,
-    here: &Visit,
-    programme: &Programme,
-    damping: f64,
-) -> (DVector<f64>, DVector<f64>) {
-    let (k, m) = (programme.directions.nrows(), programme.rhs.len());
-    let n = k + m;
-    let mean = (curvature.trace() / n as f64).max(LEAST_CURVATURE);
-    let damped = curvature + DMatrix::identity(n, n) * (mean * damping);
-    let (yy, yl, ll) =
-        (damped.view((0, 0), (k, k)), damped.view((0, k), (k, m)), damped.view((k, k), (m, m)));
-    let (slope_y, slope_l) = (slope.rows(0, k).into_owned(), slope.rows(k, m).into_owned());
-    let Some(inner) = ll.into_owned().cholesky() else {
-        return (here.point.y.clone(), &here.point.lambda + slope_l / mean);
-    };
-    let schur = yy - yl * inner.solve(&yl.transpose());
-    let reduced = slope_y - yl * inner.solve(&slope_l);
-    let y = programme.set.minimise(&schur, &(reduced + &schur * &here.point.y), &here.point.y);
-    let follows = inner.solve(&(slope_l - yl.tr_mul(&(&y - &here.point.y))));
-    (y, &here.point.lambda + follows)
+/// D as a quadratic over (y, λ) about the present point, at the τ of the step.
+struct Model {
+    slope: DVector<f64>,
+    curvature: DMatrix<f64>,
+}
+
+impl Model {
+    /// What the model gains over a step.
+    fn gain(&self, step: &DVector<f64>) -> f64 {
+        self.slope.dot(step) - 0.5 * step.dot(&(&self.curvature * step))
+    }
+
+    /// The y and λ of the damped model's maximum: λ is eliminated, y is found on its set, λ follows.
+    fn maximiser(
+        &self,
+        from: &DualPoint,
+        programme: &Programme,
+        damping: f64,
+    ) -> (DVector<f64>, DVector<f64>) {
+        let (k, m) = (programme.directions.nrows(), programme.rhs.len());
+        let n = k + m;
+        let mean = (self.curvature.trace() / n as f64).max(LEAST_CURVATURE);
+        let damped = &self.curvature + DMatrix::identity(n, n) * (mean * damping);
+        let (yy, yl, ll) =
+            (damped.view((0, 0), (k, k)), damped.view((0, k), (k, m)), damped.view((k, k), (m, m)));
+        let (slope_y, slope_l) = (self.slope.rows(0, k), self.slope.rows(k, m).into_owned());
+        let Some(inner) = ll.into_owned().cholesky() else {
+            return (from.y.clone(), &from.lambda + slope_l / mean);
+        };
+        let schur = yy - yl * inner.solve(&yl.transpose());
+        let reduced = slope_y - yl * inner.solve(&slope_l);
+        let y = programme.set.minimise(&schur, &(reduced + &schur * &from.y), &from.y);
+        let follows = inner.solve(&(slope_l - yl.tr_mul(&(&y - &from.y))));
+        (y, &from.lambda + follows)
+    }
 }
 
 fn is_suspicious(visit: &Visit, programme: &Programme) -> bool {

@@ -4,6 +4,8 @@
 mod answer;
 mod ascent;
 mod cover;
+mod heights;
+mod mass;
 mod problem;
 mod programme;
 mod reach;

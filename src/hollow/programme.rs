@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::reach::{Reach, Vector10};
 use super::set::DualSet;
+use super::solution::Stage;
 use crate::goal::{Goal, support_edges};
 
 /// Where the ten moments stand.
@@ -24,6 +25,8 @@ use index::*;
 /// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY §3).
 #[derive(Debug, Clone)]
 pub(super) struct Programme {
+    /// What it is for.
+    pub stage: Stage,
     /// n
     pub numerator: Vector10,
     /// J, k × 10
@@ -104,11 +107,23 @@ fn axis_rows() -> Vec<Vector10> {
 }
 
 impl Programme {
+    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not yet bounded.
     fn new(numerator: Vector10, directions: DMatrix<f64>, denominator: Vector10, rows: DMatrix<f64>) -> Self {
+        let stage = Stage::Goal;
         let rhs = DVector::zeros(rows.nrows());
         let (denominator_floor, denominator_ceiling) = (0.0, 0.0);
         let set = DualSet::Ball;
-        Self { numerator, directions, set, denominator, denominator_floor, denominator_ceiling, rows, rhs }
+        Self {
+            stage,
+            numerator,
+            directions,
+            set,
+            denominator,
+            denominator_floor,
+            denominator_ceiling,
+            rows,
+            rhs,
+        }
     }
 
     /// For a denominator that grows with every bit of material: bounded by the shell and by the solid.
@@ -118,6 +133,15 @@ impl Programme {
         self
     }
 
+    fn at_height(mut self, reach: &Reach, height: f64) -> Self {
+        self.stage = Stage::AtHeight { height_mm: height * reach.scale.length_mm };
+        self
+    }
+
+    fn for_stage(self, stage: Stage) -> Self {
+        Self { stage, ..self }
+    }
+
     /// Yo-yo, Spin-It eq. 2, 5, 6: ‖(I_xx, √2 I_xy, I_yy)‖/I_zz, the square root of the functional.
     pub fn yoyo_functional(reach: &Reach) -> Self {
         Self::new(Vector10::zeros(), functional_rows(0.0), row(&I_ZZ), yoyo_rows()).bounded(reach)
@@ -125,7 +149,9 @@ impl Programme {
 
     /// Yo-yo: λ_max of the tensor across the axis over I_zz.
     pub fn yoyo_dominance(reach: &Reach) -> Self {
-        Self::new(mean_across(0.0), spread_rows(), row(&I_ZZ), yoyo_rows()).bounded(reach)
+        Self::new(mean_across(0.0), spread_rows(), row(&I_ZZ), yoyo_rows())
+            .bounded(reach)
+            .for_stage(Stage::Dominance)
     }
 
     /// Top at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq. 1).
@@ -137,38 +163,47 @@ impl Programme {
         let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), top_rows(height));
         programme.denominator_floor = height * reach.shell[ONE];
         programme.denominator_ceiling = height * reach.solid[ONE];
-        programme
+        programme.at_height(reach, height)
     }
 
     /// Top at a height: λ_max(I′)/I_zz, below 1 only where some speed is enough.
     pub fn top_dominance(reach: &Reach, height: f64) -> Self {
-        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), top_rows(height)).bounded(reach)
+        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), top_rows(height))
+            .bounded(reach)
+            .at_height(reach, height)
     }
 
-    /// Top at a height and a mass: the inertia part of Spin-It's functional (eq. 7), its square root.
-    pub fn top_functional(reach: &Reach, height: f64, mass: Option<f64>) -> Self {
-        let rows = top_rows(height);
-        let mut programme =
-            Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), rows).bounded(reach);
-        if let Some(mass) = mass {
-            let last = programme.rows.nrows();
-            programme.rows = programme.rows.insert_row(last, 0.0);
-            programme.rows[(last, ONE)] = 1.0;
-            programme.rhs = programme.rhs.insert_row(last, mass);
+    /// Top at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
+    pub fn top_functional(reach: &Reach, height: f64) -> Self {
+        Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), top_rows(height))
+            .bounded(reach)
+            .at_height(reach, height)
+    }
+
+    /// The same programme for interiors of this mass only, in units of the solid's.
+    pub fn with_mass(mut self, reach: &Reach, mass: f64) -> Self {
+        let last = self.rows.nrows();
+        self.rows = self.rows.insert_row(last, 0.0);
+        self.rows[(last, ONE)] = 1.0;
+        self.rhs = self.rhs.insert_row(last, mass);
+        if let Stage::AtHeight { height_mm } = self.stage {
+            self.stage = Stage::AtMass { height_mm, volume_mm3: mass * reach.scale.volume_mm3 };
         }
-        programme
+        self
     }
 
     /// Top at a height: the least mass, in units of the solid's; no ratio.
-    pub fn top_lightest(height: f64) -> Self {
+    pub fn top_lightest(reach: &Reach, height: f64) -> Self {
         let mass = row(&[(ONE, 1.0)]);
-        Self::new(mass, DMatrix::zeros(0, 10), Vector10::zeros(), top_rows(height))
+        Self::new(mass, DMatrix::zeros(0, 10), Vector10::zeros(), top_rows(height)).at_height(reach, height)
     }
 
     /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can have, as a ratio.
     pub fn top_height(reach: &Reach, sense: f64) -> Self {
         let nothing = DMatrix::zeros(0, 10);
-        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), stack(&axis_rows())).bounded(reach)
+        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), stack(&axis_rows()))
+            .bounded(reach)
+            .for_stage(Stage::HeightRange)
     }
 
     /// Stand: −tan of the toppling angle, the largest over the support's edges of (d s₁ − n·s_xy)/s_z.

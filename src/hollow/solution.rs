@@ -129,7 +129,6 @@ pub(super) struct Warm {
     pub height: Option<Tangent>,
     /// A top's mass where Spin-It's functional weighs it.
     pub mass: Option<f64>,
-    pub bound_over_heights: Option<f64>,
 }
 
 /// Where a slope was last seen to vanish, and its derivative there.

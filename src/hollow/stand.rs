@@ -2,7 +2,6 @@
 
 use super::answer::Answer;
 use super::programme::{DualPoint, Programme};
-use super::solution::Stage;
 use super::status::Status;
 use super::work::Work;
 use crate::goal::Objective;
@@ -13,8 +12,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         Objective::LowestCenter => Programme::stand_lowest_center(&work.reach),
         _ => Programme::stand_toppling(&work.reach, work.goal),
     };
-    let start = start.cloned().unwrap_or_else(|| programme.cold_start(&work.reach));
-    let climb = work.climb(Stage::Goal, &programme, start, 0.0);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
     let least = climb.best.bound;
     let answer = Answer::new(objective, climb);
     if objective == Objective::TopplingAngle && least >= 0.0 {

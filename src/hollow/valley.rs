@@ -1,13 +1,17 @@
 //! The least of a smooth function of one number whose slope comes free with its value.
 
 use super::ascent::Climb;
+use super::programme::DualPoint;
+use super::solution::Tangent;
 
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
 /// A descent ends when the next step promises less than this part of the value: the value is then exact to twice it.
-const PROMISE_RATIO: f64 = 1e-10;
+const PROMISE_RATIO: f64 = 1e-9;
 /// Values below this count as this large, lest a value near zero ask for impossible precision.
 const LEAST_VALUE: f64 = 1e-3;
+/// The longest step from a hint, as a part of its place: on finer or corrected columns the bottom hardly moves.
+const HINT_RANGE_RATIO: f64 = 0.05;
 /// A bracket narrower than this part of its place cannot be split usefully.
 const NARROW_RATIO: f64 = 1e-12;
 
@@ -23,12 +27,26 @@ pub(super) struct Sample {
     pub mass: Option<f64>,
 }
 
+impl Sample {
+    /// What a sample near this one starts from.
+    pub fn start(&self) -> (&DualPoint, Option<f64>) {
+        (&self.climb.best.point, self.mass)
+    }
+}
+
 /// The lowest point of a valley.
 #[derive(Debug, Clone)]
 pub(super) struct Bottom {
     pub sample: Sample,
     /// The derivative of the slope there.
     pub curvature: f64,
+}
+
+impl Bottom {
+    /// What a later search of a similar function starts from.
+    pub fn tangent(&self) -> Tangent {
+        Tangent { at: self.sample.at, curvature: self.curvature }
+    }
 }
 
 /// A search for the place where the slope turns from falling to rising.
@@ -42,12 +60,20 @@ pub(super) struct Valley {
     /// Rough samples to aim by, then the exact ones; the secant goes through the last two.
     known: Vec<Sample>,
     rough: usize,
+    /// Where the bottom was in a similar function, and the growth of the slope there.
+    hint: Option<Tangent>,
 }
 
 impl Valley {
     /// A search over a range of which nothing is known.
     pub fn unknown(low: f64, high: f64) -> Self {
-        Self { low, high, longest_step: high - low, known: Vec::new(), rough: 0 }
+        Self { low, high, longest_step: high - low, known: Vec::new(), rough: 0, hint: None }
+    }
+
+    /// A search near the bottom of a similar function.
+    pub fn near(hint: Tangent) -> Self {
+        let longest_step = HINT_RANGE_RATIO * hint.at;
+        Self { longest_step, hint: Some(hint), ..Self::unknown(0.0, 2.0 * hint.at) }
     }
 
     /// A search for every place of the range where rough samples, ascending, show a fall and then a rise; the ends of
@@ -94,7 +120,8 @@ impl Valley {
     /// Where the line through the last two slopes vanishes, if that is downhill; never further than the longest step,
     /// nor more than half way to an end of what is left.
     fn next_place(&self) -> f64 {
-        let Some(last) = self.known.last() else { return 0.5 * (self.low + self.high) };
+        let middle = 0.5 * (self.low + self.high);
+        let Some(last) = self.known.last() else { return self.hint.map_or(middle, |hint| hint.at) };
         let curvature = self.curvature();
         let longest = self.longest_step.copysign(-last.slope);
         let newton = if curvature > 0.0 { -last.slope / curvature } else { longest };
@@ -110,11 +137,11 @@ impl Valley {
             || self.high - self.low <= NARROW_RATIO * (self.low.abs() + self.high.abs())
     }
 
-    /// The growth of the slope between the last two samples; zero where there are not two.
+    /// The growth of the slope between the last two samples; where there are not two, the hint's or zero.
     fn curvature(&self) -> f64 {
         match &self.known[..] {
             [.., before, last] if last.at != before.at => (last.slope - before.slope) / (last.at - before.at),
-            _ => 0.0,
+            _ => self.hint.map_or(0.0, |hint| hint.curvature),
         }
     }
 }

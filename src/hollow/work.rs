@@ -7,7 +7,7 @@ use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Reach, Scale};
 use super::settings::Settings;
-use super::solution::{LogRow, Stage};
+use super::solution::LogRow;
 use crate::goal::Goal;
 use crate::progress::Progress;
 
@@ -29,7 +29,7 @@ impl<'a> Work<'a> {
     }
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
-    pub fn climb(&self, stage: Stage, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
+    pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
             tolerance: tolerance.max(self.settings.tolerance),
@@ -38,13 +38,24 @@ impl<'a> Work<'a> {
         };
         let climb = climb(&self.reach, programme, start, budget);
         self.log.borrow_mut().push(LogRow {
-            stage,
+            stage: programme.stage,
             passes: self.reach.passes() - before,
             value: climb.best.value,
             bound: climb.best.bound,
             residual: climb.best.residual(),
         });
         climb
+    }
+
+    /// The same from a near dual point; none where it was stopped or the rows cannot be met.
+    pub fn climb_near(
+        &self,
+        programme: &Programme,
+        near: Option<&DualPoint>,
+        tolerance: f64,
+    ) -> Option<Climb> {
+        let climb = self.climb(programme, programme.start_near(&self.reach, near), tolerance);
+        (!matches!(climb.end, End::Infeasible(_) | End::Cancelled)).then_some(climb)
     }
 
     /// Whether an ascent is good enough to stand as an answer.

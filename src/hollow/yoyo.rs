@@ -3,7 +3,6 @@
 use super::answer::Answer;
 use super::ascent::{Climb, End};
 use super::programme::{DualPoint, Programme};
-use super::solution::Stage;
 use super::status::Status;
 use super::work::Work;
 use crate::goal::Objective;
@@ -14,7 +13,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         return dominance(work, start);
     }
     let programme = Programme::yoyo_functional(&work.reach);
-    let climb = climb(work, Stage::Goal, &programme, start);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
     if matches!(climb.end, End::Infeasible(_) | End::Cancelled) || is_dominant(work, &climb) {
         return Answer::new(objective, climb);
     }
@@ -24,15 +23,10 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
 /// The interior whose axis is the most dominant; at a ratio of 1 or more none is stable.
 fn dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::yoyo_dominance(&work.reach);
-    let climb = climb(work, Stage::Dominance, &programme, start);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
     let least_ratio = climb.best.bound;
     let answer = Answer::new(Objective::Dominance, climb);
     if least_ratio >= 1.0 { answer.with_verdict(Status::NotDominant { least_ratio }) } else { answer }
-}
-
-fn climb(work: &Work, stage: Stage, programme: &Programme, start: Option<&DualPoint>) -> Climb {
-    let start = start.cloned().unwrap_or_else(|| programme.cold_start(&work.reach));
-    work.climb(stage, programme, start, 0.0)
 }
 
 fn is_dominant(work: &Work, climb: &Climb) -> bool {

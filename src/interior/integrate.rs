@@ -74,13 +74,13 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
 fn sum_block<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric, block: Range<usize>) -> Sums {
     let mut sums = Sums::default();
     let mut row = Row::new(quadric, columns.pitch_mm, 0.0);
-    for index in block {
-        let [x, y] = columns.centers[index];
+    let ends = columns.starts[block.start..=block.end].windows(2);
+    for (&[x, y], ends) in columns.centers[block].iter().zip(ends) {
         if y != row.y {
             sums.add_row::<DERIVATIVE>(&row);
             row = Row::new(quadric, columns.pitch_mm, y);
         }
-        row.add_column::<DERIVATIVE>(x, columns.intervals_of(index));
+        row.add_column::<DERIVATIVE>(x, &columns.intervals[ends[0] as usize..ends[1] as usize]);
     }
     sums.add_row::<DERIVATIVE>(&row);
     sums
@@ -177,8 +177,7 @@ impl Row {
         if half * slope.abs() + half * half * self.c2.abs() >= UPRIGHT_RATIO * spread {
             return None;
         }
-        let c1 = self.c1[0] + x * self.c1[1];
-        let value = self.c0[0] + x * (self.c0[1] + x * self.c0[2]) + middle * (c1 + middle * self.c2);
+        let value = self.c0[0] + x * (self.c0[1] + x * self.c0[2]) + middle * (slope - middle * self.c2);
         let weight = if value.abs() < spread { half / (2.0 * spread) } else { 0.0 };
         let offset = half / 3f64.sqrt();
         Some([(middle - offset, weight), (middle + offset, weight)])
@@ -192,6 +191,9 @@ impl Row {
 
     #[inline]
     fn add_roots(&mut self, x: f64, [(lo, w_lo), (hi, w_hi)]: [(f64, f64); 2]) {
+        if w_lo + w_hi == 0.0 {
+            return;
+        }
         let (mut low, mut high) = (w_lo, w_hi);
         for k in 0..5 {
             let mut term = low + high;

@@ -177,7 +177,7 @@ fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
         opened_by: access.opened_by.clone(),
         opening_mm: access.opening_mm,
         depth_mm: access.depth_mm,
-        sight_ratio: access.sight_ratio,
+        sight_ratio: Some(access.sight_ratio),
         clean: sheet.setup.printer.cleaning.clone(),
     };
     plan.voids.iter().map(row).collect()

@@ -66,14 +66,14 @@ fn keep_distance(keep: &Keep, corners: &[Point; 3]) -> f64 {
     crate::geom::triangle::segment_triangle_distance_squared(&keep.from, &keep.to, corners).sqrt()
 }
 
-/// The cavity's surface, as the boolean engine has it.
-pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> Result<Csg, VoidError> {
+/// The cavity's surface.
+pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(solid.mesh().iter_corners());
     let limits = Limits { surface: &surface, spec };
     for attempt in 0..ATTEMPTS {
         let bias_mm = BIAS_MM + DEEPER_MM * attempt as f64;
         if let Some(drawn) = draw(&limits, bias_mm, progress)? {
-            return simplified(&limits, &drawn);
+            return simplified(&limits, drawn);
         }
     }
     Err(VoidError::WallNotKept { wall_mm: spec.wall_mm })
@@ -125,13 +125,16 @@ fn stop_if_cancelled(progress: &Progress) -> Result<(), VoidError> {
 }
 
 /// The drawn surface with fewer triangles, as few as the limits allow.
-fn simplified(limits: &Limits, drawn: &TriMesh) -> Result<Csg, VoidError> {
-    let full = Csg::of_mesh(drawn)?;
+///
+/// A mesh, not the engine's body: that remembers which triangles it took for one plane and would let the curves that
+/// later cuts leave in them stray as far.
+fn simplified(limits: &Limits, drawn: TriMesh) -> Result<TriMesh, VoidError> {
+    let full = Csg::of_mesh(&drawn)?;
     for ratio in SIMPLIFY_RATIOS {
-        let simple = full.simplify(ratio * limits.spec.tolerance_mm);
-        if limits.violators(&simple.to_mesh()?, FINAL_LACK_MM).is_empty() {
+        let simple = full.simplify(ratio * limits.spec.tolerance_mm).to_mesh()?;
+        if limits.violators(&simple, FINAL_LACK_MM).is_empty() {
             return Ok(simple);
         }
     }
-    Ok(full)
+    Ok(drawn)
 }

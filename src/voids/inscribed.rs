@@ -9,9 +9,9 @@ use crate::mesh::TriMesh;
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
-/// The search gives up on cells smaller than this share of the radius: a ball that fits only by less than about as
-/// much may be missed. Smaller costs time with the third power.
-const GIVE_UP_RATIO: f64 = 0.15;
+/// The search gives up on cells whose half side is below this share of the radius. Smaller costs time with its square
+/// on sheets that are just too thin.
+const GIVE_UP_RATIO: f64 = 0.1;
 
 /// A cube whose points may be a ball's centre.
 struct Candidate {
@@ -43,7 +43,7 @@ impl Ord for Candidate {
 }
 
 /// Whether a ball of `radius_mm` fits into the body bounded by a closed mesh, by branch and bound over the distance to
-/// its surface; a ball that fits with less than about a tenth of its radius to spare may be missed.
+/// its surface; a ball that fits with less than a sixth of its radius to spare may be missed.
 pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     let size = mesh.aabb().size();
     if size.min() < 2.0 * radius_mm {
@@ -51,7 +51,11 @@ pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     }
     let bvh = Bvh::new(mesh.iter_corners());
     let mut heap = BinaryHeap::new();
-    heap.extend(measured(&bvh, mesh.aabb().center(), size.max() / 2.0, NO_HINT).0);
+    let (root, depth_mm) = measured(&bvh, mesh.aabb().center(), size.max() / 2.0, NO_HINT);
+    if depth_mm >= radius_mm {
+        return true;
+    }
+    heap.extend(root);
     while let Some(cell) = heap.pop() {
         if cell.bound_mm < radius_mm {
             return false;

@@ -32,7 +32,7 @@ pub(super) enum Region {
     /// All of it.
     Everything,
     /// Some of it; the body reaches beyond the box.
-    Part(Csg),
+    Part(Box<Csg>),
 }
 
 /// The part of `aabb` in which the quadric, given in `frame`, is positive, within half of `tolerance_mm`.
@@ -54,7 +54,9 @@ pub(super) fn positive_region(
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
-    Ok(Region::Part(Csg::of_mesh(&mesh)?.simplify(SIMPLIFY_RATIO * tolerance_mm)))
+    // Imported anew: the engine's body remembers what it took for one plane, and cuts through it would stray.
+    let simple = Csg::of_mesh(&mesh)?.simplify(SIMPLIFY_RATIO * tolerance_mm).to_mesh()?;
+    Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
 }
 
 fn draw(

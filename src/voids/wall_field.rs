@@ -21,11 +21,16 @@ pub(super) struct WallField<'a> {
     pub coarse_mm: f64,
 }
 
+/// Two empty balls overlap for certain below this share of the sum of their radii: balls on both sides of a surface
+/// may touch, and rounding must not join them.
+const OVERLAP_RATIO: f64 = 1.0 - 1e-6;
+
 impl WallField<'_> {
     /// Whether `p`, at distance `clearance_mm` from the surface, is inside: as the nearby points whose empty balls
     /// overlap its own, or by a ray.
     fn is_inside(&self, p: &Point, clearance_mm: f64, nearby: &[Known]) -> bool {
-        let overlaps = |k: &&Known| (k.at - p).norm() < k.sample.clearance_mm + clearance_mm;
+        let reach = |k: &Known| (k.sample.clearance_mm + clearance_mm) * OVERLAP_RATIO;
+        let overlaps = |k: &&Known| (k.at - p).norm() < reach(k);
         match nearby.iter().find(overlaps) {
             Some(known) => known.sample.inside,
             None => self.surface.winding(p) > 0,

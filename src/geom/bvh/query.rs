@@ -68,7 +68,7 @@ impl Bvh {
     pub fn is_triangle_within(&self, corners: &[Point; 3], limit_mm: f64) -> bool {
         let probe = Probe::new(corners);
         let aabb = Aabb::of_points(corners);
-        let limit_squared = limit_mm * limit_mm;
+        let limit_squared = limit_mm.max(0.0).powi(2);
         self.visit(
             false,
             |other| gap_squared(&aabb, other),
