@@ -17,8 +17,8 @@ pub struct VoidRow {
     pub opening_mm: f64,
     /// How far its deepest point lies from the opening, mm.
     pub depth_mm: f64,
-    /// The share of its surface in sight of an opening.
-    pub sight_ratio: f64,
+    /// The share of its surface in sight of an opening; none where it was not measured.
+    pub sight_ratio: Option<f64>,
     /// How to clean it, in a sentence.
     pub clean: String,
 }

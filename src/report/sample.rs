@@ -103,7 +103,7 @@ fn the_void() -> VoidRow {
         opened_by: vec!["C1".into()],
         opening_mm: 34.0,
         depth_mm: 3.0,
-        sight_ratio: 0.9,
+        sight_ratio: Some(0.9),
         clean: "Flush with the water jet.".into(),
     }
 }

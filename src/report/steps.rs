@@ -80,7 +80,7 @@ fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
 /// The share of a void's wall that is out of sight, if there is one and support must be seen to be removed.
 fn hidden_ratio(sheet: &Checklist, void: &VoidRow) -> Option<f64> {
     let needs_sight = matches!(sheet.printer.support.as_str(), "breakaway" | "water-jet");
-    (needs_sight && void.sight_ratio < ALL_IN_SIGHT_RATIO).then(|| 1.0 - void.sight_ratio)
+    void.sight_ratio.filter(|sight| needs_sight && *sight < ALL_IN_SIGHT_RATIO).map(|sight| 1.0 - sight)
 }
 
 fn dry_fit(sheet: &Checklist) -> Markup {
