@@ -12,8 +12,8 @@ use crate::{
 const SAMPLES: usize = 1500;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
 const LOOKED_RATIO: f64 = 0.999;
-/// A line of sight that comes nearer to a wall than this is blocked, mm; rounding leaves 1e-12.
-const BLOCKED_MM: f64 = 1e-9;
+/// A triangle whose corners lie this near to a cut is part of the mouth, mm; rounding leaves 1e-12.
+const MOUTH_MM: f64 = 1e-9;
 
 /// The area of a piece's wall and how much of it is seen, mm², of a sample of its triangles.
 #[derive(Debug, Clone, Copy, Default)]
@@ -45,12 +45,11 @@ impl Walls {
     fn look(&self, corners: &[Point; 3], eye: Option<Point>, planes: &[Plane]) -> Seen {
         let [a, b, c] = corners;
         let area_mm2 = (b - a).cross(&(c - a)).norm() / 2.0;
-        let is_mouth =
-            planes.iter().any(|plane| corners.iter().all(|p| plane.distance(p).abs() < BLOCKED_MM));
+        let is_mouth = planes.iter().any(|plane| corners.iter().all(|p| plane.distance(p).abs() < MOUTH_MM));
         let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
         let is_seen = |eye: Point| {
             let end = eye + (middle - eye) * LOOKED_RATIO;
-            self.0.segment_distance(&eye, &end, 2.0 * BLOCKED_MM) > BLOCKED_MM
+            !self.0.is_crossed_by(&eye, &end)
         };
         match eye {
             _ if is_mouth => Seen::default(),
