@@ -125,7 +125,8 @@ const SHORT_EDGE_MM: f64 = 3e-5;
 /// parts' sum is held to.
 const VOLUME_CHANGE_RATIO: f64 = 1e-7;
 
-/// The solid, freed of edges that would vanish in a file, if it has any and stays the same solid.
+/// The solid, freed of edges that would vanish in a file, if it has any and stays the same solid: of the same volume,
+/// and not folded into itself.
 fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
     let solid = body.to_solid()?;
     if !has_short_edge(solid.mesh()) {
@@ -133,7 +134,8 @@ fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
     }
     let simple = body.simplify(SHORT_EDGE_MM).to_solid()?;
     let (before, after) = (solid.mesh().signed_volume_mm3(), simple.mesh().signed_volume_mm3());
-    let is_same = (after - before).abs() <= VOLUME_CHANGE_RATIO * before;
+    let is_same =
+        (after - before).abs() <= VOLUME_CHANGE_RATIO * before && Crossings::of(simple.mesh()).pairs == 0;
     Ok(if is_same { simple } else { solid })
 }
 

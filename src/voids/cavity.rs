@@ -2,12 +2,14 @@
 
 use rayon::prelude::*;
 
+use super::decimate::Stray;
 use super::extract::{Extractor, Surface};
 use super::field::Resolution;
+use super::simplify::simplified;
 use super::wall_field::WallField;
 use super::{CavitySpec, VoidError};
 use crate::geom::{Bvh, Point};
-use crate::mesh::{Csg, Solid, TriMesh};
+use crate::mesh::{Solid, TriMesh};
 use crate::progress::Progress;
 use crate::shell::Keep;
 
@@ -37,8 +39,10 @@ const CHECK_ROUNDS: usize = 5;
 const DEEPER_MM: f64 = 0.01;
 const ATTEMPTS: usize = 3;
 
-/// What a simplification may move, as a share of the tolerance; halved as long as the checks fail.
-const SIMPLIFY_RATIOS: [f64; 2] = [0.25, 0.125];
+/// How far a simplification may stray from the drawn vertices, mm outward and in tolerances inward: the drawn triangles
+/// stray themselves.
+const SIMPLE_OUTSIDE_MM: f64 = 0.007;
+const SIMPLE_INSIDE_RATIO: f64 = 0.5;
 
 /// The model and what must stay solid: what the walls are measured against.
 struct Limits<'a> {
@@ -73,7 +77,9 @@ pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> 
     for attempt in 0..ATTEMPTS {
         let bias_mm = BIAS_MM + DEEPER_MM * attempt as f64;
         if let Some(drawn) = draw(&limits, bias_mm, progress)? {
-            return simplified(&limits, drawn);
+            let stray =
+                Stray { outside_mm: SIMPLE_OUTSIDE_MM, inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm };
+            return Ok(simplified(drawn, stray, |mesh| limits.violators(mesh, FINAL_LACK_MM))?);
         }
     }
     Err(VoidError::WallNotKept { wall_mm: spec.wall_mm })
@@ -122,19 +128,4 @@ const PHASE: &str = "cavity";
 
 fn stop_if_cancelled(progress: &Progress) -> Result<(), VoidError> {
     if progress.is_cancelled() { Err(VoidError::Cancelled) } else { Ok(()) }
-}
-
-/// The drawn surface with fewer triangles, as few as the limits allow.
-///
-/// A mesh, not the engine's body: that remembers which triangles it took for one plane and would let the curves that
-/// later cuts leave in them stray as far.
-fn simplified(limits: &Limits, drawn: TriMesh) -> Result<TriMesh, VoidError> {
-    let full = Csg::of_mesh(&drawn)?;
-    for ratio in SIMPLIFY_RATIOS {
-        let simple = full.simplify(ratio * limits.spec.tolerance_mm).to_mesh()?;
-        if limits.violators(&simple, FINAL_LACK_MM).is_empty() {
-            return Ok(simple);
-        }
-    }
-    Ok(drawn)
 }

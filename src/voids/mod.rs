@@ -1,6 +1,8 @@
 //! The voids as solids: the region that may be emptied, once, and its part inside a quadric, for each quadric.
 
 mod cavity;
+mod crossing;
+mod decimate;
 mod extract;
 mod field;
 mod inscribed;
@@ -13,6 +15,7 @@ mod region;
 mod roots;
 #[cfg(test)]
 mod shapes;
+mod simplify;
 mod split;
 mod table;
 mod wall_field;

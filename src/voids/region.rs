@@ -1,9 +1,11 @@
 //! The part of a box in which a quadric is positive, as a closed surface.
 
 use super::VoidError;
+use super::decimate::Stray;
 use super::extract::Extractor;
 use super::field::{Field, Known, Resolution};
 use super::quadric_field::QuadricField;
+use super::simplify::simplified;
 use crate::geom::{Aabb, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
 
@@ -19,8 +21,10 @@ const SINGULAR_TOLERANCES: f64 = 20.0;
 /// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in the box.
 const MARGIN_MM: f64 = 1.0;
 
-/// What a simplification of the region may move, as a share of the tolerance.
-const SIMPLIFY_RATIO: f64 = 0.1;
+/// How far the drawn triangles may stray, and their simplification from them, as shares of the tolerance: half of it
+/// together.
+const DRAW_RATIO: f64 = 0.35;
+const SIMPLIFY_RATIO: f64 = 0.15;
 
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
@@ -54,8 +58,8 @@ pub(super) fn positive_region(
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
-    // Imported anew: the engine's body remembers what it took for one plane, and cuts through it would stray.
-    let simple = Csg::of_mesh(&mesh)?.simplify(SIMPLIFY_RATIO * tolerance_mm).to_mesh()?;
+    let stray_mm = SIMPLIFY_RATIO * tolerance_mm;
+    let simple = simplified(mesh, Stray { outside_mm: stray_mm, inside_mm: stray_mm }, |_| Vec::new())?;
     Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
 }
 
@@ -68,8 +72,8 @@ fn draw(
     let resolution = Resolution {
         finest_mm: COARSE_MM / f64::from(1 << HALVINGS),
         crease_mm: singular_mm,
-        outside_mm: tolerance_mm / 2.0,
-        inside_mm: tolerance_mm / 2.0,
+        outside_mm: DRAW_RATIO * tolerance_mm,
+        inside_mm: DRAW_RATIO * tolerance_mm,
     };
     let mut extractor = Extractor::new(field, aabb, resolution)
         .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;

@@ -110,6 +110,20 @@ impl Bvh {
         )
     }
 
+    /// The triangles whose boxes overlap `aabb` (touching counts), in an order that depends on the tree alone.
+    pub fn overlapping(&self, aabb: &Aabb) -> Vec<u32> {
+        self.visit(
+            Vec::new(),
+            |other| gap_squared(aabb, other),
+            |_| f64::MIN_POSITIVE,
+            |found, slot| {
+                if gap_squared(aabb, &Aabb::of_points(&self.corners[slot])) <= 0.0 {
+                    found.push(self.ids[slot]);
+                }
+            },
+        )
+    }
+
     /// How often the surface winds around `p`: the signed crossings of the ray from `p` along +z.
     ///
     /// For a closed mesh 1 inside, 0 outside; where a mesh overlaps itself the count adds up. A ray through an

@@ -22,20 +22,31 @@ pub struct WriteError {
 /// The bytes of a binary STL file: `name` in the header (cut at 64 bytes), coordinates rounded to f32, normals
 /// computed from the rounded corners (zero for a triangle without area).
 ///
-/// The same mesh gives the same bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
+/// Triangles whose corners fall together in single precision are left out: their neighbours then meet along the edge
+/// that remains, so a closed mesh stays closed. The same mesh gives the same bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
 pub fn encode(mesh: &TriMesh, name: &str) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(PREFIX_BYTES + TRIANGLE_BYTES * mesh.triangles().len());
+    let triangles: Vec<[[f32; 3]; 3]> =
+        mesh.iter_corners().map(|corners| corners.map(rounded)).filter(has_three_corners).collect();
+    let mut bytes = Vec::with_capacity(PREFIX_BYTES + TRIANGLE_BYTES * triangles.len());
     bytes.extend(HEADER_START.bytes().chain(name.bytes()).take(HEADER_BYTES));
     bytes.resize(HEADER_BYTES, b' ');
-    bytes.extend((mesh.triangles().len() as u32).to_le_bytes());
-    for corners in mesh.iter_corners() {
-        let corners = corners.map(|p| [p.x, p.y, p.z].map(|x| x as f32 + 0.0));
-        for number in normal(corners).iter().chain(corners.as_flattened()) {
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for corners in &triangles {
+        for number in normal(*corners).iter().chain(corners.as_flattened()) {
             bytes.extend(number.to_le_bytes());
         }
         bytes.extend([0, 0]);
     }
     bytes
+}
+
+/// A point in single precision, with no −0.0.
+fn rounded(p: Point) -> [f32; 3] {
+    [p.x, p.y, p.z].map(|x| x as f32 + 0.0)
+}
+
+fn has_three_corners(&[a, b, c]: &[[f32; 3]; 3]) -> bool {
+    a != b && b != c && c != a
 }
 
 /// The unit normal of a triangle, or zero.

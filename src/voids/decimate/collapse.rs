@@ -1,0 +1,211 @@
+//! Merging a vertex into a neighbour, if what was there stays near what comes.
+
+use super::Stray;
+use super::patch::{NIL, Patch, area_vector, last, next};
+use crate::geom::triangle::closest_on_triangle;
+use crate::geom::{Point, Vector};
+
+/// The edges merged in each pass are at most this long, mm: short ones first, so that slivers go before good triangles
+/// are stretched over them.
+const PASS_LENGTHS_MM: [f64; 6] = [0.05, 0.15, 0.4, 1.0, 3.0, f64::INFINITY];
+
+/// Neighbours tried for each vertex and pass, nearest first: more gain little.
+const TRIES: usize = 4;
+
+/// A new triangle may turn from the one it replaces by at most this much (cosine).
+const TURN_COSINE: f64 = 0.5;
+
+/// A new triangle's height over its longest side is at least this, unless it was worse before. Thinner triangles
+/// collapse when the file's `f32` rounds them.
+const SHAPE_RATIO: f64 = 0.05;
+
+/// Vertices that the triangles around one vertex may stand for: the time for a merge grows with them.
+const POINTS_MAX: usize = 160;
+
+/// Working memory, kept from merge to merge.
+#[derive(Default)]
+struct Scratch {
+    fan: Vec<u32>,
+    others: Vec<u32>,
+    ring: Vec<u32>,
+    points: Vec<u32>,
+    fresh: Vec<Fresh>,
+    owners: Vec<usize>,
+}
+
+/// A triangle as it would be after the merge.
+struct Fresh {
+    triangle: u32,
+    corners: [Point; 3],
+    normal: Vector,
+}
+
+impl Patch {
+    /// Merges vertices, shortest edges first, as long as the tolerance allows.
+    pub fn decimate(&mut self, stray: Stray) {
+        let mut scratch = Scratch::default();
+        for length_mm in PASS_LENGTHS_MM {
+            for v in 0..self.points.len() as u32 {
+                if self.leaving[v as usize] != NIL && !self.is_locked[v as usize] {
+                    self.remove(v, length_mm, stray, &mut scratch);
+                }
+            }
+        }
+    }
+
+    /// Merges a vertex into the first of its nearest neighbours that will do.
+    fn remove(&mut self, v: u32, length_mm: f64, stray: Stray, scratch: &mut Scratch) {
+        if !self.fan(v, &mut scratch.fan) {
+            return;
+        }
+        let mut near: Vec<(f64, u32)> = scratch
+            .fan
+            .iter()
+            .map(|&edge| {
+                ((self.points[self.end(edge) as usize] - self.points[v as usize]).norm_squared(), edge)
+            })
+            .filter(|&(squared, _)| squared <= length_mm * length_mm)
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        self.collect_points(v, scratch);
+        if scratch.points.len() > POINTS_MAX {
+            return;
+        }
+        for &(_, edge) in near.iter().take(TRIES) {
+            if self.is_link_simple(edge, scratch)
+                && self.make_fresh(edge, scratch)
+                && self.settle_points(stray, scratch)
+            {
+                self.merge(edge, scratch);
+                return;
+            }
+        }
+    }
+
+    /// The vertex and everything its triangles stand for.
+    fn collect_points(&self, v: u32, scratch: &mut Scratch) {
+        scratch.points.clear();
+        scratch.points.push(v);
+        for &edge in &scratch.fan {
+            scratch.points.extend(self.points_of(edge / 3));
+        }
+    }
+
+    /// Whether the edge's ends have just the two neighbours across it in common, so that the surface stays a manifold
+    /// (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction", 1999).
+    fn is_link_simple(&self, edge: u32, scratch: &mut Scratch) -> bool {
+        let twin = self.twin[edge as usize];
+        let across = [self.start[last(edge) as usize], self.start[last(twin) as usize]];
+        self.neighbours(self.end(edge), &mut scratch.others);
+        scratch.ring.clear();
+        scratch.ring.extend(scratch.fan.iter().map(|&e| self.end(e)));
+        let others = &scratch.others;
+        let common = scratch.ring.iter().filter(|v| others.contains(v)).count();
+        // Two locked vertices may be joined already, outside the patch.
+        let is_locked = |v: u32| self.is_locked[v as usize];
+        let may_double = is_locked(self.end(edge))
+            && scratch.ring.iter().any(|&v| is_locked(v) && v != self.end(edge) && !across.contains(&v));
+        common == 2 && !may_double && scratch.ring.len() > 3 && across.iter().all(|v| others.contains(v))
+    }
+
+    /// The triangles around the start of `edge` with that vertex moved to its end; false if one turns or is thin.
+    fn make_fresh(&self, edge: u32, scratch: &mut Scratch) -> bool {
+        let gone = [edge / 3, self.twin[edge as usize] / 3];
+        let target = self.points[self.end(edge) as usize];
+        scratch.fresh.clear();
+        for &leaving in scratch.fan.iter().filter(|&&e| !gone.contains(&(e / 3))) {
+            let rest = [next(leaving), last(leaving)].map(|e| self.points[self.start[e as usize] as usize]);
+            let old = [self.points[self.start[leaving as usize] as usize], rest[0], rest[1]];
+            let corners = [target, rest[0], rest[1]];
+            let (before, after) = (area_vector(&old), area_vector(&corners));
+            let (old_length, length) = (before.norm(), after.norm());
+            let shape = length / longest_squared(&corners);
+            let is_good = before.dot(&after) >= TURN_COSINE * old_length * length
+                && length > 0.0
+                && (shape >= SHAPE_RATIO || shape >= old_length / longest_squared(&old));
+            if !is_good {
+                return false;
+            }
+            scratch.fresh.push(Fresh { triangle: leaving / 3, corners, normal: after / length });
+        }
+        true
+    }
+
+    /// Finds for every point the new triangle nearest to it; false if one is too far.
+    fn settle_points(&self, stray: Stray, scratch: &mut Scratch) -> bool {
+        scratch.owners.clear();
+        for &point in &scratch.points {
+            match owner(&self.points[point as usize], &scratch.fresh, stray) {
+                Some(owner) => scratch.owners.push(owner),
+                None => return false,
+            }
+        }
+        true
+    }
+
+    /// Merges the start of `edge` into its end.
+    fn merge(&mut self, edge: u32, scratch: &Scratch) {
+        let (v, u) = (self.start[edge as usize], self.end(edge));
+        let twin = self.twin[edge as usize];
+        for &leaving in &scratch.fan {
+            self.start[leaving as usize] = u;
+            self.first_point[(leaving / 3) as usize] = NIL;
+        }
+        let to_u = self.close(edge);
+        self.close_back(twin);
+        self.leaving[u as usize] = to_u;
+        self.leaving[v as usize] = NIL;
+        for (&point, &owner) in scratch.points.iter().zip(&scratch.owners) {
+            self.give(scratch.fresh[owner].triangle, point);
+        }
+    }
+
+    /// Removes the triangle of `edge` (v → u, then a): what lay beyond a → v now borders what lay beyond u → a. Gives
+    /// the half-edge from u to a.
+    fn close(&mut self, edge: u32) -> u32 {
+        let (beyond_ua, beyond_av) = (self.twin[next(edge) as usize], self.twin[last(edge) as usize]);
+        let a = self.start[last(edge) as usize];
+        self.is_alive[(edge / 3) as usize] = false;
+        self.join(beyond_ua, beyond_av);
+        self.leaving[a as usize] = next(beyond_av);
+        beyond_av
+    }
+
+    /// Removes the triangle of `twin` (u → v, then b): what lay beyond v → b now borders what lay beyond b → u.
+    fn close_back(&mut self, twin: u32) {
+        let (beyond_vb, beyond_bu) = (self.twin[next(twin) as usize], self.twin[last(twin) as usize]);
+        let b = self.start[last(twin) as usize];
+        self.is_alive[(twin / 3) as usize] = false;
+        self.join(beyond_vb, beyond_bu);
+        self.leaving[b as usize] = beyond_vb;
+    }
+
+    fn join(&mut self, e: u32, f: u32) {
+        for (from, to) in [(e, f), (f, e)] {
+            if from != NIL {
+                self.twin[from as usize] = to;
+            }
+        }
+    }
+}
+
+/// The new triangle nearest to an old vertex, if the surface there strays little enough: a vertex above the triangle
+/// means that the surface now runs inside the body.
+fn owner(p: &Point, fresh: &[Fresh], stray: Stray) -> Option<usize> {
+    let mut best = (f64::INFINITY, 0, Vector::zeros());
+    for (i, candidate) in fresh.iter().enumerate() {
+        let offset = p - closest_on_triangle(p, &candidate.corners).point;
+        let squared = offset.norm_squared();
+        if squared < best.0 {
+            best = (squared, i, offset);
+        }
+    }
+    let (squared, i, offset) = best;
+    let is_inside = fresh.get(i)?.normal.dot(&offset) >= 0.0;
+    let limit_mm = if is_inside { stray.inside_mm } else { stray.outside_mm };
+    (squared <= limit_mm * limit_mm).then_some(i)
+}
+
+fn longest_squared([a, b, c]: &[Point; 3]) -> f64 {
+    (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared())
+}

@@ -1,0 +1,166 @@
+//! A piece of a mesh as half-edges, in which vertices can be merged.
+
+use super::State;
+use crate::geom::{Point, Vector};
+
+/// "No half-edge, no point, no vertex."
+pub(super) const NIL: u32 = u32::MAX;
+
+/// Triangle t has the half-edges 3t, 3t + 1 and 3t + 2, counter-clockwise.
+pub(super) struct Patch {
+    /// The mesh's number of each vertex.
+    names: Vec<u32>,
+    /// Where each vertex lies.
+    pub points: Vec<Point>,
+    /// The vertex at which each half-edge starts.
+    pub start: Vec<u32>,
+    /// The opposite half-edge, or [`NIL`] on the patch's border.
+    pub twin: Vec<u32>,
+    /// Some half-edge that starts at each vertex.
+    pub leaving: Vec<u32>,
+    /// Whether a vertex must stay.
+    pub is_locked: Vec<bool>,
+    /// Whether a triangle is still there.
+    pub is_alive: Vec<bool>,
+    /// For each triangle the first of the removed vertices that it stands for.
+    pub first_point: Vec<u32>,
+    /// For each removed vertex the next one of the same triangle.
+    pub next_point: Vec<u32>,
+}
+
+pub(super) fn next(edge: u32) -> u32 {
+    if edge % 3 == 2 { edge - 2 } else { edge + 1 }
+}
+
+pub(super) fn last(edge: u32) -> u32 {
+    if edge % 3 == 0 { edge + 2 } else { edge - 1 }
+}
+
+/// Twice the area vector of a triangle.
+pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
+    (b - a).cross(&(c - a))
+}
+
+impl Patch {
+    /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names must stay.
+    pub fn new(state: &State, vertices: &[Point], slab: &[u32], is_locked: &impl Fn(u32) -> bool) -> Self {
+        let mut names: Vec<u32> = Vec::with_capacity(slab.len());
+        for &t in slab {
+            names.extend(state.triangles[t as usize]);
+            names.extend(&state.stands_for[t as usize]);
+        }
+        names.sort_unstable();
+        names.dedup();
+        let local = |name: u32| names.partition_point(|&other| other < name) as u32;
+        let start: Vec<u32> = slab.iter().flat_map(|&t| state.triangles[t as usize]).map(local).collect();
+        let mut patch = Self {
+            points: names.iter().map(|&name| vertices[name as usize]).collect(),
+            twin: twins(&start),
+            leaving: vec![NIL; names.len()],
+            is_locked: names.iter().map(|&name| is_locked(name)).collect(),
+            is_alive: vec![true; slab.len()],
+            first_point: vec![NIL; slab.len()],
+            next_point: vec![NIL; names.len()],
+            start,
+            names: Vec::new(),
+        };
+        for (edge, &v) in patch.start.iter().enumerate() {
+            patch.leaving[v as usize] = edge as u32;
+        }
+        for (i, &t) in slab.iter().enumerate() {
+            state.stands_for[t as usize].iter().for_each(|&name| patch.give(i as u32, local(name)));
+        }
+        patch.names = names;
+        patch
+    }
+
+    /// The triangles left, in the mesh's own numbers.
+    pub fn into_state(self) -> State {
+        let alive: Vec<u32> =
+            (0..self.is_alive.len() as u32).filter(|&t| self.is_alive[t as usize]).collect();
+        let name = |v: u32| self.names[v as usize];
+        let triangle = |&t: &u32| [0, 1, 2].map(|k| name(self.start[(3 * t + k) as usize]));
+        State {
+            triangles: alive.iter().map(triangle).collect(),
+            stands_for: alive.iter().map(|&t| self.points_of(t).map(name).collect()).collect(),
+        }
+    }
+
+    /// Lets a triangle stand for a removed vertex.
+    pub fn give(&mut self, triangle: u32, point: u32) {
+        self.next_point[point as usize] = self.first_point[triangle as usize];
+        self.first_point[triangle as usize] = point;
+    }
+
+    /// The removed vertices that a triangle stands for.
+    pub fn points_of(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
+        let some = |point: u32| (point != NIL).then_some(point);
+        std::iter::successors(some(self.first_point[triangle as usize]), move |&point| {
+            some(self.next_point[point as usize])
+        })
+    }
+
+    /// The vertex at which a half-edge ends.
+    pub fn end(&self, edge: u32) -> u32 {
+        self.start[next(edge) as usize]
+    }
+
+    /// The corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [Point; 3] {
+        [0, 1, 2].map(|k| self.points[self.start[(3 * triangle + k) as usize] as usize])
+    }
+
+    /// The half-edges that leave a vertex, clockwise, into `fan`; false if the vertex is on the border.
+    pub fn fan(&self, v: u32, fan: &mut Vec<u32>) -> bool {
+        fan.clear();
+        let first = self.leaving[v as usize];
+        let mut edge = first;
+        loop {
+            fan.push(edge);
+            edge = self.twin[edge as usize];
+            if edge == NIL {
+                return false;
+            }
+            edge = next(edge);
+            if edge == first {
+                return true;
+            }
+        }
+    }
+
+    /// The neighbours of a vertex, on the border too, into `found`.
+    pub fn neighbours(&self, v: u32, found: &mut Vec<u32>) {
+        let is_closed = self.fan(v, found);
+        let first = found[0];
+        found.iter_mut().for_each(|edge| *edge = self.end(*edge));
+        if is_closed {
+            return;
+        }
+        let mut edge = first;
+        loop {
+            let arriving = last(edge);
+            found.push(self.start[arriving as usize]);
+            edge = self.twin[arriving as usize];
+            if edge == NIL {
+                return;
+            }
+        }
+    }
+}
+
+/// For each half-edge the one that runs the other way.
+fn twins(start: &[u32]) -> Vec<u32> {
+    let end = |edge: u32| start[next(edge) as usize];
+    let key = |edge: u32| {
+        let (a, b) = (start[edge as usize], end(edge));
+        (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
+    };
+    let mut keyed: Vec<(u64, u32)> = (0..start.len() as u32).map(|edge| (key(edge), edge)).collect();
+    keyed.sort_unstable();
+    let mut twin = vec![NIL; start.len()];
+    for pair in keyed.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
+        twin[pair[0].1 as usize] = pair[1].1;
+        twin[pair[1].1 as usize] = pair[0].1;
+    }
+    twin
+}
