@@ -187,12 +187,12 @@ fn the_compiler_keeps_out_unsafe_code_panics_and_undocumented_items() {
 
 #[test]
 fn the_scanner_sees_what_it_should() {
-    let text = "fn a(x: Vec<(u8, u8)>, f: &dyn Fn(u8) -> u8) { // crate::no\n let s = \"crate::no {\"; '{'; }\n\
+    let text = "fn a(\n &self, x: Vec<(u8, u8)>, f: &dyn Fn(u8) -> u8) { // crate::no\n let s = \"crate::no {\"; '{'; }\n\
                 #[cfg(test)]\npub mod tests {\n fn b() { crate::no } }\n";
     let code = stripped(without_tests(text));
     assert!(!code.contains("no") && !code.contains('b'));
     let found = functions(&code);
-    assert_eq!((found.len(), found[0].arguments, found[0].lines), (1, 2, 2));
+    assert_eq!((found.len(), found[0].arguments, found[0].lines), (1, 2, 3));
     let imports =
         stripped("use crate::{geom::{Point, Vector}, mesh};\nlet x: &'static str = crate::io::name();");
     assert_eq!(rooms_seen(&imports), ["geom", "io", "mesh"].map(String::from).into());
@@ -385,8 +385,9 @@ fn arguments(signature: &str) -> usize {
             _ => items.last_mut().unwrap().push(c),
         }
     }
-    let is_self =
-        |item: &str| item.trim_start_matches(['(', '&', ' ']).trim_start_matches("mut ").trim() == "self";
+    let is_self = |item: &str| {
+        item.trim_start_matches(['(', '&', ' ', '\n']).trim_start_matches("mut ").trim() == "self"
+    };
     let item = |item: &&String| !item.trim_matches(['(', ' ', '\n']).is_empty() && !is_self(item);
     items.iter().filter(item).count()
 }
