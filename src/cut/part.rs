@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Csg, Hollowed, Solid, TriMesh},
+    mesh::{Crossings, Csg, Hollowed, Solid, TriMesh},
 };
 
 /// One part of a kit.
