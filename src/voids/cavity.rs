@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::decimate::Stray;
+use super::decimate::{Rules, Stray};
 use super::extract::{Extractor, Surface};
 use super::field::Resolution;
 use super::simplify::simplified;
@@ -23,6 +23,10 @@ const DRAWN_LACK_MM: f64 = 0.004;
 /// What the wall may lack on the final triangles, mm; the promise is 0.01, the rest is for rounding to `f32`.
 const FINAL_LACK_MM: f64 = 0.009;
 
+/// The corners may lie this much nearer than they were drawn, mm: a crossing at the very end of an edge is moved by a
+/// thousandth of it.
+const CORNER_ERROR_MM: f64 = 0.001;
+
 /// Coarsest cell over the wall: the region nearer than the wall is two walls thick, so cells below one wall see it.
 const COARSE_RATIO: f64 = 0.8;
 
@@ -42,7 +46,7 @@ const ATTEMPTS: usize = 3;
 /// How far a simplification may stray from the drawn vertices, mm outward and in tolerances inward: the drawn triangles
 /// stray themselves.
 const SIMPLE_OUTSIDE_MM: f64 = 0.007;
-const SIMPLE_INSIDE_RATIO: f64 = 0.5;
+const SIMPLE_INSIDE_RATIO: f64 = 0.25;
 
 /// The model and what must stay solid: what the walls are measured against.
 struct Limits<'a> {
@@ -51,18 +55,42 @@ struct Limits<'a> {
 }
 
 impl Limits<'_> {
-    /// Whether a triangle of the cavity leaves the wall and the keeps alone, but for `lack_mm`.
-    fn allow(&self, corners: &[Point; 3], lack_mm: f64) -> bool {
+    /// Whether a triangle of the cavity, its corners `bias_mm` beyond the wall, leaves the wall and the keeps alone,
+    /// but for `lack_mm`.
+    fn allow(&self, corners: &[Point; 3], bias_mm: f64, lack_mm: f64) -> bool {
+        let spare_mm = bias_mm - CORNER_ERROR_MM + lack_mm;
+        if sag_squared(corners) <= spare_mm * (2.0 * self.smallest_radius_mm() - lack_mm) {
+            return true;
+        }
         let keeps_clear = |keep: &Keep| keep_distance(keep, corners) >= keep.radius_mm - lack_mm;
         !self.surface.is_triangle_within(corners, self.spec.wall_mm - lack_mm)
             && self.spec.keeps.iter().all(keeps_clear)
     }
 
-    /// The triangles that do not.
-    fn violators(&self, mesh: &TriMesh, lack_mm: f64) -> Vec<usize> {
-        let indices: Vec<usize> = (0..mesh.triangles().len()).collect();
-        indices.into_par_iter().filter(|&i| !self.allow(&mesh.corners(i), lack_mm)).collect()
+    /// The wall, or a smaller keep's radius: the same sag lets a triangle deeper into a smaller ball.
+    fn smallest_radius_mm(&self) -> f64 {
+        self.spec.keeps.iter().map(|keep| keep.radius_mm).fold(self.spec.wall_mm, f64::min)
     }
+
+    /// The triangles that do not.
+    fn violators(&self, mesh: &TriMesh, bias_mm: f64, lack_mm: f64) -> Vec<usize> {
+        let indices: Vec<usize> = (0..mesh.triangles().len()).collect();
+        indices.into_par_iter().filter(|&i| !self.allow(&mesh.corners(i), bias_mm, lack_mm)).collect()
+    }
+}
+
+/// No point of a triangle is nearer to anything than √(D² − s²) if no corner is nearer to it than D, where s² is this:
+/// Σ λᵢ |vᵢ − t|² = |x − t|² + Σ λᵢ |vᵢ − x|² for x = Σ λᵢ vᵢ, and the last sum is at most the squared circumradius,
+/// or a quarter of the longest side's square where the triangle is obtuse.
+fn sag_squared([a, b, c]: &[Point; 3]) -> f64 {
+    let mut sides = [(b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared()];
+    sides.sort_by(f64::total_cmp);
+    let [p, q, r] = sides;
+    if p + q <= r {
+        return r / 4.0;
+    }
+    // The circumradius is the product of the sides over four areas.
+    p * q * r / (4.0 * (b - a).cross(&(c - a)).norm_squared())
 }
 
 /// The distance from a keep's axis to a triangle.
@@ -79,7 +107,8 @@ pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> 
         if let Some(drawn) = draw(&limits, bias_mm, progress)? {
             let stray =
                 Stray { outside_mm: SIMPLE_OUTSIDE_MM, inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm };
-            return Ok(simplified(drawn, stray, |mesh| limits.violators(mesh, FINAL_LACK_MM))?);
+            let allows = |corners: &[Point; 3]| limits.allow(corners, bias_mm, FINAL_LACK_MM);
+            return Ok(simplified(drawn, Rules { stray, allows: &allows })?);
         }
     }
     Err(VoidError::WallNotKept { wall_mm: spec.wall_mm })
@@ -113,7 +142,7 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
         extractor.settle(dirty);
         let Surface { vertices, triangles, leaves } = extractor.surface();
         let mesh = TriMesh::new(vertices, triangles)?;
-        let violators = limits.violators(&mesh, DRAWN_LACK_MM);
+        let violators = limits.violators(&mesh, bias_mm, DRAWN_LACK_MM);
         if violators.is_empty() {
             return Ok(Some(mesh));
         }

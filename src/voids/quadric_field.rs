@@ -1,7 +1,7 @@
 //! A quadric's positive region as a function in model coordinates.
 
 use super::field::{Field, Known, Sample};
-use crate::geom::{Aabb, Frame, Matrix, Point, Quadric};
+use crate::geom::{Bvh, Frame, Matrix, Point, Quadric};
 
 /// sign(q) times the lower bound of the distance to q = 0 that the second-order Taylor series gives.
 ///
@@ -12,8 +12,8 @@ pub(super) struct QuadricField<'a> {
     frame: &'a Frame,
     /// The spectral norm of the second derivatives.
     curvature: f64,
-    /// Where the surface must be drawn within tolerance.
-    region: Aabb,
+    /// The body in which the surface must be drawn within tolerance.
+    body: &'a Bvh,
     /// The largest cell that may hold the surface, mm.
     coarse_mm: f64,
     /// The largest cell where the surface turns within a cell, mm.
@@ -21,15 +21,15 @@ pub(super) struct QuadricField<'a> {
 }
 
 impl<'a> QuadricField<'a> {
-    /// The function of a quadric given in `frame`, to be drawn in `region`.
+    /// The function of a quadric given in `frame`, to be drawn in `body`.
     pub fn new(
         quadric: &'a Quadric,
         frame: &'a Frame,
-        region: Aabb,
+        body: &'a Bvh,
         [coarse_mm, singular_mm]: [f64; 2],
     ) -> Self {
         let curvature = hessian(quadric).symmetric_eigenvalues().amax();
-        Self { quadric, frame, curvature, region, coarse_mm, singular_mm }
+        Self { quadric, frame, curvature, body, coarse_mm, singular_mm }
     }
 }
 
@@ -66,7 +66,7 @@ impl Field for QuadricField<'_> {
     }
 
     fn matters(&self, center: &Point, radius_mm: f64) -> bool {
-        self.region.distance_squared(center) <= radius_mm * radius_mm
+        self.body.closest(center, radius_mm, &[]).is_some() || self.body.winding(center) > 0
     }
 }
 
@@ -82,8 +82,9 @@ mod tests {
     #[test]
     fn the_value_never_exceeds_the_distance_to_a_ball_and_meets_it_at_the_surface() {
         let ball = Quadric([-25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
+        let body = Bvh::new(Vec::new());
         let frame = Frame::with_axis(Point::new(1.0, 2.0, 3.0), &Vector::new(1.0, 1.0, 0.3));
-        let field = QuadricField::new(&ball, &frame, Aabb::EMPTY, [1.0, 1.0]);
+        let field = QuadricField::new(&ball, &frame, &body, [1.0, 1.0]);
         for i in 0..200 {
             let radius = 0.05 * f64::from(i);
             let value = field.sample(&(frame.origin + Vector::new(0.6, 0.0, 0.8) * radius), &[]).value;

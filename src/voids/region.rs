@@ -1,12 +1,12 @@
 //! The part of a box in which a quadric is positive, as a closed surface.
 
 use super::VoidError;
-use super::decimate::Stray;
+use super::decimate::{Rules, Stray};
 use super::extract::Extractor;
 use super::field::{Field, Known, Resolution};
 use super::quadric_field::QuadricField;
 use super::simplify::simplified;
-use crate::geom::{Aabb, Frame, Quadric};
+use crate::geom::{Aabb, Bvh, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
 
 /// The coarsest cells, mm: larger ones save nothing, as the quadrics' radii are of the model's size.
@@ -15,16 +15,16 @@ const COARSE_MM: f64 = 4.0;
 /// How often coarse cells may be halved; the finest follow a radius of 0.4 mm to 0.01 mm.
 const HALVINGS: i32 = 5;
 
-/// The largest cell near a singular point, in tolerances: what hides in it is too thin to print.
-const SINGULAR_TOLERANCES: f64 = 20.0;
+/// The largest cell near a singular point, mm: what hides in it is too thin to print or to clean.
+const SINGULAR_MM: f64 = 0.5;
 
 /// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in the box.
 const MARGIN_MM: f64 = 1.0;
 
-/// How far the drawn triangles may stray, and their simplification from them, as shares of the tolerance: half of it
-/// together.
-const DRAW_RATIO: f64 = 0.35;
-const SIMPLIFY_RATIO: f64 = 0.15;
+/// How far the drawn triangles' sides may stray, and their simplification from them, as shares of the tolerance: half of
+/// it together, as a triangle's middle strays 4/3 as far as its sides.
+const DRAW_RATIO: f64 = 0.25;
+const SIMPLIFY_RATIO: f64 = 0.1;
 
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
@@ -39,39 +39,37 @@ pub(super) enum Region {
     Part(Box<Csg>),
 }
 
-/// The part of `aabb` in which the quadric, given in `frame`, is positive, within half of `tolerance_mm`.
+/// The part of `body`'s box in which the quadric, given in `frame`, is positive: in the body within half of
+/// `tolerance_mm`, elsewhere as is convenient.
 pub(super) fn positive_region(
     quadric: &Quadric,
     frame: &Frame,
-    aabb: &Aabb,
+    body: &Bvh,
     tolerance_mm: f64,
 ) -> Result<Region, VoidError> {
-    let sizes = [COARSE_MM, SINGULAR_TOLERANCES * tolerance_mm];
-    let field = QuadricField::new(quadric, frame, *aabb, sizes);
+    let aabb = body.aabb();
+    let sizes = [COARSE_MM, SINGULAR_MM];
+    let field = QuadricField::new(quadric, frame, body, sizes);
     let at = aabb.center();
     let center = Known { at, sample: field.sample(&at, &[]) };
     if aabb.is_empty() || field.is_free(&center, aabb.size().max() * CIRCUMRADIUS) {
         let is_all = !aabb.is_empty() && center.sample.is_positive();
         return Ok(if is_all { Region::Everything } else { Region::Nothing });
     }
-    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), sizes[1], tolerance_mm)?;
+    let mesh = draw(&field, &aabb.inflated(MARGIN_MM), tolerance_mm)?;
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
     let stray_mm = SIMPLIFY_RATIO * tolerance_mm;
-    let simple = simplified(mesh, Stray { outside_mm: stray_mm, inside_mm: stray_mm }, |_| Vec::new())?;
+    let stray = Stray { outside_mm: stray_mm, inside_mm: stray_mm };
+    let simple = simplified(mesh, Rules { stray, allows: &|_| true })?;
     Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
 }
 
-fn draw(
-    field: &QuadricField,
-    aabb: &Aabb,
-    singular_mm: f64,
-    tolerance_mm: f64,
-) -> Result<TriMesh, VoidError> {
+fn draw(field: &QuadricField, aabb: &Aabb, tolerance_mm: f64) -> Result<TriMesh, VoidError> {
     let resolution = Resolution {
         finest_mm: COARSE_MM / f64::from(1 << HALVINGS),
-        crease_mm: singular_mm,
+        crease_mm: SINGULAR_MM,
         outside_mm: DRAW_RATIO * tolerance_mm,
         inside_mm: DRAW_RATIO * tolerance_mm,
     };

@@ -1,7 +1,9 @@
 //! Fewer triangles, and none that meet or that a judge refuses: where that fails the old ones stay.
 
 use super::crossing::crossing_triangles;
-use super::decimate::{Stray, decimated};
+use rayon::prelude::*;
+
+use super::decimate::{Rules, decimated};
 use crate::mesh::{MeshError, TriMesh};
 
 /// How often what failed is locked and the rest done again, before everything is left as it was.
@@ -10,25 +12,28 @@ const ROUNDS: usize = 4;
 /// Rings of neighbours locked around a triangle that failed.
 const LOCKED_RINGS: usize = 2;
 
-/// The mesh with fewer triangles within `stray`, free of self-intersection, none of them among those that `refused`
-/// names; the mesh itself if that cannot be had.
-pub(super) fn simplified(
-    mesh: TriMesh,
-    stray: Stray,
-    refused: impl Fn(&TriMesh) -> Vec<usize>,
-) -> Result<TriMesh, MeshError> {
+/// The mesh with fewer triangles by these rules, free of self-intersection; the mesh itself if that cannot be had.
+pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
     let mut locked = vec![false; mesh.vertices().len()];
     for _ in 0..ROUNDS {
-        let (simple, names) = compacted(&mesh, decimated(&mesh, stray, &locked))?;
-        let mut failed: Vec<usize> = crossing_triangles(&simple).into_iter().map(|i| i as usize).collect();
-        failed.extend(refused(&simple));
+        let (simple, names) = compacted(&mesh, decimated(&mesh, rules, &locked))?;
+        let failed = failed_triangles(&simple, rules);
         if failed.is_empty() {
             return Ok(simple);
         }
-        let corners = failed.into_iter().flat_map(|i| simple.triangles()[i]).map(|v| names[v as usize]);
+        let corners =
+            failed.into_iter().flat_map(|i| simple.triangles()[i as usize]).map(|v| names[v as usize]);
         lock(&mesh, corners, &mut locked);
     }
     Ok(mesh)
+}
+
+/// The triangles that meet others or that the rules forbid.
+fn failed_triangles(mesh: &TriMesh, rules: Rules) -> Vec<u32> {
+    let mut failed = crossing_triangles(mesh);
+    let forbidden = (0..mesh.triangles().len() as u32).into_par_iter();
+    failed.par_extend(forbidden.filter(|&i| !(rules.allows)(&mesh.corners(i as usize))));
+    failed
 }
 
 /// Locks these vertices and those around them.

@@ -1,7 +1,7 @@
 //! Merging a vertex into a neighbour, if what was there stays near what comes.
 
-use super::Stray;
 use super::patch::{NIL, Patch, area_vector, last, next};
+use super::{Rules, Stray};
 use crate::geom::triangle::closest_on_triangle;
 use crate::geom::{Point, Vector};
 
@@ -42,19 +42,19 @@ struct Fresh {
 
 impl Patch {
     /// Merges vertices, shortest edges first, as long as the tolerance allows.
-    pub fn decimate(&mut self, stray: Stray) {
+    pub fn decimate(&mut self, rules: Rules) {
         let mut scratch = Scratch::default();
         for length_mm in PASS_LENGTHS_MM {
             for v in 0..self.points.len() as u32 {
                 if self.leaving[v as usize] != NIL && !self.is_locked[v as usize] {
-                    self.remove(v, length_mm, stray, &mut scratch);
+                    self.remove(v, length_mm, rules, &mut scratch);
                 }
             }
         }
     }
 
     /// Merges a vertex into the first of its nearest neighbours that will do.
-    fn remove(&mut self, v: u32, length_mm: f64, stray: Stray, scratch: &mut Scratch) {
+    fn remove(&mut self, v: u32, length_mm: f64, rules: Rules, scratch: &mut Scratch) {
         if !self.fan(v, &mut scratch.fan) {
             return;
         }
@@ -74,7 +74,8 @@ impl Patch {
         for &(_, edge) in near.iter().take(TRIES) {
             if self.is_link_simple(edge, scratch)
                 && self.make_fresh(edge, scratch)
-                && self.settle_points(stray, scratch)
+                && self.settle_points(rules.stray, scratch)
+                && scratch.fresh.iter().all(|fresh| (rules.allows)(&fresh.corners))
             {
                 self.merge(edge, scratch);
                 return;
@@ -105,7 +106,11 @@ impl Patch {
         let is_locked = |v: u32| self.is_locked[v as usize];
         let may_double = is_locked(self.end(edge))
             && scratch.ring.iter().any(|&v| is_locked(v) && v != self.end(edge) && !across.contains(&v));
-        common == 2 && !may_double && scratch.ring.len() > 3 && across.iter().all(|v| others.contains(v))
+        common == 2
+            && !may_double
+            && !self.is_pinched[self.end(edge) as usize]
+            && scratch.ring.len() > 3
+            && across.iter().all(|v| others.contains(v))
     }
 
     /// The triangles around the start of `edge` with that vertex moved to its end; false if one turns or is thin.

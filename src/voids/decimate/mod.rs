@@ -28,6 +28,15 @@ pub(super) struct Stray {
     pub inside_mm: f64,
 }
 
+/// What a simplification must keep.
+#[derive(Clone, Copy)]
+pub(super) struct Rules<'a> {
+    /// How far it may stray.
+    pub stray: Stray,
+    /// Whether a new triangle will do.
+    pub allows: &'a (dyn Fn(&[Point; 3]) -> bool + Sync),
+}
+
 /// Triangles over some vertices of a mesh, and what they leave out.
 struct State {
     triangles: Vec<[u32; 3]>,
@@ -39,18 +48,18 @@ struct State {
 ///
 /// Closed and 2-manifold if `mesh` is; it may intersect itself where sheets are nearer than the tolerance. The result
 /// does not depend on the number of threads.
-pub(super) fn decimated(mesh: &TriMesh, stray: Stray, locked: &[bool]) -> Vec<[u32; 3]> {
+pub(super) fn decimated(mesh: &TriMesh, rules: Rules, locked: &[bool]) -> Vec<[u32; 3]> {
     let mut state =
         State { triangles: mesh.triangles().to_vec(), stands_for: vec![Vec::new(); mesh.triangles().len()] };
     let first = mesh.aabb().size().imax();
     for round in 0..ROUNDS {
-        state = decimate_slabs(state, mesh.vertices(), (first + round) % 3, (stray, locked));
+        state = decimate_slabs(state, mesh.vertices(), (first + round) % 3, (rules, locked));
     }
     state.triangles
 }
 
 /// One round: equal shares of the triangles along an axis, each on its own, with the seams locked.
-fn decimate_slabs(state: State, vertices: &[Point], axis: usize, limits: (Stray, &[bool])) -> State {
+fn decimate_slabs(state: State, vertices: &[Point], axis: usize, limits: (Rules, &[bool])) -> State {
     let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][axis]).sum::<f64>();
     let mut order: Vec<u32> = (0..state.triangles.len() as u32).collect();
     order.par_sort_by(|&a, &b| {
@@ -104,8 +113,10 @@ mod tests {
 
     const STRAY: Stray = Stray { outside_mm: 0.01, inside_mm: 0.02 };
 
+    const RULES: Rules = Rules { stray: STRAY, allows: &|_| true };
+
     fn decimated_mesh(mesh: &TriMesh, locked: &[bool]) -> TriMesh {
-        let triangles = decimated(mesh, STRAY, locked);
+        let triangles = decimated(mesh, RULES, locked);
         welded(triangles.iter().map(|t| t.map(|v| mesh.vertices()[v as usize])))
     }
 
@@ -167,7 +178,7 @@ mod tests {
         let fine = ball(Point::origin(), 5.0, 7);
         let with_threads = |n| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
-            pool.install(|| decimated(&fine, STRAY, &vec![false; fine.vertices().len()]))
+            pool.install(|| decimated(&fine, RULES, &vec![false; fine.vertices().len()]))
         };
         assert_eq!(with_threads(1), with_threads(2));
     }

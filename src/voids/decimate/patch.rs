@@ -20,6 +20,8 @@ pub(super) struct Patch {
     pub leaving: Vec<u32>,
     /// Whether a vertex must stay.
     pub is_locked: Vec<bool>,
+    /// Whether a vertex's triangles fall apart into several fans, as they may at the patch's corners.
+    pub is_pinched: Vec<bool>,
     /// Whether a triangle is still there.
     pub is_alive: Vec<bool>,
     /// For each triangle the first of the removed vertices that it stands for.
@@ -58,6 +60,7 @@ impl Patch {
             twin: twins(&start),
             leaving: vec![NIL; names.len()],
             is_locked: names.iter().map(|&name| is_locked(name)).collect(),
+            is_pinched: vec![false; names.len()],
             is_alive: vec![true; slab.len()],
             first_point: vec![NIL; slab.len()],
             next_point: vec![NIL; names.len()],
@@ -67,11 +70,33 @@ impl Patch {
         for (edge, &v) in patch.start.iter().enumerate() {
             patch.leaving[v as usize] = edge as u32;
         }
+        patch.find_pinched();
         for (i, &t) in slab.iter().enumerate() {
             state.stands_for[t as usize].iter().for_each(|&name| patch.give(i as u32, local(name)));
         }
         patch.names = names;
         patch
+    }
+
+    /// Finds the vertices that more triangles name than one fan holds.
+    fn find_pinched(&mut self) {
+        let mut named = vec![0usize; self.points.len()];
+        self.start.iter().for_each(|&v| named[v as usize] += 1);
+        let mut fan = Vec::new();
+        for v in 0..self.points.len() as u32 {
+            if self.leaving[v as usize] != NIL {
+                let is_closed = self.fan(v, &mut fan);
+                let held = if is_closed { fan.len() } else { self.open_fan_size(v) };
+                self.is_pinched[v as usize] = held != named[v as usize];
+            }
+        }
+    }
+
+    /// How many triangles are in the open fan of a vertex: one less than its neighbours.
+    fn open_fan_size(&self, v: u32) -> usize {
+        let mut found = Vec::new();
+        self.neighbours(v, &mut found);
+        found.len() - 1
     }
 
     /// The triangles left, in the mesh's own numbers.
@@ -103,11 +128,6 @@ impl Patch {
     /// The vertex at which a half-edge ends.
     pub fn end(&self, edge: u32) -> u32 {
         self.start[next(edge) as usize]
-    }
-
-    /// The corners of a triangle.
-    pub fn corners(&self, triangle: u32) -> [Point; 3] {
-        [0, 1, 2].map(|k| self.points[self.start[(3 * triangle + k) as usize] as usize])
     }
 
     /// The half-edges that leave a vertex, clockwise, into `fan`; false if the vertex is on the border.
