@@ -1,9 +1,7 @@
 //! The whole region that may be emptied, as a closed surface that keeps the wall.
 
-use rayon::prelude::*;
-
 use super::decimate::{Rules, Stray};
-use super::extract::{Extractor, Surface};
+use super::extract::Extractor;
 use super::field::Resolution;
 use super::simplify::simplified;
 use super::wall_field::WallField;
@@ -71,12 +69,6 @@ impl Limits<'_> {
     fn smallest_radius_mm(&self) -> f64 {
         self.spec.keeps.iter().map(|keep| keep.radius_mm).fold(self.spec.wall_mm, f64::min)
     }
-
-    /// The triangles that do not.
-    fn violators(&self, mesh: &TriMesh, bias_mm: f64, lack_mm: f64) -> Vec<usize> {
-        let indices: Vec<usize> = (0..mesh.triangles().len()).collect();
-        indices.into_par_iter().filter(|&i| !self.allow(&mesh.corners(i), bias_mm, lack_mm)).collect()
-    }
 }
 
 /// No point of a triangle is nearer to anything than √(D² − s²) if no corner is nearer to it than D, where s² is this:
@@ -139,15 +131,13 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
     for round in 0..CHECK_ROUNDS {
         progress.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
         stop_if_cancelled(progress)?;
-        extractor.settle(dirty);
-        let Surface { vertices, triangles, leaves } = extractor.surface();
-        let mesh = TriMesh::new(vertices, triangles)?;
-        let violators = limits.violators(&mesh, bias_mm, DRAWN_LACK_MM);
-        if violators.is_empty() {
-            return Ok(Some(mesh));
+        let drawn = extractor.settle(dirty);
+        let refused =
+            extractor.refused_leaves(&drawn, |corners| limits.allow(corners, bias_mm, DRAWN_LACK_MM));
+        if refused.is_empty() {
+            return Ok(Some(extractor.mesh()?));
         }
-        let bad = violators.into_iter().flat_map(|i| extractor.to_divide(leaves[i])).collect();
-        dirty = extractor.divide(bad);
+        dirty = extractor.divide(refused);
     }
     Ok(None)
 }

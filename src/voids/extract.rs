@@ -10,6 +10,7 @@ use super::octree::{FINEST_UNITS, Octree};
 use super::roots::{Roots, VertexKey, is_crossing};
 use super::table::IndexMap;
 use crate::geom::{Aabb, Point};
+use crate::mesh::{MeshError, TriMesh};
 
 /// A chord whose ends' normals turn by more than this (cosine; 20°) spans a crease of the surface, not a curve:
 /// a curve of the wall's radius turns less within the cells that its sag alone asks for.
@@ -28,16 +29,6 @@ pub(super) struct Extractor<'a, F> {
 
 /// A piece of surface, and the two leaves in which it lies.
 type Placed = (Piece, [u32; 2]);
-
-/// Triangles, and the two leaves in which each lies.
-pub(super) struct Surface {
-    /// The vertices, mm.
-    pub vertices: Vec<Point>,
-    /// The triangles, counter-clockwise from outside the region.
-    pub triangles: Vec<[u32; 3]>,
-    /// For each triangle its leaves.
-    pub leaves: Vec<[u32; 2]>,
-}
 
 /// A triangle by the names of its vertices, and its leaves.
 type Named = ([VertexKey; 3], [u32; 2]);
@@ -62,13 +53,33 @@ impl<'a, F: Field> Extractor<'a, F> {
         (0..self.tree.cells().len() as u32).filter(|&i| self.tree.is_leaf(i)).collect()
     }
 
-    /// Divides leaves until the triangles in and around `dirty` keep the tolerances.
-    pub fn settle(&mut self, mut dirty: Vec<u32>) {
+    /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Gives the leaves whose triangles
+    /// were drawn, ascending.
+    pub fn settle(&mut self, mut dirty: Vec<u32>) -> Vec<u32> {
+        let mut drawn = Vec::new();
         while !dirty.is_empty() {
             self.prepare(&dirty);
+            drawn.extend_from_slice(&dirty);
             let bent = self.bent_leaves(&dirty);
             dirty = self.divide(bent);
         }
+        self.roots.refresh(&self.nodes, self.field);
+        drawn.sort_unstable();
+        drawn.dedup();
+        drawn.retain(|&leaf| self.tree.is_leaf(leaf));
+        drawn
+    }
+
+    /// The leaves to divide because a triangle in these is not allowed.
+    pub fn refused_leaves(&self, leaves: &[u32], allows: impl Fn(&[Point; 3]) -> bool + Sync) -> Vec<u32> {
+        let refused_in = |&leaf: &u32| {
+            let refused = self.triangles_of(leaf).into_iter().filter(|(keys, _)| {
+                let [a, b, c] = keys.map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
+                matches!((a, b, c), (Some(a), Some(b), Some(c)) if !allows(&[a, b, c]))
+            });
+            refused.flat_map(|(_, leaves)| self.to_divide(leaves)).collect::<Vec<u32>>()
+        };
+        leaves.par_iter().flat_map_iter(refused_in).collect()
     }
 
     /// Divides those of these leaves that can be, and gives the leaves that must be looked at again.
@@ -81,15 +92,14 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// The triangles as they are now.
-    pub fn surface(&mut self) -> Surface {
-        self.roots.refresh(&self.nodes, self.field);
+    pub fn mesh(&self) -> Result<TriMesh, MeshError> {
         let leaves = self.leaves();
         let named: Vec<Named> = leaves.par_iter().flat_map_iter(|&leaf| self.triangles_of(leaf)).collect();
         self.numbered(&named)
     }
 
     /// Of the two leaves of a triangle those to divide when it will not do: the larger one that holds surface.
-    pub fn to_divide(&self, leaves: [u32; 2]) -> impl Iterator<Item = u32> {
+    fn to_divide(&self, leaves: [u32; 2]) -> impl Iterator<Item = u32> {
         let size = |i: u32| if self.tree.cell(i).is_free { 0 } else { self.tree.cell(i).size };
         let largest = size(leaves[0]).max(size(leaves[1]));
         let both = leaves.map(|leaf| (leaf, size(leaf)));
@@ -195,7 +205,7 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Numbers the vertices in the order in which the triangles name them.
-    fn numbered(&self, named: &[Named]) -> Surface {
+    fn numbered(&self, named: &[Named]) -> Result<TriMesh, MeshError> {
         let mut index = IndexMap::default();
         let mut vertices: Vec<Point> = Vec::new();
         let mut number = |key: VertexKey| {
@@ -205,8 +215,7 @@ impl<'a, F: Field> Extractor<'a, F> {
             })
         };
         let triangles = named.iter().map(|&(keys, _)| keys.map(&mut number)).collect();
-        let leaves = named.iter().map(|&(_, leaves)| leaves).collect();
-        Surface { vertices, triangles, leaves }
+        TriMesh::new(vertices, triangles)
     }
 }
 

@@ -77,6 +77,5 @@ fn draw(field: &QuadricField, aabb: &Aabb, tolerance_mm: f64) -> Result<TriMesh,
         .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;
     let leaves = extractor.leaves();
     extractor.settle(leaves);
-    let surface = extractor.surface();
-    Ok(TriMesh::new(surface.vertices, surface.triangles)?)
+    Ok(extractor.mesh()?)
 }

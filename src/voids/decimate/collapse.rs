@@ -46,7 +46,8 @@ impl Patch {
         let mut scratch = Scratch::default();
         for length_mm in PASS_LENGTHS_MM {
             for v in 0..self.points.len() as u32 {
-                if self.leaving[v as usize] != NIL && !self.is_locked[v as usize] {
+                let is_tried = self.tried[v as usize] >= length_mm * length_mm;
+                if self.leaving[v as usize] != NIL && !self.is_locked[v as usize] && !is_tried {
                     self.remove(v, length_mm, rules, &mut scratch);
                 }
             }
@@ -64,8 +65,12 @@ impl Patch {
             .map(|&edge| {
                 ((self.points[self.end(edge) as usize] - self.points[v as usize]).norm_squared(), edge)
             })
-            .filter(|&(squared, _)| squared <= length_mm * length_mm)
+            .filter(|&(squared, _)| squared <= length_mm * length_mm && squared > self.tried[v as usize])
             .collect();
+        self.tried[v as usize] = self.tried[v as usize].max(length_mm * length_mm);
+        if near.is_empty() {
+            return;
+        }
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         self.collect_points(v, scratch);
         if scratch.points.len() > POINTS_MAX {
@@ -160,6 +165,7 @@ impl Patch {
         self.close_back(twin);
         self.leaving[u as usize] = to_u;
         self.leaving[v as usize] = NIL;
+        scratch.ring.iter().for_each(|&beside| self.tried[beside as usize] = -1.0);
         for (&point, &owner) in scratch.points.iter().zip(&scratch.owners) {
             self.give(scratch.fresh[owner].triangle, point);
         }

@@ -42,6 +42,8 @@ struct State {
     triangles: Vec<[u32; 3]>,
     /// For each triangle the removed vertices that it stands for.
     stands_for: Vec<Vec<u32>>,
+    /// Whether a vertex may still be removable: it was on a seam, or something beside it has changed since it was tried.
+    is_open: Vec<bool>,
 }
 
 /// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
@@ -49,14 +51,20 @@ struct State {
 /// Closed and 2-manifold if `mesh` is; it may intersect itself where sheets are nearer than the tolerance. The result
 /// does not depend on the number of threads.
 pub(super) fn decimated(mesh: &TriMesh, rules: Rules, locked: &[bool]) -> Vec<[u32; 3]> {
-    let mut state =
-        State { triangles: mesh.triangles().to_vec(), stands_for: vec![Vec::new(); mesh.triangles().len()] };
+    let mut state = State {
+        triangles: mesh.triangles().to_vec(),
+        stands_for: vec![Vec::new(); mesh.triangles().len()],
+        is_open: vec![true; mesh.vertices().len()],
+    };
     let first = mesh.aabb().size().imax();
     for round in 0..ROUNDS {
         state = decimate_slabs(state, mesh.vertices(), (first + round) % 3, (rules, locked));
     }
     state.triangles
 }
+
+/// Triangles, and the removed vertices that each stands for.
+type Parts = (Vec<[u32; 3]>, Vec<Vec<u32>>);
 
 /// One round: equal shares of the triangles along an axis, each on its own, with the seams locked.
 fn decimate_slabs(state: State, vertices: &[Point], axis: usize, limits: (Rules, &[bool])) -> State {
@@ -69,20 +77,31 @@ fn decimate_slabs(state: State, vertices: &[Point], axis: usize, limits: (Rules,
     let slabs: Vec<&[u32]> = order.chunks(SLAB_TRIANGLES.max(1)).collect();
     let slab_of_vertex = slabs_of_vertices(&state, vertices.len(), &slabs);
     let is_locked = |v: u32| limits.1[v as usize] || slab_of_vertex[v as usize] == SEVERAL;
-    let done: Vec<State> = slabs
+    let done: Vec<Parts> = slabs
         .par_iter()
         .map(|slab| {
             let mut patch = Patch::new(&state, vertices, slab, &is_locked);
             patch.decimate(limits.0);
-            patch.into_state()
+            patch.into_parts()
         })
         .collect();
-    let mut merged = State { triangles: Vec::new(), stands_for: Vec::new() };
+    let is_open = slab_of_vertex.iter().map(|&slab| slab == SEVERAL).collect();
+    let mut merged = State { triangles: Vec::new(), stands_for: Vec::new(), is_open };
     for part in done {
-        merged.triangles.extend(part.triangles);
-        merged.stands_for.extend(part.stands_for);
+        merged.triangles.extend(part.0);
+        merged.stands_for.extend(part.1);
     }
+    merged.open_beside_seams();
     merged
+}
+
+impl State {
+    /// Opens the vertices beside open ones: only now can they be merged into those.
+    fn open_beside_seams(&mut self) {
+        let beside = |t: &&[u32; 3]| t.iter().any(|&v| self.is_open[v as usize]);
+        let near: Vec<u32> = self.triangles.iter().filter(beside).flatten().copied().collect();
+        near.into_iter().for_each(|v| self.is_open[v as usize] = true);
+    }
 }
 
 /// "In no slab yet."

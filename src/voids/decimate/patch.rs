@@ -1,6 +1,6 @@
 //! A piece of a mesh as half-edges, in which vertices can be merged.
 
-use super::State;
+use super::{Parts, State};
 use crate::geom::{Point, Vector};
 
 /// "No half-edge, no point, no vertex."
@@ -22,6 +22,8 @@ pub(super) struct Patch {
     pub is_locked: Vec<bool>,
     /// Whether a vertex's triangles fall apart into several fans, as they may at the patch's corners.
     pub is_pinched: Vec<bool>,
+    /// The length up to which a vertex's edges were tried in vain since something beside it changed, squared, mm².
+    pub tried: Vec<f64>,
     /// Whether a triangle is still there.
     pub is_alive: Vec<bool>,
     /// For each triangle the first of the removed vertices that it stands for.
@@ -35,7 +37,7 @@ pub(super) fn next(edge: u32) -> u32 {
 }
 
 pub(super) fn last(edge: u32) -> u32 {
-    if edge % 3 == 0 { edge + 2 } else { edge - 1 }
+    if edge.is_multiple_of(3) { edge + 2 } else { edge - 1 }
 }
 
 /// Twice the area vector of a triangle.
@@ -61,6 +63,10 @@ impl Patch {
             leaving: vec![NIL; names.len()],
             is_locked: names.iter().map(|&name| is_locked(name)).collect(),
             is_pinched: vec![false; names.len()],
+            tried: names
+                .iter()
+                .map(|&name| if state.is_open[name as usize] { -1.0 } else { f64::INFINITY })
+                .collect(),
             is_alive: vec![true; slab.len()],
             first_point: vec![NIL; slab.len()],
             next_point: vec![NIL; names.len()],
@@ -100,15 +106,13 @@ impl Patch {
     }
 
     /// The triangles left, in the mesh's own numbers.
-    pub fn into_state(self) -> State {
+    pub fn into_parts(self) -> Parts {
         let alive: Vec<u32> =
             (0..self.is_alive.len() as u32).filter(|&t| self.is_alive[t as usize]).collect();
         let name = |v: u32| self.names[v as usize];
         let triangle = |&t: &u32| [0, 1, 2].map(|k| name(self.start[(3 * t + k) as usize]));
-        State {
-            triangles: alive.iter().map(triangle).collect(),
-            stands_for: alive.iter().map(|&t| self.points_of(t).map(name).collect()).collect(),
-        }
+        let stands_for = alive.iter().map(|&t| self.points_of(t).map(name).collect()).collect();
+        (alive.iter().map(triangle).collect(), stands_for)
     }
 
     /// Lets a triangle stand for a removed vertex.
