@@ -1,19 +1,58 @@
 //! Equipoise hollows a 3D model so that its printed, glued parts spin, stand or balance as asked.
+//!
+//! A mesh, a printer and a goal go in; a kit comes out: parts that can be printed, cleaned and glued, and a job sheet
+//! that says what to do and what to measure. The void is provably the best there is: whatever the goal, the optimal
+//! void is the region that may be emptied, cut by one quadric ([`guide::theory`]), and every solution carries its
+//! certificate.
+//!
+//! # The way through
+//! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall, pitch and material, [`shell`] keeps
+//! the wall, [`interior`] holds what may be emptied as exact columns, [`hollow`] solves, [`voids`] draws the surfaces,
+//! [`cut`] opens and pins the parts, [`verify`] judges what is written without knowing how it was made, [`report`] puts
+//! the kit together; [`pipeline::run`] is that line.
+//!
+//! # Example
+//! ```no_run
+//! use equipoise::job::{GoalChoice, GoalKind, Job, ModelChoice, PrinterChoice, Scaling, Up};
+//! use equipoise::pipeline::{Outcome, run};
+//! use equipoise::progress::Progress;
+//! use equipoise::report::Existing;
+//!
+//! let model = ModelChoice {
+//!     path: "examples/models/tilted-ellipsoid.stl".into(),
+//!     sha256: None,
+//!     scaling: Scaling::Size("100mm".parse()?),
+//! };
+//! let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
+//! let job = Job::new(model, printer, GoalChoice::new(GoalKind::Top, Up::Z));
+//! match run(&job, &Progress::silent())? {
+//!     Outcome::Prepared(prepared) => prepared.kit.write("top-kit".as_ref(), Existing::Keep)?,
+//!     Outcome::Impossible(why) => println!("{}", why.reason),
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 #![forbid(unsafe_code)]
 
+pub mod cli;
 pub mod cut;
+pub mod digest;
+pub mod error;
 pub mod geom;
 pub mod goal;
+pub mod guide;
 pub mod hollow;
 pub mod interior;
 pub mod io;
+pub mod job;
 pub mod mass;
 pub mod mesh;
+pub mod pipeline;
 pub mod printer;
 pub mod progress;
 pub mod report;
 pub mod shell;
+pub mod toml_text;
 pub mod units;
 pub mod verify;
 pub mod voids;

@@ -1,3 +1,16 @@
 //! The `equipoise` command: parse, run, print, exit.
 
-fn main() {}
+use std::process::ExitCode;
+
+use clap::Parser;
+use equipoise::cli::{Exit, args::Cli, run, show};
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let manner = show::Manner::of_process(cli.global.quiet, cli.global.verbose);
+    let exit = run(cli, manner).unwrap_or_else(|error| {
+        show::print_error(error.as_ref(), manner);
+        Exit::CouldNotRun
+    });
+    exit.into()
+}

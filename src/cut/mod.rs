@@ -1,7 +1,7 @@
 //! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
 
+mod access;
 mod cover;
-mod distance;
 mod error;
 mod family;
 mod opening;
@@ -12,17 +12,25 @@ mod pin_shape;
 mod pins;
 mod plan;
 mod pose;
+mod rejoin;
 mod request;
 mod score;
 mod search;
 mod section;
 mod sides;
+mod sight;
 mod split;
 
+#[cfg(test)]
+mod scenes;
+#[cfg(test)]
+mod tests;
+
+pub use access::VoidAccess;
 pub use error::CutError;
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
-pub use plan::{Cut, CutPlan, JointNote, VoidAccess, plan, plan_for_cuts};
+pub use plan::{Cut, CutPlan, JointNote, UncutFace, plan, plan_for_cuts};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use section::{Point2, Ring, Section};

@@ -8,8 +8,6 @@ use crate::{geom::Plane, mesh::TriMesh};
 pub(crate) struct Opening {
     /// The diameter of the largest disc through the narrowest mouth of the void's pieces, mm.
     pub(crate) diameter_mm: f64,
-    /// The greatest distance of the void's surface from the plane, mm.
-    pub(crate) depth_mm: f64,
 }
 
 /// A piece of a void this many times as deep as half its mouth, or shallower, is a dimple: all of it lies in
@@ -25,8 +23,12 @@ pub(crate) fn opening(void: &TriMesh, plane: &Plane) -> Option<Opening> {
     if section.rings.is_empty() {
         return None;
     }
-    let depth_mm = void.vertices().iter().map(|p| plane.distance(p).abs()).fold(0.0, f64::max);
-    Some(Opening { diameter_mm: narrowest_mouth_mm(void, plane, section), depth_mm })
+    Some(Opening { diameter_mm: narrowest_mouth_mm(void, plane, section) })
+}
+
+/// Whether a pocket is so shallow for its mouth that all of it lies in sight.
+pub(crate) fn is_dimple(depth_mm: f64, mouth_mm: f64) -> bool {
+    2.0 * depth_mm <= DIMPLE_DEPTH_RATIO * mouth_mm
 }
 
 /// The mouth of the void's piece that has the narrowest, mm.
@@ -42,7 +44,7 @@ fn narrowest_mouth_mm(void: &TriMesh, plane: &Plane, section: Section) -> f64 {
     }
     let sides = Sides::new(void, *plane, section);
     let pieces = pieces(&sides, &mouths);
-    let deep = pieces.iter().filter(|&&(piece, mm)| 2.0 * sides.depth_mm(piece) > DIMPLE_DEPTH_RATIO * mm);
+    let deep = pieces.iter().filter(|&&(piece, mm)| !is_dimple(sides.depth_mm(piece), mm));
     deep.map(|&(_, mm)| mm).fold(widest_mm, f64::min)
 }
 

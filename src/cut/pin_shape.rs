@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     geom::{Point, Vector, orthonormal_basis},
-    mesh::{TriMesh, signed_volume},
+    mesh::TriMesh,
 };
 
 /// Sides of the polygon that stands for a circle: at 3 mm across its flats lie 3 µm inside the circle, below any
@@ -57,12 +57,12 @@ impl PinSite {
 
     /// The volume that stands out of the cut face, mm³.
     pub fn pin_volume_mm3(&self) -> f64 {
-        signed_volume(&self.turned(&self.pin_profile()))
+        self.turned(&self.pin_profile()).signed_volume_mm3()
     }
 
     /// The volume the socket takes away, mm³.
     pub fn socket_volume_mm3(&self) -> f64 {
-        signed_volume(&self.turned(&self.socket_profile()))
+        self.turned(&self.socket_profile()).signed_volume_mm3()
     }
 
     /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's diameter, so that the

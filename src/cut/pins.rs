@@ -1,14 +1,13 @@
 //! Where alignment pins go: inside the material with the wall around them, spread wide, and one way only.
 
 use super::{
-    distance::Surface,
     pattern::{FORCE_TOLERANCE_MM, Peg, fits},
     pin_shape::PinSite,
     request::PlanRequest,
     section::{Chart, Point2},
     split::{Joint, Piece},
 };
-use crate::geom::{Plane, Point};
+use crate::geom::{Bvh, Plane, Point};
 
 /// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns better, a thin
 /// one finds room in more places.
@@ -157,7 +156,7 @@ struct Face<'a> {
     plane: Plane,
     /// +1 when pins stand out along the plane's normal, −1 against it.
     sign: f64,
-    surface: Surface,
+    surface: Bvh,
     /// Points of the faces, in the plane's own coordinates, with their distance from the edge.
     points: Vec<(Point2, f64)>,
     widest_mm: f64,
@@ -174,7 +173,7 @@ impl<'a> Face<'a> {
             let heights = corners.map(|p| plane.distance(&p));
             !(heights.iter().all(|&h| h > reach) || heights.iter().all(|&h| h < -reach))
         };
-        let surface = Surface::new(scene.material.iter_corners().filter(near));
+        let surface = Bvh::new(scene.material.iter_corners().filter(near));
         let (points, widest_mm) = face_points(scene, joint);
         Self { scene, joint, plane, sign: if is_upward { 1.0 } else { -1.0 }, surface, points, widest_mm }
     }
@@ -197,8 +196,13 @@ impl<'a> Face<'a> {
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
         others.into_iter().all(is_clear)
-            && self.surface.keeps_off(&[mouth, bottom], radius)
-            && self.surface.keeps_off(&[mouth, mouth], radius + size.chamfer)
+            && self.keeps_off([&mouth, &bottom], radius)
+            && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
+    }
+
+    /// Whether the whole surface of the material is at least `distance_mm` from the segment.
+    fn keeps_off(&self, [from, to]: [&Point; 2], distance_mm: f64) -> bool {
+        self.surface.segment_distance(from, to, distance_mm) >= distance_mm
     }
 
     /// Up to three places, the first with the first size: the farthest apart that fit one way only; else the

@@ -1,28 +1,31 @@
 //! The cut plan: which planes, and where the pins go.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    access::{VoidAccess, access},
     error::CutError,
-    opening::opening,
     pattern::Peg,
     pin_shape::PinSite,
     pins::{PinScene, Placement, needed_room_mm, place},
     pose::{laid, sides_down},
+    rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
     score::Scene,
     search::{Found, smallest_plans},
+    section::Chart,
     split::{Joint, Piece, check_no_cavity, joints, split},
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, TriMesh, signed_volume},
+    mesh::{Hollowed, Solid, TriMesh},
 };
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutPlan {
-    /// The cuts, all of them through the whole model.
+    /// The cuts.
     pub cuts: Vec<Cut>,
     /// The pins that align the parts.
     pub pins: Vec<PinSite>,
@@ -30,6 +33,9 @@ pub struct CutPlan {
     pub joints: Vec<JointNote>,
     /// How each void is opened, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
+    /// Where a cut leaves the body whole.
+    #[serde(default)]
+    pub uncut: Vec<UncutFace>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -43,6 +49,15 @@ pub struct Cut {
     pub point_mm: [f64; 3],
     /// The unit normal.
     pub normal: [f64; 3],
+}
+
+/// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing would be opened.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct UncutFace {
+    /// The cut's id.
+    pub cut: String,
+    /// A point of the face in the model frame, mm.
+    pub point_mm: [f64; 3],
 }
 
 /// Two parts that meet at a cut.
@@ -60,19 +75,28 @@ pub struct JointNote {
     pub one_way: bool,
 }
 
-/// How a void is opened.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct VoidAccess {
-    /// The void's index in the hollowed body.
-    pub void: usize,
-    /// The void's volume, mm³.
-    pub volume_mm3: f64,
-    /// The ids of the cuts that pass through it.
-    pub opened_by: Vec<String>,
-    /// The diameter of the largest disc that passes its widest cut, mm.
-    pub opening_mm: f64,
-    /// The greatest distance of the void's surface from that cut, mm.
-    pub depth_mm: f64,
+impl CutPlan {
+    /// The plan that cuts nothing and leaves every void closed.
+    pub fn uncut(hollowed: &Hollowed) -> Self {
+        let closed = |(void, solid): (usize, &Solid)| VoidAccess::closed(void, solid);
+        Self {
+            cuts: Vec::new(),
+            pins: Vec::new(),
+            joints: Vec::new(),
+            voids: hollowed.voids.iter().enumerate().map(closed).collect(),
+            uncut: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+
+    /// The faces left whole, in the coordinates of the cuts' planes; faces on no cut of the plan are left out.
+    pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
+        let bridge = |face: &UncutFace| {
+            let cut = self.cuts.iter().position(|cut| cut.id == face.cut)?;
+            Some(Bridge { cut, at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)) })
+        };
+        self.uncut.iter().filter_map(bridge).collect()
+    }
 }
 
 impl Cut {
@@ -104,20 +128,36 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     check(request)?;
     let scene = Scene::new(hollowed, request);
     let mut notes = Vec::new();
-    let (mut planes, mut pieces) = opening_cuts(&scene, &mut notes)?;
-    fit_build_volume(&scene, &mut planes, &mut pieces, &mut notes)?;
-    check_no_cavity(&pieces)?;
-    Ok(described(&scene, &planes, &pieces, notes))
+    let mut layout = opening_cuts(&scene, &mut notes)?;
+    fit_build_volume(&scene, &mut layout, &mut notes)?;
+    described(&scene, &layout, notes)
 }
 
-/// The plan for cuts given by the user: pins, joints and openings as in [`plan`].
+/// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
 pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request);
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let pieces = split(&scene.material, &planes)?;
-    check_no_cavity(&pieces)?;
-    Ok(described(&scene, &planes, &pieces, Vec::new()))
+    described(&scene, &Layout { planes, pieces, bridges: Vec::new() }, Vec::new())
+}
+
+/// Cuts, and the pieces they leave.
+struct Layout {
+    planes: Vec<Plane>,
+    pieces: Vec<Piece>,
+    bridges: Vec<Bridge>,
+}
+
+impl Layout {
+    /// The pieces between the planes, left joined where a cut would part them needlessly.
+    fn new(scene: &Scene, planes: Vec<Plane>) -> Result<Self, CutError> {
+        let pieces = split(&scene.material, &planes)?;
+        let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
+        let bridges = bridges(&cutting, &pieces);
+        let pieces = rejoined(pieces, &planes, &bridges)?;
+        Ok(Self { planes, pieces, bridges })
+    }
 }
 
 /// Refuses lengths that cannot be.
@@ -143,22 +183,22 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
 }
 
 /// The best of the smallest plans, and its pieces.
-fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<(Vec<Plane>, Vec<Piece>), CutError> {
+fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutError> {
     if scene.hollowed.voids.is_empty() {
-        return Ok((Vec::new(), split(&scene.material, &[])?));
+        return Layout::new(scene, Vec::new());
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
-    let mut failure = None;
+    let mut narrow = None;
     for planes in found.plans.iter().take(TRIED_PLANS) {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let pieces = split(&scene.material, &planes)?;
-        match check_no_cavity(&pieces) {
-            Ok(()) => return Ok((planes, pieces)),
-            Err(error) => failure = Some(error),
+        let voids = accesses(scene.hollowed, &planes)?;
+        if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
+            return Layout::new(scene, planes);
         }
+        narrow = narrow.or(Some(planes));
     }
-    Err(failure.unwrap_or(CutError::ClosedCavity { part: 0, cavities: scene.hollowed.voids.len() }))
+    Layout::new(scene, narrow.unwrap_or_default())
 }
 
 fn proof_note(found: &Found) -> String {
@@ -192,27 +232,24 @@ fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
 }
 
 /// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
-fn fit_build_volume(
-    scene: &Scene,
-    planes: &mut Vec<Plane>,
-    pieces: &mut Vec<Piece>,
-    notes: &mut Vec<String>,
-) -> Result<(), CutError> {
+fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>) -> Result<(), CutError> {
     for _ in 0..MAX_FITTING_CUTS {
-        let Some(piece) = pieces.iter().find(|piece| !fits(piece, planes, scene.request)) else {
-            return Ok(());
-        };
+        let is_large = |piece: &&Piece| !fits(piece, &layout.planes, scene.request);
+        let Some(piece) = layout.pieces.iter().find(is_large) else { return Ok(()) };
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
-        planes.push(off_vertices(&scene.material, &middle));
-        *pieces = split(&scene.material, planes)?;
-        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(planes.len() - 1)));
+        let middle = off_vertices(&scene.material, &middle);
+        let planes = layout.planes.iter().copied().chain([middle]).collect();
+        *layout = Layout::new(scene, planes)?;
+        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
     }
     Ok(())
 }
 
 /// The plan's data for these cuts and pieces.
-fn described(scene: &Scene, planes: &[Plane], pieces: &[Piece], mut notes: Vec<String>) -> CutPlan {
+fn described(scene: &Scene, layout: &Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
+    let Layout { planes, pieces, bridges } = layout;
+    check_no_cavity(pieces)?;
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
     let mut placed: Vec<Vec<Peg>> = Vec::new();
@@ -227,7 +264,16 @@ fn described(scene: &Scene, planes: &[Plane], pieces: &[Piece], mut notes: Vec<S
         pin.id = pin_id(index);
     }
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
-    CutPlan { cuts, pins, joints: joint_notes, voids: accesses(scene.hollowed, planes), notes }
+    let voids = accesses(scene.hollowed, planes)?;
+    notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
+    let uncut = bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect();
+    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
+}
+
+fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
+    let plane = &planes[bridge.cut];
+    let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
+    UncutFace { cut: cut_id(bridge.cut), point_mm }
 }
 
 fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {
@@ -238,6 +284,14 @@ fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin:
         pins: (0..placement.sites.len()).map(|i| pin_id(first_pin + i)).collect(),
         one_way: placement.is_one_way,
     }
+}
+
+/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.
+fn narrow(request: &PlanRequest, void: &VoidAccess) -> Option<String> {
+    let (index, opening, asked) = (void.void, void.opening_mm, request.min_opening_mm);
+    let note =
+        || format!("void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm");
+    (opening < asked).then(note)
 }
 
 /// What to say of a joint that has not at least two pins that fit one way only.
@@ -258,27 +312,16 @@ fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
 }
 
 /// How the cuts open each void.
-fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Vec<VoidAccess> {
-    let access = |(void, solid): (usize, &crate::mesh::Solid)| {
-        let openings: Vec<_> =
-            planes.iter().enumerate().filter_map(|(i, p)| Some((i, opening(solid.mesh(), p)?))).collect();
-        let widest = openings.iter().max_by(|a, b| a.1.diameter_mm.total_cmp(&b.1.diameter_mm));
-        VoidAccess {
-            void,
-            volume_mm3: signed_volume(solid.mesh()),
-            opened_by: openings.iter().map(|(i, _)| cut_id(*i)).collect(),
-            opening_mm: widest.map_or(0.0, |(_, o)| o.diameter_mm),
-            depth_mm: widest.map_or(0.0, |(_, o)| o.depth_mm),
-        }
-    };
-    hollowed.voids.iter().enumerate().map(access).collect()
+fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Result<Vec<VoidAccess>, CutError> {
+    hollowed.voids.par_iter().enumerate().map(|(i, void)| access(i, void, planes)).collect()
 }
 
 fn cut(index: usize, plane: &Plane) -> Cut {
     Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into() }
 }
 
-fn cut_id(index: usize) -> String {
+/// The name of the cut with this index.
+pub(crate) fn cut_id(index: usize) -> String {
     format!("C{}", index + 1)
 }
 

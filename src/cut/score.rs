@@ -39,7 +39,7 @@ impl<'a> Scene<'a> {
 }
 
 /// Openings wider than this many times the least asked for are no better.
-const AMPLE_OPENING_RATIO: f64 = 3.0;
+pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
 /// Parts larger than this share of the material are not too small.
 const AMPLE_PART_RATIO: f64 = 0.02;
 /// Cuts farther than this from the contact point do not disturb it, mm.
@@ -51,6 +51,8 @@ const OPENING_WEIGHT: f64 = 1.0;
 const ROOM_WEIGHT: f64 = 2.0;
 /// Weight of crumbs: they are lost, or glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
+/// Weight of each piece a cut leaves beyond two: every part is one more to print, clean and glue.
+const EXTRA_PART_WEIGHT: f64 = 0.2;
 /// Weight of a cut through the contact point: the tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as long as the circle about the model: looks, and glue.
@@ -61,40 +63,69 @@ const SEAM_WEIGHT: f64 = 0.5;
 pub(crate) struct Burden {
     /// The visible length of the seam, mm.
     pub(crate) seam_mm: f64,
-    /// The diameter of the largest disc of material in the joint that has the least, mm (0 when below what pins need).
+    /// The diameter of the largest disc of material in the joint that has the least, mm (at most what pins need; 0 when below half of it).
     pub(crate) room_mm: f64,
+    /// How many pieces it leaves beyond two.
+    pub(crate) extra_parts: usize,
     /// The volume of the smallest piece over that of the body.
     pub(crate) smallest_ratio: f64,
     /// The distance of the cut from the contact point, mm.
     pub(crate) contact_mm: f64,
 }
 
-/// What the plane does to the body. Costs two passes over the triangles.
+/// What the plane does to the body, pieces left out that stay joined to another because nothing opens between them.
+/// Costs two passes over the triangles.
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let sides = Sides::new(&scene.material, *plane, Section::of_mesh(&scene.material, plane));
-    let seams = sides.polygons.iter().map(|rings| sides.section.rings[rings[0]].length_mm());
+    let joints = joints(&sides, scene.hollowed.outer.mesh().vertices().len());
+    let cut: Vec<&Joint> = joints.iter().filter(|joint| !is_needless(joint, &joints)).collect();
+    let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
+    let volumes = sides.piece_volumes_mm3().into_iter().filter(|&(piece, _)| is_part(piece));
+    let volumes: Vec<f64> = volumes.map(|(_, volume)| volume / scene.volume_mm3).collect();
+    let groups = || cut.iter().flat_map(|joint| &joint.groups);
+    let needed_mm = needed_room_mm(scene.request);
+    let room_mm = |joint: &&Joint| {
+        let discs = joint.groups.iter().map(|&group| sides.disc_diameter_mm(group, needed_mm / 2.0));
+        discs.fold(0.0, f64::max)
+    };
     Burden {
-        seam_mm: seams.sum(),
-        room_mm: least_room_mm(&sides, needed_room_mm(scene.request)),
-        smallest_ratio: sides.piece_volumes_mm3().first().map_or(0.0, |v| v / scene.volume_mm3),
+        seam_mm: groups().map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm()).sum(),
+        extra_parts: volumes.len().saturating_sub(2),
+        room_mm: cut.iter().map(room_mm).fold(needed_mm, f64::min),
+        smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
         contact_mm: plane.distance(&scene.request.axis.point).abs(),
     }
 }
 
-/// The room of the joint with the least of it; of each joint its roomiest polygon counts. Room short of
-/// `needed_mm` counts by halves.
-fn least_room_mm(sides: &Sides, needed_mm: f64) -> f64 {
-    let mut joints: Vec<([u32; 2], f64)> = Vec::new();
-    for group in 0..sides.polygons.len() {
-        let room_mm = sides.disc_diameter_mm(group, needed_mm / 2.0);
-        let pair = sides.neighbours(group);
-        match joints.iter_mut().find(|(name, _)| *name == pair) {
-            Some((_, most)) => *most = most.max(room_mm),
-            None => joints.push((pair, room_mm)),
+/// Two pieces and the polygons of the section between them.
+struct Joint {
+    pieces: [u32; 2],
+    groups: Vec<usize>,
+    /// Whether a void opens in one of the polygons.
+    is_open: bool,
+}
+
+/// The joints of the section; vertices of the material from `first_void_vertex` on are the voids'.
+fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
+    let mut joints: Vec<Joint> = Vec::new();
+    for (group, rings) in sides.polygons.iter().enumerate() {
+        let is_mouth = |&ring: &usize| sides.section.rings[ring].above as usize >= first_void_vertex;
+        let (pieces, is_open) = (sides.neighbours(group), rings.iter().any(is_mouth));
+        match joints.iter_mut().find(|joint| joint.pieces == pieces) {
+            Some(joint) => {
+                joint.groups.push(group);
+                joint.is_open |= is_open;
+            }
+            None => joints.push(Joint { pieces, groups: vec![group], is_open }),
         }
     }
-    let least = joints.iter().map(|(_, room)| *room).fold(f64::INFINITY, f64::min);
-    if least.is_finite() { least } else { 0.0 }
+    joints
+}
+
+/// Whether nothing opens in the joint, and one of its pieces has no other.
+fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
+    let count = |piece: &u32| joints.iter().filter(|other| other.pieces.contains(piece)).count();
+    !joint.is_open && joint.pieces.iter().any(|piece| count(piece) == 1)
 }
 
 impl Burden {
@@ -103,6 +134,7 @@ impl Burden {
         let needed_mm = needed_room_mm(scene.request);
         ROOM_WEIGHT * shortfall(self.room_mm, needed_mm)
             + SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO)
+            + EXTRA_PART_WEIGHT * self.extra_parts as f64
             + CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM)
             + SEAM_WEIGHT * self.seam_mm / (std::f64::consts::PI * scene.diagonal_mm)
     }

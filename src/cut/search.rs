@@ -3,11 +3,11 @@
 use rayon::prelude::*;
 
 use super::{
-    cover::{MAX_VOIDS, VoidSet, covers_of_size, smallest_cover},
+    cover::{MAX_VOIDS, VoidSet, covers_of_size, greedy_cover, smallest_cover},
     error::CutError,
     family::{Candidate, candidates},
     opening::Opening,
-    score::{Burden, Scene, burden, opening_penalty},
+    score::{AMPLE_OPENING_RATIO, Burden, Scene, burden, opening_penalty},
 };
 use crate::geom::Plane;
 
@@ -16,7 +16,7 @@ use crate::geom::Plane;
 const ROUNDS: [usize; 3] = [64, 512, 4096];
 
 /// How many planes of the smallest covers are judged in full: two or three milliseconds each on 100k triangles.
-const JUDGED_PLANES: usize = 32;
+const JUDGED_PLANES: usize = 48;
 
 /// How many smallest covers are compared.
 const COMPARED_COVERS: usize = 20_000;
@@ -54,9 +54,9 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         return Err(CutError::TooManyVoids { voids, limit: MAX_VOIDS });
     }
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
-    let family = promising_first(candidates(scene.hollowed, scene.request), all);
+    let family = promising_first(candidates(scene.hollowed, scene.request), (all, ample_guess_mm(scene)));
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
-    let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.chosen.len(), cover.nodes));
+    let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut exact: Vec<Exact> = Vec::new();
     let mut best = None;
     for round in ROUNDS.map(|round| round.min(family.len())) {
@@ -69,17 +69,19 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     }
     let cover = best.ok_or_else(|| unopenable(scene, &exact))?;
     Ok(Found {
-        plans: ranked(scene, &exact, [cover.chosen.len(), voids]),
+        plans: ranked(scene, &exact, &cover.chosen),
         family: family.len(),
         nodes: cover.nodes + bound_nodes,
-        is_proved: cover.chosen.len() == least || exact.len() == family.len(),
+        is_proved: cover.chosen.len() == least
+            || (exact.len() == family.len() && cover.chosen.len() == cover.at_least),
     })
 }
 
 /// The family with the most promising planes first: those that can take part in a smallest cover, in turn one for
 /// each set of voids met; among planes that meet the same voids the best offset of each direction, then
-/// the second best, and so on, each by the opening guessed.
-fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
+/// the second best, and so on, each by the opening guessed. Guesses above `ample_mm` are equal, so that the axes, which
+/// lead the family, come before skew directions that are no better.
+fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
     let classes = classes(&family, all);
     let class_of = |c: &Candidate| classes.binary_search_by_key(&c.met, |&(met, _)| met).unwrap_or_default();
     let least = classes.iter().map(|&(_, rest)| rest).min().unwrap_or_default();
@@ -89,7 +91,8 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
         row.sort_by(|a, b| b.guess_mm.total_cmp(&a.guess_mm));
         places.extend(row.into_iter().enumerate());
     }
-    places.sort_by(|(i, a), (j, b)| i.cmp(j).then(b.guess_mm.total_cmp(&a.guess_mm)));
+    let capped = |c: &Candidate| c.guess_mm.min(ample_mm);
+    places.sort_by(|(i, a), (j, b)| i.cmp(j).then(capped(b).total_cmp(&capped(a))));
     let mut taken = vec![0; classes.len()];
     let mut turns: Vec<((bool, usize), Candidate)> = Vec::with_capacity(places.len());
     for (_, candidate) in places {
@@ -101,13 +104,17 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet) -> Vec<Candidate> {
     turns.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// The different sets of voids met, ascending, each with how many further planes would open the rest at least.
+/// A guessed opening above which a plane need not be wider, mm; twice what scores count, as guesses err.
+fn ample_guess_mm(scene: &Scene) -> f64 {
+    2.0 * AMPLE_OPENING_RATIO * scene.request.min_opening_mm
+}
+
+/// The different sets of voids met, ascending, each with how many further planes open the rest by greedy choice.
 fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
     let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     sets.sort_unstable();
     sets.dedup();
-    let rest =
-        |set: VoidSet| smallest_cover(&sets, all & !set).map_or(usize::MAX, |cover| cover.chosen.len());
+    let rest = |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
     sets.par_iter().map(|&set| (set, rest(set))).collect()
 }
 
@@ -119,11 +126,15 @@ fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     Exact { plane: candidate.plane, openings, opened }
 }
 
-/// The smallest covers by exact planes, the best first.
-fn ranked(scene: &Scene, exact: &[Exact], [size, voids]: [usize; 2]) -> Vec<Vec<Plane>> {
+/// The covers as small as `known`, the best first; `known` alone where the search for others ends empty.
+fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
+    let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let opened: Vec<VoidSet> = exact.iter().map(|e| e.opened).collect();
-    let covers = covers_of_size(&opened, all, [size, COMPARED_COVERS]);
+    let mut covers = covers_of_size(&opened, all, [known.len(), COMPARED_COVERS]);
+    if covers.is_empty() {
+        covers.push(known.to_vec());
+    }
     let by_opening = |cover: &Vec<usize>| opening_penalty(scene, openings_mm(exact, cover, voids));
     let mut covers: Vec<(f64, Vec<usize>)> = covers.into_iter().map(|c| (by_opening(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -27,15 +27,15 @@ impl<'a> Sides<'a> {
         for &[a, b, c] in mesh.triangles() {
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 if above[from as usize] == above[to as usize] {
-                    sets.unite(from, to);
+                    sets.merge(from, to);
                 }
             }
         }
         for group in &polygons {
             let outer = &section.rings[group[0]];
             for hole in group[1..].iter().map(|&i| &section.rings[i]) {
-                sets.unite(outer.above, hole.above);
-                sets.unite(outer.below, hole.below);
+                sets.merge(outer.above, hole.above);
+                sets.merge(outer.below, hole.below);
             }
         }
         let piece_of = (0..mesh.vertices().len() as u32).map(|v| sets.root(v)).collect();
@@ -63,18 +63,16 @@ impl<'a> Sides<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// The volumes of the pieces the plane leaves, mm³, ascending; the shells of cavities it misses are left out
+    /// The pieces the plane leaves with their volumes, mm³; the shells of cavities it misses are left out
     /// with the cavities they bound.
     ///
     /// Each piece is summed from tetrahedra with a corner in the plane, to which its flat cap adds nothing.
-    pub(crate) fn piece_volumes_mm3(&self) -> Vec<f64> {
+    pub(crate) fn piece_volumes_mm3(&self) -> Vec<(u32, f64)> {
         let mut volume_of = vec![0.0; self.mesh.vertices().len()];
         for (triangle, corners) in self.mesh.triangles().iter().zip(self.mesh.iter_corners()) {
             self.add_triangle(*triangle, corners, &mut volume_of);
         }
-        let mut volumes: Vec<f64> = volume_of.into_iter().filter(|&volume| volume > 0.0).collect();
-        volumes.sort_by(f64::total_cmp);
-        volumes
+        (0u32..).zip(volume_of).filter(|&(_, volume)| volume > 0.0).collect()
     }
 
     /// Adds the part of one triangle above the plane to its piece there, and the part below likewise.

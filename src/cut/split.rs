@@ -6,8 +6,8 @@ use super::{
     section::{Chart, Point2},
 };
 use crate::{
-    geom::Plane,
-    mesh::{Csg, TriMesh, bodies, shells, signed_volume, union_find::UnionFind},
+    geom::{Plane, Vector},
+    mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
 /// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of that size would
@@ -47,7 +47,27 @@ pub(crate) struct Joint {
     pub(crate) caps: Vec<usize>,
 }
 
-/// The pieces of a closed mesh between the planes, the largest first, each proved free of closed cavities.
+impl Joint {
+    /// Whether a piece is one of the two.
+    pub(crate) fn touches(&self, piece: usize) -> bool {
+        self.below == piece || self.above == piece
+    }
+
+    /// The other piece of the two.
+    pub(crate) fn other(&self, piece: usize) -> usize {
+        if self.below == piece { self.above } else { self.below }
+    }
+}
+
+impl Piece {
+    /// Whether the piece lies above a plane that does not pass through it.
+    pub(crate) fn is_above(&self, plane: &Plane) -> bool {
+        let heights = self.mesh.vertices().iter().map(|p| plane.distance(p));
+        heights.fold(0.0, |far: f64, h| if h.abs() > far.abs() { h } else { far }) > 0.0
+    }
+}
+
+/// The pieces of a closed mesh between the planes, in the order of [`in_order`].
 pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
     let mut cells = vec![Csg::of_mesh(mesh)?];
     for plane in planes {
@@ -63,14 +83,24 @@ pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutE
         pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, planes)));
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
-    pieces.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
-    Ok(pieces)
+    Ok(in_order(pieces))
+}
+
+/// Puts pieces in the order in which parts are numbered: along a direction askew to everything, so that solving again
+/// and cutting slightly different voids by the same plan keeps the numbers, which an order by volume would not
+/// for the halves of a symmetric model.
+pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
+    let askew = Vector::new(0.331, 0.497, 0.802);
+    let place = |piece: &Piece| askew.dot(&piece.mesh.aabb().center().coords);
+    let mut placed: Vec<(f64, Piece)> = pieces.into_iter().map(|piece| (place(&piece), piece)).collect();
+    placed.sort_by(|a, b| b.0.total_cmp(&a.0));
+    placed.into_iter().map(|(_, piece)| piece).collect()
 }
 
 /// Refuses a piece that encloses a cavity.
 pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     for (part, piece) in pieces.iter().enumerate() {
-        let cavities = shells(&piece.mesh).iter().filter(|shell| signed_volume(shell) < 0.0).count();
+        let cavities = shells(&piece.mesh).iter().filter(|shell| shell.signed_volume_mm3() < 0.0).count();
         if cavities > 0 {
             return Err(CutError::ClosedCavity { part, cavities });
         }
@@ -78,9 +108,10 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     Ok(())
 }
 
-fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
+/// A piece with its cut faces.
+pub(crate) fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
     let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
-    Piece { volume_mm3: signed_volume(&mesh), caps, mesh }
+    Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
 }
 
 /// The faces that the plane has left on a piece, in the order of their first triangles.
@@ -91,8 +122,8 @@ fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
         mesh.triangles().iter().filter(|t| t.iter().all(|&v| on_plane[v as usize])).copied().collect();
     let mut sets = UnionFind::new(mesh.vertices().len());
     for &[a, b, c] in &flat {
-        sets.unite(a, b);
-        sets.unite(b, c);
+        sets.merge(a, b);
+        sets.merge(b, c);
     }
     let mut faces: Vec<(u32, Vec<[u32; 3]>)> = Vec::new();
     for triangle in flat {
@@ -137,7 +168,7 @@ impl Cap {
     }
 
     /// The centroid of the largest triangle: a point well inside the face.
-    fn inner_point(&self) -> Point2 {
+    pub(crate) fn inner_point(&self) -> Point2 {
         let area = |[a, b, c]: &[Point2; 3]| (b - a).perp(&(c - a)).abs();
         let largest = self.triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t)));
         largest.map_or(Point2::origin(), |[a, b, c]| Point2::from((a.coords + b.coords + c.coords) / 3.0))

@@ -1,1 +1,251 @@
-//! goal
+//! What the object shall do: a request in words becomes a goal with a frame, a support and figures of merit.
+//!
+//! [`place`] turns a [`Request`] and a solid into a [`Goal`]: the frame in which every later formula holds (origin at
+//! the contact, the spin point or the support plane; z along the spin axis or up). [`figures`] then says what a body
+//! of given moments does in that frame, and is the same for the solid, the hollowed result and the assembled parts.
+
+mod figures;
+mod place;
+mod stand;
+mod support;
+mod top;
+mod yoyo;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geom::Frame;
+use crate::mass::Moments;
+use crate::shell::Keep;
+
+pub(crate) use figures::to_rpm;
+pub use figures::{Figures, figures};
+pub use place::{GoalError, place};
+pub(crate) use support::edges as support_edges;
+
+/// What the object shall do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum GoalKind {
+    /// Spin on a contact point.
+    Top,
+    /// Spin freely about an axis through a point inside.
+    Yoyo,
+    /// Stand on its lowest points.
+    Stand,
+}
+
+/// The direction of the model that becomes the spin axis or up.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Up {
+    /// The model's x axis.
+    X,
+    /// The model's y axis.
+    Y,
+    /// The model's z axis.
+    Z,
+    /// Against the model's x axis.
+    #[serde(rename = "-x")]
+    MinusX,
+    /// Against the model's y axis.
+    #[serde(rename = "-y")]
+    MinusY,
+    /// Against the model's z axis.
+    #[serde(rename = "-z")]
+    MinusZ,
+    /// Any direction of the model, of any length but zero.
+    Vector([f64; 3]),
+    /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two senses the one
+    /// in which the centre of mass stands lower above the lowest point.
+    Principal,
+}
+
+/// Where a top touches the floor.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Contact {
+    /// The lowest point of the model; the middle of the lowest feature where that is an edge or a face.
+    Lowest,
+    /// Vertically below the solid's centre of mass, at the height of the lowest point.
+    Center,
+    /// A point of the model, mm.
+    Point([f64; 3]),
+}
+
+/// The point about which a yo-yo spins.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SpinPoint {
+    /// The solid's centre of mass.
+    Center,
+    /// A point of the model, mm.
+    Point([f64; 3]),
+}
+
+/// What "best" means.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Objective {
+    /// Top: the least speed at which it spins upright, ω² = g s_z/(I_zz − λ_max(I′)) (Spin-It eq. 1).
+    CriticalSpeed,
+    /// Spin-It's functional. Yo-yo: γ_I ((I_xx² + 2 I_xy² + I_yy²)/I_zz²) (eq. 2, 5, 6). Top: the same with I′, plus
+    /// γ_c (s_z / s_z of the solid)² (eq. 3, 7, with s_z made free of units).
+    SpinIt {
+        /// The weight of a low, light body; a yo-yo has no use for it.
+        gamma_c: f64,
+        /// The weight of a flat inertia tensor.
+        gamma_i: f64,
+    },
+    /// Yo-yo: the largest moment across the axis over the moment about it, I_b/I_c; below 1 it spins stably.
+    Dominance,
+    /// Stand: the largest tilt before it topples.
+    TopplingAngle,
+    /// Stand: the lowest centre of mass above the middle of the support.
+    LowestCenter,
+}
+
+impl Objective {
+    /// What is optimised where nothing else is asked for.
+    pub fn default_of(kind: GoalKind) -> Self {
+        match kind {
+            GoalKind::Top => Self::CriticalSpeed,
+            GoalKind::Yoyo => Self::SpinIt { gamma_c: 0.0, gamma_i: 1.0 },
+            GoalKind::Stand => Self::TopplingAngle,
+        }
+    }
+
+    /// Whether this objective is one for goals of this kind.
+    pub fn suits(&self, kind: GoalKind) -> bool {
+        match self {
+            Self::CriticalSpeed => kind == GoalKind::Top,
+            Self::SpinIt { .. } => kind != GoalKind::Stand,
+            Self::Dominance => kind == GoalKind::Yoyo,
+            Self::TopplingAngle | Self::LowestCenter => kind == GoalKind::Stand,
+        }
+    }
+}
+
+/// What is asked for, before it is known whether the model allows it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub struct Request {
+    /// What the object shall do.
+    pub kind: GoalKind,
+    /// The direction that becomes z.
+    pub up: Up,
+    /// Where a top touches the floor; others ignore it.
+    pub contact: Contact,
+    /// Where a yo-yo's axis passes; others ignore it.
+    pub spin_point: SpinPoint,
+    /// What "best" means; none for the goal's own default.
+    pub objective: Option<Objective>,
+}
+
+impl Request {
+    /// The request with every choice left at its default: up z, lowest contact, spin about the centre.
+    pub fn new(kind: GoalKind) -> Self {
+        Self { kind, up: Up::Z, contact: Contact::Lowest, spin_point: SpinPoint::Center, objective: None }
+    }
+}
+
+/// What the object shall do, placed in the model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Goal {
+    /// What the object shall do.
+    pub kind: GoalKind,
+    /// The origin (contact, spin point, or the support's centroid) and z (spin axis, up) in model coordinates.
+    pub frame: Frame,
+    /// What "best" means; suits the kind.
+    pub objective: Objective,
+    /// Stand: the convex support polygon, counterclockwise, goal frame, mm; empty for the others.
+    pub support: Vec<[f64; 2]>,
+    /// The moments of the whole solid in the goal frame, mm.
+    pub solid: Moments,
+}
+
+/// A goal, what must stay solid for it, and what the user should know.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// The goal.
+    pub goal: Goal,
+    /// What must stay solid besides the wall, model coordinates.
+    pub keeps: Vec<Keep>,
+    /// What was found that does not stop the run.
+    pub warnings: Vec<Warning>,
+}
+
+/// Something about the placement that the user should know.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Warning {
+    /// The contact point hangs below the surface.
+    #[error(
+        "the contact point is in the air: the model begins {missing_mm:.3} mm above it; a tip of that height is needed"
+    )]
+    ContactInAir {
+        /// From the contact up along the axis to the surface, mm.
+        missing_mm: f64,
+    },
+    /// The spin axis does not pass through the model above the contact.
+    #[error(
+        "the spin axis passes through no part of the model above the contact point; give another contact"
+    )]
+    AxisMissesModel,
+    /// A part of the model lies lower than the contact.
+    #[error("the model reaches {depth_mm:.3} mm below the contact point and will touch a flat floor first")]
+    BelowContact {
+        /// How far the lowest point lies below the contact, mm.
+        depth_mm: f64,
+    },
+}
+
+/// Small solids the goal tests share.
+#[cfg(test)]
+pub(crate) mod testing {
+    use crate::geom::Point;
+    use crate::mesh::{Solid, TriMesh};
+
+    /// The solid whose faces are these convex polygons, wound outward.
+    fn of_faces(vertices: &[[f64; 3]], faces: &[&[u32]]) -> Solid {
+        let triangles =
+            faces.iter().flat_map(|face| face[1..].windows(2).map(|pair| [face[0], pair[0], pair[1]]));
+        let vertices = vertices.iter().map(|v| Point::from(*v)).collect();
+        Solid::new(TriMesh::new(vertices, triangles.collect()).unwrap()).unwrap()
+    }
+
+    /// The prism over a counterclockwise polygon of the xz plane seen against y, from y = 0 to `depth`.
+    fn prism(polygon: &[[f64; 2]], caps: &[&[u32]], depth: f64) -> Solid {
+        let n = polygon.len() as u32;
+        let at = |y: f64| polygon.iter().map(move |p| [p[0], y, p[1]]);
+        let vertices: Vec<[f64; 3]> = at(0.0).chain(at(depth)).collect();
+        let mut faces: Vec<Vec<u32>> = caps.iter().map(|cap| cap.to_vec()).collect();
+        faces.extend(caps.iter().map(|cap| cap.iter().rev().map(|v| v + n).collect()));
+        faces.extend((0..n).map(|i| vec![i, i + n, (i + 1) % n + n, (i + 1) % n]));
+        of_faces(&vertices, &faces.iter().map(Vec::as_slice).collect::<Vec<_>>())
+    }
+
+    /// The axis-aligned block between two corners.
+    pub fn block(min: [f64; 3], max: [f64; 3]) -> Solid {
+        let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { min[axis] } else { max[axis] });
+        let vertices: Vec<[f64; 3]> = (0..8).map(corner).collect();
+        of_faces(
+            &vertices,
+            &[&[0, 2, 3, 1], &[4, 5, 7, 6], &[0, 1, 5, 4], &[2, 6, 7, 3], &[0, 4, 6, 2], &[1, 3, 7, 5]],
+        )
+    }
+
+    /// A plate from z = 6 to 8 on two legs of 2 mm, 10 mm wide and 4 deep.
+    pub fn arch() -> Solid {
+        let outline = [[0., 0.], [2., 0.], [2., 6.], [8., 6.], [8., 0.], [10., 0.], [10., 8.], [0., 8.]];
+        prism(&outline, &[&[0, 1, 2, 7], &[2, 3, 6, 7], &[3, 4, 5, 6]], 4.0)
+    }
+
+    /// The unit octahedron: it stands on a tip.
+    pub fn octahedron() -> Solid {
+        let vertices =
+            [[1., 0., 0.], [-1., 0., 0.], [0., 1., 0.], [0., -1., 0.], [0., 0., 1.], [0., 0., -1.]];
+        let up: [&[u32]; 4] = [&[0, 2, 4], &[2, 1, 4], &[1, 3, 4], &[3, 0, 4]];
+        let down: [&[u32]; 4] = [&[2, 0, 5], &[1, 2, 5], &[3, 1, 5], &[0, 3, 5]];
+        of_faces(&vertices, &[up, down].concat())
+    }
+}

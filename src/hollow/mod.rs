@@ -1,1 +1,394 @@
-//! hollow
+//! The solver: which part of the interior to empty, and the proof that nothing else is better.
+//!
+//! # The question
+//! A solid may lose material anywhere but in its wall. Which part should go, so that it spins as slowly as possible
+//! without falling, or leans as far as possible without toppling? There seems to be one yes or no for every grain of
+//! the interior. There are ten numbers.
+//!
+//! # Ten moments in
+//! Mass, centre and inertia tensor of a body are functions of ten integrals, its moments
+//!
+//! ```text
+//! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)      (Spin-It eq. 4; the density cancels)
+//! ```
+//!
+//! and so is every goal here. The moments that some hollowing reaches form a set K in ten dimensions, and K is convex:
+//! emptying is s_fixed − ∫ β m dV, linear in the share β(x) ∈ [0, 1] that is removed. Shares between 0 and 1 cannot
+//! be printed, but need not be: every point of K is also reached by removing each grain wholly or not at all
+//! (Lyapunov).
+//!
+//! # Ten coefficients out
+//! A linear function g·s is least over K when every grain is removed that makes it larger, and no other. The grain
+//! at x contributes g·m(x), so the void is
+//!
+//! ```text
+//! { x in the interior : q(x) > 0 },    q(x) = g·m(x)
+//! ```
+//!
+//! the interior on one side of a single quadric surface. One pass over the interior's columns finds that point of K,
+//! exactly in z, together with its derivative W = −∂s/∂g ([`crate::interior::moments_and_derivative`]). Whatever the
+//! resolution, the unknown is g: no variable per voxel, no rounding at the end.
+//!
+//! # Every goal is a quasi-convex programme
+//! A goal asks for the least of a convex function of s over a positive linear one, subject to linear rows:
+//!
+//! ```text
+//! minimise (n·s + max over y ∈ Y of yᵀJs) / (e·s)    over s ∈ K with As = b
+//! ```
+//!
+//! | goal | rows | ratio |
+//! |---|---|---|
+//! | yo-yo, functional | s_x, s_y, s_xz, s_yz, s_z | ‖(I_xx, √2 I_xy, I_yy)‖ / I_zz (Spin-It eq. 2, 5, 6: its root) |
+//! | yo-yo, dominance | the same | λ_max(I) / I_zz = I_b/I_c |
+//! | top, critical speed | s_x, s_y, s_xz, s_yz, s_z − ℓ s₁ | (λ_max(I′) − I_zz) / s_z = −g/ω² (eq. 1) |
+//! | top, functional | the same, and s₁ where γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
+//! | stand, tilt | none | max over the support's edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
+//! | stand, lowest centre | s_x, s_y | s_z / s₁ |
+//!
+//! λ_max is of the 2 × 2 tensor across the axis. Y is the unit ball for the norms; for λ_max of a 2 × 2 matrix, half
+//! the trace plus the length of a 2-vector, it is the unit disc; for the largest over edges it is the simplex. A top's
+//! I′ = I − s_z²/s₁ would spoil the convexity, but at a fixed height ℓ = s_z/s₁ of the centre it is linear. The search
+//! over that one number is smooth, and its slope is free: −λ_ℓ s₁/(e·s) with the height row's multiplier λ_ℓ.
+//!
+//! # The dual has at most ten variables
+//! For weights y ∈ Y, multipliers λ and a trial ratio τ put g = n + Jᵀy − τe + Aᵀλ. Then
+//!
+//! ```text
+//! D(y, λ, τ) = min over K of g·s − b·λ
+//! ```
+//!
+//! is concave, is found by one pass, and D ≥ 0 proves that no interior has a ratio below τ. Its gradient is (Js, As − b)
+//! and its curvature −[J; A] W [J; A]ᵀ, so Newton's method climbs it: each step maximises the quadratic model over Y
+//! and all λ, damped where the model deceives, and moves τ to where D vanishes (Dinkelbach). From nothing about ten
+//! passes, from a solution on coarser columns about four: g is as good there.
+//!
+//! # What is proved
+//! * **How good the answer is.** The same g gives the interior and the bound, so a [`Certificate`] holds both; they
+//!   meet within 1e-9 or so. A top's bound is also carried to every other height, by covering them with intervals.
+//! * **That the constraints cannot be met.** If D grows without bound along λ, the quadric (Aᵀλ)·m has a positive
+//!   integral over every interior, while it would be zero if one met the rows.
+//! * **That no interior is stable, or stands.** The bound itself is on the wrong side: I_b/I_c ≥ 1, an angle ≤ 0.
+//!
+//! Each is an answer, not an error: a [`Status`], with a sentence and remedies.
+//!
+//! # The files, in reading order
+//! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
+//! climb · `yoyo`, `stand` one programme each · `top`, `heights`, `valley`, `mass` the search over heights · `cover` the
+//! proof over all of them · `answer` back to mm, with a status.
+//!
+//! # Use
+//! ```
+//! # use equipoise::{geom::Point, goal, hollow, interior::Columns, mesh::{Solid, TriMesh}, progress::Progress};
+//! # let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -10.0 } else { 10.0 });
+//! # let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//! # let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+//! # let mesh = TriMesh::new((0..8).map(|i| Point::from(corner(i))).collect(), triangles)?;
+//! # let solid = Solid::new(mesh)?;
+//! # let columns = Columns { pitch_mm: [18.0, 18.0], centers: vec![[0.0, 0.0]], starts: vec![0, 1], intervals: vec![[1.0, 19.0]] };
+//! let placed = goal::place(&solid, 1.0, &goal::Request::new(goal::GoalKind::Stand))?;
+//! let problem = hollow::Problem { goal: &placed.goal, fixed: placed.goal.solid, columns: &columns };
+//! let solution = hollow::solve(&problem, &hollow::Settings::default(), &Progress::silent());
+//! assert_eq!(solution.status, hollow::Status::Solved);
+//! assert!(solution.certificate.gap_ratio.abs() < 1e-6);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! Sources: Bächer, Whiting, Bickel, Sorkine-Hornung, "Spin-It: Optimizing moment of inertia for spinnable objects",
+//! ACM TOG 33(4), 2014. Prévost, Whiting, Lefebvre, Sorkine-Hornung, "Make It Stand", ACM TOG 32(4), 2013. Wu, Kramer,
+//! Westermann, "Shape interior modeling and mass property optimization using ray-reps", Computers & Graphics 58, 2016.
+//! Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967.
+
+mod answer;
+mod ascent;
+mod cover;
+mod heights;
+mod mass;
+mod problem;
+mod programme;
+mod reach;
+mod set;
+mod settings;
+mod solution;
+mod stand;
+mod status;
+mod top;
+mod valley;
+mod work;
+#[cfg(test)]
+mod worlds;
+mod yoyo;
+
+use crate::goal::GoalKind;
+use crate::progress::Progress;
+
+pub use problem::Problem;
+pub use settings::Settings;
+pub use solution::{Certificate, Figure, LogRow, Solution, Stage};
+pub use status::{Obstacle, Status};
+
+use work::Work;
+
+/// The best interior, or the proof that none will do, from nothing.
+///
+/// For coarse columns: a top takes 150 to 250 passes over them, the others about ten. Cancelling `progress` ends it after
+/// the pass at hand, with [`Status::Cancelled`].
+pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
+    let work = Work::new(problem, settings, progress);
+    let objective = problem.goal.objective;
+    let answer = match problem.goal.kind {
+        GoalKind::Top => top::solve(&work, objective),
+        GoalKind::Yoyo => yoyo::solve(&work, objective, None),
+        GoalKind::Stand => stand::solve(&work, objective, None),
+    };
+    answer.into_solution(work)
+}
+
+/// The same from a known solution of the same goal on coarser columns, or with slightly different fixed moments.
+///
+/// A top takes about ten passes, the others about five. Its certificate is for these columns and moments; a top's bound
+/// over all heights is not proved anew. Where `known` is of no use it solves from nothing.
+pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, progress: &Progress) -> Solution {
+    if !known.is_usable() {
+        return solve(problem, settings, progress);
+    }
+    let work = Work::new(problem, settings, progress).warmed();
+    let (objective, start) = (known.objective, Some(&known.warm.point));
+    let answer = match problem.goal.kind {
+        GoalKind::Top => top::refine(&work, objective, &known.warm),
+        GoalKind::Yoyo => Some(yoyo::solve(&work, objective, start)),
+        GoalKind::Stand => Some(stand::solve(&work, objective, start)),
+    };
+    answer.map_or_else(|| solve(problem, settings, progress), |answer| answer.into_solution(work))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::worlds::{self, World};
+    use super::*;
+    use crate::geom::Quadric;
+    use crate::goal::{Objective, figures};
+    use crate::interior::moments_where_positive;
+    use crate::mass::Moments;
+
+    fn solved(world: &World) -> Solution {
+        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        assert_eq!(solution.status, Status::Solved, "{:?}", solution.log);
+        assert!(solution.certificate.gap_ratio.abs() <= 1e-6 && solution.certificate.residual <= 1e-7);
+        solution
+    }
+
+    #[test]
+    fn the_moments_of_a_solution_are_those_of_its_quadric() {
+        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let solution = solved(&world);
+        let emptied = moments_where_positive(&world.columns, &solution.quadric);
+        for (got, want) in solution.moments.0.iter().zip((world.fixed - emptied).0) {
+            assert!((got - want).abs() <= 1e-9 * world.fixed.0[0], "{got} {want}");
+        }
+    }
+
+    #[test]
+    fn a_bottle_has_its_lowest_centre_when_filled_up_to_it() {
+        // A light bottle with its own mass m₀ centred at h₀, of inner area A: filled to t the centre is at
+        // (m₀h₀ + At²/2)/(m₀ + At), least where t is that height itself: t = (√(m₀² + 2Am₀h₀) − m₀)/A.
+        let world = worlds::bottle();
+        let (m0, h0, area) = (40.0, 9.0, 16.0);
+        let filled = (f64::sqrt(m0 * m0 + 2.0 * area * m0 * h0) - m0) / area;
+        let solution = solved(&world);
+        assert!((solution.certificate.value / filled - 1.0).abs() < 1e-9);
+        let level = -solution.quadric.0[0] / solution.quadric.0[3];
+        assert!((level / filled - 1.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn of_all_65536_ways_to_empty_sixteen_blocks_none_stands_better_than_the_bound() {
+        let world = worlds::blocks_on_a_slope();
+        let solution = solved(&world);
+        let mut best = f64::NEG_INFINITY;
+        worlds::each_choice(&world, &worlds::single_blocks(16), |moments| {
+            best = best.max(figures(&world.goal, moments).toppling_angle_rad.unwrap());
+        });
+        assert!(best <= solution.certificate.bound + 1e-12);
+        // Sixteen whole blocks come close to the one plane that is free to cut them; the solid is far off.
+        let solid = figures(&world.goal, &world.fixed).toppling_angle_rad.unwrap();
+        assert!(best > solid + 0.8 * (solution.certificate.value - solid), "{best} {solid}");
+    }
+
+    #[test]
+    fn of_all_balanced_ways_to_empty_mirrored_blocks_none_beats_a_yoyo() {
+        for objective in [Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }, Objective::Dominance] {
+            let world = worlds::mirrored_blocks(objective);
+            let solution = solved(&world);
+            let mut best = f64::INFINITY;
+            worlds::each_choice(&world, &worlds::mirrored_groups(), |moments| {
+                let figures = figures(&world.goal, moments);
+                let value = if objective == Objective::Dominance {
+                    Some(figures.dominance_ratio)
+                } else {
+                    figures.spin_it
+                };
+                best = best.min(value.unwrap());
+            });
+            assert!(best >= solution.certificate.bound - 1e-12, "{best} {:?}", solution.certificate);
+        }
+    }
+
+    #[test]
+    fn of_all_round_ways_to_empty_a_disc_none_spins_slower_than_a_top() {
+        let world = worlds::rings(Objective::CriticalSpeed);
+        let solution = solved(&world);
+        let mut best = f64::INFINITY;
+        worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
+            best = best.min(figures(&world.goal, moments).critical_speed_rpm.unwrap_or(f64::INFINITY));
+        });
+        let bound = solution.certificate.bound_over_heights.unwrap();
+        assert!(bound <= solution.certificate.value && bound > 0.998 * solution.certificate.value);
+        assert!(best >= bound && best < 1.2 * bound, "{best} {bound}");
+    }
+
+    #[test]
+    fn a_solution_keeps_what_its_rows_promise() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let figures = figures(&world.goal, &solved(&world).moments);
+        assert!(figures.off_axis_mm < 1e-6 && figures.axis_tilt_rad < 1e-6, "{figures:?}");
+        assert!(figures.critical_speed_rpm.is_some());
+    }
+
+    #[test]
+    fn the_figures_of_a_solution_are_its_certificates_value() {
+        for gamma_c in [0.0, 0.7] {
+            let world = worlds::rings(Objective::SpinIt { gamma_c, gamma_i: 1.3 });
+            let solution = solved(&world);
+            let value = figures(&world.goal, &solution.moments).spin_it.unwrap();
+            assert!((value / solution.certificate.value - 1.0).abs() < 1e-7, "{gamma_c}");
+        }
+    }
+
+    #[test]
+    fn weighing_the_lever_gives_a_lower_lighter_top() {
+        let of = |gamma_c| {
+            let world = worlds::rings(Objective::SpinIt { gamma_c, gamma_i: 1.0 });
+            solved(&world).moments
+        };
+        let (free, weighed) = (of(0.0), of(1.0));
+        assert!(weighed.0[3] < 0.9 * free.0[3]);
+    }
+
+    #[test]
+    fn finer_columns_take_few_passes_from_a_coarse_answer() {
+        let coarse = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let fine = worlds::egg_on_its_side_at(Objective::CriticalSpeed, 0.25);
+        let known = solved(&coarse);
+        let refined = refine(&fine.problem(), &Settings::default(), &known, &Progress::silent());
+        assert_eq!(refined.status, Status::Solved);
+        assert!(refined.passes <= 15, "{}", refined.passes);
+        let fresh = solved(&fine);
+        assert!((refined.certificate.value / fresh.certificate.value - 1.0).abs() < 1e-7);
+    }
+
+    #[test]
+    fn a_correction_of_the_fixed_moments_is_met_in_few_passes() {
+        let mut world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let known = solved(&world);
+        let pin = Moments(Moments::monomials(9.0, 4.0, 6.0)) * (2e-4 * world.fixed.0[0]);
+        world.fixed += pin;
+        let corrected = refine(&world.problem(), &Settings::default(), &known, &Progress::silent());
+        assert!(corrected.passes <= 15 && corrected.status == Status::Solved, "{}", corrected.passes);
+        assert!(figures(&world.goal, &corrected.moments).off_axis_mm < 1e-6);
+    }
+
+    #[test]
+    fn a_spin_point_out_of_reach_is_refused_with_a_quadric_that_separates() {
+        let mut world = worlds::egg(Objective::Dominance);
+        let shift = crate::geom::Vector::new(-6.0, 0.0, 0.0);
+        world.fixed = world.fixed.translated(&shift);
+        world.columns.centers.iter_mut().for_each(|center| center[0] += shift.x);
+        world.goal.solid = world.fixed;
+        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let Status::ConstraintsInfeasible { obstacle: Obstacle::Center, least_miss, separator } =
+            solution.status
+        else {
+            panic!("{:?}", solution.status)
+        };
+        assert!(least_miss > 0.0);
+        for seed in 0..200 {
+            let quadric = worlds::some_quadric(seed, 12.0);
+            let moments = world.fixed - moments_where_positive(&world.columns, &quadric);
+            let integral: f64 = moments.0.iter().zip(separator.0).map(|(s, g)| s * g).sum();
+            assert!(integral >= least_miss * (1.0 - 1e-9), "{seed}: {integral} < {least_miss}");
+        }
+        assert!(solution.status.explain(&world.goal).contains("spin point"));
+    }
+
+    #[test]
+    fn a_tower_is_proved_unstable_at_every_height() {
+        let solution = solve(&worlds::tower().problem(), &Settings::default(), &Progress::silent());
+        let Status::UnstableForEveryInterior { least_ratio, proved: true } = solution.status else {
+            panic!("{:?}", solution.status)
+        };
+        assert!(least_ratio > 1.0);
+    }
+
+    #[test]
+    fn a_long_yoyo_is_proved_not_dominant() {
+        let world = worlds::long_egg();
+        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        assert!(matches!(solution.status, Status::NotDominant { least_ratio } if least_ratio > 1.0));
+        assert!(!solution.status.remedies(&world.goal).is_empty());
+    }
+
+    #[test]
+    fn blocks_far_beside_their_support_cannot_stand() {
+        let mut world = worlds::blocks_on_a_slope();
+        world.goal.support.iter_mut().for_each(|corner| corner[0] -= 20.0);
+        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        assert!(
+            matches!(solution.status, Status::CannotStand { greatest_angle_rad } if greatest_angle_rad < 0.0)
+        );
+    }
+
+    #[test]
+    fn with_nothing_to_empty_a_balanced_solid_is_its_own_answer() {
+        let mut world = worlds::rings(Objective::CriticalSpeed);
+        world.columns = crate::interior::Columns { starts: vec![0], ..Default::default() };
+        let solution = solved(&world);
+        let solid = figures(&world.goal, &world.fixed).critical_speed_rpm.unwrap();
+        assert!((solution.certificate.value / solid - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_cancelled_run_says_so() {
+        let progress = Progress::silent();
+        progress.cancel();
+        for world in
+            [worlds::rings(Objective::CriticalSpeed), worlds::egg(Objective::Dominance), worlds::bottle()]
+        {
+            assert_eq!(solve(&world.problem(), &Settings::default(), &progress).status, Status::Cancelled);
+        }
+    }
+
+    #[test]
+    fn one_thread_and_three_give_the_same_bits() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| solve(&world.problem(), &Settings::default(), &Progress::silent()))
+        };
+        let (one, three): (Solution, Solution) = (with(1), with(3));
+        assert_eq!(one.quadric.0.map(f64::to_bits), three.quadric.0.map(f64::to_bits));
+        assert_eq!(one.log, three.log);
+    }
+
+    #[test]
+    fn no_random_quadric_that_is_balanced_beats_the_yoyo() {
+        // Mirrored copies of any quadric's void are balanced; their union is one more choice of what to empty.
+        let world = worlds::mirrored_blocks(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let bound = solved(&world).certificate.bound;
+        for seed in 0..300 {
+            let Quadric([c, _, _, _, _, _, _, xx, yy, zz]) = worlds::some_quadric(seed, 6.0);
+            let even = Quadric([c, 0., 0., 0., 0., 0., 0., xx, yy, zz]);
+            let moments = world.fixed - moments_where_positive(&world.columns, &even);
+            assert!(figures(&world.goal, &moments).spin_it.unwrap() >= bound - 1e-12, "{seed}");
+        }
+    }
+}

@@ -1,5 +1,11 @@
 //! The region that may be emptied, discretised so that any choice of void has exact moments.
 
+mod build;
 mod columns;
+mod integrate;
+mod moments;
+mod row;
 
+pub use build::BuildError;
 pub use columns::Columns;
+pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};

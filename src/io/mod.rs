@@ -1,1 +1,13 @@
-//! io
+//! Files in and out: models are read whatever their name says, parts are written as binary STL.
+
+mod ear_clip;
+mod obj;
+mod read;
+mod sniff;
+pub mod stl;
+#[cfg(test)]
+mod tests;
+
+pub use obj::ObjError;
+pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};
+pub use stl::{StlError, WriteError};

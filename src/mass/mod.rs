@@ -3,6 +3,8 @@
 mod body;
 mod moments;
 mod of_mesh;
+#[cfg(test)]
+mod tests;
 
 pub use body::{Body, Principal};
 pub use moments::Moments;

@@ -6,7 +6,7 @@ use manifold_rust::{
     types::{Error, MeshGL64},
 };
 
-use super::{Defects, MeshError, Solid, TriMesh, shells::bodies};
+use super::{Defects, MeshError, Solid, TriMesh, bodies::bodies};
 use crate::geom::Plane;
 
 /// Why a boolean, a cut or an import failed.
@@ -161,7 +161,6 @@ fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
 mod tests {
     use super::*;
     use crate::geom::{Point, Vector};
-    use crate::mesh::shells::signed_volume;
 
     /// An axis-aligned box as twelve triangles.
     fn cuboid(min: [f64; 3], max: [f64; 3]) -> TriMesh {
@@ -181,7 +180,7 @@ mod tests {
     }
 
     fn volume(body: &Csg) -> f64 {
-        signed_volume(body.to_solid().unwrap().mesh())
+        body.to_solid().unwrap().mesh().signed_volume_mm3()
     }
 
     // Volumes near 1 of a few dozen triangles: rounding leaves some 1e-15, accepted is 1e-12.

@@ -1,18 +1,33 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 
+mod bodies;
+mod box_tree;
 mod clip;
+mod crossings;
 mod defects;
 mod distance;
+mod edges;
+mod facts;
+mod fans;
 mod hollowed;
+mod orient;
+pub mod primitives;
+mod repair;
 mod shells;
 mod solid;
 mod tri_mesh;
 pub(crate) mod union_find;
+mod unstitch;
+mod weld;
 
+pub use bodies::{bodies, shells, winding_number};
 pub use clip::{ClipError, Csg};
-pub use defects::Defects;
+pub use crossings::Crossings;
+pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
+pub use facts::MeshFacts;
 pub use hollowed::Hollowed;
-pub use shells::{bodies, shells, signed_volume, winding_number};
+pub use repair::{Repairs, repair};
 pub use solid::Solid;
-pub use tri_mesh::{MeshError, TriMesh};
+pub use tri_mesh::{MeshError, TriMesh, scaled};
+pub use weld::weld;

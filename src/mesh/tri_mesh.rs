@@ -39,9 +39,20 @@ impl TriMesh {
         Ok(Self { vertices, triangles })
     }
 
+    /// The mesh of parts whose indices are in range by construction.
+    pub(crate) fn from_parts(vertices: Vec<Point>, triangles: Vec<[u32; 3]>) -> Self {
+        debug_assert!(triangles.iter().flatten().all(|&v| (v as usize) < vertices.len()));
+        Self { vertices, triangles }
+    }
+
     /// The vertices, mm.
     pub fn vertices(&self) -> &[Point] {
         &self.vertices
+    }
+
+    /// The vertices, taken out of the mesh.
+    pub(crate) fn into_vertices(self) -> Vec<Point> {
+        self.vertices
     }
 
     /// The triangles as vertex indices.
@@ -69,6 +80,18 @@ impl TriMesh {
         Self { vertices: self.vertices.iter().map(f).collect(), triangles: self.triangles.clone() }
     }
 
+    /// The longest side of the bounding box, mm; zero for a mesh without vertices.
+    pub fn longest_side_mm(&self) -> f64 {
+        if self.vertices.is_empty() { 0.0 } else { self.aabb().size().max() }
+    }
+
+    /// The volume the triangles enclose, mm³: negative when they face inward, without meaning when the mesh is
+    /// open. By the divergence theorem about the middle of the bounding box, plain summation.
+    pub fn signed_volume_mm3(&self) -> f64 {
+        let center = self.aabb().center();
+        self.iter_corners().map(|corners| signed_volume_mm3(&corners, &center)).sum()
+    }
+
     /// The same mesh in `frame`'s own coordinates.
     pub fn in_frame(&self, frame: &Frame) -> Self {
         self.map_vertices(|p| frame.to_local(p))
@@ -87,4 +110,16 @@ impl TriMesh {
         self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + shift)));
         self
     }
+}
+
+/// The same mesh with every length multiplied by `factor`, about the origin.
+pub fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
+    mesh.map_vertices(|p| p * factor)
+}
+
+/// The signed volume of the tetrahedron that a triangle spans with `apex`, mm³: positive when the triangle
+/// faces away from it.
+pub(crate) fn signed_volume_mm3([a, b, c]: &[Point; 3], apex: &Point) -> f64 {
+    let (a, b, c) = (a - apex, b - apex, c - apex);
+    a.dot(&b.cross(&c)) / 6.0
 }

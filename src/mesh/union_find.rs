@@ -1,28 +1,62 @@
-//! Disjoint sets of indices (Tarjan, "Efficiency of a good but not linear set union algorithm", J. ACM 22, 1975).
+//! Sets that merge: who belongs together.
 
-/// Indices 0 to n − 1 in disjoint sets; each set is named by its least member.
+/// Disjoint sets of the numbers 0 to n − 1 (Tarjan, "Efficiency of a good but not linear set union
+/// algorithm", J. ACM 22, 1975; path halving). The smallest member stands for its set, so the answer does
+/// not depend on the order of the merges.
+#[derive(Debug, Clone)]
 pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
-    /// Every index in a set of its own.
-    pub(crate) fn new(count: usize) -> Self {
+    /// Every number alone in its set.
+    pub fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
-    /// The least member of the set that holds `index`.
-    pub(crate) fn root(&mut self, index: u32) -> u32 {
-        let mut at = index;
-        while self.0[at as usize] != at {
-            let grandparent = self.0[self.0[at as usize] as usize];
-            self.0[at as usize] = grandparent;
-            at = grandparent;
+    /// The smallest member of the set that holds `item`.
+    pub fn root(&mut self, mut item: u32) -> u32 {
+        while self.0[item as usize] != item {
+            let above = self.0[item as usize];
+            self.0[item as usize] = self.0[above as usize];
+            item = above;
         }
-        at
+        item
     }
 
-    /// Makes one set of the two sets that hold `a` and `b`.
-    pub(crate) fn unite(&mut self, a: u32, b: u32) {
-        let (i, j) = (self.root(a), self.root(b));
-        self.0[i.max(j) as usize] = i.min(j);
+    /// Merges the sets of `a` and `b`; whether they were apart.
+    pub fn merge(&mut self, a: u32, b: u32) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.0[a.max(b) as usize] = a.min(b);
+        a != b
+    }
+
+    /// For every number the rank of its set, sets counted from 0 in the order of their smallest member; and
+    /// how many sets there are.
+    pub fn labels(mut self) -> (Vec<u32>, usize) {
+        let mut labels = vec![0; self.0.len()];
+        let mut sets = 0;
+        for item in 0..self.0.len() as u32 {
+            let root = self.root(item);
+            if root == item {
+                labels[item as usize] = sets;
+                sets += 1;
+            } else {
+                labels[item as usize] = labels[root as usize];
+            }
+        }
+        (labels, sets as usize)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn labels_count_the_sets_in_the_order_of_their_smallest_members() {
+        let mut sets = UnionFind::new(6);
+        assert!(sets.merge(5, 2));
+        assert!(sets.merge(2, 4));
+        assert!(!sets.merge(4, 5));
+        assert_eq!(sets.labels(), (vec![0, 1, 2, 3, 2, 2], 4));
     }
 }

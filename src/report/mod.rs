@@ -1,1 +1,27 @@
-//! report
+//! The kit's paperwork: the checklist as data, as a page and as pictures, and the folder it is written to.
+
+mod album;
+mod base64;
+mod checklist;
+mod kit;
+mod page;
+mod picture;
+mod rows;
+#[cfg(test)]
+mod sample;
+mod steps;
+#[cfg(test)]
+mod tests;
+mod timing;
+mod words;
+
+pub use album::{Picture, Sitting, album, part_picture_file};
+pub use checklist::{
+    Certificate, Checklist, ChecklistError, GoalRow, LogRow, MaterialRow, ModelRow, PrinterRow, Tool,
+    Verdict, WallRow,
+};
+pub use kit::{Existing, Kit, KitError};
+pub use page::page;
+pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
+pub use rows::{CutRow, JointRow, PartRow, PegRow, VoidRow};
+pub use timing::Timing;

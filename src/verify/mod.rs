@@ -1,1 +1,38 @@
-//! verify
+//! The independent judge: it sees the written files, the goal and the printer, and nothing of how they were made.
+
+mod check;
+mod checks;
+mod figures;
+mod judge;
+#[cfg(test)]
+pub(crate) mod judge_tests;
+mod kit;
+#[cfg(test)]
+mod kit_tests;
+mod measure;
+mod pose;
+mod promise;
+mod shells;
+mod support;
+#[cfg(test)]
+pub(crate) mod test_meshes;
+mod wall;
+
+pub use check::{Check, Comparison, Limit};
+pub use checks::{
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, POSE_LIMIT_RATIO,
+    RESTING_LIMIT_MM, SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    checks,
+};
+pub use figures::{Figures, Setting};
+pub use judge::{Evidence, Judgement, judge, setting};
+pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
+pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
+pub use pose::Pose;
+pub use promise::{
+    Aim, Density, FigureName, Kind, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA,
+    WallOrder,
+};
+pub use shells::Shells;
+pub use support::{SUPPORT_BAND_RATIO, Support};
+pub use wall::smallest_wall_mm;

@@ -154,7 +154,11 @@ mod tests {
     use super::*;
     use crate::geom::triangle::triangle_triangle_distance_squared;
     use crate::geom::{Aabb, Point, Vector};
-    use crate::mesh::{MeshDistance, signed_volume};
+    use crate::mesh::{MeshDistance, TriMesh};
+
+    fn signed_volume(mesh: &TriMesh) -> f64 {
+        mesh.signed_volume_mm3()
+    }
 
     /// Half a pixel of a 600 dpi printer.
     const TOLERANCE_MM: f64 = 0.021;

@@ -95,6 +95,19 @@ impl Bvh {
         )
     }
 
+    /// Whether the segment from `a` to `b` passes through a triangle, decided in double precision: a segment that only
+    /// touches an edge may be told either way.
+    pub fn is_crossed_by(&self, a: &Point, b: &Point) -> bool {
+        let along = b - a;
+        let inverse = along.map(f64::recip);
+        self.visit(
+            false,
+            |aabb| if meets_box(a, &inverse, aabb) { 0.0 } else { f64::INFINITY },
+            |&is_crossed| if is_crossed { f64::NEG_INFINITY } else { f64::INFINITY },
+            |is_crossed, slot| *is_crossed = *is_crossed || is_crossed_in(a, &along, &self.corners[slot]),
+        )
+    }
+
     /// The triangles whose boxes overlap `aabb` (touching counts), in an order that depends on the tree alone.
     pub fn overlapping(&self, aabb: &Aabb) -> Vec<u32> {
         self.visit(
@@ -236,6 +249,30 @@ fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     gap.norm_squared()
 }
 
+/// Whether the segment from `a` along 1/`inverse` may meet the box: the slab test of Kay and Kajiya (1986).
+fn meets_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> bool {
+    let low = (aabb.min - a).component_mul(inverse);
+    let high = (aabb.max - a).component_mul(inverse);
+    // A segment that lies in a face of the box gives 0/0; sup and inf then keep the other number.
+    let enter = (0..3).map(|i| low[i].min(high[i])).fold(0.0, f64::max);
+    let leave = (0..3).map(|i| low[i].max(high[i])).fold(1.0, f64::min);
+    enter <= leave
+}
+
+/// Whether the segment from `a` along `along` passes through the triangle (Möller and Trumbore, 1997).
+fn is_crossed_in(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> bool {
+    let (first, second) = (q - p, r - p);
+    let normal = along.cross(&second);
+    let determinant = first.dot(&normal);
+    if determinant == 0.0 {
+        return false;
+    }
+    let from = (a - p) / determinant;
+    let across = from.cross(&first);
+    let (u, v, t) = (from.dot(&normal), along.dot(&across), second.dot(&across));
+    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+}
+
 /// Whether the ray from `p` along +z may meet the box.
 fn is_above(p: &Point, aabb: &Aabb) -> bool {
     aabb.max.z >= p.z && aabb.min.x <= p.x && p.x <= aabb.max.x && aabb.min.y <= p.y && p.y <= aabb.max.y
@@ -279,6 +316,22 @@ mod tests {
 
     fn noise_point(index: usize, scale: f64) -> Point {
         Point::new(noise(index, 0), noise(index, 1), noise(index, 2)) * scale
+    }
+
+    #[test]
+    fn a_segment_crosses_the_triangles_that_its_ends_lie_on_two_sides_of() {
+        let bvh = Bvh::new(soup(300));
+        let brute = |a: &Point, b: &Point| {
+            soup(300).iter().any(|corners| segment_triangle_distance_squared(a, b, corners) < 1e-24)
+        };
+        let answers: Vec<bool> = (0..400)
+            .map(|i| {
+                let (a, b) = (noise_point(1000 + i, 1.0), noise_point(5000 + i, 1.0));
+                assert_eq!(bvh.is_crossed_by(&a, &b), brute(&a, &b), "{a} {b}");
+                brute(&a, &b)
+            })
+            .collect();
+        assert!(answers.contains(&true) && answers.contains(&false));
     }
 
     fn soup(count: usize) -> Vec<[Point; 3]> {

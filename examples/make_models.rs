@@ -1,0 +1,154 @@
+//! Makes the models that the documentation and the tests speak of, by code alone, as binary STL in mm:
+//!
+//! ```text
+//! cargo run --example make_models -- OUTDIR
+//! ```
+//!
+//! * `tilted-ellipsoid`: as a solid no top; hollowed it spins upright on its lowest point (z up);
+//! * `asymmetric-heart`: a top on its tip, with lobes of different size;
+//! * `balancing-figure`: leans so far over its foot that only hollowing lets it stand;
+//! * `yoyo-cuboid`: almost square and askew, so that its spin axis (z) is not its dominant one;
+//! * `three-spheres`: a leaning stack on a small foot that no hollowing alone can make stand.
+
+#![allow(clippy::print_stdout, reason = "an example talks to the person who runs it")]
+
+use std::f64::consts::{PI, TAU};
+use std::path::Path;
+
+use anyhow::{Context, Result};
+use equipoise::geom::{Frame, Matrix, Point, Vector};
+use equipoise::io::stl;
+use equipoise::mesh::{Solid, TriMesh, primitives, scaled};
+
+/// The longest side of every model.
+const SIZE_MM: f64 = 100.0;
+
+/// How fine balls are cut: 5120 triangles, an edge of 4 mm on a model of 100 mm.
+const LEVEL: u32 = 4;
+
+/// Corners of every ring of a stack: 2.3 mm apart on a model of 100 mm around.
+const RING_CORNERS: usize = 48;
+
+fn main() -> Result<()> {
+    let folder = std::env::args_os().nth(1).context("name the folder to write the models to")?;
+    let folder = Path::new(&folder);
+    std::fs::create_dir_all(folder)
+        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
+    let models = [
+        ("tilted-ellipsoid", tilted_ellipsoid()),
+        ("asymmetric-heart", asymmetric_heart()),
+        ("balancing-figure", balancing_figure()),
+        ("yoyo-cuboid", yoyo_cuboid()),
+        ("three-spheres", three_spheres()),
+    ];
+    for (name, mesh) in models {
+        let solid = Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm())).context(name)?;
+        let path = folder.join(name).with_extension("stl");
+        stl::write(&path, solid.mesh(), name)?;
+        println!("{}: {} triangles", path.display(), solid.mesh().triangles().len());
+    }
+    Ok(())
+}
+
+/// An ellipsoid of three different axes, tilted two ways, with a vertex on its lowest point.
+fn tilted_ellipsoid() -> TriMesh {
+    let axes = Matrix::from_diagonal(&Vector::new(50.0, 40.0, 44.0));
+    let tilt = turned_about(Vector::y(), 20.0) * turned_about(Vector::x(), 8.0);
+    // The point of the unit ball that the map sends lowest; the ball has a vertex on its own −z axis.
+    let lowest = -(axes * tilt.transpose() * Vector::z());
+    let on_lowest = Frame::with_axis(Point::origin(), &-lowest);
+    unit_ball().map_vertices(|p| tilt * axes * on_lowest.to_model(p))
+}
+
+/// A heart on its tip, one lobe larger than the other: each upright line through a ball is lifted by the
+/// distance from the middle plane (rounded off there), which can make no two points of it meet.
+fn asymmetric_heart() -> TriMesh {
+    const LIFT: f64 = 0.75;
+    const ROUNDING: f64 = 0.15;
+    const LARGER_LOBE: f64 = 0.1;
+    unit_ball().map_vertices(|p| {
+        let lift = LIFT * p.x.hypot(ROUNDING);
+        Point::new(p.x * (1.0 + LARGER_LOBE * p.x), 0.75 * p.y, p.z + lift)
+    })
+}
+
+/// A body like an egg that leans to +x over a flat foot, with a head and two arms.
+fn balancing_figure() -> TriMesh {
+    const LEAN: Vector = Vector::new(0.34, 0.02, 1.0);
+    const HEIGHT: f64 = 0.96;
+    let rings = (0..=60).map(|i| {
+        let z = HEIGHT * f64::from(i) / 60.0;
+        let body = 0.21 * (PI * (0.12 + 0.88 * z / 0.68).min(1.0)).sin().max(0.0).sqrt();
+        let head = (0.15_f64.powi(2) - (z - 0.82).powi(2)).max(0.0).sqrt();
+        let arms = 0.2 * (-((z - 0.5) / 0.05).powi(2)).exp();
+        Ring { center: Point::from(LEAN * z), radius: body.max(head).max(0.05), arms }
+    });
+    stacked(&rings.collect::<Vec<_>>())
+}
+
+/// A box whose sides nearly agree, turned a little out of its frame.
+fn yoyo_cuboid() -> TriMesh {
+    let half = Vector::new(50.0, 42.0, 44.0);
+    let askew = turned_about(Vector::x(), 3.0) * turned_about(Vector::y(), 2.0);
+    primitives::cuboid(&Point::from(-half), &Point::from(half)).map_vertices(|p| askew * p)
+}
+
+/// Three balls one on another, each further out, on a foot cut from the lowest.
+fn three_spheres() -> TriMesh {
+    /// Centre (x, z) and radius of each ball.
+    const BALLS: [(f64, f64, f64); 3] = [(0.0, 0.9, 1.0), (1.1, 2.3, 1.0), (2.4, 3.5, 1.0)];
+    /// Each ball gives its slices from here to there, as angles from its lowest point; straight necks lie between.
+    const SLICES_DEG: (f64, f64) = (18.0, 150.0);
+    let ring = |(x, z, radius): (f64, f64, f64), step: i32| {
+        let angle = (SLICES_DEG.0 + (SLICES_DEG.1 - SLICES_DEG.0) * f64::from(step) / 24.0).to_radians();
+        let center = Point::new(x, 0.0, z - radius * angle.cos());
+        Ring { center, radius: radius * angle.sin(), arms: 0.0 }
+    };
+    stacked(&BALLS.iter().flat_map(|&ball| (0..=24).map(move |step| ring(ball, step))).collect::<Vec<_>>())
+}
+
+fn unit_ball() -> TriMesh {
+    primitives::ball(&Point::origin(), 1.0, LEVEL)
+}
+
+/// The rotation by so many degrees about a unit axis (Rodrigues).
+fn turned_about(axis: Vector, angle_deg: f64) -> Matrix {
+    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    Matrix::identity() * cos + axis.cross_matrix() * sin + axis * axis.transpose() * (1.0 - cos)
+}
+
+/// A horizontal slice of a body: round, but for two arms that reach out along ±y.
+struct Ring {
+    center: Point,
+    radius: f64,
+    arms: f64,
+}
+
+impl Ring {
+    fn corner(&self, index: usize) -> Point {
+        let (sin, cos) = (TAU * index as f64 / RING_CORNERS as f64).sin_cos();
+        let reach = self.radius + self.arms * sin.powi(12);
+        self.center + Vector::new(cos, sin, 0.0) * reach
+    }
+}
+
+/// The body whose slices are these, lowest first, flat below and above. Since each slice is one patch seen
+/// from its own centre, the surface cannot cross itself.
+fn stacked(rings: &[Ring]) -> TriMesh {
+    let n = RING_CORNERS as u32;
+    let (bottom, top) = (rings.len() as u32 * n, rings.len() as u32 * n + 1);
+    let mut vertices: Vec<Point> =
+        rings.iter().flat_map(|ring| (0..RING_CORNERS).map(|i| ring.corner(i))).collect();
+    vertices.extend(rings.first().map(|ring| ring.center));
+    vertices.extend(rings.last().map(|ring| ring.center));
+    let mut triangles = Vec::new();
+    for i in 0..n {
+        let next = (i + 1) % n;
+        for low in (0..bottom - n).step_by(RING_CORNERS) {
+            let high = low + n;
+            triangles.extend([[low + i, low + next, high + next], [low + i, high + next, high + i]]);
+        }
+        triangles.extend([[bottom, next, i], [top, top - 1 - n + i, top - 1 - n + next]]);
+    }
+    TriMesh::new(vertices, triangles).unwrap_or_default()
+}

@@ -1,0 +1,229 @@
+//! The command `printers`: the known printers listed, one shown with its sources, a profile checked.
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+
+use super::{args::PrintersAction, show::table};
+use crate::{
+    printer::{Printer, ProfileError, Quantity, Sourced, Sure},
+    units::{show_mm, show_percent},
+};
+
+/// Why printers could not be told about.
+#[derive(Debug, thiserror::Error)]
+pub enum PrintersError {
+    /// The profile's fault.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The output's.
+    #[error("cannot write to the output")]
+    Output(#[from] io::Error),
+    /// JSON's, for numbers that no profile lets pass.
+    #[error("cannot write the printer as JSON")]
+    Json(#[from] serde_json::Error),
+}
+
+/// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as JSON.
+pub fn run(action: Option<PrintersAction>, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
+    match action.unwrap_or(PrintersAction::List) {
+        PrintersAction::List => list(&Printer::all()?, json, out),
+        PrintersAction::Show { id } => show(&Printer::find(&id)?, json, out),
+        PrintersAction::Check { file } => check(&Printer::read(&file)?, json, out),
+    }
+}
+
+fn list(printers: &[Printer], json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
+    if json {
+        return write_json(printers, out);
+    }
+    let head = ["id", "printer", "process", "pixel or line", "layer", "build volume", "least wall"];
+    let rows: Vec<_> =
+        std::iter::once(head.map(str::to_owned)).chain(printers.iter().map(list_row)).collect();
+    Ok(out.write_all(table(&rows).as_bytes())?)
+}
+
+fn list_row(printer: &Printer) -> [String; 7] {
+    let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
+    let pixel = if x == y { show_step(x) } else { format!("{} × {}", show_step(x), show_step(y)) };
+    let volume =
+        printer.build_volume_mm.as_ref().map_or_else(|| "not known".to_owned(), |v| show_box(v.value));
+    [
+        printer.id.clone(),
+        printer.name.clone(),
+        printer.process.clone().unwrap_or_default(),
+        pixel,
+        show_step(printer.layer_mm.value),
+        volume,
+        show_mm(printer.min_wall_mm.value),
+    ]
+}
+
+fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
+    if json {
+        return write_json(printer, out);
+    }
+    writeln!(out, "{} ({})", printer.name, printer.id)?;
+    out.write_all(table(&words(printer)).as_bytes())?;
+    writeln!(out)?;
+    out.write_all(table(&numbers(printer)).as_bytes())?;
+    writeln!(out)?;
+    Ok(out.write_all(table(&materials(printer)).as_bytes())?)
+}
+
+fn words(printer: &Printer) -> Vec<[String; 2]> {
+    let word = |name: &str, value: String| [name.to_owned(), value];
+    vec![
+        word("process", printer.process.clone().unwrap_or_else(|| "its own".to_owned())),
+        word("grid", kebab(&printer.grid)),
+        word("support", kebab(&printer.support)),
+        word("print pose", kebab(&printer.print_pose)),
+        word("cleaning", printer.cleaning.clone()),
+        word("SHA-256", printer.profile_sha256.clone()),
+    ]
+}
+
+/// The word a unit-like value has in profiles.
+fn kebab(value: &impl Serialize) -> String {
+    serde_json::to_value(value).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default()
+}
+
+fn numbers(printer: &Printer) -> Vec<[String; 4]> {
+    let mut rows = vec![["number", "value", "sure", "source"].map(str::to_owned)];
+    if let Some(volume) = &printer.build_volume_mm {
+        rows.push(number_row("build_volume_mm", show_box(volume.value), volume));
+    } else {
+        rows.push(["build_volume_mm", "not known", "", "the fit of parts is not checked"].map(str::to_owned));
+    }
+    for (quantity, number) in printer.numbers() {
+        let value = show_number(quantity, number.value);
+        rows.push(number_row(quantity.key(), value, number));
+    }
+    rows
+}
+
+fn show_number(quantity: Quantity, value: f64) -> String {
+    match quantity {
+        _ if quantity.is_grid_step() => show_step(value),
+        Quantity::PinLengthRatio | Quantity::ToleranceRatio => value.to_string(),
+        _ => show_mm(value),
+    }
+}
+
+/// A step of a grid, to a tenth of a micrometre.
+fn show_step(step_mm: f64) -> String {
+    format!("{step_mm:.4} mm")
+}
+
+fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
+    let default = number.process_default_of.as_ref().map(|id| format!(" (default of {id})"));
+    let source = format!("{}{}", number.source, default.unwrap_or_default());
+    [key.to_owned(), value, number.sure.to_string(), source]
+}
+
+fn materials(printer: &Printer) -> Vec<[String; 6]> {
+    let mut rows = vec![["material", "name", "density", "± mass", "sure", "source"].map(str::to_owned)];
+    rows.extend(printer.materials.iter().map(|material| {
+        [
+            material.id.clone(),
+            material.name.clone(),
+            format!("{} g/cm³", material.density_g_cm3.value),
+            show_percent(material.density_spread_ratio.value),
+            material.density_g_cm3.sure.to_string(),
+            material.density_g_cm3.source.clone(),
+        ]
+    }));
+    rows
+}
+
+fn show_box([x, y, z]: [f64; 3]) -> String {
+    format!("{x} × {y} × {z} mm")
+}
+
+fn check(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
+    if json {
+        return write_json(printer, out);
+    }
+    let numbers = printer.numbers();
+    let unsure =
+        |quantity: &&(Quantity, &Sourced<f64>)| matches!(quantity.1.sure, Sure::Recalled | Sure::OwnChoice);
+    let inherited = numbers.iter().filter(|(_, number)| number.process_default_of.is_some()).count();
+    writeln!(
+        out,
+        "{}: a profile that can be used; {} numbers, {inherited} of them process defaults, {} recalled or own choices",
+        printer.id,
+        numbers.len(),
+        numbers.iter().filter(unsure).count()
+    )?;
+    Ok(())
+}
+
+fn write_json(value: &(impl Serialize + ?Sized), out: &mut dyn Write) -> Result<(), PrintersError> {
+    serde_json::to_writer_pretty(&mut *out, value)?;
+    Ok(writeln!(out)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text(action: Option<PrintersAction>, json: bool) -> String {
+        let mut out = Vec::new();
+        run(action, json, &mut out).unwrap();
+        String::from_utf8(out).unwrap()
+    }
+
+    fn show_action(id: &str) -> Option<PrintersAction> {
+        Some(PrintersAction::Show { id: id.to_owned() })
+    }
+
+    #[test]
+    fn the_list_has_a_line_for_each_printer_and_says_what_is_not_known() {
+        let list = text(None, false);
+        assert_eq!(list.lines().count(), 1 + Printer::all().unwrap().len());
+        let objet = list.lines().find(|line| line.starts_with("objet-connex350")).unwrap();
+        assert!(objet.contains("0.0423 mm") && objet.contains("not known"), "{objet}");
+        assert!(list.contains("250 × 210 × 220 mm"), "{list}");
+    }
+
+    #[test]
+    fn every_number_is_shown_with_its_source_and_how_sure_it_is() {
+        let shown = text(show_action("prusa-mk4"), false);
+        let printer = Printer::find("prusa-mk4").unwrap();
+        for (quantity, number) in printer.numbers() {
+            let line = shown.lines().find(|line| line.starts_with(quantity.key())).unwrap();
+            assert!(line.contains(&number.source) && line.contains(&number.sure.to_string()), "{line}");
+        }
+        for material in &printer.materials {
+            assert!(shown.contains(&material.name), "{}", material.name);
+        }
+    }
+
+    #[test]
+    fn json_has_the_same_numbers() {
+        let list: serde_json::Value = serde_json::from_str(&text(None, true)).unwrap();
+        assert_eq!(list.as_array().unwrap().len(), Printer::all().unwrap().len());
+        let shown: serde_json::Value = serde_json::from_str(&text(show_action("prusa-mk4"), true)).unwrap();
+        assert_eq!(shown["pixel_x_mm"]["value"], 0.45);
+        assert_eq!(shown["min_wall_mm"]["process_default_of"], "fdm");
+        assert_eq!(shown["materials"][0]["id"], "pla");
+    }
+
+    #[test]
+    fn a_profile_of_ones_own_is_checked_and_a_known_id_is_not_taken_for_a_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let file = folder.path().join("shop.toml");
+        let profile = include_str!("../../profiles/printers/prusa-mk4.toml").replace("prusa-mk4", "shop-mk4");
+        std::fs::write(&file, profile).unwrap();
+        let said = text(Some(PrintersAction::Check { file }), false);
+        assert_eq!(
+            said,
+            "shop-mk4: a profile that can be used; 13 numbers, 10 of them process defaults, 5 recalled or own choices\n"
+        );
+        let mut out = Vec::new();
+        let error =
+            run(Some(PrintersAction::Check { file: "prusa-mk4".into() }), false, &mut out).unwrap_err();
+        assert!(error.to_string().contains("cannot read the printer profile prusa-mk4"), "{error}");
+        assert!(out.is_empty());
+    }
+}

@@ -1,0 +1,255 @@
+//! Pieces that a cut parts needlessly are joined again: a plane through a body also slices what merely reaches across it.
+
+use rayon::prelude::*;
+
+use super::{
+    error::CutError,
+    pose::{laid, sides_down},
+    request::PlanRequest,
+    section::{Chart, Point2, Section},
+    split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
+};
+use crate::{
+    geom::{Plane, Point},
+    mesh::{Csg, Hollowed, TriMesh, union_find::UnionFind},
+};
+
+/// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same points but for
+/// rounding, and a wall lies between different mouths.
+const MOUTH_TOLERANCE_MM: f64 = 1e-6;
+
+/// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer pieces.
+const SHADOW_CELLS: usize = 96;
+
+/// What is cut, by what, for which printer.
+pub(crate) struct Cutting<'a> {
+    pub(crate) hollowed: &'a Hollowed,
+    pub(crate) planes: &'a [Plane],
+    pub(crate) request: &'a PlanRequest,
+}
+
+/// A place on a cut where the body is left whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bridge {
+    pub(crate) cut: usize,
+    /// A point well inside the face that is not cut, in the plane's coordinates.
+    pub(crate) at: Point2,
+}
+
+/// Where pieces had better stay joined: a piece that touches a single other one, where
+/// * no void opens in the face between them,
+/// * the piece is not in the way of what is taken off on its side of the cut,
+/// * both together fit the build volume.
+///
+/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a third.
+pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
+    let joints = joints(pieces);
+    if joints.len() < 2 {
+        return Vec::new();
+    }
+    let mouths = mouths(cutting);
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    order.sort_by(|&i, &j| pieces[i].volume_mm3.total_cmp(&pieces[j].volume_mm3));
+    let mut is_host = vec![false; pieces.len()];
+    let mut is_guest = vec![false; pieces.len()];
+    let mut bridges = Vec::new();
+    for index in order {
+        let touching: Vec<&Joint> = joints.iter().filter(|joint| joint.touches(index)).collect();
+        let [joint] = touching[..] else { continue };
+        let host = joint.other(index);
+        if !is_host[index]
+            && !is_guest[host]
+            && !has_mouth(joint, pieces, &mouths)
+            && comes_free(cutting, pieces, (joint, index))
+            && fit_together(cutting, &pieces[index], &pieces[host])
+        {
+            (is_guest[index], is_host[host]) = (true, true);
+            let at =
+                |&cap: &usize| Bridge { cut: joint.cut, at: pieces[joint.below].caps[cap].inner_point() };
+            bridges.extend(joint.caps.iter().map(at));
+        }
+    }
+    bridges
+}
+
+/// The pieces with those made one that meet at a bridge. A bridge on no cut face changes nothing.
+pub(crate) fn rejoined(
+    pieces: Vec<Piece>,
+    planes: &[Plane],
+    bridges: &[Bridge],
+) -> Result<Vec<Piece>, CutError> {
+    let mut sets = UnionFind::new(pieces.len());
+    for bridge in bridges {
+        let side = |is_above| piece_at(&pieces, bridge.cut, is_above, &bridge.at);
+        if let (Some(below), Some(above)) = (side(false), side(true)) {
+            sets.merge(below as u32, above as u32);
+        }
+    }
+    let mut groups: Vec<Vec<Piece>> = pieces.iter().map(|_| Vec::new()).collect();
+    for (index, piece) in pieces.into_iter().enumerate() {
+        groups[sets.root(index as u32) as usize].push(piece);
+    }
+    groups.retain(|group| !group.is_empty());
+    let united = groups.into_par_iter().map(|group| united(group, planes));
+    Ok(in_order(united.collect::<Result<_, _>>()?))
+}
+
+/// The corners of every void's section by every plane.
+fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
+    let corners = |plane: &Plane| {
+        let sections = cutting.hollowed.voids.iter().map(|void| Section::of_mesh(void.mesh(), plane));
+        sections.flat_map(|section| section.rings).flat_map(|ring| ring.points).collect()
+    };
+    cutting.planes.par_iter().map(corners).collect()
+}
+
+/// Whether a void opens in one of the joint's faces.
+fn has_mouth(joint: &Joint, pieces: &[Piece], mouths: &[Vec<Point2>]) -> bool {
+    let on_edge = |cap: &Cap| {
+        let Some((min, max)) = cap.outline.bounds() else { return false };
+        let near =
+            mouths[joint.cut].iter().filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
+        near.into_iter().any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
+    };
+    joint.caps.iter().any(|&cap| on_edge(&pieces[joint.below].caps[cap]))
+}
+
+/// Whether what lies on the piece's side of the cut can be taken off along the normal while the piece stays.
+fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
+    let plane = &cutting.planes[joint.cut];
+    let is_above = joint.above == index;
+    let sign = if is_above { 1.0 } else { -1.0 };
+    let shadow = Shadow::new(&pieces[index].mesh, plane, sign);
+    let moves = |i: &usize| *i != index && pieces[*i].is_above(plane) == is_above;
+    (0..pieces.len()).filter(moves).all(|i| !shadow.holds_back(&pieces[i].mesh))
+}
+
+fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
+    let both = a.mesh.clone().joined(&b.mesh);
+    laid(&both, &sides_down(b, cutting.planes, &[], cutting.request), cutting.request).fits
+}
+
+/// One piece of several that touch; the smaller are united first, which is cheap.
+fn united(mut members: Vec<Piece>, planes: &[Plane]) -> Result<Piece, CutError> {
+    members.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    let Some(smallest) = members.pop() else { return Ok(piece(TriMesh::default(), planes)) };
+    if members.is_empty() {
+        return Ok(smallest);
+    }
+    let mut body = Csg::of_mesh(&smallest.mesh)?;
+    for member in members.iter().rev() {
+        body = body.union(&Csg::of_mesh(&member.mesh)?)?;
+    }
+    Ok(piece(body.to_mesh()?, planes))
+}
+
+/// The height of a piece over a grid on the plane, to tell whether another can be drawn out past it.
+struct Shadow {
+    chart: Chart,
+    plane: Plane,
+    sign: f64,
+    min: Point2,
+    cell: nalgebra::Vector2<f64>,
+    /// The greatest height in each cell, mm.
+    top: Vec<f64>,
+}
+
+impl Shadow {
+    fn new(mesh: &TriMesh, plane: &Plane, sign: f64) -> Self {
+        let chart = Chart::of_plane(plane);
+        let flat = mesh.vertices().iter().map(|p| chart.flat(p));
+        let all = Point2::new(f64::INFINITY, f64::INFINITY);
+        let (min, max) = flat.fold((all, -all), |(min, max), p| (min.inf(&p), max.sup(&p)));
+        let cell = (max - min) / SHADOW_CELLS as f64;
+        let top = vec![f64::NEG_INFINITY; SHADOW_CELLS * SHADOW_CELLS];
+        let mut shadow = Self { chart, plane: *plane, sign, min, cell, top };
+        for corners in mesh.iter_corners() {
+            let (_, high, cells) = shadow.span(&corners);
+            for cell in cells {
+                shadow.top[cell] = shadow.top[cell].max(high);
+            }
+        }
+        shadow
+    }
+
+    /// Whether a triangle of the mesh lies under the shadow's body.
+    fn holds_back(&self, mesh: &TriMesh) -> bool {
+        mesh.iter_corners().any(|corners| {
+            let (low, _, mut cells) = self.span(&corners);
+            cells.any(|cell| low < self.top[cell])
+        })
+    }
+
+    /// The least and greatest height of a triangle, and the cells its bounding box meets.
+    fn span(&self, corners: &[Point; 3]) -> (f64, f64, impl Iterator<Item = usize> + use<>) {
+        let heights = corners.map(|p| self.sign * self.plane.distance(&p));
+        let flat = corners.map(|p| self.chart.flat(&p) - self.min);
+        let range = |axis: usize| {
+            let places = flat.map(|p| p[axis] / self.cell[axis]);
+            let (from, to) = (
+                places.iter().copied().fold(f64::INFINITY, f64::min),
+                places.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            );
+            // Casts saturate: a triangle beside the grid has an empty range.
+            let first = if to < 0.0 { SHADOW_CELLS } else { from.max(0.0) as usize };
+            first..((to.max(0.0) as usize).saturating_add(1)).min(SHADOW_CELLS)
+        };
+        let (columns, rows) = (range(0), range(1));
+        let cells = columns.flat_map(move |i| rows.clone().map(move |j| i * SHADOW_CELLS + j));
+        let low = heights.into_iter().fold(f64::INFINITY, f64::min);
+        (low, heights.into_iter().fold(f64::NEG_INFINITY, f64::max), cells)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{
+        scenes::{cuboid, request},
+        split::split,
+    };
+    use crate::{geom::Vector, mesh::Solid};
+
+    fn union(boxes: &[([f64; 3], [f64; 3])]) -> Solid {
+        let bodies = boxes.iter().map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());
+        bodies.reduce(|sum, body| sum.union(&body).unwrap()).unwrap().to_solid().unwrap()
+    }
+
+    /// The pieces that the plane z = 15 leaves and those left after joining again.
+    fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
+        let planes = [Plane { normal: Vector::z(), offset_mm: 15.0 }];
+        let pieces = split(&hollowed.to_mesh(), &planes).unwrap();
+        let bridges = bridges(&Cutting { hollowed, planes: &planes, request: &request() }, &pieces);
+        (pieces.len(), rejoined(pieces, &planes, &bridges).unwrap())
+    }
+
+    #[test]
+    fn the_solid_legs_of_a_table_are_not_cut_off_with_the_hollow_one() {
+        let leg = |x: f64, y: f64| ([x, y, 0.0], [x + 10.0, y + 10.0, 31.0]);
+        let outer = union(&[
+            ([0.0, 0.0, 30.0], [50.0, 50.0, 40.0]),
+            leg(0.0, 0.0),
+            leg(40.0, 0.0),
+            leg(0.0, 40.0),
+            leg(40.0, 40.0),
+        ]);
+        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])] };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (5, 2));
+        let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
+        assert!((volume - hollowed.to_mesh().signed_volume_mm3()).abs() < 1e-9 * volume);
+    }
+
+    #[test]
+    fn a_solid_hook_over_the_hollow_tower_is_cut_or_the_tower_could_not_be_lifted() {
+        let outer = union(&[
+            ([0.0, 0.0, 0.0], [50.0, 10.0, 5.0]),
+            ([0.0, 0.0, 0.0], [10.0, 10.0, 30.0]),
+            ([40.0, 0.0, 0.0], [50.0, 10.0, 40.0]),
+            ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
+        ]);
+        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])] };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (3, 3));
+    }
+}

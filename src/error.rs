@@ -1,0 +1,79 @@
+//! The union of the stages' errors: why a run could not reach an answer.
+
+use std::path::PathBuf;
+
+use crate::cut::CutError;
+use crate::goal::GoalError;
+use crate::interior::BuildError;
+use crate::io::{ReadError, StlError};
+use crate::job::JobError;
+use crate::mesh::{ClipError, Defects};
+use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::report::{ChecklistError, KitError, PictureError};
+use crate::shell::ShellError;
+use crate::verify::VerifyError;
+use crate::voids::VoidError;
+
+/// Why a run could not reach an answer. An unmet goal is an answer, not an error.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The model cannot be read.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// The model does not bound a solid.
+    #[error("{} does not bound a solid", path.display())]
+    NotSolid {
+        /// The model's file.
+        path: PathBuf,
+        /// Every defect.
+        source: Box<Defects>,
+    },
+    /// The job is not one, or its model has changed.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The printer's profile cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The wall cannot be printed.
+    #[error(transparent)]
+    Wall(#[from] WallError),
+    /// The goal cannot be placed on the model.
+    #[error(transparent)]
+    Goal(#[from] GoalError),
+    /// The shell cannot be built.
+    #[error(transparent)]
+    Shell(#[from] ShellError),
+    /// The columns cannot be built.
+    #[error(transparent)]
+    Columns(#[from] BuildError),
+    /// The surface of the voids cannot be made.
+    #[error(transparent)]
+    Voids(#[from] VoidError),
+    /// A boolean failed.
+    #[error(transparent)]
+    Clip(#[from] ClipError),
+    /// The cuts or the parts cannot be made.
+    #[error(transparent)]
+    Cut(#[from] CutError),
+    /// A written STL does not read back.
+    #[error(transparent)]
+    Stl(#[from] StlError),
+    /// A picture cannot be encoded.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// The checklist cannot be written.
+    #[error(transparent)]
+    Checklist(#[from] ChecklistError),
+    /// The kit cannot be written.
+    #[error(transparent)]
+    Kit(#[from] KitError),
+    /// A kit cannot be judged.
+    #[error(transparent)]
+    Verify(#[from] VerifyError),
+    /// The caller stopped the run.
+    #[error("stopped before the end")]
+    Cancelled,
+}

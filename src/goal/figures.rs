@@ -1,0 +1,148 @@
+//! What a body of given moments does: speeds, angles and ratios that need no density.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Goal, GoalKind, Objective, support};
+use crate::geom::{Matrix, Vector};
+use crate::mass::{Body, Moments};
+use crate::units::STANDARD_GRAVITY_MM_S2;
+
+/// The figures of a body with respect to a goal; density cancels in every one of them.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// Top: the centre of mass from the spin axis; yo-yo: from the spin point; stand: from the middle of the support,
+    /// seen from above. mm.
+    pub off_axis_mm: f64,
+    /// The height of the centre of mass above the origin, mm.
+    pub center_height_mm: f64,
+    /// The angle between z and the nearest principal axis, rad.
+    pub axis_tilt_rad: f64,
+    /// The largest moment across the axis over the moment about it (I_b/I_c), about the centre; below 1 it is dominant.
+    pub dominance_ratio: f64,
+    /// Top: the least speed at which it spins upright (Spin-It eq. 1); none where no speed is enough, or no top.
+    pub critical_speed_rpm: Option<f64>,
+    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none for standing objects.
+    pub spin_it: Option<f64>,
+    /// Stand: the tilt at which it topples, rad; negative where it does not stand; none for the others.
+    pub toppling_angle_rad: Option<f64>,
+}
+
+/// The figures of the body with these moments in the goal frame.
+pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
+    let body = Body::new(moments, 1.0);
+    let tensor = &body.inertia_g_mm2;
+    let center = body.center;
+    let is_top = goal.kind == GoalKind::Top;
+    Figures {
+        off_axis_mm: if goal.kind == GoalKind::Yoyo {
+            center.coords.norm()
+        } else {
+            center.x.hypot(center.y)
+        },
+        center_height_mm: center.z,
+        axis_tilt_rad: tilt_of_nearest_axis(&body),
+        dominance_ratio: largest_across(tensor) / tensor[(2, 2)],
+        critical_speed_rpm: if is_top { critical_speed_rpm(&body) } else { None },
+        spin_it: spin_it(goal, moments),
+        toppling_angle_rad: (goal.kind == GoalKind::Stand)
+            .then(|| toppling_angle_rad(&goal.support, moments)),
+    }
+}
+
+/// The angle between z and the principal axis nearest to it, rad.
+fn tilt_of_nearest_axis(body: &Body) -> f64 {
+    let axes = body.principal().axes;
+    let tilt = |axis: Vector| axis.x.hypot(axis.y).atan2(axis.z.abs());
+    axes.column_iter().map(|axis| tilt(axis.into())).fold(f64::INFINITY, f64::min)
+}
+
+/// The largest moment of inertia about an axis across z, from the upper left 2 × 2 of the tensor.
+fn largest_across(tensor: &Matrix) -> f64 {
+    let mean = 0.5 * (tensor[(0, 0)] + tensor[(1, 1)]);
+    mean + (0.5 * (tensor[(0, 0)] - tensor[(1, 1)])).hypot(tensor[(0, 1)])
+}
+
+/// ω² = M g ℓ/(I_c − I_b) about the centre of mass (Spin-It eq. 1), as turns a minute.
+fn critical_speed_rpm(body: &Body) -> Option<f64> {
+    let tensor = &body.inertia_g_mm2;
+    let margin = tensor[(2, 2)] - largest_across(tensor);
+    let lever = body.mass_g * body.center.z;
+    (margin > 0.0 && lever >= 0.0).then(|| to_rpm((STANDARD_GRAVITY_MM_S2 * lever / margin).sqrt()))
+}
+
+/// Turns a minute of an angular speed in rad/s.
+pub(crate) fn to_rpm(omega_rad_s: f64) -> f64 {
+    omega_rad_s * 60.0 / std::f64::consts::TAU
+}
+
+/// Spin-It eq. 2 and 6 about the spin point (yo-yo), eq. 3 and 7 (top).
+fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
+    let (gamma_c, gamma_i) = match goal.objective {
+        Objective::SpinIt { gamma_c, gamma_i } => (gamma_c, gamma_i),
+        _ => (0.0, 1.0),
+    };
+    let [volume, _, _, z, xy, _, _, xx, yy, zz] = moments.0;
+    let steiner = match goal.kind {
+        GoalKind::Top => z * z / volume,
+        GoalKind::Yoyo => 0.0,
+        GoalKind::Stand => return None,
+    };
+    let gamma_c = if goal.kind == GoalKind::Top { gamma_c } else { 0.0 };
+    let (i_xx, i_yy, i_zz) = (yy + zz - steiner, xx + zz - steiner, xx + yy);
+    let flatness = (i_xx * i_xx + 2.0 * xy * xy + i_yy * i_yy) / (i_zz * i_zz);
+    let lowering = if gamma_c > 0.0 { gamma_c * (z / goal.solid.0[3]).powi(2) } else { 0.0 };
+    Some(lowering + gamma_i * flatness)
+}
+
+/// The least tilt that brings the centre of mass over an edge of the support, rad.
+fn toppling_angle_rad(polygon: &[[f64; 2]], moments: &Moments) -> f64 {
+    let center = moments.centroid();
+    let margin = |(normal, offset): &([f64; 2], f64)| normal[0] * center.x + normal[1] * center.y - offset;
+    let least = support::edges(polygon).iter().map(margin).fold(f64::INFINITY, f64::min);
+    least.atan2(center.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Contact, Request, Up, place, testing::*};
+    use super::*;
+
+    #[test]
+    fn a_flat_disc_of_a_block_has_its_closed_form_critical_speed() {
+        // 20 × 20 × 2: I_c = M (20² + 20²)/12, I_b = M (20² + 2²)/12, ℓ = 1: ω² = 12 g/(800 − 404).
+        let solid = block([-10., -10., 0.], [10., 10., 2.]);
+        let goal = place(&solid, 0.5, &Request::new(GoalKind::Top)).unwrap().goal;
+        let got = figures(&goal, &goal.solid);
+        let expected = to_rpm((12.0 * STANDARD_GRAVITY_MM_S2 / 396.0).sqrt());
+        assert!((got.critical_speed_rpm.unwrap() / expected - 1.0).abs() < 1e-12);
+        assert!((got.dominance_ratio - 404.0 / 800.0).abs() < 1e-12);
+        assert!(got.axis_tilt_rad < 1e-9 && got.off_axis_mm < 1e-12);
+    }
+
+    #[test]
+    fn a_tower_has_no_critical_speed() {
+        let goal = place(&block([0., 0., 0.], [2., 2., 9.]), 0.5, &Request::new(GoalKind::Top)).unwrap().goal;
+        assert_eq!(figures(&goal, &goal.solid).critical_speed_rpm, None);
+    }
+
+    #[test]
+    fn a_block_topples_when_its_center_is_over_its_edge() {
+        let goal =
+            place(&block([0., 0., 0.], [4., 6., 5.]), 0.5, &Request::new(GoalKind::Stand)).unwrap().goal;
+        let angle = figures(&goal, &goal.solid).toppling_angle_rad.unwrap();
+        assert!((angle - (2.0f64 / 2.5).atan()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_tilted_slab_shows_its_tilt() {
+        let solid = block([-5., -5., -1.], [5., 5., 1.]);
+        let tilt = 0.02_f64;
+        let request = Request {
+            up: Up::Vector([tilt.sin(), 0.0, tilt.cos()]),
+            contact: Contact::Center,
+            ..Request::new(GoalKind::Top)
+        };
+        let goal = place(&solid, 0.5, &request).unwrap().goal;
+        assert!((figures(&goal, &goal.solid).axis_tilt_rad - tilt).abs() < 1e-9);
+    }
+}

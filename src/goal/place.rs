@@ -1,0 +1,279 @@
+//! Placing a goal: the request's words and the solid's geometry become a frame.
+
+use super::{Contact, Goal, GoalKind, Objective, Placement, Request, Up, stand, top, yoyo};
+use crate::geom::{Frame, Point, Vector};
+use crate::mass::{Body, moments_of_mesh};
+use crate::mesh::Solid;
+
+/// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides between the two
+/// senses of a symmetric model's axis; above 1e-6 a real difference would be ignored.
+const TIE_RATIO: f64 = 1e-9;
+
+/// Why a goal cannot be placed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GoalError {
+    /// A direction without direction.
+    #[error("up = ({0}, {1}, {2}) is not a direction; give three finite numbers that are not all zero")]
+    NoDirection(f64, f64, f64),
+    /// A point with a coordinate that is not a number.
+    #[error("{name} = ({x}, {y}, {z}) is not a point; give three finite numbers in mm")]
+    NotAPoint {
+        /// Which option.
+        name: &'static str,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+        /// Its z.
+        z: f64,
+    },
+    /// The wall is zero, negative or not a number.
+    #[error("a wall of {0} mm is not a wall; give a positive thickness")]
+    NoWall(f64),
+    /// The objective belongs to another kind of goal, or its weights make no sense.
+    #[error("the objective {objective:?} is not one for a {kind:?}; leave it out for the default")]
+    UnsuitableObjective {
+        /// What was asked for.
+        objective: Objective,
+        /// The goal it was asked for.
+        kind: GoalKind,
+    },
+    /// A top that hangs from its contact.
+    #[error(
+        "the centre of mass lies {depth_mm:.3} mm below the contact point: that is a pendulum, not a top; choose a contact below the centre, or turn the model over"
+    )]
+    ContactAboveCenter {
+        /// How far the centre lies below, mm.
+        depth_mm: f64,
+    },
+    /// A support without area.
+    #[error(
+        "the {vertices} lowest vertices of the model support it on a point or a line only; turn it, or give it a flat foot"
+    )]
+    NoSupport {
+        /// How many vertices lie at the support plane.
+        vertices: usize,
+    },
+}
+
+/// The goal that `request` asks for, placed in `solid`; walls of `wall_mm` decide how much stays solid at a contact.
+///
+/// The moments of the goal are exact for the mesh. Costs a few passes over the triangles.
+pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement, GoalError> {
+    if !(wall_mm > 0.0 && wall_mm.is_finite()) {
+        return Err(GoalError::NoWall(wall_mm));
+    }
+    let site = Site::new(solid, request)?;
+    match request.kind {
+        GoalKind::Top => top::place(&site, wall_mm, request.contact),
+        GoalKind::Yoyo => yoyo::place(&site, request.spin_point),
+        GoalKind::Stand => stand::place(&site),
+    }
+}
+
+/// What every kind of goal needs to know of the model.
+pub(super) struct Site<'a> {
+    pub solid: &'a Solid,
+    pub kind: GoalKind,
+    pub objective: Objective,
+    /// Mass properties for unit density, model frame.
+    pub body: Body,
+    /// The model turned so that z is up, its origin at the model's own.
+    pub upright: Frame,
+    /// The lowest and highest z of the turned model, mm.
+    pub lowest_mm: f64,
+    pub highest_mm: f64,
+}
+
+impl<'a> Site<'a> {
+    fn new(solid: &'a Solid, request: &Request) -> Result<Self, GoalError> {
+        let objective = suitable_objective(request)?;
+        let body = Body::new(&moments_of_mesh(solid.mesh()), 1.0);
+        let up = up_direction(request.up, solid, &body)?;
+        let (lowest_mm, highest_mm) = extent_along(solid, &up);
+        let upright = Frame::with_axis(Point::origin(), &up);
+        Ok(Self { solid, kind: request.kind, objective, body, upright, lowest_mm, highest_mm })
+    }
+
+    /// The goal whose frame has this origin, given in the upright frame.
+    pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
+        let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
+        let solid = moments_of_mesh(self.solid.mesh()).in_frame(&frame);
+        Goal { kind: self.kind, frame, objective: self.objective, support, solid }
+    }
+
+    /// The model's vertices in the upright frame.
+    pub fn upright_vertices(&self) -> impl Iterator<Item = Point> + '_ {
+        self.solid.mesh().vertices().iter().map(|vertex| self.upright.to_local(vertex))
+    }
+
+    /// The solid's centre of mass in the upright frame.
+    pub fn upright_center(&self) -> Point {
+        self.upright.to_local(&self.body.center)
+    }
+
+    /// The height of the model, mm.
+    pub fn height_mm(&self) -> f64 {
+        self.highest_mm - self.lowest_mm
+    }
+}
+
+fn suitable_objective(request: &Request) -> Result<Objective, GoalError> {
+    let objective = request.objective.unwrap_or_else(|| Objective::default_of(request.kind));
+    let sound = match objective {
+        Objective::SpinIt { gamma_c, gamma_i } => {
+            gamma_c >= 0.0 && gamma_i > 0.0 && (gamma_c + gamma_i).is_finite()
+        }
+        _ => true,
+    };
+    if sound && objective.suits(request.kind) {
+        Ok(objective)
+    } else {
+        Err(GoalError::UnsuitableObjective { objective, kind: request.kind })
+    }
+}
+
+/// The point an option names, if it is one.
+pub(super) fn checked_point(name: &'static str, [x, y, z]: [f64; 3]) -> Result<Point, GoalError> {
+    if x.is_finite() && y.is_finite() && z.is_finite() {
+        Ok(Point::new(x, y, z))
+    } else {
+        Err(GoalError::NotAPoint { name, x, y, z })
+    }
+}
+
+fn up_direction(up: Up, solid: &Solid, body: &Body) -> Result<Vector, GoalError> {
+    Ok(match up {
+        Up::X => Vector::x(),
+        Up::Y => Vector::y(),
+        Up::Z => Vector::z(),
+        Up::MinusX => -Vector::x(),
+        Up::MinusY => -Vector::y(),
+        Up::MinusZ => -Vector::z(),
+        Up::Principal => principal_direction(solid, body),
+        Up::Vector([x, y, z]) => {
+            let direction = Vector::new(x, y, z);
+            let length = direction.norm();
+            if !(length.is_finite() && length > 0.0) {
+                return Err(GoalError::NoDirection(x, y, z));
+            }
+            direction / length
+        }
+    })
+}
+
+/// The axis of the largest moment, in the sense in which the centre stands lower; on a tie, in the sense whose z (then
+/// y, then x) component is positive.
+fn principal_direction(solid: &Solid, body: &Body) -> Vector {
+    let axis: Vector = body.principal().axes.column(2).into();
+    let (lowest, highest) = extent_along(solid, &axis);
+    let center = axis.dot(&body.center.coords);
+    let (below, above) = (center - lowest, highest - center);
+    if (below - above).abs() > TIE_RATIO * (highest - lowest) {
+        return if below < above { axis } else { -axis };
+    }
+    let first = [axis.z, axis.y, axis.x].into_iter().find(|component| component.abs() > TIE_RATIO);
+    if first.unwrap_or(1.0) > 0.0 { axis } else { -axis }
+}
+
+/// The least and greatest coordinate of the solid along a unit direction, mm.
+fn extent_along(solid: &Solid, direction: &Vector) -> (f64, f64) {
+    let heights = solid.mesh().vertices().iter().map(|vertex| direction.dot(&vertex.coords));
+    heights
+        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
+}
+
+impl Contact {
+    /// The given point, if one is given, checked.
+    pub(super) fn given(self) -> Result<Option<Point>, GoalError> {
+        match self {
+            Self::Point(point) => checked_point("contact", point).map(Some),
+            Self::Lowest | Self::Center => Ok(None),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{SpinPoint, Warning, testing::*};
+    use super::*;
+
+    fn request(kind: GoalKind) -> Request {
+        Request::new(kind)
+    }
+
+    #[test]
+    fn a_block_on_its_face_touches_at_the_faces_middle() {
+        let placed = place(&block([-1., -2., 3.], [5., 4., 9.]), 1.0, &request(GoalKind::Top)).unwrap();
+        assert!((placed.goal.frame.origin - Point::new(2., 1., 3.)).norm() < 1e-12);
+        assert!(placed.warnings.is_empty());
+        assert_eq!(placed.keeps.len(), 1);
+        assert!((placed.keeps[0].radius_mm - 2.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn below_the_center_of_two_legs_is_air_and_the_height_is_named() {
+        // A table: a plate from z = 6 to 8 on two legs; its centre is over the gap.
+        let table = arch();
+        let wish = Request { contact: Contact::Center, ..request(GoalKind::Top) };
+        let placed = place(&table, 1.0, &wish).unwrap();
+        assert_eq!(placed.goal.frame.origin.z, 0.0);
+        assert!(
+            matches!(placed.warnings[..], [Warning::ContactInAir { missing_mm }] if (missing_mm - 6.0).abs() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn a_flat_slab_spins_easiest_about_its_normal() {
+        let slab = block([0., 0., 0.], [10., 2., 8.]);
+        let wish = Request { up: Up::Principal, ..request(GoalKind::Yoyo) };
+        let placed = place(&slab, 1.0, &wish).unwrap();
+        assert!((placed.goal.frame.axis() - Vector::y()).norm() < 1e-12);
+        assert!((placed.goal.frame.origin - Point::new(5., 1., 4.)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn turned_upside_down_the_solid_keeps_its_mass_and_stands_on_its_other_end() {
+        let solid = block([0., 0., 0.], [2., 3., 7.]);
+        let wish = Request { up: Up::MinusZ, ..request(GoalKind::Stand) };
+        let goal = place(&solid, 1.0, &wish).unwrap().goal;
+        assert!((goal.solid.volume() - 42.0).abs() < 1e-12);
+        assert!((goal.frame.origin - Point::new(1., 1.5, 7.)).norm() < 1e-12);
+        assert!((goal.solid.centroid().z - 3.5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_top_that_hangs_from_its_contact_is_refused() {
+        let wish = Request { contact: Contact::Point([1., 1., 5.]), ..request(GoalKind::Top) };
+        let refused = place(&block([0., 0., 0.], [2., 2., 6.]), 1.0, &wish);
+        assert!(
+            matches!(refused, Err(GoalError::ContactAboveCenter { depth_mm }) if (depth_mm - 2.0).abs() < 1e-12)
+        );
+    }
+
+    #[test]
+    fn what_is_no_number_is_refused_by_name() {
+        let solid = block([0., 0., 0.], [2., 2., 6.]);
+        let zero = Request { up: Up::Vector([0., 0., 0.]), ..request(GoalKind::Top) };
+        assert!(matches!(place(&solid, 1.0, &zero), Err(GoalError::NoDirection(..))));
+        let nan = Request { spin_point: SpinPoint::Point([0., f64::NAN, 0.]), ..request(GoalKind::Yoyo) };
+        assert!(matches!(place(&solid, 1.0, &nan), Err(GoalError::NotAPoint { name: "spin-point", .. })));
+        assert!(matches!(place(&solid, 0.0, &request(GoalKind::Top)), Err(GoalError::NoWall(_))));
+    }
+
+    #[test]
+    fn an_objective_of_another_goal_is_refused() {
+        let wish = Request { objective: Some(Objective::CriticalSpeed), ..request(GoalKind::Stand) };
+        let refused = place(&block([0., 0., 0.], [2., 2., 6.]), 1.0, &wish);
+        assert!(matches!(refused, Err(GoalError::UnsuitableObjective { .. })));
+    }
+
+    #[test]
+    fn a_request_reads_back_from_its_own_words() {
+        let wish =
+            Request { up: Up::MinusY, contact: Contact::Point([1., 2., 3.]), ..request(GoalKind::Top) };
+        let text = serde_json::to_string(&wish).unwrap();
+        assert!(text.contains("\"-y\"") && text.contains("\"spin-point\""), "{text}");
+        assert_eq!(serde_json::from_str::<Request>(&text).unwrap(), wish);
+    }
+}

@@ -1,0 +1,115 @@
+//! Convex polygons in the floor plane: the hull of what touches it, its area and its middle.
+
+/// Turns flatter than this part of the squared extent are straight: a hull corner there is rounding.
+const STRAIGHT_RATIO: f64 = 1e-12;
+
+/// The convex hull, counterclockwise, without repeated or collinear corners (Andrew, "Another efficient algorithm for
+/// convex hulls in two dimensions", Inf. Process. Lett. 9, 1979).
+pub(super) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    points.dedup();
+    if points.len() < 3 {
+        return points;
+    }
+    let straight = STRAIGHT_RATIO * squared_extent(&points);
+    let mut hull = half_hull(points.iter().copied(), straight);
+    hull.extend(half_hull(points.iter().rev().copied(), straight));
+    hull
+}
+
+/// One side of the hull, from the first point up to but without the last.
+fn half_hull(points: impl Iterator<Item = [f64; 2]>, straight: f64) -> Vec<[f64; 2]> {
+    let mut side: Vec<[f64; 2]> = Vec::new();
+    for point in points {
+        while let [.., a, b] = side[..]
+            && turn(a, b, point) <= straight
+        {
+            side.pop();
+        }
+        side.push(point);
+    }
+    side.pop();
+    side
+}
+
+/// Twice the signed area of the triangle abc: positive when it turns left.
+fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}
+
+fn squared_extent(points: &[[f64; 2]]) -> f64 {
+    let from_first = |p: &[f64; 2]| (p[0] - points[0][0]).powi(2) + (p[1] - points[0][1]).powi(2);
+    points.iter().map(from_first).fold(0.0, f64::max)
+}
+
+/// The area of a convex polygon, mm²; zero for a segment or a point.
+pub(super) fn area(polygon: &[[f64; 2]]) -> f64 {
+    fan(polygon).map(|(twice_area, _)| 0.5 * twice_area).sum()
+}
+
+/// The centroid of a convex polygon's area; the middle of a segment; the point itself; the origin for none.
+pub(super) fn middle(polygon: &[[f64; 2]]) -> [f64; 2] {
+    if polygon.len() < 3 {
+        let count = polygon.len().max(1) as f64;
+        return [0, 1].map(|axis| polygon.iter().map(|corner| corner[axis]).sum::<f64>() / count);
+    }
+    let twice_area: f64 = fan(polygon).map(|(twice_area, _)| twice_area).sum();
+    [0, 1].map(|axis| fan(polygon).map(|(twice, centroid)| twice * centroid[axis]).sum::<f64>() / twice_area)
+}
+
+/// Twice the area and the centroid of each triangle of the fan from the first corner.
+fn fan(polygon: &[[f64; 2]]) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
+    polygon.windows(2).skip(1).map(|pair| {
+        let (a, [b, c]) = (polygon[0], [pair[0], pair[1]]);
+        (turn(a, b, c), [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0))
+    })
+}
+
+/// The edges of a convex counterclockwise polygon as (inward unit normal, offset): inside is normal·p ≥ offset.
+pub(crate) fn edges(polygon: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
+    let next = polygon.iter().cycle().skip(1);
+    let pairs = polygon.iter().zip(next);
+    pairs
+        .map(|(a, b)| {
+            let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+            let length = dx.hypot(dy);
+            let normal = [-dy / length, dx / length];
+            (normal, normal[0] * a[0] + normal[1] * a[1])
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hull_of_a_grid_is_its_four_corners() {
+        let grid = (0..25).map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
+        assert_eq!(convex_hull(grid), [[0., 0.], [4., 0.], [4., 4.], [0., 4.]]);
+    }
+
+    #[test]
+    fn points_on_a_line_hull_to_a_segment_without_area() {
+        let hull = convex_hull((0..7).map(|i| [f64::from(i), 2.0 * f64::from(i)]).collect());
+        assert_eq!(hull, [[0., 0.], [6., 12.]]);
+        assert_eq!((area(&hull), middle(&hull)), (0.0, [3., 6.]));
+    }
+
+    #[test]
+    fn a_trapezoid_has_its_closed_form_middle() {
+        // Parallel sides 6 and 2, height 3: the centroid stands at 3/3 · (6 + 2·2)/(6 + 2) = 1.25 above the longer.
+        let polygon = [[0., 0.], [6., 0.], [4., 3.], [2., 3.]];
+        assert!((area(&polygon) - 12.0).abs() < 1e-14);
+        assert!((middle(&polygon)[0] - 3.0).abs() < 1e-14);
+        assert!((middle(&polygon)[1] - 1.25).abs() < 1e-14);
+    }
+
+    #[test]
+    fn every_edge_has_the_middle_on_its_inner_side() {
+        let polygon = convex_hull(vec![[0., 0.], [5., -1.], [7., 3.], [2., 6.], [-1., 2.]]);
+        let center = middle(&polygon);
+        assert_eq!(edges(&polygon).len(), 5);
+        assert!(edges(&polygon).iter().all(|(n, d)| n[0] * center[0] + n[1] * center[1] > *d));
+    }
+}

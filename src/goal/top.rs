@@ -1,0 +1,84 @@
+//! The top: it spins upright on one contact point.
+
+use super::place::{GoalError, Site};
+use super::{Contact, Placement, Warning, support};
+use crate::geom::{Point, Vector};
+use crate::shell::Keep;
+
+/// How many walls thick the contact stays solid: with fewer than two the point would be worn or pushed through, with
+/// many more the lowest, most useful part of the interior is lost.
+const CONTACT_RADIUS_WALLS: f64 = 2.0;
+
+/// Vertices within this part of the height of the lowest belong to the lowest feature. Below 1e-9 the rounding of a
+/// turned model splits a flat foot; above 1e-4 a blunt tip would count as flat.
+const LOWEST_FEATURE_RATIO: f64 = 1e-6;
+
+/// Air below the surface that is no more than this part of the height is rounding, not a missing tip.
+const AIR_RATIO: f64 = 1e-6;
+
+pub(super) fn place(site: &Site, wall_mm: f64, contact: Contact) -> Result<Placement, GoalError> {
+    let origin = contact_point(site, contact)?;
+    let depth_mm = origin.z - site.upright_center().z;
+    if depth_mm >= 0.0 {
+        return Err(GoalError::ContactAboveCenter { depth_mm });
+    }
+    let surface_mm = first_surface_above(site, &origin);
+    let goal = site.goal_at(&origin, Vec::new());
+    let touched = goal.frame.origin + goal.frame.axis() * surface_mm.unwrap_or(0.0);
+    let keeps = vec![Keep::ball(touched, CONTACT_RADIUS_WALLS * wall_mm)];
+    Ok(Placement { goal, keeps, warnings: warnings(site, &origin, surface_mm) })
+}
+
+fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
+    if let Some(point) = contact.given()? {
+        return Ok(site.upright.to_local(&point));
+    }
+    let [x, y] = match contact {
+        Contact::Lowest => lowest_feature_middle(site),
+        Contact::Center | Contact::Point(_) => [site.upright_center().x, site.upright_center().y],
+    };
+    Ok(Point::new(x, y, site.lowest_mm))
+}
+
+/// The middle of what the model would touch a floor with: a vertex, an edge's middle, or a face's centroid.
+fn lowest_feature_middle(site: &Site) -> [f64; 2] {
+    let tie_mm = LOWEST_FEATURE_RATIO * site.height_mm();
+    let lowest = site.upright_vertices().filter(|vertex| vertex.z <= site.lowest_mm + tie_mm);
+    support::middle(&support::convex_hull(lowest.map(|vertex| [vertex.x, vertex.y]).collect()))
+}
+
+fn warnings(site: &Site, contact: &Point, surface_mm: Option<f64>) -> Vec<Warning> {
+    let tolerance_mm = AIR_RATIO * site.height_mm();
+    let depth_mm = contact.z - site.lowest_mm;
+    let air = match surface_mm {
+        None => Some(Warning::AxisMissesModel),
+        Some(missing_mm) if missing_mm > tolerance_mm => Some(Warning::ContactInAir { missing_mm }),
+        Some(_) => None,
+    };
+    let below = (depth_mm > tolerance_mm).then_some(Warning::BelowContact { depth_mm });
+    air.into_iter().chain(below).collect()
+}
+
+/// How far above the contact the axis first meets the surface, mm; none where it meets nothing at or above it.
+fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
+    let tolerance_mm = AIR_RATIO * site.height_mm();
+    let mesh = site.solid.mesh();
+    let heights = mesh.iter_corners().filter_map(|corners| {
+        let local = corners.map(|corner| site.upright.to_local(&corner) - contact);
+        height_over_origin(local, tolerance_mm)
+    });
+    heights.filter(|&height| height >= -tolerance_mm).min_by(f64::total_cmp).map(|height| height.max(0.0))
+}
+
+/// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the axis.
+fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> Option<f64> {
+    let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
+    let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+    let area: f64 = weights.iter().sum();
+    let least = weights.iter().map(|w| w * area.signum()).fold(f64::INFINITY, f64::min);
+    if area != 0.0 && least >= 0.0 {
+        return Some((weights[0] * a.z + weights[1] * b.z + weights[2] * c.z) / area);
+    }
+    let on_axis = [a, b, c].into_iter().filter(|corner| corner.x.hypot(corner.y) <= tolerance_mm);
+    on_axis.map(|corner| corner.z).min_by(f64::total_cmp)
+}

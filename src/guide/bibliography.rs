@@ -1,0 +1,18 @@
+//! The papers and books the code cites.
+//!
+//! * **Spin-It**: M. Bächer, E. Whiting, B. Bickel, O. Sorkine-Hornung, "Spin-It: Optimizing Moment of Inertia for
+//!   Spinnable Objects", ACM Transactions on Graphics 33(4), 2014; Communications of the ACM 60(8), 2017.
+//! * **Ray-reps**: J. Wu, L. Kramer, R. Westermann, "Shape interior modeling and mass property optimization using
+//!   ray-reps", Computers & Graphics 58, 2016.
+//! * **Make It Stand**: R. Prévost, E. Whiting, S. Lefebvre, O. Sorkine-Hornung, "Make It Stand: Balancing Shapes for 3D
+//!   Fabrication", ACM Transactions on Graphics 32(4), 2013.
+//! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science 13(7), 1967.
+//! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
+//!   vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
+//! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen",
+//!   Zeitschrift für Angewandte Mathematik und Mechanik 54, 1974.
+//! * **Signed distance**: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle weighted pseudonormal",
+//!   IEEE Transactions on Visualization and Computer Graphics 11(3), 2005.
+//! * **Isosurface stuffing** (the graded tetrahedral lattice): F. Labelle, J. R. Shewchuk, "Isosurface stuffing: fast
+//!   tetrahedral meshes with good dihedral angles", ACM Transactions on Graphics 26(3), 2007.
+//! * **Closest points**: C. Ericson, "Real-Time Collision Detection", Morgan Kaufmann, 2005, chapter 5.

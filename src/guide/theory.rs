@@ -1,0 +1,34 @@
+//! Why the optimal void is one quadric, and how the solver finds and certifies it.
+//!
+//! # The reachable set
+//! Let m(x) = (1, x, y, z, xy, yz, xz, x², y², z²) in the goal frame and s = ρ ∫ m dV over the material. Mass, centre
+//! and inertia tensor are functions of these ten numbers alone (Spin-It, eq. 4). The wall stays; a region Ω may be
+//! emptied, by any fraction β(x) in [0, 1] of its material. The set K of all reachable s is convex and compact, and
+//! by Lyapunov's theorem every point of it is reached by a void with a sharp boundary, β in {0, 1}.
+//!
+//! For a direction g the least g·s over K empties exactly { x in Ω : g·m(x) > 0 }: the inside of one quadric. So
+//! whatever the goal, the optimal void is Ω cut by a single quadric and the unknown of the whole problem is g in R¹⁰,
+//! whatever the resolution. There are no per-voxel variables and there is no rounding step. That each vertical ray
+//! carries at most two changes (Wu, Kramer and Westermann's completeness proof) is a corollary: a quadratic has at most two
+//! roots on a line.
+//!
+//! # Goals
+//! Every goal minimises a quasi-convex function over K under linear equations ([`crate::goal`] has them one by one): a
+//! convex function divided by a positive linear one. Dinkelbach's method turns the quotient into a few convex problems
+//! N(s) − τ e·s, and each of these is solved in its dual, whose unknowns are a point y of a small convex set (a ball, a
+//! disc, a simplex) and one multiplier per equation: at most ten numbers. The dual is concave with gradient
+//! (J s(g), A s(g)) and Hessian −[J; A] W [J; A]ᵀ where W = ρ Σ m mᵀ/|∂q/∂z| over the quadric's crossings, so
+//! Newton's method applies. [`crate::hollow`] has the method.
+//!
+//! A top is quasi-convex only at a fixed height ℓ of its centre; the search over the one number ℓ uses the multiplier of
+//! the row s_z − ℓ s₁ = 0 as derivative (envelope theorem).
+//!
+//! # The certificate
+//! Any dual point gives a lower bound: no hollowing of this model with this wall can do better. The value, the bound and
+//! their gap are part of every solution. Where the dual grows without limit, its direction is a quadric that separates
+//! the goal from everything reachable: a proof that no hollowing meets the goal.
+//!
+//! # From the solution to the print
+//! What is printed is a triangle mesh with pins, sockets and clearances, not the solver's columns. It is measured exactly,
+//! δ = s(mesh) − s(columns), and the problem is solved again with δ added to the material that stays. δ hardly
+//! depends on g, so a few rounds bring the written parts to the constraints ([`crate::pipeline`]).

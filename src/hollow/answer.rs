@@ -1,0 +1,143 @@
+//! From the end of a search to a solution in mm, with its status and certificate.
+
+use super::ascent::{Climb, End};
+use super::programme::index;
+use super::reach::Vector10;
+use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
+use super::status::{Obstacle, Status};
+use super::work::Work;
+use crate::goal::{GoalKind, Objective, to_rpm};
+use crate::units::STANDARD_GRAVITY_MM_S2;
+
+/// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
+const SOLE_OBSTACLE_RATIO: f64 = 0.95;
+/// A residual up to which an unfinished answer is worth having: a thousandth of the solid's radius of gyration.
+const USABLE_RESIDUAL: f64 = 1e-3;
+/// A gap up to which it is.
+const USABLE_GAP_RATIO: f64 = 1e-2;
+
+/// What a search found, in the solver's units.
+#[derive(Debug, Clone)]
+pub(super) struct Answer {
+    /// What was minimised in the end.
+    pub objective: Objective,
+    /// The ascent that gave it.
+    pub climb: Climb,
+    /// The proof that it will not do, if there is one.
+    pub verdict: Option<Status>,
+    /// A top's height, and its slope's growth.
+    pub height: Option<Tangent>,
+    /// A top's mass, where it matters.
+    pub mass: Option<f64>,
+    /// A lower bound of the ratio over all heights.
+    pub bound_over_heights: Option<f64>,
+}
+
+impl Answer {
+    pub fn new(objective: Objective, climb: Climb) -> Self {
+        Self { objective, climb, verdict: None, height: None, mass: None, bound_over_heights: None }
+    }
+
+    pub fn with_verdict(self, verdict: Status) -> Self {
+        Self { verdict: Some(verdict), ..self }
+    }
+
+    /// The solution in mm.
+    pub fn into_solution(self, work: Work) -> Solution {
+        let scale = work.reach.scale;
+        let best = &self.climb.best;
+        Solution {
+            status: self.status(&work),
+            objective: self.objective,
+            quadric: scale.quadric_to_mm(&(best.quadric * scale.volume_mm3)),
+            certificate: self.certificate(&work),
+            moments: scale.moments_to_mm(&best.extreme.s),
+            passes: work.reach.passes(),
+            warm: Warm { point: best.point.clone(), height: self.height, mass: self.mass },
+            log: work.into_log(),
+        }
+    }
+
+    fn status(&self, work: &Work) -> Status {
+        let (gap_ratio, residual) = (self.climb.best.gap_ratio(), self.climb.best.residual());
+        match (self.verdict, self.climb.end) {
+            (Some(verdict), _) => verdict,
+            (None, End::Infeasible(least_miss)) => infeasible(work, &self.climb, least_miss),
+            (None, End::Cancelled) => Status::Cancelled,
+            (None, _) if work.accepts(&self.climb) => Status::Solved,
+            (None, _) if residual <= USABLE_RESIDUAL && gap_ratio.abs() <= USABLE_GAP_RATIO => {
+                Status::AlmostSolved
+            }
+            (None, _) => Status::IterationLimit { gap_ratio, residual },
+        }
+    }
+
+    fn certificate(&self, work: &Work) -> Certificate {
+        let figure = figure_of(self.objective, self.verdict);
+        let best = &self.climb.best;
+        let impossible = matches!(self.climb.end, End::Infeasible(_));
+        let in_figure = |ratio| if impossible { f64::NAN } else { self.in_figure(work, figure, ratio) };
+        Certificate {
+            figure,
+            value: in_figure(best.value),
+            bound: in_figure(best.bound),
+            gap_ratio: best.gap_ratio(),
+            residual: best.residual(),
+            bound_over_heights: self.bound_over_heights.map(in_figure),
+        }
+    }
+
+    /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
+    fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
+        match figure {
+            Figure::CriticalSpeedRpm => to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt()),
+            Figure::SpinIt => functional(work, self.objective, &self.climb.best.extreme.s, ratio),
+            Figure::DominanceRatio => ratio,
+            Figure::TopplingAngleRad => -ratio.atan(),
+            Figure::CenterHeightMm => work.to_mm(ratio),
+        }
+    }
+}
+
+/// Spin-It's functional of an interior with these moments and this inertia ratio.
+pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
+    let Objective::SpinIt { gamma_c, gamma_i } = objective else { return ratio * ratio };
+    if gamma_c == 0.0 || work.goal.kind != GoalKind::Top {
+        return gamma_i * ratio * ratio;
+    }
+    let lever = s[index::Z] / work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
+    gamma_c * lever * lever + gamma_i * ratio * ratio
+}
+
+fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
+    match (verdict, objective) {
+        (Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }), _) => {
+            Figure::DominanceRatio
+        }
+        (_, Objective::CriticalSpeed) => Figure::CriticalSpeedRpm,
+        (_, Objective::SpinIt { .. }) => Figure::SpinIt,
+        (_, Objective::Dominance) => Figure::DominanceRatio,
+        (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
+        (_, Objective::LowestCenter) => Figure::CenterHeightMm,
+    }
+}
+
+fn infeasible(work: &Work, climb: &Climb, least_miss: f64) -> Status {
+    let separator = work.reach.scale.quadric_to_mm(&climb.best.quadric);
+    Status::ConstraintsInfeasible { obstacle: obstacle(&climb.best.quadric), least_miss, separator }
+}
+
+/// Which constraints the separating quadric is made of.
+fn obstacle(separator: &Vector10) -> Obstacle {
+    let squared = |moments: &[usize]| moments.iter().map(|&i| separator[i] * separator[i]).sum::<f64>();
+    let center = squared(&[index::X, index::Y, index::Z]);
+    let axis = squared(&[index::XZ, index::YZ]);
+    let share = center / (center + axis);
+    if share > SOLE_OBSTACLE_RATIO {
+        Obstacle::Center
+    } else if share < 1.0 - SOLE_OBSTACLE_RATIO {
+        Obstacle::PrincipalAxis
+    } else {
+        Obstacle::Both
+    }
+}

@@ -1,0 +1,301 @@
+//! Every goal as a quasi-convex programme over the ten moments: minimise a convex function over a positive one.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::reach::{Reach, Vector10};
+use super::set::DualSet;
+use super::solution::Stage;
+use crate::goal::{Goal, support_edges};
+
+/// Where the ten moments stand.
+pub(super) mod index {
+    pub const ONE: usize = 0;
+    pub const X: usize = 1;
+    pub const Y: usize = 2;
+    pub const Z: usize = 3;
+    pub const XY: usize = 4;
+    pub const YZ: usize = 5;
+    pub const XZ: usize = 6;
+    pub const XX: usize = 7;
+    pub const YY: usize = 8;
+    pub const ZZ: usize = 9;
+}
+use index::*;
+
+/// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY §3).
+#[derive(Debug, Clone)]
+pub(super) struct Programme {
+    /// What it is for.
+    pub stage: Stage,
+    /// n
+    pub numerator: Vector10,
+    /// J, k × 10
+    pub directions: DMatrix<f64>,
+    /// Y
+    pub set: DualSet,
+    /// e
+    pub denominator: Vector10,
+    /// A positive lower bound of e·s over the s that meet the rows.
+    pub denominator_floor: f64,
+    /// An upper bound of it.
+    pub denominator_ceiling: f64,
+    /// A, m × 10
+    pub rows: DMatrix<f64>,
+    /// b
+    pub rhs: DVector<f64>,
+}
+
+/// A point of the dual: the weights y, a multiplier for each row, and the ratio on trial.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct DualPoint {
+    pub y: DVector<f64>,
+    pub lambda: DVector<f64>,
+    pub tau: f64,
+}
+
+/// The ten numbers with these entries, zero elsewhere.
+fn row(entries: &[(usize, f64)]) -> Vector10 {
+    let mut row = Vector10::zeros();
+    entries.iter().for_each(|&(at, value)| row[at] += value);
+    row
+}
+
+fn stack(rows: &[Vector10]) -> DMatrix<f64> {
+    DMatrix::from_fn(rows.len(), 10, |i, j| rows[i][j])
+}
+
+/// I_xx, I_yy and I_zz as functions of the moments.
+const I_XX: [(usize, f64); 2] = [(YY, 1.0), (ZZ, 1.0)];
+const I_YY: [(usize, f64); 2] = [(XX, 1.0), (ZZ, 1.0)];
+const I_ZZ: [(usize, f64); 2] = [(XX, 1.0), (YY, 1.0)];
+
+/// s_z²/s₁, which is linear where s_z = height·s₁: 2·height·s_z − height²·s₁.
+fn steiner(height: f64) -> Vector10 {
+    row(&[(Z, 2.0 * height), (ONE, -height * height)])
+}
+
+/// (I_xx, √2 I_xy, I_yy) about the centre at this height: the rows of Spin-It's functional (eq. 2).
+fn functional_rows(height: f64) -> DMatrix<f64> {
+    let lowered = steiner(height);
+    let cross = row(&[(XY, -std::f64::consts::SQRT_2)]);
+    stack(&[row(&I_XX) - lowered, cross, row(&I_YY) - lowered])
+}
+
+/// λ_max of the upper 2 × 2 of the tensor is mean + ‖these rows‖; shifting the tensor leaves them alone.
+fn spread_rows() -> DMatrix<f64> {
+    stack(&[row(&[(YY, 0.5), (XX, -0.5)]), row(&[(XY, 1.0)])])
+}
+
+/// Half the trace of the upper 2 × 2 of the tensor about the centre at this height.
+fn mean_across(height: f64) -> Vector10 {
+    (row(&I_XX) + row(&I_YY)) * 0.5 - steiner(height)
+}
+
+/// The rows that put a top's centre on the axis and make the axis principal, and fix the centre's height.
+fn top_rows(height: f64) -> DMatrix<f64> {
+    let mut rows = axis_rows();
+    rows.push(row(&[(Z, 1.0), (ONE, -height)]));
+    stack(&rows)
+}
+
+/// Which row of a top's programme fixes the height of the centre, and which the mass.
+pub(super) const HEIGHT_ROW: usize = 4;
+pub(super) const MASS_ROW: usize = 5;
+
+fn axis_rows() -> Vec<Vector10> {
+    [X, Y, XZ, YZ].into_iter().map(|moment| row(&[(moment, 1.0)])).collect()
+}
+
+impl Programme {
+    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not yet bounded.
+    fn new(numerator: Vector10, directions: DMatrix<f64>, denominator: Vector10, rows: DMatrix<f64>) -> Self {
+        let stage = Stage::Goal;
+        let rhs = DVector::zeros(rows.nrows());
+        let (denominator_floor, denominator_ceiling) = (0.0, 0.0);
+        let set = DualSet::Ball;
+        Self {
+            stage,
+            numerator,
+            directions,
+            set,
+            denominator,
+            denominator_floor,
+            denominator_ceiling,
+            rows,
+            rhs,
+        }
+    }
+
+    /// For a denominator that grows with every bit of material: bounded by the shell and by the solid.
+    fn bounded(mut self, reach: &Reach) -> Self {
+        self.denominator_floor = self.denominator.dot(&reach.shell);
+        self.denominator_ceiling = self.denominator.dot(&reach.solid);
+        self
+    }
+
+    fn at_height(mut self, reach: &Reach, height: f64) -> Self {
+        self.stage = Stage::AtHeight { height_mm: height * reach.scale.length_mm };
+        self
+    }
+
+    fn for_stage(self, stage: Stage) -> Self {
+        Self { stage, ..self }
+    }
+
+    /// Yo-yo, Spin-It eq. 2, 5, 6: ‖(I_xx, √2 I_xy, I_yy)‖/I_zz, the square root of the functional.
+    pub fn yoyo_functional(reach: &Reach) -> Self {
+        Self::new(Vector10::zeros(), functional_rows(0.0), row(&I_ZZ), yoyo_rows()).bounded(reach)
+    }
+
+    /// Yo-yo: λ_max of the tensor across the axis over I_zz.
+    pub fn yoyo_dominance(reach: &Reach) -> Self {
+        Self::new(mean_across(0.0), spread_rows(), row(&I_ZZ), yoyo_rows())
+            .bounded(reach)
+            .for_stage(Stage::Dominance)
+    }
+
+    /// Top at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq. 1).
+    ///
+    /// Where the height row holds, s_z is ℓ s₁, and moving the row's multiplier turns the one into the other. So the
+    /// bounds of ℓ s₁, which is positive on all of K, serve for s_z, which need not be.
+    pub fn top_critical_speed(reach: &Reach, height: f64) -> Self {
+        let numerator = mean_across(height) - row(&I_ZZ);
+        let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), top_rows(height));
+        programme.denominator_floor = height * reach.shell[ONE];
+        programme.denominator_ceiling = height * reach.solid[ONE];
+        programme.at_height(reach, height)
+    }
+
+    /// Top at a height: λ_max(I′)/I_zz, below 1 only where some speed is enough.
+    pub fn top_dominance(reach: &Reach, height: f64) -> Self {
+        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), top_rows(height))
+            .bounded(reach)
+            .at_height(reach, height)
+    }
+
+    /// Top at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
+    pub fn top_functional(reach: &Reach, height: f64) -> Self {
+        Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), top_rows(height))
+            .bounded(reach)
+            .at_height(reach, height)
+    }
+
+    /// The same programme for interiors of this mass only, in units of the solid's.
+    pub fn with_mass(mut self, reach: &Reach, mass: f64) -> Self {
+        let last = self.rows.nrows();
+        self.rows = self.rows.insert_row(last, 0.0);
+        self.rows[(last, ONE)] = 1.0;
+        self.rhs = self.rhs.insert_row(last, mass);
+        if let Stage::AtHeight { height_mm } = self.stage {
+            self.stage = Stage::AtMass { height_mm, volume_mm3: mass * reach.scale.volume_mm3 };
+        }
+        self
+    }
+
+    /// Top at a height: the least mass, in units of the solid's; no ratio.
+    pub fn top_lightest(reach: &Reach, height: f64) -> Self {
+        let mass = row(&[(ONE, 1.0)]);
+        Self::new(mass, DMatrix::zeros(0, 10), Vector10::zeros(), top_rows(height)).at_height(reach, height)
+    }
+
+    /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can have, as a ratio.
+    pub fn top_height(reach: &Reach, sense: f64) -> Self {
+        let nothing = DMatrix::zeros(0, 10);
+        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), stack(&axis_rows()))
+            .bounded(reach)
+            .for_stage(Stage::HeightRange)
+    }
+
+    /// Stand: −tan of the toppling angle, the largest over the support's edges of (d s₁ − n·s_xy)/s_z.
+    pub fn stand_toppling(reach: &Reach, goal: &Goal) -> Self {
+        let length = reach.scale.length_mm;
+        let edge = |(n, d): &([f64; 2], f64)| row(&[(ONE, d / length), (X, -n[0]), (Y, -n[1])]);
+        let edges: Vec<Vector10> = support_edges(&goal.support).iter().map(edge).collect();
+        let none = DMatrix::zeros(0, 10);
+        let mut programme =
+            Self::new(Vector10::zeros(), stack(&edges), row(&[(Z, 1.0)]), none).bounded(reach);
+        programme.set = DualSet::Simplex;
+        programme
+    }
+
+    /// Stand: the height of the centre, which is over the middle of the support.
+    pub fn stand_lowest_center(reach: &Reach) -> Self {
+        let (height, mass) = (row(&[(Z, 1.0)]), row(&[(ONE, 1.0)]));
+        let rows = stack(&[row(&[(X, 1.0)]), row(&[(Y, 1.0)])]);
+        Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
+    }
+
+    /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that none meets them.
+    pub fn feasibility(&self) -> Self {
+        let rows = DMatrix::zeros(0, 10);
+        Self::new(Vector10::zeros(), self.rows.clone(), Vector10::zeros(), rows)
+    }
+
+    /// The convex numerator at s.
+    pub fn numerator_at(&self, s: &Vector10) -> f64 {
+        self.numerator.dot(s) + self.set.support(&(&self.directions * s))
+    }
+
+    /// The quadric g = n + Jᵀy − τe + Aᵀλ whose extreme interior the dual point names.
+    pub fn quadric(&self, point: &DualPoint) -> Vector10 {
+        let turning = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
+        self.numerator - self.denominator * point.tau + Vector10::from_column_slice(turning.as_slice())
+    }
+
+    /// The denominator at s, kept from below its floor; one where there is none.
+    pub fn denominator_at(&self, s: &Vector10) -> f64 {
+        if self.is_ratio() { self.denominator.dot(s).max(self.denominator_floor) } else { 1.0 }
+    }
+
+    /// Whether there is a denominator; without one the value is the numerator alone.
+    pub fn is_ratio(&self) -> bool {
+        self.denominator_floor > 0.0
+    }
+
+    /// Whether every right-hand side is zero.
+    pub fn is_homogeneous(&self) -> bool {
+        self.rhs.iter().all(|&b| b == 0.0)
+    }
+
+    /// J over A: how g turns with (y, λ).
+    pub fn turning(&self) -> DMatrix<f64> {
+        let k = self.directions.nrows();
+        DMatrix::from_fn(k + self.rows.nrows(), 10, |i, j| {
+            if i < k { self.directions[(i, j)] } else { self.rows[(i - k, j)] }
+        })
+    }
+
+    /// The greatest ratio that the dual value D at trial ratio τ proves to be a lower bound: along τ, D falls by no
+    /// less than the floor and no more than the ceiling of the denominator.
+    pub fn bound(&self, tau: f64, dual: f64) -> f64 {
+        if !self.is_ratio() {
+            return dual;
+        }
+        tau + dual / if dual < 0.0 { self.denominator_floor } else { self.denominator_ceiling }
+    }
+
+    /// A dual point to start from cold: the weights and the ratio of the solid, no multipliers.
+    pub fn cold_start(&self, reach: &Reach) -> DualPoint {
+        let ratio = self.numerator_at(&reach.solid) / self.denominator.dot(&reach.solid);
+        DualPoint {
+            y: self.set.maximiser(&(&self.directions * reach.solid)),
+            lambda: DVector::zeros(self.rows.nrows()),
+            tau: if self.is_ratio() { ratio } else { 0.0 },
+        }
+    }
+
+    /// A known dual point, fitted to this programme's rows, or a cold start.
+    pub fn start_near(&self, reach: &Reach, near: Option<&DualPoint>) -> DualPoint {
+        let fitting = near.filter(|point| point.y.len() == self.directions.nrows());
+        let Some(point) = fitting else { return self.cold_start(reach) };
+        let multiplier = |i: usize| point.lambda.get(i).copied().unwrap_or(0.0);
+        let lambda = DVector::from_fn(self.rhs.len(), |i, _| multiplier(i));
+        DualPoint { lambda, ..point.clone() }
+    }
+}
+
+fn yoyo_rows() -> DMatrix<f64> {
+    let mut rows = axis_rows();
+    rows.push(row(&[(Z, 1.0)]));
+    stack(&rows)
+}

@@ -1,0 +1,139 @@
+//! What the solver gives: the quadric, how far to trust it, and how it was found.
+
+use serde::{Deserialize, Serialize};
+
+use super::programme::DualPoint;
+use super::status::Status;
+use crate::geom::Quadric;
+use crate::goal::Objective;
+use crate::mass::Moments;
+
+/// The quantity a certificate speaks of; smaller is better but for the toppling angle.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Figure {
+    /// Turns a minute of a top's least stable speed.
+    CriticalSpeedRpm,
+    /// Spin-It's functional, no unit.
+    SpinIt,
+    /// I_b/I_c, no unit.
+    DominanceRatio,
+    /// The tilt at which the object topples, rad.
+    TopplingAngleRad,
+    /// The height of the centre of mass, mm.
+    CenterHeightMm,
+}
+
+/// What was reached, and the proof of how much better anything else could be.
+///
+/// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is better than
+/// `bound`. A top's bound is for its centre at the solution's height; `bound_over_heights` is for every height.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Certificate {
+    /// What is measured.
+    pub figure: Figure,
+    /// What the solution reaches; not a number where it has no such figure (an unstable top's critical speed).
+    pub value: f64,
+    /// What no interior can beat.
+    pub bound: f64,
+    /// The distance between the two as a part of the value of the programme that was solved.
+    pub gap_ratio: f64,
+    /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
+    pub residual: f64,
+    /// Tops: what no interior with its centre at any height can beat; none where that was not proved in this run.
+    pub bound_over_heights: Option<f64>,
+}
+
+/// Which search an ascent belonged to.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Stage {
+    /// The goal's programme itself.
+    Goal,
+    /// The dominance that decides whether a stable interior exists.
+    Dominance,
+    /// The least or greatest height a top's centre can have.
+    HeightRange,
+    /// A top with its centre at this height.
+    AtHeight {
+        /// The height, mm.
+        height_mm: f64,
+    },
+    /// A top with its centre at this height and of this mass.
+    AtMass {
+        /// The height, mm.
+        height_mm: f64,
+        /// The volume of material, mm³.
+        volume_mm3: f64,
+    },
+    /// The proof that no other height is better, for heights about this one.
+    Cover {
+        /// The middle of the heights covered, mm.
+        height_mm: f64,
+    },
+}
+
+/// One ascent, in the solver's own units.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct LogRow {
+    /// What it was for.
+    pub stage: Stage,
+    /// Passes over the columns.
+    pub passes: usize,
+    /// The ratio its interior reaches.
+    pub value: f64,
+    /// The ratio no interior beats.
+    pub bound: f64,
+    /// How far the constraints are from met.
+    pub residual: f64,
+}
+
+/// The optimal void and its proof.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Solution {
+    /// How far to trust it.
+    pub status: Status,
+    /// What was optimised: the goal's objective, or the one that had to replace it to be stable.
+    pub objective: Objective,
+    /// The void is where this is positive; goal frame, mm.
+    pub quadric: Quadric,
+    /// Value, bound, gap.
+    pub certificate: Certificate,
+    /// The moments with the void emptied, goal frame, mm.
+    pub moments: Moments,
+    /// The passes over the columns that were made in all.
+    pub passes: usize,
+    /// One row an ascent.
+    pub log: Vec<LogRow>,
+    pub(super) warm: Warm,
+}
+
+impl Solution {
+    /// Whether there is a void worth making.
+    pub fn is_usable(&self) -> bool {
+        matches!(self.status, Status::Solved | Status::AlmostSolved)
+    }
+
+    /// The multipliers of the constraints in the solver's units, in the order of THEORY §3's rows; the one of a top's
+    /// height row comes last and vanishes at the best height.
+    pub fn multipliers(&self) -> Vec<f64> {
+        self.warm.point.lambda.iter().copied().collect()
+    }
+}
+
+/// What a later run on finer or corrected moments starts from.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Warm {
+    pub point: DualPoint,
+    /// A top's height, in the solver's units, and how the slope of the objective grows with it.
+    pub height: Option<Tangent>,
+    /// A top's mass where Spin-It's functional weighs it.
+    pub mass: Option<f64>,
+}
+
+/// Where a slope was last seen to vanish, and its derivative there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tangent {
+    pub at: f64,
+    pub curvature: f64,
+}

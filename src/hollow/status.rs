@@ -1,0 +1,183 @@
+//! What a run ended with, as a value and as a sentence.
+
+use crate::geom::Quadric;
+use crate::goal::{Goal, GoalKind};
+
+/// How a run ended: how far to trust its void, or the proof that none will do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Status {
+    /// Gap and residual are within the settings' accepted limits: no interior is better.
+    Solved,
+    /// The constraints are met to a thousandth and the gap is known, but wider than accepted.
+    AlmostSolved,
+    /// No interior meets the constraints.
+    ConstraintsInfeasible {
+        /// What stands in the way.
+        obstacle: Obstacle,
+        /// The least by which any interior misses the constraints, in units of the solid's volume and radius of
+        /// gyration; proved, positive.
+        least_miss: f64,
+        /// The proof: Σλᵢ(constraint i), whose integral over every interior is at least `least_miss`.
+        separator: Quadric,
+    },
+    /// Yo-yo: for every interior some axis across has at least the moment of this one.
+    NotDominant {
+        /// I_b/I_c is at least this, at least 1, for every interior; proved.
+        least_ratio: f64,
+    },
+    /// Top: no interior and no speed make it spin upright.
+    UnstableForEveryInterior {
+        /// I_b/I_c is at least this for every interior.
+        least_ratio: f64,
+        /// Whether that is proved for every height of the centre, or only for those that were tried.
+        proved: bool,
+    },
+    /// Stand: every interior topples by itself.
+    CannotStand {
+        /// The greatest angle any interior reaches, rad; not positive; proved.
+        greatest_angle_rad: f64,
+    },
+    /// The passes were used up before the limits were met.
+    IterationLimit {
+        /// The gap that is left, as a part of the value.
+        gap_ratio: f64,
+        /// The residual that is left, in the solver's normalised units.
+        residual: f64,
+    },
+    /// The caller stopped the run.
+    Cancelled,
+}
+
+/// Which constraint no interior meets.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Obstacle {
+    /// The centre of mass cannot be brought where it must be.
+    Center,
+    /// The axis cannot be made a principal axis.
+    PrincipalAxis,
+    /// Each might be met, but not both together.
+    Both,
+}
+
+impl Status {
+    /// What happened, in a sentence with its numbers.
+    pub fn explain(&self, goal: &Goal) -> String {
+        match *self {
+            Self::Solved => "Solved: no other interior is better.".into(),
+            Self::AlmostSolved => "Solved, though the proof of the last digits is missing.".into(),
+            Self::ConstraintsInfeasible { obstacle, least_miss, .. } => format!(
+                "Impossible: no hollowing with this wall can {}; every interior misses it by at least {:.2} % of the \
+                 solid's own size in these moments.",
+                obstacle.task(goal.kind),
+                100.0 * least_miss
+            ),
+            Self::NotDominant { least_ratio } => format!(
+                "Impossible: whatever is hollowed out, the moment of inertia across the axis is at least \
+                 {least_ratio:.3} times the one about it, so the spin about this axis is not stable."
+            ),
+            Self::UnstableForEveryInterior { least_ratio, proved } => format!(
+                "Impossible: upright it is too tall. Whatever is hollowed out, the moment of inertia across the axis is \
+                 at least {least_ratio:.3} times the one about it, so no speed makes it stable ({}).",
+                if proved {
+                    "proved for every height of the centre"
+                } else {
+                    "at every height that was tried"
+                }
+            ),
+            Self::CannotStand { greatest_angle_rad } => format!(
+                "Impossible: whatever is hollowed out, the centre of mass stays outside the support; it leans over by \
+                 at least {:.3}°.",
+                -greatest_angle_rad.to_degrees()
+            ),
+            Self::IterationLimit { gap_ratio, residual } => format!(
+                "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
+                 {residual:.1e}. Allow more passes."
+            ),
+            Self::Cancelled => "Stopped before the end.".into(),
+        }
+    }
+
+    /// What could be changed to make it possible; nothing where it is.
+    pub fn remedies(&self, goal: &Goal) -> &'static [&'static str] {
+        match (self, goal.kind) {
+            (Self::ConstraintsInfeasible { .. }, GoalKind::Top) => &[
+                "make the model larger with the same wall, or the wall thinner",
+                "move the contact point below the centre of mass (contact center)",
+                "turn the model so that the axis is nearer to one of its principal axes (up principal)",
+            ],
+            (Self::ConstraintsInfeasible { .. }, GoalKind::Yoyo) => &[
+                "make the model larger with the same wall, or the wall thinner",
+                "move the spin point to the centre of mass",
+                "turn the model so that the axis is nearer to one of its principal axes (up principal)",
+            ],
+            (Self::ConstraintsInfeasible { .. }, GoalKind::Stand) => &[
+                "make the model larger with the same wall, or the wall thinner",
+                "ask for the largest toppling angle instead of a centre over the middle",
+            ],
+            (Self::NotDominant { .. } | Self::UnstableForEveryInterior { .. }, _) => &[
+                "spin it about the axis of its largest moment (up principal)",
+                "make the model larger with the same wall, or the wall thinner",
+            ],
+            (Self::CannotStand { .. }, _) => &[
+                "turn the model, or stand it on another part",
+                "give it a larger foot, or ballast in it",
+                "make the model larger with the same wall, or the wall thinner",
+            ],
+            _ => &[],
+        }
+    }
+
+    /// Whether this is a proof that the goal cannot be met.
+    pub fn is_impossible(&self) -> bool {
+        matches!(
+            self,
+            Self::ConstraintsInfeasible { .. }
+                | Self::NotDominant { .. }
+                | Self::UnstableForEveryInterior { .. }
+                | Self::CannotStand { .. }
+        )
+    }
+}
+
+impl Obstacle {
+    fn task(self, kind: GoalKind) -> &'static str {
+        match (self, kind) {
+            (Self::Center, GoalKind::Top) => "bring the centre of mass onto the spin axis",
+            (Self::Center, GoalKind::Yoyo) => "bring the centre of mass to the spin point",
+            (Self::Center, GoalKind::Stand) => "bring the centre of mass over the middle of the support",
+            (Self::PrincipalAxis, _) => "turn a principal axis of inertia onto the spin axis",
+            (Self::Both, _) => "balance the centre of mass and the principal axis on the spin axis together",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::worlds;
+    use super::*;
+    use crate::goal::Objective;
+
+    #[test]
+    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
+        let goal = worlds::egg(Objective::Dominance).goal;
+        let proofs = [
+            (Status::NotDominant { least_ratio: 1.0637 }, "1.064"),
+            (Status::UnstableForEveryInterior { least_ratio: 1.389, proved: true }, "1.389"),
+            (Status::CannotStand { greatest_angle_rad: -0.0239 }, "1.369°"),
+            (
+                Status::ConstraintsInfeasible {
+                    obstacle: Obstacle::Center,
+                    least_miss: 0.0169,
+                    separator: Quadric([0.0; 10]),
+                },
+                "1.69 %",
+            ),
+        ];
+        for (status, number) in proofs {
+            assert!(status.is_impossible());
+            assert!(status.explain(&goal).contains(number), "{}", status.explain(&goal));
+            assert!(!status.remedies(&goal).is_empty());
+        }
+        assert!(!Status::Solved.is_impossible() && Status::Solved.remedies(&goal).is_empty());
+    }
+}

@@ -1,0 +1,195 @@
+//! Small worlds with closed forms or few enough choices to try them all, for the solver's tests.
+
+use super::Problem;
+use crate::geom::{Frame, Quadric};
+use crate::goal::{Goal, GoalKind, Objective};
+use crate::interior::{Columns, moments_where_positive};
+use crate::mass::Moments;
+
+/// A goal with what it is solved on.
+pub(super) struct World {
+    pub goal: Goal,
+    pub fixed: Moments,
+    pub columns: Columns,
+}
+
+impl World {
+    fn new(objective: Objective, fixed: Moments, columns: Columns) -> Self {
+        let kind =
+            [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand].into_iter().find(|kind| objective.suits(*kind));
+        let kind = kind.expect("every objective suits some goal");
+        let goal = Goal { kind, frame: Frame::identity(), objective, support: Vec::new(), solid: fixed };
+        Self { goal, fixed, columns }
+    }
+
+    fn of_kind(mut self, kind: GoalKind) -> Self {
+        self.goal.kind = kind;
+        self
+    }
+
+    pub fn problem(&self) -> Problem<'_> {
+        Problem { goal: &self.goal, fixed: self.fixed, columns: &self.columns }
+    }
+}
+
+/// Everything the columns hold.
+fn whole(columns: &Columns) -> Moments {
+    moments_where_positive(columns, &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]))
+}
+
+/// Columns over a square grid of this half width, where `intervals` has any.
+fn columns_of(pitch: f64, half_width: f64, intervals: impl Fn(f64, f64) -> Vec<[f64; 2]>) -> Columns {
+    let count = (2.0 * half_width / pitch).round() as usize;
+    let place = |i: usize| (i as f64 + 0.5) * pitch - half_width;
+    let mut columns = Columns { pitch_mm: [pitch; 2], starts: vec![0], ..Columns::default() };
+    for (x, y) in (0..count).flat_map(|j| (0..count).map(move |i| (place(i), place(j)))) {
+        let found = intervals(x, y);
+        if !found.is_empty() {
+            columns.centers.push([x, y]);
+            columns.intervals.extend(found);
+            columns.starts.push(columns.intervals.len() as u32);
+        }
+    }
+    columns
+}
+
+/// A vertical ellipsoid of these half axes about `center`, tilted by the shear x += `lean`·z, seen along z.
+fn ellipsoid(center: [f64; 3], half: [f64; 3], lean: f64) -> impl Fn(f64, f64) -> Vec<[f64; 2]> {
+    move |x, y| {
+        // ((x − cx − lean·z)/a)² + ((y − cy)/b)² + (z/c)² = 1 with z from the centre.
+        let (u, v) = (x - center[0], (y - center[1]) / half[1]);
+        let (a2, c2) = (half[0] * half[0], half[2] * half[2]);
+        let (p, q, r) = (lean * lean / a2 + 1.0 / c2, -2.0 * u * lean / a2, u * u / a2 + v * v - 1.0);
+        let discriminant = q * q - 4.0 * p * r;
+        if discriminant <= 0.0 {
+            return Vec::new();
+        }
+        let middle = center[2] - q / (2.0 * p);
+        let reach = discriminant.sqrt() / (2.0 * p);
+        vec![[middle - reach, middle + reach]]
+    }
+}
+
+/// An ellipsoid with a wall of one, as columns of both: what is fixed is all of the outer.
+fn shelled(objective: Objective, pitch: f64, center: [f64; 3], half: [f64; 3], lean: f64) -> World {
+    let outer = columns_of(pitch, 16.0, ellipsoid(center, half, lean));
+    let inner = columns_of(pitch, 16.0, ellipsoid(center, half.map(|h| h - 1.0), lean));
+    World::new(objective, whole(&outer), inner)
+}
+
+/// A leaning egg about its middle: its axis is not a principal one before hollowing.
+pub(super) fn egg(objective: Objective) -> World {
+    shelled(objective, 0.5, [0.0; 3], [14.0, 12.0, 6.0], 0.1).of_kind(GoalKind::Yoyo)
+}
+
+/// The same egg standing on its tip, its middle above the contact and a little beside it.
+pub(super) fn egg_on_its_side(objective: Objective) -> World {
+    egg_on_its_side_at(objective, 0.5)
+}
+
+/// The same on columns of another pitch.
+pub(super) fn egg_on_its_side_at(objective: Objective, pitch: f64) -> World {
+    shelled(objective, pitch, [0.2, 0.1, 6.0], [14.0, 12.0, 6.0], 0.05)
+}
+
+/// An egg much longer along its axis than across.
+pub(super) fn long_egg() -> World {
+    shelled(Objective::Dominance, 0.5, [0.0; 3], [5.0, 5.0, 15.0], 0.0)
+}
+
+/// A tall ellipsoid on its tip.
+pub(super) fn tower() -> World {
+    shelled(Objective::CriticalSpeed, 0.5, [0.0, 0.0, 15.0], [6.0, 6.0, 15.0], 0.0)
+}
+
+/// A box of inner area 16 and height 10 that may be filled, on which 40 of other mass is centred at height 9.
+pub(super) fn bottle() -> World {
+    let columns = columns_of(0.5, 2.0, |_, _| vec![[0.0, 10.0]]);
+    let glass = Moments([40.0, 0.0, 0.0, 360.0, 0.0, 0.0, 0.0, 100.0, 100.0, 3300.0]);
+    World::new(Objective::LowestCenter, whole(&columns) + glass, columns)
+}
+
+/// Sixteen blocks, four columns of four, over a support that their middle is not over.
+pub(super) fn blocks_on_a_slope() -> World {
+    let columns =
+        columns_of(2.0, 2.0, |_, _| (0..4).map(|i| [f64::from(i) * 2.0, f64::from(i) * 2.0 + 2.0]).collect());
+    let rest = Moments(Moments::monomials(0.3, -0.2, 2.0)) * 30.0;
+    let mut world = World::new(Objective::TopplingAngle, whole(&columns) + rest, columns);
+    world.goal.support = vec![[-0.6, -1.4], [2.4, -1.4], [2.4, 1.6], [-0.6, 1.6]];
+    world
+}
+
+/// Cells of ¾ mm: eight octants of 2 × 2 × 3 blocks each, mirrored in all three planes, in a rim that is never emptied.
+pub(super) fn mirrored_blocks(objective: Objective) -> World {
+    let columns = columns_of(1.5, 3.0, |_, _| (-3..3).map(|i| [f64::from(i), f64::from(i) + 1.0]).collect());
+    let rim = Moments([60.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 900.0, 700.0, 200.0]);
+    World::new(objective, whole(&columns) + rim, columns).of_kind(GoalKind::Yoyo)
+}
+
+/// A flat round disc above its contact, in cells of 1 mm and three layers, with a stem that is never emptied.
+pub(super) fn rings(objective: Objective) -> World {
+    let layers = || (0..3).map(|i| [2.0 + 2.0 * f64::from(i), 4.0 + 2.0 * f64::from(i)]).collect();
+    let columns = columns_of(1.0, 6.0, |x, y| if x.hypot(y) < 5.9 { layers() } else { Vec::new() });
+    let rest = Moments([60.0, 0.0, 0.0, 300.0, 0.0, 0.0, 0.0, 1800.0, 1800.0, 1900.0]);
+    World::new(objective, whole(&columns) + rest, columns).of_kind(GoalKind::Top)
+}
+
+/// Groups of intervals that are emptied together: each by itself.
+pub(super) fn single_blocks(count: usize) -> Vec<Vec<usize>> {
+    (0..count).map(|i| vec![i]).collect()
+}
+
+/// The blocks of `mirrored_blocks` in groups that are each other's mirror images.
+pub(super) fn mirrored_groups() -> Vec<Vec<usize>> {
+    let mut groups = vec![Vec::new(); 12];
+    for (column, layer) in (0..16).flat_map(|column| (0..6).map(move |layer| (column, layer))) {
+        let fold = |i: usize, count: usize| i.min(count - 1 - i);
+        groups[(fold(column % 4, 4) * 2 + fold(column / 4, 4)) * 3 + fold(layer, 6)].push(column * 6 + layer);
+    }
+    groups
+}
+
+/// The cells of `rings` in four rings by three layers.
+pub(super) fn ring_groups(world: &World) -> Vec<Vec<usize>> {
+    let mut groups = vec![Vec::new(); 12];
+    for (column, &[x, y]) in world.columns.centers.iter().enumerate() {
+        let ring = (x.hypot(y) / 1.5) as usize;
+        (0..3).for_each(|layer| groups[ring * 3 + layer].push(column * 3 + layer));
+    }
+    groups
+}
+
+/// Visits the moments of every choice of groups to empty.
+pub(super) fn each_choice(world: &World, groups: &[Vec<usize>], mut visit: impl FnMut(&Moments)) {
+    let emptied: Vec<Moments> =
+        groups.iter().map(|group| moments_of_intervals(&world.columns, group)).collect();
+    for choice in 0..1usize << groups.len() {
+        let chosen = (0..groups.len()).filter(|group| choice >> group & 1 == 1);
+        visit(&chosen.fold(world.fixed, |moments, group| moments - emptied[group]));
+    }
+}
+
+/// The moments of some intervals, by a column set of their own.
+fn moments_of_intervals(columns: &Columns, chosen: &[usize]) -> Moments {
+    let mut part = Columns { pitch_mm: columns.pitch_mm, starts: vec![0], ..Columns::default() };
+    for index in 0..columns.len() {
+        let range = columns.starts[index] as usize..columns.starts[index + 1] as usize;
+        for interval in range.filter(|interval| chosen.contains(interval)) {
+            part.centers.push(columns.centers[index]);
+            part.intervals.push(columns.intervals[interval]);
+            part.starts.push(part.intervals.len() as u32);
+        }
+    }
+    whole(&part)
+}
+
+/// A quadric of coefficients between −1 and 1 over coordinates in units of `length`, the same for the same seed.
+pub(super) fn some_quadric(seed: u64, length: f64) -> Quadric {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
+    let mut next = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    };
+    let degree = |i: usize| [0, 1, 1, 1, 2, 2, 2, 2, 2, 2][i];
+    Quadric(std::array::from_fn(|i| next() / length.powi(degree(i))))
+}

@@ -1,0 +1,36 @@
+//! The yo-yo: the functional asked for, and the dominance that decides whether it is worth anything.
+
+use super::answer::Answer;
+use super::ascent::{Climb, End};
+use super::programme::{DualPoint, Programme};
+use super::status::Status;
+use super::work::Work;
+use crate::goal::Objective;
+
+/// The best interior of a yo-yo, or the proof that its axis cannot be made dominant.
+pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+    if objective == Objective::Dominance {
+        return dominance(work, start);
+    }
+    let programme = Programme::yoyo_functional(&work.reach);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    if matches!(climb.end, End::Infeasible(_) | End::Cancelled) || is_dominant(work, &climb) {
+        return Answer::new(objective, climb);
+    }
+    dominance(work, None)
+}
+
+/// The interior whose axis is the most dominant; at a ratio of 1 or more none is stable.
+fn dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
+    let programme = Programme::yoyo_dominance(&work.reach);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let least_ratio = climb.best.bound;
+    let answer = Answer::new(Objective::Dominance, climb);
+    if least_ratio >= 1.0 { answer.with_verdict(Status::NotDominant { least_ratio }) } else { answer }
+}
+
+fn is_dominant(work: &Work, climb: &Climb) -> bool {
+    let programme = Programme::yoyo_dominance(&work.reach);
+    let s = &climb.best.extreme.s;
+    programme.numerator_at(s) < programme.denominator_at(s)
+}

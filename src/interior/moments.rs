@@ -1,0 +1,84 @@
+//! The moments of everything that may be emptied.
+
+use rayon::prelude::*;
+
+use super::Columns;
+use crate::mass::Moments;
+
+/// Columns summed one after the other before blocks are added up. The blocks make the result independent of the
+/// thread count; their size is what makes both sums short enough to lose no more than about 1e-13.
+const COLUMNS_PER_BLOCK: usize = 4096;
+
+impl Columns {
+    /// The moments of the region with every interval emptied, goal frame.
+    ///
+    /// Exact in z; in x and y each column stands for the box of its pitch, whose second moments are those of its
+    /// centre plus pitch²/12. So it is exact for boxes along the axes. The same bits for any number of threads.
+    pub fn moments(&self) -> Moments {
+        let blocks = (0..self.len()).into_par_iter().step_by(COLUMNS_PER_BLOCK);
+        let sums: Vec<Moments> = blocks
+            .map(|first| {
+                let block = first..(first + COLUMNS_PER_BLOCK).min(self.len());
+                block.fold(Moments::default(), |sum, column| sum + self.moments_of_column(column))
+            })
+            .collect();
+        let area_mm2 = self.pitch_mm[0] * self.pitch_mm[1];
+        sums.into_iter().fold(Moments::default(), |sum, block| sum + block) * area_mm2
+    }
+
+    /// The moments of one column, per unit of its cross-section.
+    fn moments_of_column(&self, column: usize) -> Moments {
+        let [x, y] = self.centers[column];
+        let [length, z, zz] = self.intervals_of(column).iter().map(powers_of_z).fold([0.0; 3], add);
+        let xx = x * x + self.pitch_mm[0] * self.pitch_mm[0] / 12.0;
+        let yy = y * y + self.pitch_mm[1] * self.pitch_mm[1] / 12.0;
+        let x_y = [x * y * length, y * z, x * z];
+        Moments([length, x * length, y * length, z, x_y[0], x_y[1], x_y[2], xx * length, yy * length, zz])
+    }
+}
+
+/// The integrals of 1, z and z² over an interval, about its middle so that nothing cancels.
+fn powers_of_z(&[bottom, top]: &[f64; 2]) -> [f64; 3] {
+    let (length, middle) = (top - bottom, 0.5 * (bottom + top));
+    [length, middle * length, length * (middle * middle + length * length / 12.0)]
+}
+
+/// The sum of two triples.
+fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_that_tile_boxes_have_the_moments_of_the_boxes() {
+        let (pitch, side) = (0.5, 6);
+        let mut columns = Columns { pitch_mm: [pitch, pitch], starts: vec![0], ..Columns::default() };
+        for cell in 0..side * side {
+            let center =
+                [1.0 + (f64::from(cell % side) + 0.5) * pitch, (f64::from(cell / side) + 0.5) * pitch];
+            columns.centers.push(center);
+            columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
+            columns.starts.push(columns.intervals.len() as u32);
+        }
+        // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]), each moment a product of one-dimensional integrals.
+        let (x, y, z) = ([3.0, 7.5, 21.0], [3.0, 4.5, 9.0], [5.0, 10.5, 2.0 / 3.0 + 39.0]);
+        let exact = [
+            x[0] * y[0] * z[0],
+            x[1] * y[0] * z[0],
+            x[0] * y[1] * z[0],
+            x[0] * y[0] * z[1],
+            x[1] * y[1] * z[0],
+            x[0] * y[1] * z[1],
+            x[1] * y[0] * z[1],
+            x[2] * y[0] * z[0],
+            x[0] * y[2] * z[0],
+            x[0] * y[0] * z[2],
+        ];
+        for (moment, exact) in columns.moments().0.into_iter().zip(exact) {
+            assert!((moment - exact).abs() < 1e-12 * exact, "{moment} instead of {exact}");
+        }
+    }
+}

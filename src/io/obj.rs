@@ -1,0 +1,204 @@
+//! Wavefront OBJ: the vertices and faces of all objects, polygons cut into triangles.
+
+use super::ear_clip::ear_clip;
+use crate::geom::Point;
+use crate::mesh::TriMesh;
+
+/// Why bytes are not an OBJ mesh, and on which line.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum ObjError {
+    /// There are no faces.
+    #[error("there are no faces in it ({vertices} vertices); export the model again with its faces")]
+    NoFaces {
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A vertex that is not three numbers.
+    #[error("line {line}: a vertex needs three numbers, found {found:?}; export the model again")]
+    Vertex {
+        /// The line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// A vertex coordinate is NaN or infinite.
+    #[error("line {line}: a coordinate is not a finite number; export the model again")]
+    NotFinite {
+        /// The line, from 1.
+        line: usize,
+    },
+    /// A face whose corners are not indices.
+    #[error(
+        "line {line}: a face needs three or more corners like 7, 7/1, 7//3 or 7/1/3, found {found:?}; export the model again"
+    )]
+    Face {
+        /// The line, from 1.
+        line: usize,
+        /// What stands there.
+        found: String,
+    },
+    /// A face names a vertex that does not exist.
+    #[error(
+        "line {line}: the face names vertex {index}, but the file has {vertices} vertices; export the model again"
+    )]
+    IndexOutOfRange {
+        /// The line, from 1.
+        line: usize,
+        /// The index as it stands there.
+        index: i64,
+        /// How many vertices there are (before the line, for a negative index).
+        vertices: usize,
+    },
+    /// The parser refuses the file for another reason.
+    #[error("{reason}; export the model again")]
+    Refused {
+        /// What the parser says.
+        reason: String,
+    },
+}
+
+/// The triangles of all objects and groups of an OBJ file.
+///
+/// Faces in every form (a, a/b, a//c, a/b/c, negative indices); polygons are cut by [`ear_clip`], concave ones
+/// too; lines continued with `\` and names in any encoding are understood; normals, texture coordinates, colours
+/// and materials are ignored. Vertices no face uses are left out. Every coordinate is finite.
+pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
+    let geometry = Geometry::of(&String::from_utf8_lossy(bytes));
+    geometry.check()?;
+    let options = tobj::LoadOptions::default();
+    let (models, _) = tobj::load_obj_buf(&mut geometry.text.as_bytes(), &options, |_| Ok(Default::default()))
+        .map_err(|error| ObjError::Refused { reason: error.to_string() })?;
+    let whole =
+        models.iter().fold(TriMesh::default(), |whole, model| whole.joined(&triangulated(&model.mesh)));
+    if whole.triangles().is_empty() {
+        return Err(ObjError::NoFaces { vertices: geometry.vertices });
+    }
+    Ok(whole)
+}
+
+/// The triangles of one parsed object.
+fn triangulated(mesh: &tobj::Mesh) -> TriMesh {
+    let vertices: Vec<Point> = mesh.positions.chunks_exact(3).map(|p| Point::new(p[0], p[1], p[2])).collect();
+    let mut rest = mesh.indices.as_slice();
+    let mut triangles = Vec::with_capacity(mesh.indices.len() / 3);
+    let arities = mesh.face_arities.iter().map(|&n| n as usize).chain(std::iter::repeat(3));
+    for arity in arities {
+        let Some((face, after)) = rest.split_at_checked(arity).filter(|_| !rest.is_empty()) else { break };
+        triangles.extend(ear_clip(&vertices, face));
+        rest = after;
+    }
+    TriMesh::from_parts(vertices, triangles)
+}
+
+/// The vertex and face lines of a file, one a line, without comments, colours and continuations.
+struct Geometry {
+    text: String,
+    /// The line of the file on which each line of the text begins, from 1.
+    lines: Vec<usize>,
+    vertices: usize,
+}
+
+impl Geometry {
+    fn of(file: &str) -> Self {
+        let mut geometry = Self { text: String::with_capacity(file.len()), lines: Vec::new(), vertices: 0 };
+        let mut lines = file.trim_start_matches('\u{feff}').split(line_break(file)).zip(1..);
+        while let Some((first, number)) = lines.next() {
+            let mut line = first.trim_end_matches('\r').to_owned();
+            while line.ends_with('\\') {
+                line.pop();
+                line.push(' ');
+                line.push_str(lines.next().map_or("", |(next, _)| next.trim_end_matches('\r')));
+            }
+            geometry.take(&line, number);
+        }
+        geometry
+    }
+
+    /// Keeps the line if it is a vertex or a face.
+    fn take(&mut self, line: &str, number: usize) {
+        let line = line.split('#').next().unwrap_or_default();
+        let words: Vec<&str> = line.split_whitespace().collect();
+        let kept = match words.first() {
+            Some(&"v") => &words[..kept_numbers(words.len() - 1) + 1],
+            Some(&"f") => &words[..],
+            _ => return,
+        };
+        self.vertices += usize::from(kept[0] == "v");
+        self.lines.push(number);
+        for word in kept {
+            self.text.push_str(word);
+            self.text.push(' ');
+        }
+        self.text.push('\n');
+    }
+
+    /// The first line that cannot be used, which the parser would refuse without naming it (or accept).
+    fn check(&self) -> Result<(), ObjError> {
+        let mut vertices = 0;
+        for (text, &line) in self.text.lines().zip(&self.lines) {
+            let mut words = text.split_ascii_whitespace();
+            if words.next() == Some("v") {
+                vertices += 1;
+                check_vertex(words, text, line)?;
+            } else {
+                check_face(words, line, [vertices, self.vertices])?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How files of this kind part their lines: old ones by carriage returns alone.
+fn line_break(file: &str) -> char {
+    if file.contains('\n') { '\n' } else { '\r' }
+}
+
+/// How many of the numbers of a vertex describe its place: three, or four with a weight; what follows is colour.
+fn kept_numbers(count: usize) -> usize {
+    if count > 4 { 3 } else { count }
+}
+
+fn check_vertex<'a>(words: impl Iterator<Item = &'a str>, text: &str, line: usize) -> Result<(), ObjError> {
+    let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
+    match numbers.as_deref() {
+        Some([x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok(()),
+        Some([x, y, z, w]) if [x, y, z].iter().all(|x| (*x / w).is_finite()) => Ok(()),
+        Some([_, _, _] | [_, _, _, _]) => Err(ObjError::NotFinite { line }),
+        _ => Err(ObjError::Vertex { line, found: quoted(text) }),
+    }
+}
+
+/// Checks that a face has three corners or more that name vertices, of which there are so many before this line
+/// and in the whole file.
+fn check_face<'a>(
+    corners: impl Iterator<Item = &'a str>,
+    line: usize,
+    [before, all]: [usize; 2],
+) -> Result<(), ObjError> {
+    let mut count = 0;
+    for corner in corners {
+        let index = corner_index(corner).ok_or_else(|| ObjError::Face { line, found: quoted(corner) })?;
+        let vertices = if index < 0 { before } else { all };
+        if index == 0 || index.unsigned_abs() > vertices as u64 {
+            return Err(ObjError::IndexOutOfRange { line, index, vertices });
+        }
+        count += 1;
+    }
+    if count < 3 { Err(ObjError::Face { line, found: format!("{count} corners") }) } else { Ok(()) }
+}
+
+/// The vertex index of a face corner, when all its parts are indices.
+fn corner_index(corner: &str) -> Option<i64> {
+    let mut parts = corner.split('/');
+    let index = parts.next()?.parse().ok()?;
+    let others: Vec<&str> = parts.collect();
+    let sound = |part: &&str| part.is_empty() || part.parse::<i64>().is_ok();
+    (others.len() <= 2 && others.iter().all(sound)).then_some(index)
+}
+
+/// How much of a faulty line is shown.
+const MAX_QUOTED_CHARS: usize = 60;
+
+fn quoted(text: &str) -> String {
+    text.trim_end().chars().take(MAX_QUOTED_CHARS).collect()
+}

@@ -1,0 +1,80 @@
+//! Which format the bytes of a file are in, told from the content alone.
+
+use super::stl::{is_ascii_stl, is_binary_stl};
+
+/// What the content of a file looks like.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Format {
+    /// No bytes at all.
+    Empty,
+    /// STL, binary or ASCII, perhaps damaged.
+    Stl,
+    /// Wavefront OBJ, perhaps damaged.
+    Obj,
+    /// Something else, in words.
+    Foreign(&'static str),
+}
+
+/// First bytes of formats people take for STL or OBJ, and what to call them.
+const SIGNATURES: [(&[u8], &str); 9] = [
+    (b"PK\x03\x04", "a ZIP archive (perhaps a 3MF file)"),
+    (b"ply", "a PLY file"),
+    (b"glTF", "a binary glTF file"),
+    (b"ISO-10303", "a STEP file"),
+    (b"OFF", "an OFF file"),
+    (b"Kaydara FBX", "an FBX file"),
+    (b"BLENDER", "a Blender file"),
+    (b"\x1f\x8b", "a gzip archive"),
+    (b"<", "a web page or XML file"),
+];
+
+/// The format of these bytes.
+pub(super) fn sniff(bytes: &[u8]) -> Format {
+    if bytes.is_empty() {
+        Format::Empty
+    } else if is_binary_stl(bytes) || is_ascii_stl(bytes) {
+        Format::Stl
+    } else if let Some((_, name)) = SIGNATURES.iter().find(|(start, _)| bytes.starts_with(start)) {
+        Format::Foreign(name)
+    } else if looks_like_obj(bytes) {
+        Format::Obj
+    } else if is_text(bytes) {
+        Format::Foreign("a text file")
+    } else {
+        Format::Stl
+    }
+}
+
+/// Whether some line is a vertex or a face, and the content is text.
+fn looks_like_obj(bytes: &[u8]) -> bool {
+    let geometry = |line: &[u8]| matches!(line.trim_ascii_start(), [b'v' | b'f', b' ' | b'\t', ..]);
+    is_text(bytes) && bytes.split(|&b| b == b'\n' || b == b'\r').any(geometry)
+}
+
+/// Whether the bytes hold none of the control codes that text does not use.
+fn is_text(bytes: &[u8]) -> bool {
+    bytes.iter().all(|&b| b >= b' ' || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_content_decides_and_says_what_it_is() {
+        let cases: [(&[u8], Format); 9] = [
+            (b"", Format::Empty),
+            (b"solid x\nendsolid x\n", Format::Stl),
+            (b"\xef\xbb\xbf  SOLID\n", Format::Stl),
+            (b"# made by hand\nv 0 0 0\n", Format::Obj),
+            (b"\tv\t0 0 0\r", Format::Obj),
+            (b"a letter to a friend", Format::Foreign("a text file")),
+            (b"PK\x03\x04\x14\x00", Format::Foreign("a ZIP archive (perhaps a 3MF file)")),
+            (b"ply\nformat ascii 1.0\n", Format::Foreign("a PLY file")),
+            (b"\x00\x01\x02", Format::Stl),
+        ];
+        for (bytes, format) in cases {
+            assert_eq!(sniff(bytes), format, "{:?}", String::from_utf8_lossy(bytes));
+        }
+    }
+}

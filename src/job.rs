@@ -1,0 +1,374 @@
+//! The whole input of a run as plain data: `job.toml` replays the run exactly.
+
+mod choices;
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
+
+pub use choices::{
+    ChoiceError, Contact, CutMode, GoalKind, ModelUnit, Objective, PartFormat, Solver, SpinPoint, Up,
+};
+
+use crate::{
+    digest::sha256_hex,
+    toml_text::{self, TextFault},
+    units::Length,
+};
+
+/// The version of `job.toml` that this program writes and reads.
+pub const JOB_SCHEMA: u32 = 1;
+
+/// The head of every written `job.toml`.
+const REMARK: &str = "# Replays the run: equipoise prepare --job job.toml\n\n";
+
+/// Everything that decides the bytes of a kit, apart from the version of the program and of its built-in profiles.
+///
+/// The number of threads, the folder written to and what is shown on the way are not part of it: they decide nothing.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Job {
+    /// The version of the file's form, [`JOB_SCHEMA`].
+    #[serde(deserialize_with = "known_schema")]
+    pub schema: u32,
+    /// The wall asked for; the profile's minimum where none is.
+    pub wall: Option<Length>,
+    /// The pitch of the solver's columns; the printer's own where none is asked for.
+    pub pitch: Option<Length>,
+    /// How the void is found.
+    pub solver: Solver,
+    /// Whether the object is cut.
+    pub cut: CutMode,
+    /// The file format of the parts.
+    pub format: PartFormat,
+    /// What is prepared.
+    pub model: ModelChoice,
+    /// What prints it.
+    pub printer: PrinterChoice,
+    /// What it is to do.
+    #[serde(deserialize_with = "possible_goal")]
+    pub goal: GoalChoice,
+}
+
+/// The model file and its size.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ModelChoice {
+    /// The file.
+    pub path: PathBuf,
+    /// SHA-256 of the file's bytes in lower-case hexadecimal; none until they have been read.
+    pub sha256: Option<String>,
+    /// From the file's numbers to mm.
+    pub scaling: Scaling,
+}
+
+/// How the numbers of a model file become mm.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Scaling {
+    /// They are in this unit.
+    Unit(ModelUnit),
+    /// They are mm when multiplied by this, positive and finite.
+    #[serde(deserialize_with = "positive")]
+    Factor(f64),
+    /// The longest side of the box about the model becomes this.
+    Size(Length),
+}
+
+impl Scaling {
+    /// What the file's numbers are multiplied by, for a model whose longest side is `longest_side` of them (positive).
+    pub fn factor(self, longest_side: f64) -> f64 {
+        match self {
+            Self::Unit(unit) => unit.mm(),
+            Self::Factor(factor) => factor,
+            Self::Size(size) => size.mm() / longest_side,
+        }
+    }
+}
+
+/// The printer and the material.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PrinterChoice {
+    /// A built-in printer's id, or the path of a profile.
+    pub id: String,
+    /// A material's id; the printer's default where none is asked for.
+    pub material: Option<String>,
+}
+
+/// The goal as it was asked for, not yet placed in the model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GoalChoice {
+    /// What the object is to do.
+    pub kind: GoalKind,
+    /// The spin axis or up.
+    pub up: Up,
+    /// Where a top touches the ground; none for other goals.
+    pub contact: Option<Contact>,
+    /// What a yo-yo spins about; none for other goals.
+    pub spin_point: Option<SpinPoint>,
+    /// What is made as good as it can be.
+    pub objective: Objective,
+}
+
+/// A goal whose parts do not go together.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum GoalChoiceError {
+    /// An objective of another goal.
+    #[error("the objective {objective} does not go with the goal {kind}; remedy: use {known}")]
+    Objective {
+        /// The objective asked for.
+        objective: Objective,
+        /// The goal.
+        kind: GoalKind,
+        /// The goal's objectives.
+        known: String,
+    },
+    /// A contact point for what is not a top.
+    #[error("a contact point goes with the goal top, not with {0}; remedy: leave it out")]
+    Contact(GoalKind),
+    /// A spin point for what is not a yo-yo.
+    #[error("a spin point goes with the goal yoyo, not with {0}; remedy: leave it out")]
+    SpinPoint(GoalKind),
+}
+
+impl GoalChoice {
+    /// The goal with the defaults of its kind: lowest contact, spin point in the centre, first objective.
+    pub fn new(kind: GoalKind, up: Up) -> Self {
+        Self {
+            kind,
+            up,
+            contact: (kind == GoalKind::Top).then_some(Contact::Lowest),
+            spin_point: (kind == GoalKind::Yoyo).then_some(SpinPoint::Center),
+            objective: kind.default_objective(),
+        }
+    }
+
+    /// The same, if its parts go together.
+    pub fn checked(self) -> Result<Self, GoalChoiceError> {
+        let Self { kind, objective, .. } = self;
+        if !kind.objectives().contains(&objective) {
+            let known = kind.objectives().iter().map(|known| known.word()).collect::<Vec<_>>().join(" or ");
+            return Err(GoalChoiceError::Objective { objective, kind, known });
+        }
+        if self.contact.is_some() && kind != GoalKind::Top {
+            return Err(GoalChoiceError::Contact(kind));
+        }
+        if self.spin_point.is_some() && kind != GoalKind::Yoyo {
+            return Err(GoalChoiceError::SpinPoint(kind));
+        }
+        Ok(self)
+    }
+}
+
+/// Why a job cannot be read, written or replayed.
+#[derive(Debug, thiserror::Error)]
+pub enum JobError {
+    /// The file cannot be read.
+    #[error("cannot read the job {path}; remedy: check the path and its permissions")]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The text is not a job.
+    #[error(transparent)]
+    Text(#[from] TextFault),
+    /// The model is not the one the job was made with.
+    #[error(
+        "{path} is not the file this job was made with (SHA-256 {found}, was {expected}); remedy: restore the file, or remove sha256 from the job"
+    )]
+    ModelChanged {
+        /// The model file.
+        path: PathBuf,
+        /// Its hash now.
+        found: String,
+        /// Its hash in the job.
+        expected: String,
+    },
+    /// The job cannot be written as TOML, which happens for paths that are not Unicode.
+    #[error("the job cannot be written as TOML; remedy: rename the model so that its path is plain text")]
+    Unwritable(#[from] toml::ser::Error),
+}
+
+impl Job {
+    /// The job of default settings.
+    pub fn new(model: ModelChoice, printer: PrinterChoice, goal: GoalChoice) -> Self {
+        Self {
+            schema: JOB_SCHEMA,
+            wall: None,
+            pitch: None,
+            solver: Solver::Quadric,
+            cut: CutMode::Auto,
+            format: PartFormat::Stl,
+            model,
+            printer,
+            goal,
+        }
+    }
+
+    /// The job in the file at `path`.
+    pub fn read(path: &Path) -> Result<Self, JobError> {
+        let text = std::fs::read_to_string(path)
+            .map_err(|source| JobError::Unreadable { path: path.to_owned(), source })?;
+        Ok(Self::from_toml(&path.to_string_lossy(), &text)?)
+    }
+
+    /// The job that `text` says, which messages call `file`. Reads back what [`Job::to_toml`] wrote, to the bit.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
+        toml_text::read(file, text)
+    }
+
+    /// The job as the text of a `job.toml`.
+    pub fn to_toml(&self) -> Result<String, JobError> {
+        Ok(format!("{REMARK}{}", toml::to_string(self)?))
+    }
+
+    /// The job bound to the bytes of its model file; refused if it was bound to others.
+    pub fn bound_to(mut self, model_bytes: &[u8]) -> Result<Self, JobError> {
+        let found = sha256_hex(&[model_bytes]);
+        match self.model.sha256 {
+            Some(expected) if expected != found => {
+                Err(JobError::ModelChanged { path: self.model.path, found, expected })
+            }
+            _ => {
+                self.model.sha256 = Some(found);
+                Ok(self)
+            }
+        }
+    }
+}
+
+fn known_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+    match u32::deserialize(deserializer)? {
+        JOB_SCHEMA => Ok(JOB_SCHEMA),
+        other => Err(D::Error::custom(format!(
+            "schema {other} is not known; remedy: use the version of equipoise that wrote it, this one reads schema {JOB_SCHEMA}"
+        ))),
+    }
+}
+
+fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+    match f64::deserialize(deserializer)? {
+        factor if factor.is_finite() && factor > 0.0 => Ok(factor),
+        factor => Err(D::Error::custom(format!("{factor} is not a positive, finite factor"))),
+    }
+}
+
+fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<GoalChoice, D::Error> {
+    GoalChoice::deserialize(deserializer)?.checked().map_err(D::Error::custom)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn job() -> Job {
+        let model = ModelChoice {
+            path: "models/elephant.obj".into(),
+            sha256: None,
+            scaling: Scaling::Size(Length::from_mm(100.0).unwrap()),
+        };
+        let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
+        Job::new(model, printer, GoalChoice::new(GoalKind::Top, Up::Z))
+    }
+
+    fn reread(job: &Job) -> Job {
+        Job::from_toml("job.toml", &job.to_toml().unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_written_job_reads_back_equal() {
+        let mut other = job().bound_to(b"solid").unwrap();
+        other.wall = Some("1.1mm".parse().unwrap());
+        other.pitch = Some("0.1".parse().unwrap());
+        other.cut = CutMode::Never;
+        other.printer.material = Some("vero-white".into());
+        other.model.scaling = Scaling::Factor(0.1 + 0.2);
+        other.goal =
+            GoalChoice { objective: Objective::Dominance, ..GoalChoice::new(GoalKind::Yoyo, Up::Principal) };
+        for job in [job(), other] {
+            assert_eq!(reread(&job), job);
+        }
+    }
+
+    #[test]
+    fn a_job_reads_as_a_person_would_write_it() {
+        let text = job().to_toml().unwrap();
+        for line in ["schema = 1", "up = \"z\"", "contact = \"lowest\"", "size = \"100mm\"", "kind = \"top\""]
+        {
+            assert!(text.contains(line), "{line} in\n{text}");
+        }
+        assert!(!text.contains("thread") && !text.contains("out"), "{text}");
+    }
+
+    proptest! {
+        #[test]
+        fn any_numbers_survive_the_file(x in -1e9..1e9_f64, z in 1e-9..1.0_f64, size in 1e-3..1e6_f64) {
+            let mut job = job();
+            job.goal.up = Up::Along([x, 0.0, z]);
+            job.goal.contact = Some(Contact::At([z, x, -size]));
+            job.model.scaling = Scaling::Size(Length::from_mm(size).unwrap());
+            prop_assert_eq!(reread(&job), job);
+        }
+    }
+
+    /// What to replace in a written job, by what, and what the message must say.
+    const BROKEN: [(&str, &str, &str); 15] = [
+        ("schema = 1", "schema = 2", ":3:10: schema 2 is not known"),
+        ("schema = 1\n", "", "missing field `schema`"),
+        ("solver = \"quadric\"", "solver = \"quadrik\"", "did you mean `quadric`"),
+        ("cut = ", "cuts = ", "did you mean `cut`"),
+        ("schema = 1\n", "schema = 1\nwall = \"-1mm\"\n", ":4:8: `-1mm` is not a positive, finite length"),
+        ("schema = 1\n", "schema = 1\nwall = nan\n", ":4:8: `NaN` is not a positive, finite length"),
+        ("schema = 1\n", "schema = 1\nwall = \"1 league\"\n", "`league` in `1 league` is not a unit"),
+        ("up = \"z\"", "up = \"0,0,0\"", "has no direction"),
+        ("up = \"z\"", "up = \"w\"", "is not a direction"),
+        ("contact = \"lowest\"", "contact = \"highest\"", "is not a contact point"),
+        ("kind = \"top\"", "kind = \"spinner\"", "unknown variant `spinner`"),
+        (
+            "kind = \"top\"",
+            "kind = \"yoyo\"",
+            "critical-speed does not go with the goal yoyo; remedy: use spin-it or dominance",
+        ),
+        ("objective = ", "spin_point = \"center\"\nobjective = ", "a spin point goes with the goal yoyo"),
+        ("size = \"100mm\"", "factor = -2.0", "-2 is not a positive, finite factor"),
+        ("size = \"100mm\"", "length = 3", "unknown variant `length`"),
+    ];
+
+    #[test]
+    fn every_broken_job_is_refused_with_its_place_and_its_reason() {
+        let whole = job().to_toml().unwrap();
+        let mut wrong = Vec::new();
+        for (from, to, reason) in BROKEN {
+            assert!(whole.contains(from), "{from} in\n{whole}");
+            let error = Job::from_toml("job.toml", &whole.replacen(from, to, 1)).expect_err(to).to_string();
+            if !error.contains(reason)
+                || !error.starts_with("job.toml:")
+                || error.starts_with("job.toml:1:1: `")
+            {
+                wrong.push(format!("{from} → {to}: {error}"));
+            }
+        }
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    #[test]
+    fn a_job_is_bound_to_the_bytes_of_its_model() {
+        let bound = job().bound_to(b"abc").unwrap();
+        let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
+        assert_eq!(bound.model.sha256.as_deref(), Some(abc), "the test vector of FIPS 180-4");
+        assert!(bound.clone().bound_to(b"abc").is_ok());
+        assert!(matches!(bound.bound_to(b"abd"), Err(JobError::ModelChanged { .. })));
+    }
+
+    #[test]
+    fn scaling_brings_the_longest_side_to_the_size() {
+        assert_eq!(Scaling::Size(Length::from_mm(100.0).unwrap()).factor(0.5), 200.0);
+        assert_eq!(Scaling::Unit(ModelUnit::In).factor(7.0), 25.4);
+        assert_eq!(Scaling::Factor(3.0).factor(7.0), 3.0);
+    }
+}

@@ -1,0 +1,213 @@
+//! Where a surface crosses itself.
+
+use rayon::prelude::*;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+use super::TriMesh;
+use super::box_tree::BoxTree;
+use crate::geom::{Aabb, Point};
+
+/// Crossings counted for one triangle. A sound mesh has none and a crossing surface a few; without an end
+/// to it a file that holds one triangle 100 000 times would be counted for hours.
+const MAX_PER_TRIANGLE: usize = 100;
+
+/// The self-intersections of a mesh.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Crossings {
+    /// How many pairs of triangles cross or overlap (at most 100 are counted for each triangle).
+    pub pairs: usize,
+    /// The middle of the first such triangle, mm.
+    pub first: Option<Point>,
+}
+
+impl Crossings {
+    /// Every pair of triangles that pass through each other or overlap in one plane.
+    ///
+    /// Decided exactly for the coordinates given (Shewchuk, "Adaptive precision floating-point arithmetic and
+    /// fast robust geometric predicates", DCG 18, 1997). Triangles that only touch, with all of one on one side of
+    /// the other, do not cross. A pair crosses when a side of one passes from one side of the other to the other
+    /// side through it (not through a corner only), or when both lie in one plane and share an area. Vertices must be finite.
+    /// About 0.3 s for 100 000 triangles on two cores; the count does not depend on the number of threads.
+    pub fn of(mesh: &TriMesh) -> Self {
+        let boxes: Vec<Aabb> = mesh.iter_corners().map(|corners| Aabb::of_points(&corners)).collect();
+        let tree = BoxTree::new(boxes.iter().copied());
+        let counts: Vec<usize> = (0..boxes.len())
+            .into_par_iter()
+            .map(|index| crossings_after(mesh, index, &tree, &boxes[index]))
+            .collect();
+        let first = counts.iter().position(|&count| count > 0).map(|t| centroid(&mesh.corners(t)));
+        Self { pairs: counts.iter().sum(), first }
+    }
+}
+
+fn centroid([a, b, c]: &[Point; 3]) -> Point {
+    Point::from((a.coords + b.coords + c.coords) / 3.0)
+}
+
+/// How many triangles after triangle `index` cross it, up to the limit.
+fn crossings_after(mesh: &TriMesh, index: usize, tree: &BoxTree, aabb: &Aabb) -> usize {
+    let corners = mesh.corners(index);
+    let mut count = 0;
+    tree.visit_overlapping(aabb, |other| {
+        if other as usize > index
+            && count < MAX_PER_TRIANGLE
+            && cross(&corners, &mesh.corners(other as usize))
+        {
+            count += 1;
+        }
+    });
+    count
+}
+
+/// Whether two triangles pass through each other or overlap in one plane.
+fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
+    let b_sides = b.map(|p| side(a, &p));
+    if b_sides == [0; 3] {
+        return overlap_in_plane(a, b);
+    }
+    if !is_crossed(&b_sides) {
+        return false;
+    }
+    let a_sides = a.map(|p| side(b, &p));
+    is_crossed(&a_sides) && (a_side_passes(b, &b_sides, a) || a_side_passes(a, &a_sides, b))
+}
+
+/// Whether corners on these sides of a plane lie strictly on both.
+fn is_crossed(sides: &[i8; 3]) -> bool {
+    sides.contains(&1) && sides.contains(&-1)
+}
+
+/// Which side of the triangle's plane the point lies on: 1, 0 or −1.
+fn side([a, b, c]: &[Point; 3], p: &Point) -> i8 {
+    let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    sign(orient3d(a, b, c, p))
+}
+
+fn sign(x: f64) -> i8 {
+    if x > 0.0 {
+        1
+    } else if x < 0.0 {
+        -1
+    } else {
+        0
+    }
+}
+
+/// Whether a side of `edges` whose ends lie strictly on both sides of `face` meets it.
+fn a_side_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> bool {
+    (0..3).any(|i| {
+        let j = (i + 1) % 3;
+        sides[i] * sides[j] < 0 && line_meets(&edges[i], &edges[j], face)
+    })
+}
+
+/// Whether the line through p and q, not parallel to the face, meets it inside or on a side, not at a corner.
+fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
+    let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side(&[*p, *q, *from], to));
+    let at_corner = turns.iter().filter(|&&turn| turn == 0).count() > 1;
+    let beside = turns.contains(&1) && turns.contains(&-1);
+    !at_corner && !beside
+}
+
+/// Whether two triangles of one plane share an area: no side of either has the other on its far side or on it.
+fn overlap_in_plane(a: &[Point; 3], b: &[Point; 3]) -> bool {
+    let normal = (a[1] - a[0]).cross(&(a[2] - a[0]));
+    let drop = normal.iamax();
+    let flat = |p: &Point| Coord { x: p[(drop + 1) % 3], y: p[(drop + 2) % 3] };
+    let (a, b) = (counterclockwise(a.map(|p| flat(&p))), counterclockwise(b.map(|p| flat(&p))));
+    match (a, b) {
+        (Some(a), Some(b)) => !separates(&a, &b) && !separates(&b, &a),
+        _ => false,
+    }
+}
+
+/// The corners in counterclockwise order, or nothing when they lie on a line.
+fn counterclockwise([a, b, c]: [Coord<f64>; 3]) -> Option<[Coord<f64>; 3]> {
+    match sign(orient2d(a, b, c)) {
+        1 => Some([a, b, c]),
+        -1 => Some([a, c, b]),
+        _ => None,
+    }
+}
+
+/// Whether one of the sides of `a` has all of `b` on its right or on its line.
+fn separates(a: &[Coord<f64>; 3], b: &[Coord<f64>; 3]) -> bool {
+    (0..3).any(|i| b.iter().all(|&p| orient2d(a[i], a[(i + 1) % 3], p) <= 0.0))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+    use crate::mesh::primitives::{ball, cuboid, torus};
+    use crate::mesh::weld;
+
+    fn unit_cube() -> TriMesh {
+        cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0))
+    }
+
+    fn shifted(mesh: &TriMesh, by: Vector) -> TriMesh {
+        mesh.map_vertices(|p| p + by)
+    }
+
+    #[test]
+    fn convex_bodies_and_tori_do_not_cross_themselves() {
+        for mesh in [unit_cube(), ball(&Point::origin(), 1.0, 3), torus(3.0, 1.0, 31, 17)] {
+            assert_eq!(Crossings::of(&mesh), Crossings::default());
+        }
+    }
+
+    #[test]
+    fn bodies_that_overlap_cross() {
+        let cube = unit_cube();
+        for by in [Vector::repeat(0.5), Vector::new(0.5, 0.25, 0.125), Vector::new(0.5, 0.0, 0.0)] {
+            let crossings = Crossings::of(&cube.clone().joined(&shifted(&cube, by)));
+            assert!(crossings.pairs > 0 && crossings.first.is_some(), "{by}");
+        }
+    }
+
+    #[test]
+    fn bodies_that_touch_at_a_corner_or_an_edge_do_not_cross() {
+        let cube = unit_cube();
+        for by in [Vector::new(1.0, 1.0, 1.0), Vector::new(1.0, 1.0, 0.25)] {
+            let both = cube.clone().joined(&shifted(&cube, by));
+            assert_eq!(Crossings::of(&both).pairs, 0, "{by}");
+            assert_eq!(Crossings::of(&weld(&both)).pairs, 0, "{by}");
+        }
+    }
+
+    #[test]
+    fn faces_that_lie_on_each_other_overlap() {
+        let cube = unit_cube();
+        // The two halves of one face lie on two halves: with one diagonal two pairs, else four.
+        let pairs = Crossings::of(&cube.clone().joined(&shifted(&cube, Vector::x()))).pairs;
+        assert!(pairs == 2 || pairs == 4, "{pairs}");
+    }
+
+    #[test]
+    fn a_folded_sheet_overlaps_and_a_flat_one_does_not() {
+        let points = [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0), (0.2, 0.2)];
+        let points: Vec<Point> = points.iter().map(|&(x, y)| Point::new(x, y, 3.0)).collect();
+        let sheet = |t: [u32; 3]| TriMesh::new(points.clone(), vec![[0, 1, 2], t]).unwrap();
+        assert_eq!(Crossings::of(&sheet([2, 1, 3])).pairs, 0);
+        assert_eq!(Crossings::of(&sheet([2, 1, 4])).pairs, 1);
+    }
+
+    #[test]
+    fn the_pairs_are_those_that_comparing_all_triangles_finds() {
+        let a = ball(&Point::origin(), 1.0, 2);
+        let mesh = a.clone().joined(&shifted(&a, Vector::new(0.3, 0.4, 0.5)));
+        let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
+        let all = (0..corners.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
+        let pairs = all.filter(|&(i, j)| cross(&corners[i], &corners[j])).count();
+        assert!(pairs > 30);
+        assert_eq!(Crossings::of(&mesh).pairs, pairs);
+    }
+
+    #[test]
+    fn one_triangle_many_times_is_counted_to_the_limit_only() {
+        let triangle = cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0)).triangles()[0];
+        let mesh = TriMesh::new(unit_cube().vertices().to_vec(), vec![triangle; 2000]).unwrap();
+        assert!(Crossings::of(&mesh).pairs <= 2000 * MAX_PER_TRIANGLE);
+    }
+}

@@ -1,0 +1,133 @@
+//! Edges at which four or more triangles meet, taken apart into edges of two.
+
+use super::TriMesh;
+use super::edges::{EdgeTable, Side};
+use super::fans::Fans;
+use crate::geom::Vector;
+
+/// What two neighbouring triangles around a crowded edge have between them.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wedge {
+    /// Material: the bodies that touch along the edge come apart.
+    Material,
+    /// Air: the bodies stay joined along the edge.
+    Air,
+}
+
+/// The mesh with the vertices doubled so that each edge joins two triangles, where that is possible: as many
+/// triangles must run along a crowded edge one way as the other. Neighbours are kept that enclose material
+/// between them, or, if that leaves an edge crowded, air (Guéziec et al., "Cutting and stitching", IEEE TVCG 7,
+/// 2001). No place changes.
+pub(super) fn unstitched(mesh: &TriMesh) -> Option<TriMesh> {
+    let table = EdgeTable::of(mesh);
+    [Wedge::Material, Wedge::Air].into_iter().find_map(|wedge| {
+        let pairs: Option<Vec<[Side; 2]>> = table
+            .edges()
+            .map(|sides| paired(mesh, sides, wedge))
+            .collect::<Option<Vec<_>>>()
+            .map(|p| p.concat());
+        let split = Fans::of_pairs(mesh, pairs?.into_iter()).split(mesh);
+        (EdgeTable::of(&split).bad_count() == 0).then_some(split)
+    })
+}
+
+/// The sides of one edge in pairs that run opposite ways, or nothing when they cannot be paired.
+fn paired(mesh: &TriMesh, sides: &[Side], wedge: Wedge) -> Option<Vec<[Side; 2]>> {
+    let forward = sides.iter().filter(|side| side.forward).count();
+    match sides {
+        _ if 2 * forward != sides.len() || sides[0].low == sides[0].high => None,
+        [a, b] => Some(vec![[*a, *b]]),
+        _ => Some(matched(&around(mesh, sides), wedge)),
+    }
+}
+
+/// Pairs sides as brackets match, going round: seen along the edge, material lies after a triangle that runs
+/// backward and before one that runs forward.
+fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
+    let opens = |side: &Side| side.forward == (wedge == Wedge::Air);
+    let mut pairs: Vec<[Side; 2]> = Vec::with_capacity(ring.len() / 2);
+    let mut open: Vec<Side> = Vec::new();
+    for (step, side) in ring.iter().chain(ring).enumerate() {
+        if opens(side) {
+            open.extend((step < ring.len()).then_some(*side));
+        } else if !pairs.iter().any(|[_, closed]| closed == side) {
+            pairs.extend(open.pop().map(|start| [start, *side]));
+        }
+    }
+    pairs
+}
+
+/// The sides in the order of their triangles around the edge, counterclockwise seen against its direction.
+fn around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
+    let place = |v: u32| mesh.vertices()[v as usize];
+    let low = place(sides[0].low);
+    let along = (place(sides[0].high) - low).try_normalize(0.0).unwrap_or_else(Vector::z);
+    let (u, v) = crate::geom::orthonormal_basis(&along);
+    let angle = |side: &Side| {
+        let apex = mesh.triangles()[side.triangle()][(side.id as usize + 2) % 3];
+        let arm = place(apex) - low;
+        v.dot(&arm).atan2(u.dot(&arm))
+    };
+    let mut ring = sides.to_vec();
+    ring.sort_by(|a, b| angle(a).total_cmp(&angle(b)).then(a.id.cmp(&b.id)));
+    ring
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Vector};
+    use crate::mesh::primitives::cuboid;
+    use crate::mesh::{Solid, weld};
+
+    fn unit_cube() -> TriMesh {
+        cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0))
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> TriMesh {
+        unit_cube().map_vertices(|p| p + Vector::new(x, y, z))
+    }
+
+    #[test]
+    fn two_boxes_that_share_an_edge_come_apart_and_keep_their_volume() {
+        let touching = weld(&unit_cube().joined(&at(1.0, 1.0, 0.0)));
+        assert_eq!((touching.vertices().len(), EdgeTable::of(&touching).bad_count()), (14, 1));
+        let apart = unstitched(&touching).unwrap();
+        assert_eq!(apart.vertices().len(), 16);
+        assert_eq!(Solid::new(apart).unwrap().mesh().signed_volume_mm3(), 2.0);
+    }
+
+    /// The surface of unit cubes at these places, welded.
+    fn surface_of_cubes(cubes: &[[i8; 3]]) -> TriMesh {
+        let mut all = TriMesh::default();
+        for &[x, y, z] in cubes {
+            let cube = at(x.into(), y.into(), z.into());
+            // The faces of a box come two triangles each: low and high x, y, z.
+            let nearby =
+                [[x - 1, y, z], [x + 1, y, z], [x, y - 1, z], [x, y + 1, z], [x, y, z - 1], [x, y, z + 1]];
+            let bare = (0..12).filter(|t| !cubes.contains(&nearby[t / 2])).map(|t| cube.triangles()[t]);
+            all = all.joined(&TriMesh::new(cube.vertices().to_vec(), bare.collect()).unwrap());
+        }
+        weld(&all)
+    }
+
+    #[test]
+    fn bodies_bridged_at_both_ends_of_the_edge_they_share_are_joined_along_it() {
+        // A storey with two cubes that share an upright edge, between two full storeys: parted around the
+        // material, the surface would still be one around both ends of the edge.
+        let mut cubes = vec![[0, 0, 1], [1, 1, 1]];
+        cubes.extend([[0, 0], [0, 1], [1, 0], [1, 1]].iter().flat_map(|&[x, y]| [[x, y, 0], [x, y, 2]]));
+        let mesh = surface_of_cubes(&cubes);
+        assert_eq!(EdgeTable::of(&mesh).bad_count(), 1);
+        let apart = unstitched(&mesh).unwrap();
+        assert!((Solid::new(apart).unwrap().mesh().signed_volume_mm3() - 10.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_fin_on_a_box_cannot_be_taken_apart() {
+        let cube = unit_cube();
+        let mut triangles = cube.triangles().to_vec();
+        triangles.push([0, 1, 7]);
+        assert_eq!(unstitched(&TriMesh::new(cube.vertices().to_vec(), triangles).unwrap()), None);
+    }
+}

@@ -1,0 +1,126 @@
+//! The kit in memory: files, judgement, checklist and page.
+
+use super::rows::{self, Sheet};
+use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
+use crate::digest::sha256_hex;
+use crate::io::stl;
+use crate::mesh::weld;
+use crate::progress::Progress;
+use crate::report::{Checklist, Kit, Picture, Sitting, Verdict, album, page};
+use crate::verify::{
+    Density, Evidence, FigureName, Judgement, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart,
+    SCHEMA, Shells, WallOrder, checks, judge,
+};
+
+/// The name of the uncut result in a kit.
+const HOLLOWED: &str = "hollowed.stl";
+/// The name of the job in a kit.
+const JOB: &str = "job.toml";
+
+/// Judges what is to be written and puts the kit together.
+pub fn prepared(
+    setup: &Setup,
+    assembly: &Assembly,
+    progress: &Progress,
+    mut watch: Stopwatch,
+) -> Result<Prepared, Error> {
+    progress.report(phase::VERIFY, 0.0);
+    let hollowed = stl::encode(&assembly.hollowed.to_mesh(), &format!("{} hollowed", setup.name()));
+    let evidence = Evidence {
+        promise: promise(setup, assembly),
+        hollowed: stl::decode(&hollowed)?,
+        parts: assembly.evidence(),
+    };
+    let (promise, judgement) = judged(setup, evidence.clone());
+    watch.lap(phase::VERIFY);
+    progress.report(phase::REPORT, 0.0);
+    let pictures = pictures(assembly, &evidence)?;
+    let mut kit = Kit::default();
+    kit.add(HOLLOWED, hollowed);
+    for part in &assembly.parts {
+        kit.add(&part.file, part.bytes.clone());
+    }
+    kit.add(JOB, setup.job.to_toml()?.into_bytes());
+    for picture in &pictures {
+        kit.add(&picture.file, picture.png.clone());
+    }
+    let sheet = Sheet { setup, assembly, judgement: &judgement, promised: promise.promise };
+    let mut checklist = rows::checklist(&sheet);
+    checklist.files = kit.files().map(|(file, bytes)| (file.to_owned(), sha256_hex(&[bytes]))).collect();
+    file_papers(&mut kit, &checklist, &pictures)?;
+    watch.lap(phase::REPORT);
+    checklist.timing_s = Some(watch.timing());
+    Ok(Prepared { kit, checklist })
+}
+
+/// Adds the job sheet, for people and for machines, without anything that differs from run to run.
+fn file_papers(kit: &mut Kit, checklist: &Checklist, pictures: &[Picture]) -> Result<(), Error> {
+    kit.add("checklist.json", checklist.to_json()?.into_bytes());
+    kit.add("checklist.html", page(checklist, pictures).into_bytes());
+    Ok(())
+}
+
+/// The pictures of the written files.
+fn pictures(assembly: &Assembly, evidence: &Evidence) -> Result<Vec<Picture>, Error> {
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
+    let aim = evidence.promise.goal;
+    Ok(album(&Sitting { shells: &shells, parts: &evidence.parts, cuts: &cuts, aim })?)
+}
+
+/// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.
+fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
+    let mut judgement = judge(&evidence);
+    let figure = rows::promised_figure(setup.placement.goal.kind, setup.placement.goal.objective);
+    let reached = judgement.assembly.value_of(figure);
+    let promise =
+        Promise { promise: reached.map(|value| PromisedFigure { figure, value }), ..evidence.promise };
+    judgement.checks = checks(&promise, &judgement);
+    (promise, judgement)
+}
+
+/// What the files are held against.
+fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
+    Promise {
+        schema: SCHEMA,
+        printer: PrinterLimits {
+            build_volume_mm: setup.printer.build_volume_mm.as_ref().map(|volume| volume.value),
+        },
+        material: Density { density_g_cm3: rows::density_g_cm3(setup) },
+        goal: rows::aim(&setup.placement.goal),
+        promise: None,
+        wall: WallOrder { required_mm: setup.wall.wall_mm },
+        parts: assembly.parts.iter().map(promised_part).collect(),
+        assembly: None,
+        files: Default::default(),
+    }
+}
+
+fn promised_part(written: &super::assembly::WrittenPart) -> PromisedPart {
+    let part = &written.part;
+    PromisedPart {
+        id: part.id.clone(),
+        file: written.file.clone(),
+        sha256: sha256_hex(&[&written.bytes]),
+        print_from_model: written.evidence().pose,
+        pins: part.pins.iter().map(|pin| Peg { volume_mm3: pin.pin_volume_mm3() }).collect(),
+        sockets: part.sockets.iter().map(|pin| Peg { volume_mm3: pin.socket_volume_mm3() }).collect(),
+    }
+}
+
+/// The verdict over a judgement.
+pub fn verdict(judgement: &Judgement) -> Verdict {
+    Verdict::of(&judgement.checks)
+}
+
+/// The figure that a certificate speaks of, as the judge names it.
+pub fn figure_name(figure: crate::hollow::Figure) -> FigureName {
+    use crate::hollow::Figure;
+    match figure {
+        Figure::CriticalSpeedRpm => FigureName::CriticalSpeedRpm,
+        Figure::SpinIt => FigureName::SpinItRatio,
+        Figure::DominanceRatio => FigureName::DominanceRatio,
+        Figure::TopplingAngleRad => FigureName::TopplesDeg,
+        Figure::CenterHeightMm => FigureName::CenterHeightMm,
+    }
+}

@@ -1,0 +1,52 @@
+//! The line: load, check, place, wall, columns, solve, voids, cuts, pins, parts, measure, correct, kit.
+
+mod assembly;
+mod kit;
+mod outcome;
+mod request;
+mod rows;
+mod setup;
+mod solving;
+mod stopwatch;
+mod tuning;
+
+pub use assembly::Assembly;
+pub use outcome::{Impossible, Outcome, Prepared};
+pub use setup::{Model, Setup};
+pub use solving::Solved;
+
+pub use crate::error::Error;
+use crate::job::Job;
+use crate::progress::Progress;
+use stopwatch::Stopwatch;
+
+/// The names of the phases that a run reports, in their order.
+pub mod phase {
+    /// Reading and checking the model, the profiles and the goal.
+    pub const LOAD: &str = "load";
+    /// The columns of what may be emptied, and the solve.
+    pub const SOLVE: &str = "solve";
+    /// The surface of what may be emptied.
+    pub const SHELL: &str = "shell";
+    /// The voids of a solution and the parts they are cut into.
+    pub const PARTS: &str = "parts";
+    /// The judgement of what is written.
+    pub const VERIFY: &str = "verify";
+    /// The job sheet and its pictures.
+    pub const REPORT: &str = "report";
+}
+
+/// Runs a job to its end: a kit and its checklist, or the proof that the goal cannot be met.
+///
+/// Nothing is written; [`Prepared::kit`] is in memory. The same job gives the same bytes on any number of threads.
+pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
+    let mut watch = Stopwatch::start();
+    let setup = Setup::of(job, progress)?;
+    watch.lap(phase::LOAD);
+    let solved = match Solved::of(&setup, progress, &mut watch)? {
+        Ok(solved) => solved,
+        Err(impossible) => return Ok(Outcome::Impossible(Box::new(impossible))),
+    };
+    let assembly = Assembly::corrected(&setup, solved, progress, &mut watch)?;
+    Ok(Outcome::Prepared(Box::new(kit::prepared(&setup, &assembly, progress, watch)?)))
+}

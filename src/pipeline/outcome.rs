@@ -1,0 +1,49 @@
+//! What a run ends with: a kit, or the proof that none can exist.
+
+use serde::Serialize;
+
+use crate::report::{Checklist, Kit, Verdict};
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Outcome {
+    /// A kit, whose checks may still have failed.
+    Prepared(Box<Prepared>),
+    /// The goal cannot be met by hollowing.
+    Impossible(Box<Impossible>),
+}
+
+/// A kit in memory.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The files.
+    pub kit: Kit,
+    /// The job sheet, with timings.
+    pub checklist: Checklist,
+}
+
+impl Prepared {
+    /// Whether every promise is kept.
+    pub fn passes(&self) -> bool {
+        self.checklist.verdict == Verdict::Pass
+    }
+}
+
+/// Why the goal cannot be met, for people and for machines.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Impossible {
+    /// Always `impossible`.
+    pub verdict: &'static str,
+    /// The reason in a sentence, with its number.
+    pub reason: String,
+    /// What would help, in words.
+    pub remedies: Vec<String>,
+    /// The quadric of the proof: ten coefficients over (1, x, y, z, xy, yz, xz, x², y², z²) in the goal frame, mm.
+    pub proof_quadric: [f64; 10],
+    /// The origin of the goal frame in the model frame, mm.
+    pub origin_mm: [f64; 3],
+    /// The unit axis in the model frame.
+    pub axis: [f64; 3],
+    /// What the goal's placement warned of.
+    pub warnings: Vec<String>,
+}

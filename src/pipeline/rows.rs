@@ -1,0 +1,332 @@
+//! The checklist's rows from what the stages gave.
+
+use std::collections::BTreeMap;
+
+use super::kit::{figure_name, verdict};
+use super::{Assembly, Setup, assembly::WrittenPart};
+use crate::cut::PinSite;
+use crate::geom::Vector;
+use crate::goal::{Goal, GoalKind, Objective, Warning};
+use crate::hollow;
+use crate::printer::{Sourced, Support};
+use crate::report::{
+    Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
+    PrinterRow, Tool, VoidRow, WallRow,
+};
+use crate::verify::{Aim, FigureName, Judgement, Kind, PromisedFigure};
+
+/// A face whose normal has this much of the vertical is level, within 0.8°.
+const LEVEL_COSINE: f64 = 0.9999;
+
+/// Everything a checklist is filled from.
+pub struct Sheet<'a> {
+    /// What the run rests on.
+    pub setup: &'a Setup,
+    /// What was made.
+    pub assembly: &'a Assembly,
+    /// What the judge found.
+    pub judgement: &'a Judgement,
+    /// What the buyer is told.
+    pub promised: Option<PromisedFigure>,
+}
+
+/// The checklist, but for the hashes of the kit's files and the timings.
+pub fn checklist(sheet: &Sheet) -> Checklist {
+    let (setup, judgement) = (sheet.setup, sheet.judgement);
+    Checklist {
+        schema: Checklist::SCHEMA,
+        tool: Tool { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() },
+        job: setup.name(),
+        model: model_row(setup),
+        printer: printer_row(setup),
+        material: material_row(setup),
+        goal: goal_row(setup),
+        promise: sheet.promised,
+        solid: judgement.solid.clone(),
+        hollowed: judgement.hollowed.clone(),
+        assembly: judgement.assembly.clone(),
+        certificate: certificate(sheet),
+        wall: WallRow { required_mm: setup.wall.wall_mm, measured_min_mm: judgement.wall_min_mm },
+        voids: void_rows(sheet),
+        cuts: cut_rows(sheet),
+        parts: part_rows(sheet),
+        joints: joint_rows(sheet),
+        checks: judgement.checks.clone(),
+        verdict: verdict(judgement),
+        warnings: warnings(sheet),
+        notes: notes(sheet),
+        files: BTreeMap::new(),
+        timing_s: None,
+        log: sheet.assembly.solution.log.iter().map(log_row).collect(),
+    }
+}
+
+/// The figure a goal is judged by.
+pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
+    match (kind, objective) {
+        (GoalKind::Top, _) => FigureName::CriticalSpeedRpm,
+        (_, Objective::Dominance) => FigureName::DominanceRatio,
+        (GoalKind::Yoyo, _) => FigureName::SpinItRatio,
+        (GoalKind::Stand, Objective::LowestCenter) => FigureName::CenterHeightMm,
+        (GoalKind::Stand, _) => FigureName::TopplesDeg,
+    }
+}
+
+/// The goal as the judge sees it.
+pub fn aim(goal: &Goal) -> Aim {
+    let kind = match goal.kind {
+        GoalKind::Top => Kind::Top,
+        GoalKind::Yoyo => Kind::Yoyo,
+        GoalKind::Stand => Kind::Stand,
+    };
+    Aim { kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
+}
+
+/// The density of the material, g/cm³.
+pub fn density_g_cm3(setup: &Setup) -> f64 {
+    setup.material.density_g_cm3.value
+}
+
+fn model_row(setup: &Setup) -> ModelRow {
+    let (model, mesh) = (&setup.model, setup.model.solid.mesh());
+    let file = setup.job.model.path.file_name().unwrap_or_default();
+    ModelRow {
+        file: file.to_string_lossy().into_owned(),
+        sha256: model.sha256.clone(),
+        triangles: mesh.triangles().len(),
+        size_mm: mesh.aabb().size().into(),
+        volume_mm3: setup.placement.goal.solid.volume(),
+        scale_ratio: model.scale_ratio,
+    }
+}
+
+fn printer_row(setup: &Setup) -> PrinterRow {
+    let printer = &setup.printer;
+    PrinterRow {
+        id: printer.id.clone(),
+        name: printer.name.clone(),
+        process: printer.process.clone().unwrap_or_default(),
+        pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
+        layer_mm: printer.layer_mm.value,
+        build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
+        support: support_word(printer.support).to_owned(),
+        minimum_opening_mm: printer.min_opening_mm.value,
+        sources: sources(setup),
+    }
+}
+
+/// What the numbers that matter rest on, one sentence each.
+fn sources(setup: &Setup) -> Vec<String> {
+    let printer = &setup.printer;
+    let said = |what: &str, number: &Sourced<f64>| format!("{what}: {}", number.provenance());
+    let mut sources = vec![
+        said("pixel", &printer.pixel_x_mm),
+        said("layer", &printer.layer_mm),
+        said("minimum wall", &printer.min_wall_mm),
+        said("minimum opening", &printer.min_opening_mm),
+        said("clearance", &printer.clearance_per_side_mm),
+    ];
+    if printer.build_volume_mm.is_none() {
+        sources.push("build volume: not known; check by hand that the parts fit".to_owned());
+    }
+    sources
+}
+
+fn material_row(setup: &Setup) -> MaterialRow {
+    let material = &setup.material;
+    MaterialRow {
+        id: material.id.clone(),
+        name: material.name.clone(),
+        density_g_cm3: material.density_g_cm3.value,
+        density_source: material.density_g_cm3.provenance(),
+        density_sure: material.density_g_cm3.sure.to_string(),
+        density_spread_ratio: Some(material.density_spread_ratio.value),
+    }
+}
+
+fn goal_row(setup: &Setup) -> GoalRow {
+    let gap = setup.placement.warnings.iter().find_map(|warning| match warning {
+        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+        _ => None,
+    });
+    let objective = setup.job.goal.objective.word().replace('-', "_");
+    GoalRow { aim: aim(&setup.placement.goal), objective, contact_gap_mm: gap.unwrap_or(0.0) }
+}
+
+fn certificate(sheet: &Sheet) -> Certificate {
+    let certificate = &sheet.assembly.solution.certificate;
+    let figure = figure_name(certificate.figure);
+    let shown = |value: f64| match certificate.figure {
+        hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        _ => value,
+    };
+    Certificate {
+        figure,
+        value: shown(certificate.value),
+        bound: shown(certificate.bound),
+        gap_ratio: certificate.gap_ratio,
+        written_value: sheet.judgement.assembly.value_of(figure),
+    }
+}
+
+fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
+    let plan = &sheet.assembly.plan;
+    let row = |access: &crate::cut::VoidAccess| VoidRow {
+        id: format!("V{}", access.void + 1),
+        volume_mm3: access.volume_mm3,
+        opened_by: access.opened_by.clone(),
+        opening_mm: access.opening_mm,
+        depth_mm: access.depth_mm,
+        sight_ratio: Some(access.sight_ratio),
+        clean: sheet.setup.printer.cleaning.clone(),
+    };
+    plan.voids.iter().map(row).collect()
+}
+
+fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
+    let cuts = sheet.assembly.plan.cuts.iter();
+    cuts.map(|cut| CutRow { id: cut.id.clone(), point_mm: cut.point_mm, normal: cut.normal }).collect()
+}
+
+fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
+    let found = &sheet.judgement.parts;
+    sheet
+        .assembly
+        .parts
+        .iter()
+        .zip(found)
+        .map(|(written, facts)| {
+            let part = &written.part;
+            PartRow {
+                id: part.id.clone(),
+                file: written.file.clone(),
+                sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                triangles: facts.surface.triangles,
+                volume_mm3: facts.surface.volume_mm3,
+                mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
+                size_mm: facts.size_mm,
+                lies: lies(written, sheet),
+                print_from_model: written.evidence().pose,
+                pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
+                sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
+                picture: Some(crate::report::part_picture_file(&part.id)),
+            }
+        })
+        .collect()
+}
+
+fn pin_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
+    PegRow {
+        id: pin.id.clone(),
+        joint: joint_of(pin, sheet),
+        center_mm: pin.center_mm,
+        axis: pin.direction,
+        diameter_mm: pin.diameter_mm,
+        length_mm: pin.length_mm,
+        volume_mm3: pin.pin_volume_mm3(),
+    }
+}
+
+fn socket_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
+    PegRow {
+        diameter_mm: pin.socket_diameter_mm,
+        length_mm: pin.socket_depth_mm,
+        volume_mm3: pin.socket_volume_mm3(),
+        ..pin_row(pin, sheet)
+    }
+}
+
+/// The name of the joint a pin belongs to.
+fn joint_of(pin: &PinSite, sheet: &Sheet) -> String {
+    let joint = sheet.assembly.plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
+    joint.map(joint_id).unwrap_or_default()
+}
+
+fn joint_id(index: usize) -> String {
+    format!("J{}", index + 1)
+}
+
+fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
+    let joints = sheet.assembly.plan.joints.iter().enumerate();
+    joints
+        .map(|(index, joint)| JointRow {
+            id: joint_id(index),
+            cut: joint.cut.clone(),
+            parts: joint.parts.clone(),
+            area_mm2: joint.area_mm2,
+            pins: joint.pins.len(),
+            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
+            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
+        })
+        .collect()
+}
+
+fn warnings(sheet: &Sheet) -> Vec<String> {
+    let setup = sheet.setup;
+    let placement = setup.placement.warnings.iter().map(ToString::to_string);
+    let repairs =
+        (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
+    let refused = sheet.assembly.refused_mm3;
+    let small =
+        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
+    placement.chain(repairs).chain(small).collect()
+}
+
+fn notes(sheet: &Sheet) -> Vec<String> {
+    let wall = sheet.setup.wall.why.clone();
+    std::iter::once(wall).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
+}
+
+fn log_row(row: &hollow::LogRow) -> LogRow {
+    let figures = [
+        ("passes", row.passes as f64),
+        ("value", row.value),
+        ("bound", row.bound),
+        ("residual", row.residual),
+    ];
+    let finite = figures.into_iter().filter(|(_, value)| value.is_finite());
+    LogRow {
+        phase: stage_words(row.stage),
+        figures: finite.map(|(name, value)| (name.to_owned(), value)).collect(),
+    }
+}
+
+fn stage_words(stage: hollow::Stage) -> String {
+    use hollow::Stage;
+    match stage {
+        Stage::Goal => "goal".to_owned(),
+        Stage::Dominance => "dominance".to_owned(),
+        Stage::HeightRange => "range of heights".to_owned(),
+        Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
+        Stage::AtMass { height_mm, volume_mm3 } => {
+            format!("centre at {height_mm:.3} mm, {volume_mm3:.0} mm³ of material")
+        }
+        Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
+    }
+}
+
+fn support_word(support: Support) -> &'static str {
+    match support {
+        Support::Soluble => "soluble",
+        Support::Breakaway => "breakaway",
+        Support::WaterJet => "water-jet",
+        Support::None => "none",
+    }
+}
+
+/// How a part lies on the plate, in words: which of its cut faces looks down or up.
+fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
+    let pose = written.evidence().pose;
+    let center = written.part.solid.mesh().aabb().center();
+    let facing = |cut: &crate::cut::Cut| {
+        let plane = cut.plane().ok()?;
+        let outward: Vector = -plane.normal * plane.distance(&center).signum();
+        match (pose.rotation() * outward).z {
+            z if z < -LEVEL_COSINE => Some(format!("cut {} down", cut.id)),
+            z if z > LEVEL_COSINE => Some(format!("cut {} up", cut.id)),
+            _ => None,
+        }
+    };
+    let facing: Vec<String> = sheet.assembly.plan.cuts.iter().filter_map(facing).collect();
+    if facing.is_empty() { "as the model stands".to_owned() } else { facing.join(", ") }
+}

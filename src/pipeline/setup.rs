@@ -1,0 +1,81 @@
+//! Everything a run rests on before it solves: the solid, the printer, the wall and the placed goal.
+
+use super::{Error, request::request_of};
+use crate::digest::sha256_hex;
+use crate::goal::{Placement, place};
+use crate::io;
+use crate::job::Job;
+use crate::mesh::{Repairs, Solid, TriMesh, repair, scaled};
+use crate::printer::{Material, Printer, WallChoice};
+use crate::progress::Progress;
+
+/// The model as it is used: closed, in mm.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// Its outside.
+    pub solid: Solid,
+    /// What had to be repaired.
+    pub repairs: Repairs,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// What the file's numbers were multiplied by.
+    pub scale_ratio: f64,
+}
+
+/// What a run rests on.
+#[derive(Debug, Clone)]
+pub struct Setup {
+    /// The job, bound to the bytes of its model.
+    pub job: Job,
+    /// The model.
+    pub model: Model,
+    /// The printer.
+    pub printer: Printer,
+    /// What it prints.
+    pub material: Material,
+    /// The wall that is printed.
+    pub wall: WallChoice,
+    /// The pitch of the finest columns, mm.
+    pub pitch_mm: [f64; 2],
+    /// The goal in the model.
+    pub placement: Placement,
+}
+
+impl Setup {
+    /// Reads the model and the profiles and places the goal.
+    pub fn of(job: &Job, progress: &Progress) -> Result<Self, Error> {
+        progress.report(super::phase::LOAD, 0.0);
+        let printer = Printer::find(&job.printer.id)?;
+        let material = printer.material(job.printer.material.as_deref())?.clone();
+        let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()))?;
+        let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
+        let (job, model) = load(job)?;
+        let placement = place(&model.solid, wall.wall_mm, &request_of(&job.goal))?;
+        Ok(Self { job, model, printer, material, wall, pitch_mm, placement })
+    }
+
+    /// The name of the job in file names: the model's file name without its ending.
+    pub fn name(&self) -> String {
+        let stem = self.job.model.path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        stem.unwrap_or_default().chars().map(|c| if is_plain(c) { c } else { '-' }).collect()
+    }
+}
+
+/// The model of a job, and the job bound to it.
+fn load(job: &Job) -> Result<(Job, Model), Error> {
+    let bytes = io::read_bytes(&job.model.path)?;
+    let mesh = io::decode_model(&bytes)
+        .map_err(|source| io::ReadError::Content { path: job.model.path.clone(), source })?;
+    let job = job.clone().bound_to(&bytes)?;
+    let (mesh, repairs) = repair(mesh);
+    let scale_ratio = job.model.scaling.factor(longest_side(&mesh));
+    let solid = Solid::new(scaled(&mesh, scale_ratio))
+        .map_err(|source| Error::NotSolid { path: job.model.path.clone(), source: Box::new(source) })?;
+    Ok((job, Model { solid, repairs, sha256: sha256_hex(&[&bytes]), scale_ratio }))
+}
+
+/// The longest side of the box about a mesh, in the file's numbers.
+fn longest_side(mesh: &TriMesh) -> f64 {
+    mesh.aabb().size().max()
+}

@@ -1,0 +1,92 @@
+//! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
+
+use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
+use crate::hollow::{Problem, Settings, Solution, refine, solve};
+use crate::interior::Columns;
+use crate::mass::Moments;
+use crate::progress::Progress;
+use crate::shell::Shell;
+
+/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search over
+/// heights dearer.
+const COARSE_COLUMNS: usize = 100;
+/// Columns a side of the middle level, on which an impossible goal is proved.
+const MIDDLE_COLUMNS: usize = 400;
+
+/// The optimal void on the finest columns.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    /// The finest columns.
+    pub columns: Columns,
+    /// The solution on them.
+    pub solution: Solution,
+}
+
+impl Solved {
+    /// Solves coarse to fine; each level starts from the quadric of the one before.
+    pub fn of(
+        setup: &Setup,
+        progress: &Progress,
+        watch: &mut Stopwatch,
+    ) -> Result<Result<Self, Impossible>, Error> {
+        progress.report(phase::SOLVE, 0.0);
+        let goal = &setup.placement.goal;
+        let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
+        let mut level: Option<Self> = None;
+        for (done, pitch_mm) in pitches(setup, &shell).into_iter().enumerate() {
+            progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
+            let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent())?;
+            watch.lap("columns");
+            let solution = solution_on(setup, &columns, level.as_ref(), goal.solid);
+            watch.lap("solve");
+            if progress.is_cancelled() {
+                return Err(Error::Cancelled);
+            }
+            if done > 0 && !solution.is_usable() {
+                return Ok(Err(impossible(setup, &solution)));
+            }
+            level = Some(Self { columns, solution });
+        }
+        level.map_or(Err(Error::Cancelled), |solved| Ok(Ok(solved)))
+    }
+
+    /// The solution once more, with `fixed` as the moments of nothing emptied.
+    pub fn corrected(&self, setup: &Setup, fixed: Moments) -> Solution {
+        solution_on(setup, &self.columns, Some(self), fixed)
+    }
+}
+
+/// The pitches from coarse to fine; the last is the printer's own.
+fn pitches(setup: &Setup, shell: &Shell) -> Vec<[f64; 2]> {
+    let is_coarser = |pitch: &[f64; 2]| pitch[0] > 1.5 * setup.pitch_mm[0];
+    let mut pitches: Vec<[f64; 2]> = [COARSE_COLUMNS, MIDDLE_COLUMNS]
+        .map(|n| shell.coarse_pitch(n))
+        .into_iter()
+        .filter(is_coarser)
+        .collect();
+    pitches.push(setup.pitch_mm);
+    pitches
+}
+
+fn solution_on(setup: &Setup, columns: &Columns, from: Option<&Solved>, fixed: Moments) -> Solution {
+    let problem = Problem { goal: &setup.placement.goal, fixed, columns };
+    let settings = Settings::default();
+    match from.filter(|level| level.solution.is_usable()) {
+        Some(level) => refine(&problem, &settings, &level.solution, &Progress::silent()),
+        None => solve(&problem, &settings, &Progress::silent()),
+    }
+}
+
+/// The answer for a goal that no hollowing meets.
+fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
+    let goal = &setup.placement.goal;
+    Impossible {
+        verdict: "impossible",
+        reason: solution.status.explain(goal),
+        remedies: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
+        proof_quadric: solution.quadric.0,
+        origin_mm: goal.frame.origin.into(),
+        axis: goal.frame.axis().into(),
+        warnings: setup.placement.warnings.iter().map(ToString::to_string).collect(),
+    }
+}

@@ -1,0 +1,46 @@
+//! What parts are made of: the density, and how far a print's mass may be from it.
+
+use serde::Serialize;
+
+use super::Sourced;
+
+/// Cubic millimetres in a cubic centimetre.
+const MM3_PER_CM3: f64 = 1000.0;
+
+/// A material.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Material {
+    /// Its id, as `--material` takes it.
+    pub id: String,
+    /// Its name for people.
+    pub name: String,
+    /// Density as printed and cured, g/cm³.
+    pub density_g_cm3: Sourced<f64>,
+    /// How far the mass of a sound print may be from volume × density, as a share of it.
+    pub density_spread_ratio: Sourced<f64>,
+}
+
+impl Material {
+    /// The density in the library's own units, g/mm³.
+    pub fn density_g_mm3(&self) -> f64 {
+        self.density_g_cm3.value / MM3_PER_CM3
+    }
+
+    /// The lightest and heaviest a sound print of `mass_g` may weigh, g.
+    pub fn weighing_window_g(&self, mass_g: f64) -> [f64; 2] {
+        let spread = self.density_spread_ratio.value;
+        [mass_g * (1.0 - spread), mass_g * (1.0 + spread)]
+    }
+}
+
+/// A material the printer does not offer.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{printer} does not print `{id}`; remedy: {remedy}")]
+pub struct MaterialError {
+    /// The printer's id.
+    pub printer: String,
+    /// The material asked for.
+    pub id: String,
+    /// The nearest of the printer's materials, or all of them.
+    pub remedy: String,
+}

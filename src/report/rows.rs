@@ -1,0 +1,104 @@
+//! The rows of the checklist's tables: voids, cuts, parts, pins and joints.
+
+use serde::{Deserialize, Serialize};
+
+use crate::verify::Pose;
+
+/// One void and how it is cleaned.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct VoidRow {
+    /// Its name on the sheet, such as `V1`.
+    pub id: String,
+    /// mm³.
+    pub volume_mm3: f64,
+    /// The ids of the cuts that open it.
+    pub opened_by: Vec<String>,
+    /// The diameter of the largest disc that passes its widest opening, mm.
+    pub opening_mm: f64,
+    /// How far its deepest point lies from the opening, mm.
+    pub depth_mm: f64,
+    /// The share of its surface in sight of an opening; none where it was not measured.
+    pub sight_ratio: Option<f64>,
+    /// How to clean it, in a sentence.
+    pub clean: String,
+}
+
+/// One cut.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CutRow {
+    /// Its name on the sheet, such as `C1`.
+    pub id: String,
+    /// A point of its plane, model frame, mm.
+    pub point_mm: [f64; 3],
+    /// The unit normal of its plane, model frame.
+    pub normal: [f64; 3],
+}
+
+/// One part.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PartRow {
+    /// Its name on the sheet, such as `P01`.
+    pub id: String,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// The SHA-256 of that file.
+    pub sha256: String,
+    /// How many triangles it has.
+    pub triangles: usize,
+    /// mm³.
+    pub volume_mm3: f64,
+    /// What it should weigh, g.
+    pub mass_g: f64,
+    /// Its extent in print pose, mm.
+    pub size_mm: [f64; 3],
+    /// How it lies on the plate, in words, such as `cut C1 down`.
+    pub lies: String,
+    /// Model coordinates to print coordinates, rows.
+    pub print_from_model: Pose,
+    /// The pins that stand out of it.
+    pub pins: Vec<PegRow>,
+    /// The sockets sunk into it.
+    pub sockets: Vec<PegRow>,
+    /// Its picture, relative to the kit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub picture: Option<String>,
+}
+
+/// One pin or socket.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PegRow {
+    /// Its name; a pin and its socket share it.
+    pub id: String,
+    /// The joint it belongs to.
+    pub joint: String,
+    /// The middle of its base on the cut, model frame, mm.
+    pub center_mm: [f64; 3],
+    /// Its direction out of (pin) or into (socket) the part's cut face, unit, model frame.
+    pub axis: [f64; 3],
+    /// mm.
+    pub diameter_mm: f64,
+    /// Its length or depth, mm.
+    pub length_mm: f64,
+    /// What it adds to the hollowed body, or takes from it, mm³, of the triangles as written.
+    pub volume_mm3: f64,
+}
+
+/// One glue joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct JointRow {
+    /// Its name on the sheet, such as `J1`.
+    pub id: String,
+    /// The cut it lies in.
+    pub cut: String,
+    /// The two parts it joins.
+    pub parts: [String; 2],
+    /// The area of glue, mm².
+    pub area_mm2: f64,
+    /// How many pins align it; zero where there was no room.
+    pub pins: usize,
+    /// The gap between pin and socket on each side, mm.
+    pub clearance_mm: f64,
+    /// What to mind, such as where a joint has no room for pins.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub note: Option<String>,
+}

@@ -1,0 +1,138 @@
+//! A sound checklist for the tests of the paperwork: the hollow box of the judge's tests.
+
+use super::*;
+use crate::geom::Plane;
+use crate::geom::{Point, Vector};
+use crate::mesh::weld;
+use crate::verify::judge_tests::sound;
+use crate::verify::{Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
+
+/// The checklist of a sound kit, and what it was judged on.
+pub fn sample() -> (Checklist, Evidence) {
+    let evidence = sound();
+    let found = judge(&evidence);
+    (checklist(&evidence, &found), evidence)
+}
+
+/// Its pictures.
+pub fn sample_album(evidence: &Evidence) -> Vec<Picture> {
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
+    album(&Sitting { shells: &shells, parts: &evidence.parts, cuts: &cuts, aim: evidence.promise.goal })
+        .unwrap()
+}
+
+fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
+    let speed = found.assembly.critical_speed_rpm.unwrap();
+    Checklist {
+        schema: Checklist::SCHEMA,
+        tool: Tool { name: "equipoise".into(), version: "0.1.0".into() },
+        job: "box".into(),
+        model: ModelRow {
+            file: "box <&> lid.stl".into(),
+            sha256: "ab".repeat(32),
+            triangles: 12,
+            size_mm: [60.0, 40.0, 12.0],
+            volume_mm3: found.solid.volume_mm3,
+            scale_ratio: 1.0,
+        },
+        printer: printer(),
+        material: material(),
+        goal: GoalRow {
+            aim: evidence.promise.goal,
+            objective: "critical_speed".into(),
+            contact_gap_mm: 10.0,
+        },
+        promise: Some(PromisedFigure { figure: FigureName::CriticalSpeedRpm, value: speed }),
+        solid: found.solid.clone(),
+        hollowed: found.hollowed.clone(),
+        assembly: found.assembly.clone(),
+        certificate: Certificate {
+            figure: FigureName::CriticalSpeedRpm,
+            value: speed,
+            bound: speed,
+            gap_ratio: 1e-9,
+            written_value: Some(speed),
+        },
+        wall: WallRow { required_mm: 3.0, measured_min_mm: found.wall_min_mm },
+        voids: vec![the_void()],
+        cuts: vec![CutRow { id: "C1".into(), point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }],
+        parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
+        joints: vec![joint()],
+        checks: found.checks.clone(),
+        verdict: Verdict::of(&found.checks),
+        warnings: vec![
+            "the contact point hangs 10 mm below the surface: glue on a tip of that length".into(),
+        ],
+        notes: vec![],
+        files: Default::default(),
+        timing_s: Some(Timing(vec![("load".into(), 0.25), ("judge".into(), 0.5)])),
+        log: vec![LogRow { phase: "newton".into(), figures: [("gap_ratio".to_owned(), 1e-9)].into() }],
+    }
+}
+
+fn printer() -> PrinterRow {
+    PrinterRow {
+        id: "objet-connex350".into(),
+        name: "Objet Connex350".into(),
+        process: "polyjet".into(),
+        pixel_mm: [0.0423, 0.0423],
+        layer_mm: 0.016,
+        build_volume_mm: Some([100.0, 100.0, 6.0]),
+        support: "water-jet".into(),
+        minimum_opening_mm: 4.0,
+        sources: vec!["layer: read: user guide".into()],
+    }
+}
+
+fn material() -> MaterialRow {
+    MaterialRow {
+        id: "vero".into(),
+        name: "VeroWhite".into(),
+        density_g_cm3: 1.2,
+        density_source: "datasheet".into(),
+        density_sure: "recalled".into(),
+        density_spread_ratio: Some(0.02),
+    }
+}
+
+fn the_void() -> VoidRow {
+    VoidRow {
+        id: "V1".into(),
+        volume_mm3: 54.0 * 34.0 * 6.0,
+        opened_by: vec!["C1".into()],
+        opening_mm: 34.0,
+        depth_mm: 3.0,
+        sight_ratio: Some(0.9),
+        clean: "Flush with the water jet.".into(),
+    }
+}
+
+fn joint() -> JointRow {
+    JointRow {
+        id: "J1".into(),
+        cut: "C1".into(),
+        parts: ["P01".into(), "P02".into()],
+        area_mm2: 60.0 * 40.0 - 54.0 * 34.0,
+        pins: 0,
+        clearance_mm: 0.2,
+        note: None,
+    }
+}
+
+fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRow {
+    PartRow {
+        id: promised.id.clone(),
+        file: promised.file.clone(),
+        sha256: "cd".repeat(32),
+        triangles: facts.surface.triangles,
+        volume_mm3: facts.surface.volume_mm3,
+        mass_g: facts.surface.volume_mm3 * 1.2e-3,
+        size_mm: facts.size_mm,
+        lies: "open side up".into(),
+        print_from_model: promised.print_from_model,
+        pins: vec![],
+        sockets: vec![],
+        picture: Some(part_picture_file(&promised.id)),
+    }
+}

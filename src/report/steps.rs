@@ -1,0 +1,206 @@
+//! The steps of a job in the order they are done, with boxes to tick and to fill.
+
+use maud::{Markup, html};
+
+use super::page::{figure, mass_with_window};
+use super::words::{counted, quantity};
+use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
+use crate::verify::Kind;
+
+/// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
+const ALL_IN_SIGHT_RATIO: f64 = 0.995;
+
+/// Every step: print, clean, dry fit, glue, weigh, test.
+pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+    html! {
+        h2 { "1. Print" }
+        (print(sheet, pictures))
+        h2 { "2. Clean every void" }
+        (clean(sheet))
+        h2 { "3. Dry fit" }
+        (dry_fit(sheet))
+        h2 { "4. Glue" }
+        (glue(sheet))
+        h2 { "5. Weigh" }
+        (weigh(sheet))
+        h2 { "6. Test" }
+        (test(sheet))
+    }
+}
+
+fn print(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+    let picture_of =
+        |part: &PartRow| pictures.iter().find(|picture| part.picture.as_ref() == Some(&picture.file));
+    html! {
+        p {
+            "Files are in mm, each in its print pose, resting on z = 0. Do not turn, scale or repair them, and do not let the slicer fill the voids."
+        }
+        ul class="ticks" {
+            @for part in &sheet.parts {
+                li {
+                    strong { (part.id) } ": " code { (part.file) } ", " (part.lies) ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
+                    ". Machine " (blank()) " lot " (blank())
+                }
+            }
+        }
+        div class="pictures" {
+            @for picture in sheet.parts.iter().filter_map(picture_of) { (figure(picture)) }
+        }
+    }
+}
+
+fn clean(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.voids.is_empty() { p { "There are no voids: nothing to clean." } }
+        ul class="ticks" {
+            @for void in &sheet.voids { (clean_one(sheet, void)) }
+        }
+    }
+}
+
+fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
+    let full_g = void.volume_mm3 / 1000.0 * sheet.material.density_g_cm3;
+    html! {
+        li {
+            strong { (void.id) } ", " (quantity(void.volume_mm3 / 1000.0, "cm³")) ", "
+            @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
+            @else {
+                "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across, "
+                (quantity(void.depth_mm, "mm")) " deep"
+            }
+            ". " (void.clean)
+            @if let Some(hidden) = hidden_ratio(sheet, void) {
+                " " (format!("{:.0} %", hidden * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
+            }
+            " Full of support it would make the parts " (quantity(full_g, "g")) " heavier, about."
+        }
+    }
+}
+
+/// The share of a void's wall that is out of sight, if there is one and support must be seen to be removed.
+fn hidden_ratio(sheet: &Checklist, void: &VoidRow) -> Option<f64> {
+    let needs_sight = matches!(sheet.printer.support.as_str(), "breakaway" | "water-jet");
+    void.sight_ratio.filter(|sight| needs_sight && *sight < ALL_IN_SIGHT_RATIO).map(|sight| 1.0 - sight)
+}
+
+fn dry_fit(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.joints.is_empty() { p { "It is one part: nothing to fit." } }
+        ul class="ticks" {
+            @for joint in &sheet.joints {
+                li {
+                    strong { (joint.id) } ": " (joint.parts[0]) " on " (joint.parts[1]) " along " (joint.cut) ". "
+                    @if joint.pins == 0 { "No pins: align the outlines by eye and touch." }
+                    @else { (counted(joint.pins, "pin")) " must seat fully. No gap and no step at the seam." }
+                }
+            }
+        }
+    }
+}
+
+fn glue(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.joints.is_empty() { p { "Nothing to glue." } }
+        @else {
+            p { "In this order; each joint sets before the next." }
+            table {
+                tr {
+                    th { "Done" } th { "Joint" } th { "Parts" } th { "Cut" } th class="n" { "Area" } th { "Alignment" } th { "Adhesive, clamped until" }
+                }
+                @for joint in &sheet.joints { (glue_line(joint)) }
+            }
+            p class="small" { "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance." }
+        }
+    }
+}
+
+fn glue_line(joint: &JointRow) -> Markup {
+    html! {
+        tr {
+            td { "☐" }
+            td { strong { (joint.id) } }
+            td { (joint.parts.join(" + ")) }
+            td { (joint.cut) }
+            td class="n" { (quantity(joint.area_mm2, "mm²")) }
+            td {
+                @if joint.pins == 0 { "no room for pins" }
+                @else { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
+                @if let Some(note) = &joint.note { br; (note) }
+            }
+            td { (blank()) }
+        }
+    }
+}
+
+fn weigh(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.material.density_spread_ratio.is_none() {
+            p { "How far the density may vary is not known, so no window is given; weigh a coupon of known volume first." }
+        }
+        table {
+            tr { th { "What" } th class="n" { "Expected" } th { "Weighed, g" } th { "In the window" } }
+            @for part in &sheet.parts {
+                tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { "☐" } }
+            }
+            tr {
+                td { strong { "all, glued" } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { "☐" }
+            }
+        }
+        p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
+    }
+}
+
+fn test(sheet: &Checklist) -> Markup {
+    html! {
+        ul class="ticks" {
+            @for line in test_lines(sheet) { li { (line) } }
+            li { "Result: " (blank()) }
+        }
+    }
+}
+
+/// What to try, with the figures to expect.
+fn test_lines(sheet: &Checklist) -> Vec<String> {
+    let body = &sheet.assembly;
+    let height = quantity(body.center_height_mm, "mm");
+    match sheet.goal.aim.kind {
+        Kind::Top => {
+            let speed = body.critical_speed_rpm.map(|rpm| {
+                format!(
+                    "Spin it on its contact point faster than {}: it stays upright, and falls below that.",
+                    quantity(rpm, "rpm")
+                )
+            });
+            let hang = format!("Its centre of mass lies {height} above the contact point, on the axis.");
+            tip(sheet).into_iter().chain(speed).chain([hang]).collect()
+        }
+        Kind::Yoyo => vec![
+            "Hung by its spin point it stays in any position: it is balanced.".to_owned(),
+            "Spun about its axis it does not wobble.".to_owned(),
+        ],
+        Kind::Stand => {
+            let tilt = body.topples_deg.map(|deg| {
+                format!(
+                    "Set on a tilted board it stands up to {}, whichever way it is turned.",
+                    quantity(deg, "°")
+                )
+            });
+            let height = format!("Its centre of mass lies {height} above the ground.");
+            tilt.into_iter().chain([height]).collect()
+        }
+    }
+}
+
+/// What to add under a top whose contact point hangs in the air.
+fn tip(sheet: &Checklist) -> Option<String> {
+    let gap_mm = sheet.goal.contact_gap_mm;
+    (gap_mm > 0.0).then(|| {
+        let gap = quantity(gap_mm, "mm");
+        format!("Its contact point hangs {gap} below it: glue on a tip of that length, as light as may be; the figures do not count its mass.")
+    })
+}
+
+/// A line to write on.
+fn blank() -> Markup {
+    html! { span class="fill" { "\u{a0}" } }
+}

@@ -1,0 +1,127 @@
+//! Numbers and promises as people read them.
+
+use super::{Certificate, Checklist};
+use crate::verify::{FigureName, Kind};
+
+/// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
+const SIGNIFICANT_DIGITS: i32 = 4;
+/// Below this a number is written with a power of ten.
+const SMALL: f64 = 1e-3;
+
+/// Below this share the gap of a certificate is rounding, of either sign.
+const NO_GAP_RATIO: f64 = 1e-9;
+
+/// A number to four digits without closing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0` for zero of either sign.
+pub fn number(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    if value.abs() < SMALL {
+        return format!("{value:.1e}").replace(".0e", "e");
+    }
+    let decimals = (SIGNIFICANT_DIGITS - 1 - value.abs().log10().floor() as i32).max(0);
+    let text = format!("{value:.*}", decimals as usize);
+    if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_owned() }
+}
+
+/// A number with its unit: `12.35 mm`, `3.251°`, `0.7974`.
+pub fn quantity(value: f64, unit: &str) -> String {
+    match unit {
+        "" => number(value),
+        "°" => format!("{}°", number(value)),
+        _ => format!("{}\u{a0}{unit}", number(value)),
+    }
+}
+
+/// A quantity, or a dash where there is none.
+pub fn quantity_or_dash(value: Option<f64>, unit: &str) -> String {
+    value.map_or_else(|| "—".to_owned(), |value| quantity(value, unit))
+}
+
+/// Three lengths: `100 × 62.3 × 41.07 mm`.
+pub fn extent(size_mm: &[f64; 3]) -> String {
+    format!("{}\u{a0}mm", size_mm.map(number).join(" × "))
+}
+
+/// Counts one thing or several: `1 pin`, `3 pins`.
+pub fn counted(count: usize, thing: &str) -> String {
+    if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
+}
+
+/// What the finished object does, in one sentence with its figure.
+pub fn promise(sheet: &Checklist) -> String {
+    let body = &sheet.assembly;
+    match (sheet.goal.aim.kind, body.critical_speed_rpm, body.topples_deg, body.dominance_ratio) {
+        (Kind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
+        (Kind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
+        (Kind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
+            format!("Spins true about its string axis (I_b/I_c = {}, stable below 1).", number(ratio))
+        }
+        (Kind::Yoyo, ..) => "Does not spin stably about its string axis.".to_owned(),
+        (Kind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
+            format!("Stands until tilted by {}.", quantity(tilt, "°"))
+        }
+        (Kind::Stand, ..) => "Does not stand.".to_owned(),
+    }
+}
+
+/// The certificate in plain words.
+pub fn certificate(sheet: &Checklist) -> Vec<String> {
+    let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
+    let better = if more_is_better(proof.figure) { "higher" } else { "lower" };
+    let mut words = vec![
+        format!(
+            "It is proved that no hollowing of this model with a wall of {} has a {} {better} than {}.",
+            quantity(sheet.wall.required_mm, "mm"),
+            proof.figure.name(),
+            quantity(proof.bound, unit)
+        ),
+        format!("The calculated optimum is {}; {}.", quantity(proof.value, unit), gap(proof.gap_ratio)),
+    ];
+    words.extend(proof.written_value.map(|written| {
+        let share = reached_ratio(proof, written);
+        format!(
+            "The files of this kit, with pins, sockets and rounding, reach {}: {:.2} % of the best possible.",
+            quantity(written, unit),
+            share * 100.0
+        )
+    }));
+    words
+}
+
+/// The distance between the optimum and its proof, in words.
+fn gap(ratio: f64) -> String {
+    if ratio.abs() <= NO_GAP_RATIO {
+        format!("between it and the proof lies less than {} of it", number(NO_GAP_RATIO))
+    } else {
+        format!("between it and the proof lies {} of it", number(ratio))
+    }
+}
+
+/// The share of the best possible that was reached, 1 at the bound.
+fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
+    if more_is_better(proof.figure) { written / proof.bound } else { proof.bound / written }
+}
+
+fn more_is_better(figure: FigureName) -> bool {
+    figure == FigureName::TopplesDeg
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_and_small_ones_a_power_of_ten() {
+        let shown = [1234.5, 12.345_67, 0.004_216, 100.0, -0.5, 1.5e-7, -0.0, 123_456.7].map(number);
+        assert_eq!(shown, ["1234", "12.35", "0.004216", "100", "-0.5", "1.5e-7", "0", "123457"]);
+    }
+
+    #[test]
+    fn units_follow_their_number() {
+        assert_eq!(quantity(2.5, "mm"), "2.5\u{a0}mm");
+        assert_eq!(quantity(2.5, "°"), "2.5°");
+        assert_eq!(quantity_or_dash(None, "rpm"), "—");
+        assert_eq!((counted(1, "pin"), counted(0, "pin")), ("1 pin".to_owned(), "0 pins".to_owned()));
+    }
+}

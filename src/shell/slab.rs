@@ -1,0 +1,139 @@
+//! The slab of wall behind one face: a convex prism, and the stretch of a column in it.
+
+use super::footprint::Footprint;
+use super::piece::{OnRow, Piece, RowForm, Shape};
+use crate::geom::{Point, Vector};
+
+/// Most half-spaces that bound a prism from one side: a cap and the three sides.
+const MAX_BOUNDS: usize = 4;
+
+/// Half-spaces whose unit normals have a smaller z-component bound x and y only, which the footprint does already.
+/// Above, slabs would reach further than they should by the threshold times the height of the model; below, the
+/// heights lose digits (a bound's error is the rounding of a coordinate divided by the component).
+const VERTICAL_LIMIT: f64 = 1e-9;
+
+/// A prism as bounds on z that are affine in x and y: z ≥ each lower and ≤ each upper bound, given as the
+/// coefficients of (x, y, 1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Slab {
+    lower: [[f64; 3]; MAX_BOUNDS],
+    upper: [[f64; 3]; MAX_BOUNDS],
+}
+
+/// How far a slab reaches from its face, mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reach {
+    /// Into the solid.
+    pub inward_mm: f64,
+    /// Out of it.
+    pub outward_mm: f64,
+}
+
+impl Slab {
+    /// The prism over the triangle from `outward_mm` outside to `inward_mm` inside, for its outer unit normal.
+    pub fn piece(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Piece {
+        let mut slab =
+            Self { lower: [[0.0, 0.0, f64::NEG_INFINITY]; 4], upper: [[0.0, 0.0, f64::INFINITY]; 4] };
+        let mut used = [0, 0];
+        slab.bound(&mut used, normal, &(corners[0] + normal * reach.outward_mm));
+        slab.bound(&mut used, &-normal, &(corners[0] - normal * reach.inward_mm));
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            let side = (corners[to] - corners[from]).cross(normal).normalize();
+            slab.bound(&mut used, &side, &corners[from]);
+        }
+        let outer = corners.map(|corner| corner + normal * reach.outward_mm);
+        let inner = corners.map(|corner| corner - normal * reach.inward_mm);
+        let hull = [outer, inner].concat();
+        let z_min_mm = hull.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
+        Piece::new(Footprint::of_points(&hull, 0.0), z_min_mm, Shape::Slab(slab))
+    }
+
+    /// Adds the half-space through `point` on the inner side of the outward unit `normal`.
+    fn bound(&mut self, used: &mut [usize; 2], normal: &Vector, point: &Point) {
+        if normal.z.abs() < VERTICAL_LIMIT {
+            return;
+        }
+        let coefficients = [-normal.x / normal.z, -normal.y / normal.z, normal.dot(&point.coords) / normal.z];
+        if normal.z > 0.0 {
+            self.upper[used[0]] = coefficients;
+            used[0] += 1;
+        } else {
+            self.lower[used[1]] = coefficients;
+            used[1] += 1;
+        }
+    }
+
+    /// The prism cut by the row at `y_mm`.
+    pub fn on_row(&self, y_mm: f64) -> RowForm {
+        let on_row = |[x, y, c]: [f64; 3]| [x, y * y_mm + c];
+        RowForm::Slab(SlabRow { lower: self.lower.map(on_row), upper: self.upper.map(on_row) })
+    }
+}
+
+/// A slab cut by a row: bounds on z that are affine in x, as the coefficients of (x, 1).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SlabRow {
+    lower: [[f64; 2]; MAX_BOUNDS],
+    upper: [[f64; 2]; MAX_BOUNDS],
+}
+
+impl OnRow for SlabRow {
+    #[inline]
+    fn stretch(&self, x_mm: f64) -> [f64; 2] {
+        let at = |[slope, offset]: [f64; 2]| slope * x_mm + offset;
+        let [a, b, c, d] = self.lower.map(at);
+        let [e, f, g, h] = self.upper.map(at);
+        [a.max(b).max(c.max(d)), e.min(f).min(g.min(h))]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::shell::fixtures::Random;
+
+    const REACH: Reach = Reach { inward_mm: 0.8, outward_mm: 0.1 };
+
+    /// Whether a point is in the prism, by the definition: between the caps and inside all three sides.
+    fn holds(corners: &[Point; 3], normal: &Vector, point: &Point) -> bool {
+        let height = (point - corners[0]).dot(normal);
+        let is_left = |from: usize| {
+            (corners[(from + 1) % 3] - corners[from]).cross(&(point - corners[from])).dot(normal)
+        };
+        (-REACH.inward_mm..=REACH.outward_mm).contains(&height) && (0..3).all(|side| is_left(side) >= 0.0)
+    }
+
+    /// How many of random points about the triangle the columns find in its slab; each must be so by the definition.
+    fn check(corners: &[Point; 3], random: &mut Random) -> usize {
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+        let piece = Slab::piece(corners, &normal, REACH);
+        let is_found = |point: &Point| {
+            let Some(([low, high], RowForm::Slab(row))) = piece.on_row(point.y) else { return false };
+            let [bottom, top] = row.stretch(point.x);
+            low <= point.x && point.x <= high && bottom <= point.z && point.z <= top
+        };
+        let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
+        let points = (0..3000).map(|_| center + random.direction() * (1.5 * random.unit()));
+        let found = points.filter(|point| {
+            let found = is_found(point);
+            assert_eq!(found, holds(corners, &normal, point), "{point}");
+            found
+        });
+        found.count()
+    }
+
+    #[test]
+    fn columns_meet_slabs_of_any_direction_where_the_definition_says() {
+        let mut random = Random::new(4);
+        let flat = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
+        let upright = flat.map(|p| Point::new(p.x, 1.0, p.y));
+        let skew = flat.map(|p| Point::new(1.0 - p.x, p.y, p.x * 1e-11));
+        for corners in [flat, upright, skew] {
+            assert!(check(&corners, &mut random) > 200);
+        }
+        for _ in 0..10 {
+            let corners = [0, 1, 2].map(|_| Point::from(random.direction() * 1.5));
+            check(&corners, &mut random);
+        }
+    }
+}

@@ -1,0 +1,201 @@
+//! The list of checks, and the limits they hold.
+
+use super::{Check, FigureName, Figures, Judgement, Kind, Limit, PartFacts, Peg, Promise};
+
+/// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
+/// far below it is lost in the printer's own accuracy.
+pub const AXIS_OFFSET_LIMIT_MM: f64 = 0.005;
+/// The principal axis may lean this far from the spin axis, degrees; the same reasons.
+pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
+/// I_b/I_c must be below this for the spin axis to be the stable one (intermediate axis theorem).
+pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
+/// A standing object must topple at more than this, degrees.
+pub const STANDING_LIMIT_DEG: f64 = 0.0;
+/// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a printed wall
+/// loses a pixel.
+pub const WALL_TOLERANCE_MM: f64 = 0.01;
+/// Volumes of the parts add up to this share of the body. STL's f32 coordinates leave about 1e-7 of 100 mm.
+pub const VOLUME_SUM_LIMIT_RATIO: f64 = 1e-6;
+/// A part rests on the plate within this, mm: two f32 steps at 300 mm. Above it a slicer's first layer is thin.
+pub const RESTING_LIMIT_MM: f64 = 1e-4;
+/// A pose's matrix is rigid within this: rounding of a 4×4 matrix is 1e-15, a mirror 2, a 0.01 % stretch 2e-4.
+pub const POSE_LIMIT_RATIO: f64 = 1e-9;
+/// The written assembly may miss the promised figure by this share: above the rounding of STL (1e-6), below
+/// anything a person can measure.
+pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
+/// The checklist's own figures of the assembly agree with the files within this share; both are exact integrals of
+/// the same triangles.
+pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
+
+/// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there, can it be
+/// printed, do the parts make the whole.
+pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
+    let mut checks = goal_checks(promise.goal.kind, &found.assembly);
+    checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
+    checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
+    checks.extend(surface_checks(found));
+    checks.extend(plate_checks(&found.parts));
+    checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
+    checks.push(volume_check(promise, found));
+    checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));
+    checks
+}
+
+/// Whether the assembly does what the goal asks of any body.
+fn goal_checks(kind: Kind, assembly: &Figures) -> Vec<Check> {
+    let offset = |promise| {
+        Check::new(
+            "axis offset",
+            promise,
+            assembly.axis_offset_mm,
+            Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
+        )
+    };
+    match kind {
+        Kind::Top => {
+            [vec![offset("the centre of mass lies on the spin axis")], spinning_checks(assembly)].concat()
+        }
+        Kind::Yoyo => {
+            [vec![offset("the centre of mass lies in the spin point")], spinning_checks(assembly)].concat()
+        }
+        Kind::Stand => vec![Check::new(
+            "standing",
+            "it stands, and topples only when tilted by",
+            assembly.topples_deg,
+            Limit::above(STANDING_LIMIT_DEG, "°"),
+        )],
+    }
+}
+
+/// What tops and yo-yos share: the axis is principal, and the stable one.
+fn spinning_checks(assembly: &Figures) -> Vec<Check> {
+    let tilt = Limit::at_most(AXIS_TILT_LIMIT_DEG, "°");
+    let dominance = Limit::below(DOMINANCE_LIMIT_RATIO, "");
+    vec![
+        Check::new("axis tilt", "the spin axis is a principal axis", assembly.axis_tilt_deg, tilt),
+        Check::new(
+            "dominance",
+            "it turns most heavily about the spin axis (I_b/I_c)",
+            assembly.dominance_ratio,
+            dominance,
+        ),
+    ]
+}
+
+/// Whether the written assembly reaches the figure that was promised.
+fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check {
+    let slack = promised.abs() * FIGURE_SLACK_RATIO;
+    let limit = match figure {
+        FigureName::TopplesDeg => Limit::at_least(promised - slack, figure.unit()),
+        _ => Limit::at_most(promised + slack, figure.unit()),
+    };
+    Check::new(figure.name(), figure.promise(), assembly.value_of(figure), limit)
+}
+
+fn wall_check(required_mm: f64, wall_mm: f64) -> Check {
+    let limit = Limit::at_least(required_mm - WALL_TOLERANCE_MM, "mm");
+    Check::new("wall", "every wall between a void and the outside is at least", Some(wall_mm), limit)
+}
+
+/// Whether the surfaces of all files can be printed.
+fn surface_checks(found: &Judgement) -> Vec<Check> {
+    let uncut = std::iter::once(("hollowed.stl", &found.surface));
+    let surfaces: Vec<_> = uncut.chain(found.parts.iter().map(|p| (p.id.as_str(), &p.surface))).collect();
+    let broken = surfaces.iter().filter_map(|(id, s)| s.defect.as_ref().map(|why| format!("{id}: {why}")));
+    let crossed = surfaces.iter().filter(|(_, s)| s.crossings > 0);
+    let crossings = surfaces.iter().map(|(_, s)| s.crossings).sum();
+    let sealed = found.parts.iter().filter(|p| p.cavities > 0);
+    let cavities = found.parts.iter().map(|p| p.cavities).sum();
+    vec![
+        none(
+            "broken surfaces",
+            "every file is closed, 2-manifold and turned outward",
+            broken.clone().count(),
+        )
+        .at(listed(broken)),
+        none("self-intersections", "no surface passes through itself", crossings)
+            .at(listed(crossed.map(|(id, s)| format!("{id}: {}", s.crossings)))),
+        none("closed cavities", "every void is opened by a cut", cavities)
+            .at(listed(sealed.map(|p| format!("{}: {}", p.id, p.cavities)))),
+    ]
+}
+
+/// Whether every part lies on the plate as its pose says.
+fn plate_checks(parts: &[PartFacts]) -> Vec<Check> {
+    let (resting, resting_at) = worst(parts, |part| part.lowest_mm.abs());
+    let (pose, pose_at) = worst(parts, |part| part.pose_error);
+    vec![
+        Check::new(
+            "resting",
+            "every part rests on the plate",
+            resting,
+            Limit::at_most(RESTING_LIMIT_MM, "mm"),
+        )
+        .at(resting_at),
+        Check::new("pose", "every pose is a turn and a shift", pose, Limit::at_most(POSE_LIMIT_RATIO, ""))
+            .at(pose_at),
+    ]
+}
+
+/// Whether every part fits the printer: the least room left along any axis.
+fn room_check(parts: &[PartFacts], room_mm: [f64; 3]) -> Check {
+    let excess = |part: &PartFacts| {
+        let over = [0, 1, 2].map(|axis| part.size_mm[axis] - room_mm[axis]);
+        over.into_iter().fold(f64::NEG_INFINITY, f64::max)
+    };
+    let (excess_mm, at) = worst(parts, excess);
+    let left_mm = excess_mm.map(|excess| -excess);
+    Check::new("build volume", "every part fits, with room to spare of", left_mm, Limit::at_least(0.0, "mm"))
+        .at(at)
+}
+
+/// Whether the parts are the uncut body, plus the pins, less the sockets.
+fn volume_check(promise: &Promise, found: &Judgement) -> Check {
+    let sum = |pegs: &[Peg]| pegs.iter().map(|peg| peg.volume_mm3).sum::<f64>();
+    let joints: f64 = promise.parts.iter().map(|part| sum(&part.pins) - sum(&part.sockets)).sum();
+    let whole = found.hollowed.volume_mm3;
+    let error = (found.assembly.volume_mm3 - whole - joints).abs() / whole;
+    Check::new(
+        "volumes",
+        "the parts add up to the uncut body, its pins and its sockets",
+        Some(error),
+        Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
+    )
+}
+
+/// Whether the checklist states the figures of the files: the largest difference in mass, centre (in radii of
+/// gyration) and principal moments.
+fn sheet_check(sheet: &Figures, found: &Figures) -> Check {
+    let radius_mm = (found.principal_moments_g_mm2[2] / found.mass_g).sqrt();
+    let mass = (sheet.mass_g - found.mass_g).abs() / found.mass_g;
+    let center = largest_difference(&sheet.center_mm, &found.center_mm) / radius_mm;
+    let moments = largest_difference(&sheet.principal_moments_g_mm2, &found.principal_moments_g_mm2)
+        / found.principal_moments_g_mm2[2];
+    Check::new(
+        "checklist",
+        "the checklist states the figures of the files",
+        Some(mass + center + moments),
+        Limit::at_most(SHEET_LIMIT_RATIO, ""),
+    )
+}
+
+fn largest_difference(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+}
+
+/// A check that nothing of a kind was found.
+fn none(name: &str, promise: &str, count: usize) -> Check {
+    Check::new(name, promise, Some(count as f64), Limit::at_most(0.0, ""))
+}
+
+/// The largest value of any part and whose it is; none without parts.
+fn worst(parts: &[PartFacts], value: impl Fn(&PartFacts) -> f64) -> (Option<f64>, Option<String>) {
+    let worst = parts.iter().map(|part| (value(part), part)).max_by(|a, b| a.0.total_cmp(&b.0));
+    (worst.map(|(value, _)| value), worst.map(|(_, part)| part.id.clone()))
+}
+
+/// All words, separated by semicolons; none if there are none.
+fn listed(words: impl Iterator<Item = String>) -> Option<String> {
+    let words: Vec<String> = words.collect();
+    (!words.is_empty()).then(|| words.join("; "))
+}

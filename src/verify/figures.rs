@@ -1,0 +1,253 @@
+//! The figures of a body for its goal, computed from its ten moments and nothing else.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Aim, FigureName, Kind, Support};
+use crate::geom::{Frame, Matrix};
+use crate::mass::{Body, Moments};
+use crate::units::STANDARD_GRAVITY_MM_S2;
+
+/// Revolutions per minute in one radian per second.
+const RPM_PER_RAD_S: f64 = 60.0 / std::f64::consts::TAU;
+/// Cubic millimetres in one cubic centimetre.
+const MM3_PER_CM3: f64 = 1000.0;
+
+/// How a body is looked at: its material, its goal, and what it stands on.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Setting {
+    /// The density, g/cm³.
+    pub density_g_cm3: f64,
+    /// The goal as placed on the model.
+    pub aim: Aim,
+    /// The support polygon of the outer surface, in the goal frame; only an object that stands has one.
+    pub support: Option<Support>,
+}
+
+/// The mass properties of a body and its figures for the goal; a figure that the goal does not ask for, or that
+/// does not exist (the critical speed of a top that cannot spin), is `None`.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Figures {
+    /// g.
+    pub mass_g: f64,
+    /// mm³.
+    pub volume_mm3: f64,
+    /// The centre of mass, model frame, mm.
+    pub center_mm: [f64; 3],
+    /// The inertia tensor about the centre of mass, model axes, g·mm².
+    pub inertia_g_mm2: [[f64; 3]; 3],
+    /// I_a ≤ I_b ≤ I_c about the centre of mass, g·mm².
+    pub principal_moments_g_mm2: [f64; 3],
+    /// The height of the centre of mass over the contact or the ground along the axis, mm.
+    pub center_height_mm: f64,
+    /// The distance of the centre of mass from the spin axis (yo-yo: from the spin point), mm.
+    pub axis_offset_mm: Option<f64>,
+    /// The angle between the spin axis and the principal axis nearest to it, degrees.
+    pub axis_tilt_deg: Option<f64>,
+    /// The larger transverse moment over the axial one about the centre, I_b/I_c; below 1 the axis is dominant.
+    pub dominance_ratio: Option<f64>,
+    /// Spin-It's squared ratio (I_xx² + 2 I_xy² + I_yy²)/I_zz² about the centre (eq. 6).
+    pub spin_it_ratio: Option<f64>,
+    /// The least speed at which a top stays up, rpm (Spin-It eq. 1).
+    pub critical_speed_rpm: Option<f64>,
+    /// The tilt at which a standing object topples, degrees; negative if it does not stand.
+    pub topples_deg: Option<f64>,
+}
+
+impl Figures {
+    /// The figures of the region with these moments (model frame). As exact as the moments: nothing is sampled.
+    pub fn new(moments: &Moments, setting: &Setting) -> Self {
+        let body = Body::new(moments, setting.density_g_cm3 / MM3_PER_CM3);
+        let frame = setting.aim.frame();
+        let plain = Self::without_goal(moments.volume(), &body);
+        match setting.aim.kind {
+            Kind::Top => plain.of_top(&body, &frame),
+            Kind::Yoyo => plain.of_yoyo(&body, &frame),
+            Kind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
+        }
+    }
+
+    /// The value of one figure, if this body has it.
+    pub fn value_of(&self, name: FigureName) -> Option<f64> {
+        match name {
+            FigureName::CriticalSpeedRpm => self.critical_speed_rpm,
+            FigureName::DominanceRatio => self.dominance_ratio,
+            FigureName::SpinItRatio => self.spin_it_ratio,
+            FigureName::TopplesDeg => self.topples_deg,
+            FigureName::CenterHeightMm => Some(self.center_height_mm),
+        }
+    }
+
+    fn without_goal(volume_mm3: f64, body: &Body) -> Self {
+        let inertia = &body.inertia_g_mm2;
+        Self {
+            mass_g: body.mass_g,
+            volume_mm3,
+            center_mm: body.center.coords.into(),
+            inertia_g_mm2: [0, 1, 2].map(|row| [0, 1, 2].map(|column| inertia[(row, column)])),
+            principal_moments_g_mm2: body.principal().moments_g_mm2,
+            center_height_mm: 0.0,
+            axis_offset_mm: None,
+            axis_tilt_deg: None,
+            dominance_ratio: None,
+            spin_it_ratio: None,
+            critical_speed_rpm: None,
+            topples_deg: None,
+        }
+    }
+
+    fn of_top(self, body: &Body, frame: &Frame) -> Self {
+        let local = body.in_frame(frame);
+        Self {
+            axis_offset_mm: Some(local.center.x.hypot(local.center.y)),
+            critical_speed_rpm: critical_speed_rpm(&local),
+            ..self.spinning(body, frame)
+        }
+    }
+
+    fn of_yoyo(self, body: &Body, frame: &Frame) -> Self {
+        Self { axis_offset_mm: Some((body.center - frame.origin).norm()), ..self.spinning(body, frame) }
+    }
+
+    fn of_standing(self, body: &Body, frame: &Frame, support: Option<&Support>) -> Self {
+        let center = frame.to_local(&body.center);
+        let ground_mm = support.map_or(0.0, |support| support.ground_mm);
+        Self {
+            center_height_mm: center.z - ground_mm,
+            topples_deg: support.map(|support| support.toppling_angle(&center).to_degrees()),
+            ..self
+        }
+    }
+
+    /// What tops and yo-yos have in common.
+    fn spinning(self, body: &Body, frame: &Frame) -> Self {
+        let local = body.in_frame(frame);
+        let (inertia, axial) = (&local.inertia_g_mm2, local.inertia_g_mm2[(2, 2)]);
+        let transverse = inertia.fixed_view::<2, 2>(0, 0).norm_squared();
+        Self {
+            center_height_mm: local.center.z,
+            axis_tilt_deg: Some(axis_tilt(body, frame).to_degrees()),
+            dominance_ratio: Some(largest_transverse(inertia) / axial),
+            spin_it_ratio: Some(transverse / (axial * axial)),
+            ..self
+        }
+    }
+}
+
+/// The angle between the frame's axis and the principal axis nearest to it, radians.
+fn axis_tilt(body: &Body, frame: &Frame) -> f64 {
+    let axis = frame.axis();
+    let axes = body.principal().axes;
+    let angle = |i: usize| axes.column(i).cross(&axis).norm().atan2(axes.column(i).dot(&axis).abs());
+    [0, 1, 2].map(angle).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// The larger eigenvalue of the upper 2×2 block of a tensor whose z is the spin axis.
+fn largest_transverse(inertia: &Matrix) -> f64 {
+    let (xx, xy, yy) = (inertia[(0, 0)], inertia[(0, 1)], inertia[(1, 1)]);
+    0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
+}
+
+/// ω = √(g M ℓ / (I_c − I_b)) with the moments about the centre (Spin-It eq. 1), for a body in the goal frame.
+///
+/// Zero when the centre hangs below the contact; none when the axis is not dominant, for then no speed is enough.
+fn critical_speed_rpm(local: &Body) -> Option<f64> {
+    let margin = local.inertia_g_mm2[(2, 2)] - largest_transverse(&local.inertia_g_mm2);
+    let height_mm = local.center.z.max(0.0);
+    let squared = STANDARD_GRAVITY_MM_S2 * local.mass_g * height_mm / margin;
+    (margin > 0.0).then(|| squared.sqrt() * RPM_PER_RAD_S)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::{Point, Vector};
+
+    /// The moments of a box with one corner at `corner`, in closed form.
+    fn box_moments(corner: [f64; 3], size: [f64; 3]) -> Moments {
+        let [a, b, c] = size;
+        let volume = a * b * c;
+        let second = Matrix::from_diagonal(&(Vector::new(a * a, b * b, c * c) * (volume / 12.0)));
+        let middle = Vector::from(corner) + Vector::from(size) * 0.5;
+        Moments::from_parts(volume, &Vector::zeros(), &second).translated(&middle)
+    }
+
+    fn setting(kind: Kind, axis: [f64; 3]) -> Setting {
+        Setting { density_g_cm3: 2.0, aim: Aim { kind, origin_mm: [0.0; 3], axis }, support: None }
+    }
+
+    fn plate() -> Moments {
+        box_moments([-30.0, -20.0, 10.0], [60.0, 40.0, 4.0])
+    }
+
+    #[test]
+    fn a_plate_has_the_mass_and_moments_of_the_textbook() {
+        let figures = Figures::new(&plate(), &setting(Kind::Top, [0.0, 0.0, 1.0]));
+        let mass = 60.0 * 40.0 * 4.0 * 2.0e-3;
+        assert!((figures.mass_g - mass).abs() < 1e-12 * mass);
+        let axial = mass / 12.0 * (60.0 * 60.0 + 40.0 * 40.0);
+        assert!((figures.principal_moments_g_mm2[2] - axial).abs() < 1e-12 * axial);
+        assert!((figures.center_height_mm - 12.0).abs() < 1e-13);
+    }
+
+    #[test]
+    fn a_top_stays_up_from_the_speed_of_spin_it_equation_1() {
+        let figures = Figures::new(&plate(), &setting(Kind::Top, [0.0, 0.0, 1.0]));
+        let (ic, ib) = (60.0_f64.powi(2) + 40.0 * 40.0, 60.0 * 60.0 + 4.0 * 4.0);
+        let omega = (9806.65 * 12.0 * 12.0 / (ic - ib)).sqrt();
+        let rpm = omega * 60.0 / (2.0 * std::f64::consts::PI);
+        assert!((figures.critical_speed_rpm.unwrap() - rpm).abs() < 1e-11 * rpm);
+        assert!((figures.dominance_ratio.unwrap() - ib / ic).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_speed_does_not_depend_on_the_density() {
+        let light = Setting { density_g_cm3: 0.7, ..setting(Kind::Top, [0.0, 0.0, 1.0]) };
+        let speed = |setting| Figures::new(&plate(), setting).critical_speed_rpm.unwrap();
+        let (a, b) = (speed(&light), speed(&setting(Kind::Top, [0.0, 0.0, 1.0])));
+        assert!((a - b).abs() < 1e-12 * a);
+    }
+
+    #[test]
+    fn no_speed_is_enough_about_an_axis_that_is_not_dominant() {
+        let figures = Figures::new(&plate(), &setting(Kind::Top, [1.0, 0.0, 0.0]));
+        assert_eq!(figures.critical_speed_rpm, None);
+        assert!(figures.dominance_ratio.unwrap() > 1.0);
+    }
+
+    #[test]
+    fn an_axis_leaning_by_a_known_angle_is_reported_with_that_angle() {
+        let lean = 0.01_f64;
+        let figures = Figures::new(&plate(), &setting(Kind::Top, [lean.sin(), 0.0, lean.cos()]));
+        assert!((figures.axis_tilt_deg.unwrap() - lean.to_degrees()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_top_may_be_high_above_its_contact_but_a_yo_yo_must_be_at_its_point() {
+        let offset = |kind| Figures::new(&plate(), &setting(kind, [0.0, 0.0, 1.0])).axis_offset_mm.unwrap();
+        assert!(offset(Kind::Top) < 1e-12);
+        assert!((offset(Kind::Yoyo) - 12.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_box_standing_on_its_face_topples_at_the_angle_of_its_diagonal() {
+        let corners_mm = vec![[-30.0, -20.0], [30.0, -20.0], [30.0, 20.0], [-30.0, 20.0]];
+        let support = Some(Support { corners_mm, ground_mm: 10.0 });
+        // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
+        let aim = Aim { kind: Kind::Stand, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+        assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
+        let figures = Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support });
+        assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
+        assert!((figures.center_height_mm - 2.0).abs() < 1e-12);
+        assert_eq!(figures.axis_offset_mm, None);
+    }
+
+    #[test]
+    fn the_spin_it_ratio_does_not_depend_on_how_the_frame_is_turned_about_its_axis() {
+        let value =
+            |axis: [f64; 3]| Figures::new(&plate(), &setting(Kind::Yoyo, axis)).spin_it_ratio.unwrap();
+        let (xx, yy, zz) = (40.0 * 40.0 + 16.0, 60.0 * 60.0 + 16.0, 60.0 * 60.0 + 40.0 * 40.0);
+        let want = (xx * xx + yy * yy) / (zz * zz);
+        assert!((value([0.0, 0.0, 1.0]) - want).abs() < 1e-12);
+        assert!((value([0.0, 0.0, -3.0]) - want).abs() < 1e-12);
+    }
+}

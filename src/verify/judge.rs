@@ -1,0 +1,77 @@
+//! The judgement: every promise of a kit held against its files.
+
+use rayon::prelude::*;
+
+use super::{
+    Check, Figures, Kind, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    assembly_moments, checks, smallest_wall_mm,
+};
+use crate::mass::moments_of_mesh;
+use crate::mesh::{TriMesh, weld};
+
+/// What lies before the judge: the promises, and the meshes as they were read back from the files.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// What was promised.
+    pub promise: Promise,
+    /// The uncut result, model frame, mm.
+    pub hollowed: TriMesh,
+    /// The parts, in the order of the checklist.
+    pub parts: Vec<PartEvidence>,
+}
+
+/// What the judge found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// The figures of the outer surface filled solid.
+    pub solid: Figures,
+    /// The figures of the uncut result.
+    pub hollowed: Figures,
+    /// The figures of the parts put together.
+    pub assembly: Figures,
+    /// What is true of the uncut result's surface.
+    pub surface: SurfaceFacts,
+    /// What is true of each part.
+    pub parts: Vec<PartFacts>,
+    /// The smallest wall between a void and the outside, mm; none without voids.
+    pub wall_min_mm: Option<f64>,
+    /// Every promise with its verdict.
+    pub checks: Vec<Check>,
+}
+
+impl Judgement {
+    /// Whether every promise is kept.
+    pub fn passes(&self) -> bool {
+        self.checks.iter().all(|check| check.pass)
+    }
+}
+
+/// Measures the evidence and holds every promise against it.
+///
+/// Exact integrals of the written triangles; the wall is the distance between triangles. Some seconds for a million
+/// triangles; the same judgement on any number of threads.
+pub fn judge(evidence: &Evidence) -> Judgement {
+    let welded = weld(&evidence.hollowed);
+    let shells = Shells::of_mesh(&welded);
+    let outer = shells.outer_mesh();
+    let setting = setting(&evidence.promise, &outer);
+    let figures_of = |moments| Figures::new(&moments, &setting);
+    let mut judgement = Judgement {
+        solid: figures_of(moments_of_mesh(&outer)),
+        hollowed: figures_of(moments_of_mesh(&welded)),
+        assembly: figures_of(assembly_moments(&evidence.parts)),
+        surface: SurfaceFacts::of_mesh(&welded),
+        parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
+        wall_min_mm: smallest_wall_mm(&shells),
+        checks: Vec::new(),
+    };
+    judgement.checks = checks(&evidence.promise, &judgement);
+    judgement
+}
+
+/// How the bodies of a kit are looked at: its goal, and the support polygon of the outer surface.
+pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
+    let aim = promise.goal;
+    let support = (aim.kind == Kind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
+    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support }
+}

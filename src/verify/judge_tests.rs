@@ -1,0 +1,180 @@
+//! The judge tried on a sound kit, and on the same kit with one thing wrong at a time.
+
+use super::*;
+use crate::geom::{Matrix, Point, Vector};
+use crate::mesh::TriMesh;
+use test_meshes::{block, tray};
+
+const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
+const WALL: f64 = 3.0;
+
+/// A box top 60 × 40 × 12 mm that floats 10 mm over its contact, hollow, cut through the middle into two equal
+/// trays: the lower lies as in the model, the upper is turned over.
+pub(crate) fn sound() -> Evidence {
+    let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
+    let corner = Vector::new(-30.0, -20.0, 10.0);
+    let turned = Matrix::from_diagonal(&Vector::new(1.0, -1.0, -1.0));
+    let poses =
+        [Pose::new(&Matrix::identity(), &-corner), Pose::new(&turned, &Vector::new(30.0, 20.0, 22.0))];
+    let part = |i: usize| PartEvidence { id: format!("P0{}", i + 1), mesh: tray(half, WALL), pose: poses[i] };
+    let cavity = block(Point::new(-27.0, -17.0, 13.0), [54.0, 34.0, 6.0]);
+    let hollowed = block(Point::from(corner), SIZE).joined(&cavity.reversed());
+    Evidence { promise: promise(&poses), hollowed, parts: vec![part(0), part(1)] }
+}
+
+fn promise(poses: &[Pose]) -> Promise {
+    let part = |(i, pose): (usize, &Pose)| PromisedPart {
+        id: format!("P0{}", i + 1),
+        file: format!("parts/box_P0{}of02.stl", i + 1),
+        sha256: String::new(),
+        print_from_model: *pose,
+        pins: vec![],
+        sockets: vec![],
+    };
+    Promise {
+        schema: SCHEMA,
+        printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]) },
+        material: Density { density_g_cm3: 1.2 },
+        goal: Aim { kind: Kind::Top, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] },
+        promise: None,
+        wall: WallOrder { required_mm: WALL },
+        parts: poses.iter().enumerate().map(part).collect(),
+        assembly: None,
+        files: Default::default(),
+    }
+}
+
+/// The names of the checks a kit fails.
+fn failures(evidence: &Evidence) -> Vec<String> {
+    judge(evidence).checks.into_iter().filter(|check| !check.pass).map(|check| check.name).collect()
+}
+
+#[test]
+fn a_sound_kit_keeps_every_promise() {
+    assert_eq!(failures(&sound()), Vec::<String>::new());
+    assert!(judge(&sound()).passes());
+}
+
+#[test]
+fn the_assembly_has_the_figures_of_the_uncut_body() {
+    let judgement = judge(&sound());
+    let (whole, parts) = (&judgement.hollowed, &judgement.assembly);
+    // Ten sums of products of numbers below 1e5: relative rounding stays below 1e-12.
+    assert!((whole.mass_g - parts.mass_g).abs() < 1e-12 * whole.mass_g);
+    assert!((whole.critical_speed_rpm.unwrap() - parts.critical_speed_rpm.unwrap()).abs() < 1e-9);
+    let volume = 60.0 * 40.0 * 12.0 - 54.0 * 34.0 * 6.0;
+    assert!((parts.volume_mm3 - volume).abs() < 1e-9);
+    assert!(judgement.solid.mass_g > whole.mass_g);
+}
+
+#[test]
+fn a_part_glued_a_fiftieth_of_a_millimetre_aside_puts_the_centre_off_the_axis() {
+    let mut evidence = sound();
+    evidence.parts[0].pose.rows[0][3] += 0.02;
+    assert_eq!(failures(&evidence), ["axis offset"]);
+}
+
+#[test]
+fn a_mirrored_pose_is_refused() {
+    let mut evidence = sound();
+    evidence.parts[0].pose.rows[0] = [-1.0, 0.0, 0.0, 30.0];
+    assert_eq!(failures(&evidence), ["pose"]);
+}
+
+#[test]
+fn a_part_that_hovers_is_found() {
+    let mut evidence = sound();
+    evidence.parts[1].mesh = evidence.parts[1].mesh.map_vertices(|p| p + Vector::z() * 0.001);
+    assert_eq!(failures(&evidence), ["resting"]);
+}
+
+#[test]
+fn an_uncut_body_is_a_closed_cavity() {
+    let mut evidence = sound();
+    let shift = Vector::new(30.0, 20.0, -10.0);
+    let mesh = evidence.hollowed.map_vertices(|p| p + shift);
+    evidence.parts =
+        vec![PartEvidence { id: "P01".into(), mesh, pose: Pose::new(&Matrix::identity(), &shift) }];
+    evidence.promise.printer.build_volume_mm = None;
+    assert_eq!(failures(&evidence), ["closed cavities"]);
+}
+
+#[test]
+fn a_wall_thinner_than_ordered_is_found() {
+    let mut evidence = sound();
+    evidence.promise.wall.required_mm = WALL + 0.011;
+    assert_eq!(failures(&evidence), ["wall"]);
+    evidence.promise.wall.required_mm = WALL + 0.009;
+    assert_eq!(failures(&evidence), Vec::<String>::new());
+}
+
+#[test]
+fn a_part_too_large_for_the_printer_is_found() {
+    let mut evidence = sound();
+    evidence.promise.printer.build_volume_mm = Some([100.0, 39.0, 100.0]);
+    let judgement = judge(&evidence);
+    let room = judgement.checks.iter().find(|check| check.name == "build volume").unwrap();
+    assert_eq!((room.pass, room.value), (false, Some(-1.0)));
+}
+
+#[test]
+fn a_socket_that_was_never_sunk_is_found() {
+    let mut evidence = sound();
+    evidence.promise.parts[0].sockets = vec![Peg { volume_mm3: 0.1 }];
+    assert_eq!(failures(&evidence), ["volumes"]);
+}
+
+#[test]
+fn a_promise_better_than_the_truth_is_broken_and_one_within_the_slack_is_kept() {
+    let mut evidence = sound();
+    let speed = judge(&evidence).assembly.critical_speed_rpm.unwrap();
+    let figure = FigureName::CriticalSpeedRpm;
+    evidence.promise.promise = Some(PromisedFigure { figure, value: speed * 0.99 });
+    assert_eq!(failures(&evidence), ["critical speed"]);
+    evidence.promise.promise = Some(PromisedFigure { figure, value: speed * 0.9995 });
+    assert_eq!(failures(&evidence), Vec::<String>::new());
+}
+
+#[test]
+fn a_hole_in_a_part_is_found() {
+    let mut evidence = sound();
+    let mesh = &evidence.parts[0].mesh;
+    let open = TriMesh::new(mesh.vertices().to_vec(), mesh.triangles()[1..].to_vec()).unwrap();
+    evidence.parts[0].mesh = open;
+    assert!(failures(&evidence).contains(&"broken surfaces".to_owned()));
+}
+
+#[test]
+fn a_checklist_that_states_another_mass_is_found() {
+    let mut evidence = sound();
+    let mut stated = judge(&evidence).assembly;
+    evidence.promise.assembly = Some(stated.clone());
+    assert_eq!(failures(&evidence), Vec::<String>::new());
+    stated.mass_g *= 1.00001;
+    evidence.promise.assembly = Some(stated);
+    assert_eq!(failures(&evidence), ["checklist"]);
+}
+
+#[test]
+fn a_body_turned_about_its_longest_axis_cannot_spin_and_says_so() {
+    let mut evidence = sound();
+    evidence.promise.goal = Aim { kind: Kind::Yoyo, origin_mm: [0.0, 0.0, 16.0], axis: [1.0, 0.0, 0.0] };
+    assert_eq!(failures(&evidence), ["dominance"]);
+}
+
+#[test]
+fn the_same_box_stands_until_its_centre_is_over_its_edge() {
+    let mut evidence = sound();
+    evidence.promise.goal.kind = Kind::Stand;
+    assert_eq!(failures(&evidence), Vec::<String>::new());
+    let angle = judge(&evidence).assembly.topples_deg.unwrap();
+    assert!((angle - (20.0_f64 / 6.0).atan().to_degrees()).abs() < 1e-9);
+}
+
+#[test]
+fn the_judgement_is_the_same_on_one_thread_and_on_four() {
+    let on = |threads| {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| judge(&sound()))
+    };
+    assert_eq!(on(1), on(4));
+}

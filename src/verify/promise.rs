@@ -1,0 +1,175 @@
+//! What a kit promises: the judge's own narrow view of `checklist.json`.
+
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Figures, Pose};
+use crate::geom::{Frame, Point, Vector};
+
+/// The schema of `checklist.json` this judge understands.
+pub const SCHEMA: u32 = 1;
+
+/// The promises of a kit, and what is needed to hold its files against them.
+///
+/// Every other key of the checklist is left unread, so that nothing the makers computed on the way can reach
+/// the verdict.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct Promise {
+    /// The version of the keys, [`SCHEMA`].
+    pub schema: u32,
+    /// What must hold the parts.
+    pub printer: PrinterLimits,
+    /// What they are printed of.
+    pub material: Density,
+    /// What the assembly is for.
+    pub goal: Aim,
+    /// The figure the buyer was told, if the goal has one.
+    pub promise: Option<PromisedFigure>,
+    /// The wall that was ordered.
+    pub wall: WallOrder,
+    /// The parts, in the order of the checklist.
+    pub parts: Vec<PromisedPart>,
+    /// The figures of the assembly as the checklist states them; absent while the checklist is being made.
+    #[serde(default)]
+    pub assembly: Option<Figures>,
+    /// The SHA-256 of every other file of the kit, by path relative to its folder.
+    #[serde(default)]
+    pub files: BTreeMap<String, String>,
+}
+
+/// The space a printer has.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+pub struct PrinterLimits {
+    /// The edges of the build volume along x, y and z, mm; unknown for some machines.
+    pub build_volume_mm: Option<[f64; 3]>,
+}
+
+/// The density the masses rest on.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Density {
+    /// g/cm³.
+    pub density_g_cm3: f64,
+}
+
+/// What an assembly must do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Kind {
+    /// Spin on a contact point under gravity.
+    Top,
+    /// Spin about a point, held by a string.
+    Yoyo,
+    /// Stand on its support polygon.
+    Stand,
+}
+
+/// The goal, as placed on the model.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Aim {
+    /// What it must do.
+    pub kind: Kind,
+    /// The contact point, the spin point, or a point of the support plane; model frame, mm.
+    pub origin_mm: [f64; 3],
+    /// The spin axis or up, model frame; any length but zero.
+    pub axis: [f64; 3],
+}
+
+impl Aim {
+    /// The goal frame: its origin at the contact, its z along the axis.
+    pub fn frame(&self) -> Frame {
+        Frame::with_axis(Point::from(self.origin_mm), &Vector::from(self.axis))
+    }
+}
+
+/// Which of the [`super::Figures`] was promised.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FigureName {
+    /// The least speed at which a top stays up, rpm; less is better.
+    CriticalSpeedRpm,
+    /// The larger transverse moment over the axial one, I_b/I_c; less is better.
+    DominanceRatio,
+    /// Spin-It's squared ratio of transverse to axial inertia (eq. 6); less is better.
+    SpinItRatio,
+    /// The tilt at which it topples, degrees; more is better.
+    TopplesDeg,
+    /// The height of the centre of mass over the support plane or contact, mm; less is better.
+    CenterHeightMm,
+}
+
+impl FigureName {
+    /// What it is called on the sheet.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CriticalSpeedRpm => "critical speed",
+            Self::DominanceRatio => "dominance reached",
+            Self::SpinItRatio => "Spin-It ratio",
+            Self::TopplesDeg => "toppling angle",
+            Self::CenterHeightMm => "height of the centre",
+        }
+    }
+
+    /// What promising it says.
+    pub fn promise(self) -> &'static str {
+        match self {
+            Self::CriticalSpeedRpm => "it spins upright from",
+            Self::DominanceRatio => "its axis is dominant with I_b/I_c of",
+            Self::SpinItRatio => "its squared ratio of transverse to axial inertia is",
+            Self::TopplesDeg => "it stands until tilted by",
+            Self::CenterHeightMm => "its centre of mass is no higher than",
+        }
+    }
+
+    /// The unit of its values; empty for a ratio.
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::CriticalSpeedRpm => "rpm",
+            Self::DominanceRatio | Self::SpinItRatio => "",
+            Self::TopplesDeg => "°",
+            Self::CenterHeightMm => "mm",
+        }
+    }
+}
+
+/// One figure as it was promised.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct PromisedFigure {
+    /// Which figure.
+    pub figure: FigureName,
+    /// Its promised value, in the unit its name ends in.
+    pub value: f64,
+}
+
+/// The wall that was ordered.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct WallOrder {
+    /// The least wall, mm.
+    pub required_mm: f64,
+}
+
+/// One part as the kit names it.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PromisedPart {
+    /// The name on the sheet, such as `P01`.
+    pub id: String,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// The SHA-256 of that file, in hex.
+    pub sha256: String,
+    /// Model coordinates to print coordinates.
+    pub print_from_model: Pose,
+    /// The pins that stand out of the hollowed body.
+    #[serde(default)]
+    pub pins: Vec<Peg>,
+    /// The sockets that are sunk into it.
+    #[serde(default)]
+    pub sockets: Vec<Peg>,
+}
+
+/// What a pin adds to the hollowed body, or a socket takes from it.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct Peg {
+    /// mm³, of the triangles as written.
+    pub volume_mm3: f64,
+}

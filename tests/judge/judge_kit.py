@@ -1,0 +1,270 @@
+#!/usr/bin/env python3
+"""An independent judge of a kit: Python, numpy and trimesh, nothing of the program.
+
+    python3 tests/judge/judge_kit.py KIT [KIT ...]
+
+Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the goal,
+the density, the wall, the build volume, the volumes of pins and sockets, and what was promised. Puts the parts together,
+integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
+"""
+
+import hashlib
+import json
+import math
+import struct
+import sys
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+GRAVITY_MM_S2 = 9806.65
+AXIS_OFFSET_LIMIT_MM = 0.005
+AXIS_TILT_LIMIT_DEG = 0.05
+WALL_TOLERANCE_MM = 0.01
+VOLUME_SUM_LIMIT_RATIO = 1e-6
+RESTING_LIMIT_MM = 1e-4
+SUPPORT_BAND_RATIO = 0.002
+# Two programs integrate the same f32 triangles in f64: they agree to about 1e-12; 1e-7 leaves room for the digits of
+# the checklist and for sums over a million triangles that are not compensated here.
+AGREEMENT_RATIO = 1e-7
+# Critical speeds divide by a difference of moments, which costs up to two digits.
+SPEED_AGREEMENT_RATIO = 1e-5
+# How many points of the voids are measured to the outside.
+WALL_SAMPLES = 200_000
+
+
+class Table:
+    """The lines of the verdict."""
+
+    def __init__(self):
+        self.failed = False
+
+    def line(self, name, promised, measured, passes):
+        self.failed |= not passes
+        show = lambda x: f"{x:.9g}" if isinstance(x, float) else str(x)
+        print(f"  {'ok  ' if passes else 'FAIL'} {name:<34} {show(promised):>18} {show(measured):>18}")
+
+    def same(self, name, promised, measured, ratio=AGREEMENT_RATIO, scale=None):
+        if promised is None or measured is None:
+            self.line(name, promised, measured, promised is None and measured is None)
+            return
+        scale = abs(measured) if scale is None else scale
+        self.line(name, float(promised), float(measured), abs(promised - measured) <= ratio * scale)
+
+    def at_most(self, name, limit, measured):
+        self.line(f"{name} ≤", float(limit), float(measured), bool(measured <= limit))
+
+    def at_least(self, name, limit, measured):
+        self.line(f"{name} ≥", float(limit), float(measured), bool(measured >= limit))
+
+
+def read_stl(path):
+    """The corners of a binary STL as an (n, 3, 3) array of f64: own reader, no repair, no merging."""
+    data = path.read_bytes()
+    (count,) = struct.unpack_from("<I", data, 80)
+    if len(data) != 84 + 50 * count:
+        raise ValueError(f"{path} is not a whole binary STL")
+    rows = np.frombuffer(data, dtype=np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")]), offset=84)
+    return rows["v"].astype(np.float64)
+
+
+def welded(corners):
+    """The triangles with one vertex for each place."""
+    vertices, index = np.unique(corners.reshape(-1, 3) + 0.0, axis=0, return_inverse=True)
+    return trimesh.Trimesh(vertices, index.reshape(-1, 3), process=False)
+
+
+def moments(corners):
+    """Volume, first and second moments in closed form, over tetrahedra to the box's middle."""
+    middle = (corners.reshape(-1, 3).min(axis=0) + corners.reshape(-1, 3).max(axis=0)) / 2
+    a, b, c = (corners[:, i] - middle for i in range(3))
+    sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
+    total = a + b + c
+    volume = math.fsum(sixfold) / 6
+    first = np.array([math.fsum(column) for column in (sixfold[:, None] * total).T]) / 24
+    squares = sum(np.einsum("n,ni,nj->nij", sixfold, v, v) for v in (a, b, c, total))
+    second = np.array([[math.fsum(squares[:, i, j]) for j in range(3)] for i in range(3)]) / 120
+    moved = second + np.outer(first, middle) + np.outer(middle, first) + volume * np.outer(middle, middle)
+    return volume, first + volume * middle, moved
+
+
+def body(parts, density_g_mm3):
+    """Mass, centre and inertia about the centre of parts (their corners in the model frame)."""
+    volume, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
+    for corners in parts:
+        v, f, s = moments(corners)
+        volume, first, second = volume + v, first + f, second + s
+    center = first / volume
+    central = (second - volume * np.outer(center, center)) * density_g_mm3
+    return volume, volume * density_g_mm3, center, np.trace(central) * np.eye(3) - central
+
+
+def frame(goal):
+    """Origin and rotation (rows: x, y, z of the goal) with z along the axis."""
+    z = np.array(goal["axis"], float)
+    z /= np.linalg.norm(z)
+    helper = np.eye(3)[np.argmin(np.abs(z))]
+    x = helper - z * helper.dot(z)
+    x /= np.linalg.norm(x)
+    return np.array(goal["origin_mm"], float), np.array([x, np.cross(z, x), z])
+
+
+def figures(goal, mass, center, inertia, outer):
+    """What the goal asks of a body, from its mass properties alone."""
+    origin, axes = frame(goal)
+    local, tensor = axes @ (center - origin), axes @ inertia @ axes.T
+    transverse, axial = np.linalg.eigvalsh(tensor[:2, :2])[-1], tensor[2, 2]
+    found = {"principal_moments_g_mm2": np.linalg.eigvalsh(inertia)}
+    if goal["kind"] == "stand":
+        feet_z = (outer - origin) @ axes[2]
+        ground, height = feet_z.min(), np.ptp(feet_z)
+        feet = ((outer - origin) @ axes[:2].T)[feet_z <= ground + SUPPORT_BAND_RATIO * height]
+        found["center_height_mm"] = local[2] - ground
+        found["topples_deg"] = math.degrees(math.atan2(inside_distance(feet, local[:2]), local[2] - ground))
+        return found
+    _, directions = np.linalg.eigh(inertia)
+    leaning = [math.atan2(np.linalg.norm(np.cross(d, axes[2])), abs(d @ axes[2])) for d in directions.T]
+    found["axis_tilt_deg"] = math.degrees(min(leaning))
+    found["axis_offset_mm"] = np.linalg.norm(local if goal["kind"] == "yoyo" else local[:2])
+    found["dominance_ratio"] = transverse / axial
+    found["spin_it_ratio"] = (tensor[:2, :2] ** 2).sum() / axial**2
+    found["center_height_mm"] = local[2]
+    if goal["kind"] == "top":
+        omega2 = GRAVITY_MM_S2 * mass * max(local[2], 0.0) / (axial - transverse)
+        found["critical_speed_rpm"] = math.sqrt(omega2) * 30 / math.pi if axial > transverse else None
+    return found
+
+
+def inside_distance(points, p):
+    """How far p lies inside the convex hull of points; negative outside."""
+    from scipy.spatial import ConvexHull
+
+    hull = ConvexHull(points)
+    return float(-(hull.equations[:, :2] @ p + hull.equations[:, 2]).max())
+
+
+def split(mesh):
+    """The outward and the inward shells of a welded mesh."""
+    groups = trimesh.graph.connected_components(mesh.face_adjacency, nodes=np.arange(len(mesh.faces)))
+    corners = mesh.triangles
+    volumes = [(moments(corners[group])[0], group) for group in groups]
+    pick = lambda test: [corners[group] for volume, group in volumes if test(volume)]
+    return pick(lambda v: v > 0), pick(lambda v: v <= 0)
+
+
+def smallest_wall(outer, voids):
+    """The least distance from vertices, edge middles and face middles of the voids to the outer surface."""
+    corners = np.concatenate(voids)
+    points = np.concatenate([corners.reshape(-1, 3), corners.mean(axis=1), (corners + np.roll(corners, 1, 1)).reshape(-1, 3) / 2])
+    points = np.unique(points, axis=0)
+    if len(points) > WALL_SAMPLES:
+        points = points[np.random.default_rng(1).choice(len(points), WALL_SAMPLES, replace=False)]
+    surface = welded(np.concatenate(outer))
+    distances = [trimesh.proximity.closest_point(surface, chunk)[1].min() for chunk in np.array_split(points, max(1, len(points) // 5000))]
+    return float(min(distances))
+
+
+def judge_part(table, kit, part, room):
+    """Checks one file and returns its corners in the model frame."""
+    path = kit / part["file"]
+    table.line(f"{part['id']} SHA-256", part["sha256"][:12], digest(path)[:12], part["sha256"] == digest(path))
+    corners = read_stl(path)
+    mesh = welded(corners)
+    sound = bool(mesh.is_watertight and mesh.is_winding_consistent and moments(corners)[0] > 0)
+    table.line(f"{part['id']} watertight, outward", True, sound, sound)
+    cavities = len(split(mesh)[1])
+    table.line(f"{part['id']} closed cavities", 0, cavities, cavities == 0)
+    table.same(f"{part['id']} volume, mm³", part["volume_mm3"], moments(corners)[0])
+    low, high = mesh.bounds
+    table.at_most(f"{part['id']} height of lowest point, mm", RESTING_LIMIT_MM, abs(low[2]))
+    if room is not None:
+        table.at_least(f"{part['id']} room left, mm", 0.0, (np.array(room) - (high - low)).min())
+    pose = np.array(part["print_from_model"], float)
+    rotation, shift = pose[:3, :3], pose[:3, 3]
+    rigid = max(np.abs(rotation @ rotation.T - np.eye(3)).max(), abs(np.linalg.det(rotation) - 1))
+    table.at_most(f"{part['id']} pose from rigid", 1e-9, rigid)
+    return (corners - shift) @ rotation
+
+
+def digest(path):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def judge(kit):
+    sheet = json.loads((kit / "checklist.json").read_text())
+    goal, promised, table = sheet["goal"], sheet["assembly"], Table()
+    print(f"{kit}: {goal['kind']}, {len(sheet['parts'])} parts\n  {'':39} {'promised/limit':>18} {'measured':>18}")
+    room = sheet["printer"].get("build_volume_mm")
+    parts = [judge_part(table, kit, part, room) for part in sheet["parts"]]
+    hollowed = read_stl(kit / "hollowed.stl")
+    whole = welded(hollowed)
+    table.line("hollowed.stl watertight", True, bool(whole.is_watertight), bool(whole.is_watertight))
+    outer, voids = split(whole)
+    density = sheet["material"]["density_g_cm3"] / 1000
+    volume, mass, center, inertia = body(parts, density)
+    found = figures(goal, mass, center, inertia, np.concatenate(outer).reshape(-1, 3))
+    judge_body(table, promised, (volume, mass, center, inertia), found)
+    judge_goal(table, goal["kind"], sheet.get("promise"), found)
+    judge_whole(table, sheet, volume, moments(hollowed)[0])
+    if voids:
+        wall = smallest_wall(outer, voids)
+        table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)
+        # Samples can only miss the thinnest place, never find a thinner one.
+        table.at_least("sampled wall, not under stated", sheet["wall"]["measured_min_mm"] - 1e-6, wall)
+    table.line("verdict of the checklist", sheet["verdict"], "fail" if table.failed else "pass", (sheet["verdict"] == "pass") == (not table.failed))
+    return not table.failed
+
+
+def judge_body(table, promised, body, found):
+    volume, mass, center, inertia = body
+    radius = math.sqrt(np.trace(inertia) / mass)
+    table.same("volume, mm³", promised["volume_mm3"], volume)
+    table.same("mass, g", promised["mass_g"], mass)
+    for i, name in enumerate("xyz"):
+        table.same(f"centre {name}, mm", promised["center_mm"][i], center[i], scale=radius)
+    difference = np.abs(np.array(promised["inertia_g_mm2"]) - inertia).max()
+    table.at_most("inertia, relative difference", AGREEMENT_RATIO, difference / np.abs(inertia).max())
+    for name, value in zip("abc", found["principal_moments_g_mm2"]):
+        index = "abc".index(name)
+        table.same(f"I_{name}, g·mm²", promised["principal_moments_g_mm2"][index], value)
+    for name in ("critical_speed_rpm", "topples_deg", "dominance_ratio", "spin_it_ratio", "center_height_mm"):
+        if name in found:
+            table.same(name, promised[name], found[name], SPEED_AGREEMENT_RATIO)
+
+
+def judge_goal(table, kind, promise, found):
+    if kind == "stand":
+        table.at_least("stands, °", 0.0, found["topples_deg"])
+    else:
+        table.at_most("axis offset, mm", AXIS_OFFSET_LIMIT_MM, found["axis_offset_mm"])
+        table.at_most("axis tilt, °", AXIS_TILT_LIMIT_DEG, found["axis_tilt_deg"])
+        table.at_most("dominance I_b/I_c", 1.0, found["dominance_ratio"])
+    if promise:
+        value = found[promise["figure"]]
+        if promise["figure"] == "topples_deg":
+            table.at_least("promised figure, " + promise["figure"], promise["value"] * 0.999, value)
+        else:
+            table.at_most("promised figure, " + promise["figure"], promise["value"] * 1.001, value)
+
+
+def judge_whole(table, sheet, volume, hollowed):
+    pegs = lambda key: sum(peg["volume_mm3"] for part in sheet["parts"] for peg in part[key])
+    error = abs(volume - hollowed - pegs("pins") + pegs("sockets")) / hollowed
+    table.at_most("parts against hollowed, pins, sockets", VOLUME_SUM_LIMIT_RATIO, error)
+
+
+def main(kits):
+    if not kits:
+        print(__doc__)
+        return 2
+    try:
+        verdicts = [judge(Path(kit)) for kit in kits]
+    except (OSError, ValueError, KeyError) as fault:
+        print(f"no kit: {fault!r}", file=sys.stderr)
+        return 2
+    return 0 if all(verdicts) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
