@@ -1,5 +1,7 @@
 //! Bad input ends in clear words and exit code 2, and leaves nothing behind.
 
+#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+
 use std::fs;
 use std::path::Path;
 

@@ -1,5 +1,7 @@
 //! The program as a user runs it: kits, their verdicts, replay, and the same bytes on any number of threads.
 
+#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;

@@ -152,10 +152,13 @@ struct Layout {
 impl Layout {
     /// The pieces between the planes, left joined where a cut would part them needlessly.
     fn new(scene: &Scene, planes: Vec<Plane>) -> Result<Self, CutError> {
-        let pieces = split(&scene.material, &planes)?;
+        let parted = split(&scene.material, &planes)?;
         let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
-        let bridges = bridges(&cutting, &pieces);
-        let pieces = rejoined(pieces, &planes, &bridges)?;
+        let bridges = bridges(&cutting, &parted);
+        let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
+        // What stays joined must not seal what the cut opened.
+        let (pieces, bridges) =
+            if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };
         Ok(Self { planes, pieces, bridges })
     }
 }

@@ -4,7 +4,8 @@ use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, phase, stopwatch::Stopwatch, tuning::is_tuned};
 use crate::cut::{
-    CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference, parts, plan, plan_for_cuts,
+    self, CutError, CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference, parts, plan,
+    plan_for_cuts,
 };
 use crate::hollow::Solution;
 use crate::io::stl;
@@ -201,9 +202,17 @@ impl Source<'_> {
     }
 }
 
-/// Cuts the voids' body by the plan and writes its parts, in memory.
+/// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed so that the plan leaves
+/// one closed, it is planned anew.
 fn assembled(setup: &Setup, voids: Voids, plan: CutPlan, request: &PlanRequest) -> Result<Assembly, Error> {
-    let parts = parts(&voids.hollowed, &plan, request)?;
+    let (plan, parts) = match parts(&voids.hollowed, &plan, request) {
+        Err(CutError::ClosedCavity { .. }) => {
+            let plan = cut::plan(&voids.hollowed, request)?;
+            let parts = parts(&voids.hollowed, &plan, request)?;
+            (plan, parts)
+        }
+        parts => (plan, parts?),
+    };
     let (job, count) = (setup.name(), parts.len());
     let written = parts
         .into_par_iter()

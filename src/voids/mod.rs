@@ -95,6 +95,10 @@ pub enum VoidError {
     Cancelled,
 }
 
+/// Slivers this thin, left where the quadric grazes the cavity's vertices, are closed up, mm. Below 1e-5 the single
+/// precision of a written file folds some of them; above 0.001 the wall would lose what the cavity left of its tolerance.
+const SLIVER_MM: f64 = 3e-4;
+
 /// The whole region that may be emptied: extracted once for a model, a wall and its keeps, whatever the quadric.
 ///
 /// Holds: its surface is closed, 2-manifold and free of self-intersection, leaves the wall and the keeps but for
@@ -142,7 +146,7 @@ impl Cavity {
         let parts = match region::positive_region(quadric, frame, &self.bvh, self.tolerance_mm)? {
             Region::Nothing => TriMesh::default(),
             Region::Everything => self.mesh.clone(),
-            Region::Part(region) => self.body.intersect(&region)?.to_mesh()?,
+            Region::Part(region) => self.body.intersect(&region)?.simplify(SLIVER_MM).to_mesh()?,
         };
         split::voids(&parts, self.min_void_mm)
     }
