@@ -127,7 +127,7 @@ fn slabs_of_vertices(state: &State, count: usize, slabs: &[&[u32]]) -> Vec<u32> 
 mod tests {
     use super::*;
     use crate::geom::{Bvh, Vector};
-    use crate::mesh::{Solid, signed_volume};
+    use crate::mesh::Solid;
     use crate::voids::shapes::{ball, block, welded};
 
     const STRAY: Stray = Stray { outside_mm: 0.01, inside_mm: 0.02 };
@@ -165,7 +165,7 @@ mod tests {
         Solid::new(coarse.clone()).unwrap();
         assert!(coarse.triangles().len() < fine.triangles().len() / 20, "{}", coarse.triangles().len());
         // 640 mm² of surface moved by at most 0.02 mm.
-        assert!((signed_volume(&coarse) - 512.0).abs() < 640.0 * 0.02);
+        assert!((coarse.signed_volume_mm3() - 512.0).abs() < 640.0 * 0.02);
     }
 
     #[test]
