@@ -281,7 +281,7 @@ mod tests {
 
     #[test]
     fn a_thin_plate_has_no_cavity() {
-        let cavity = sound_cavity(&block([0.0; 3], [20.0, 15.0, 1.9]), &spec(1.0, &[]));
+        let cavity = cavity_of(&block([0.0; 3], [20.0, 15.0, 1.9]), &spec(1.0, &[]));
         assert!(cavity.mesh().triangles().is_empty());
         let voids = cavity.void_bodies(&EVERYTHING, &Frame::identity()).unwrap();
         assert_eq!(voids, Voids::default());
