@@ -254,12 +254,19 @@ fn written_files_come_back_bit_by_bit() {
 
 #[test]
 fn normals_are_written_and_zero_where_there_is_none() {
-    let points = vec![Point::origin(), Point::new(1.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
-    let mesh = TriMesh::new(points, vec![[0, 1, 2], [0, 1, 1]]).unwrap();
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0]].map(Point::from);
+    let mesh = TriMesh::new(points.to_vec(), vec![[0, 1, 2], [0, 1, 3]]).unwrap();
     let bytes = stl::encode(&mesh, "");
     let number = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
     assert_eq!([84, 88, 92].map(number), [0.0, 0.0, 1.0]);
     assert_eq!([134, 138, 142].map(number), [0.0, 0.0, 0.0]);
+}
+
+#[test]
+fn a_triangle_whose_corners_fall_together_in_the_file_is_left_out() {
+    let points = [[100.0, 0.0, 0.0], [100.0 + 1e-7, 0.0, 0.0], [0.0, 2.0, 0.0]].map(Point::from);
+    let mesh = TriMesh::new(points.to_vec(), vec![[0, 1, 2]]).unwrap();
+    assert_eq!(stl::encode(&mesh, "").len(), 84);
 }
 
 #[test]

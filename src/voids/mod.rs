@@ -96,8 +96,8 @@ pub enum VoidError {
 }
 
 /// Slivers this thin, left where the quadric grazes the cavity's vertices, are closed up, mm. Below 1e-5 the single
-/// precision of a written file folds some of them; above 0.001 the wall would lose what the cavity left of its tolerance.
-const SLIVER_MM: f64 = 3e-4;
+/// precision of a written file folds some of them; above 6e-5 sheets are drawn together that the apex of a cone keeps apart.
+const SLIVER_MM: f64 = 2e-5;
 
 /// The whole region that may be emptied: extracted once for a model, a wall and its keeps, whatever the quadric.
 ///
