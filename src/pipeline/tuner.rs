@@ -1,12 +1,14 @@
 //! The voids of a solution, solved for again until what will be written meets the goal (THEORY §4).
 
+use rayon::prelude::*;
+
 use super::{Error, Setup, Solved, tuning::is_tuned};
 use crate::hollow::Solution;
 use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, TriMesh};
 use crate::progress::Progress;
-use crate::voids::{Cavity, CavitySpec, grown};
+use crate::voids::{Cavity, CavitySpec, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
 /// each may find another void too small; more than a few mean that voids come and go.
@@ -71,7 +73,7 @@ impl<'a> Tuner<'a> {
             }
             voids = self.again(&voids, written)?;
         }
-        Ok(voids)
+        finished(voids)
     }
 
     /// The voids without these of them, and solved for again.
@@ -121,6 +123,13 @@ impl<'a> Tuner<'a> {
         self.solved.columns = self.solved.columns.without(&solid.map_vertices(|p| frame.to_local(p)));
         Ok(())
     }
+}
+
+/// The voids as they can be written.
+fn finished(mut voids: Voids) -> Result<Voids, Error> {
+    let bodies = std::mem::take(&mut voids.hollowed.voids);
+    voids.hollowed.voids = bodies.par_iter().map(without_slivers).collect::<Result<_, _>>()?;
+    Ok(voids)
 }
 
 /// What the surface of the voids is made to.
