@@ -13,7 +13,7 @@ use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, Kind, PromisedFigure};
+use crate::verify::{Aim, FigureName, Judgement, PromisedFigure};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -74,12 +74,7 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
 
 /// The goal as the judge sees it.
 pub fn aim(goal: &Goal) -> Aim {
-    let kind = match goal.kind {
-        GoalKind::Top => Kind::Top,
-        GoalKind::Yoyo => Kind::Yoyo,
-        GoalKind::Stand => Kind::Stand,
-    };
-    Aim { kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
+    Aim { kind: goal.kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
 }
 
 /// The density of the material, g/cm³.

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::page::{figure, mass_with_window};
 use super::words::{counted, quantity};
 use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
-use crate::verify::Kind;
+use crate::goal::GoalKind;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
@@ -164,7 +164,7 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
     let body = &sheet.assembly;
     let height = quantity(body.center_height_mm, "mm");
     match sheet.goal.aim.kind {
-        Kind::Top => {
+        GoalKind::Top => {
             let speed = body.critical_speed_rpm.map(|rpm| {
                 format!(
                     "Spin it on its contact point faster than {}: it stays upright, and falls below that.",
@@ -174,11 +174,11 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
             let hang = format!("Its centre of mass lies {height} above the contact point, on the axis.");
             tip(sheet).into_iter().chain(speed).chain([hang]).collect()
         }
-        Kind::Yoyo => vec![
+        GoalKind::Yoyo => vec![
             "Hung by its spin point it stays in any position: it is balanced.".to_owned(),
             "Spun about its axis it does not wobble.".to_owned(),
         ],
-        Kind::Stand => {
+        GoalKind::Stand => {
             let tilt = body.topples_deg.map(|deg| {
                 format!(
                     "Set on a tilted board it stands up to {}, whichever way it is turned.",

@@ -1,7 +1,8 @@
 //! Numbers and promises as people read them.
 
 use super::{Certificate, Checklist};
-use crate::verify::{FigureName, Kind};
+use crate::goal::GoalKind;
+use crate::verify::FigureName;
 
 /// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
 const SIGNIFICANT_DIGITS: i32 = 4;
@@ -52,16 +53,16 @@ pub fn counted(count: usize, thing: &str) -> String {
 pub fn promise(sheet: &Checklist) -> String {
     let body = &sheet.assembly;
     match (sheet.goal.aim.kind, body.critical_speed_rpm, body.topples_deg, body.dominance_ratio) {
-        (Kind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
-        (Kind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
-        (Kind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
+        (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
+        (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
+        (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
             format!("Spins true about its string axis (I_b/I_c = {}, stable below 1).", number(ratio))
         }
-        (Kind::Yoyo, ..) => "Does not spin stably about its string axis.".to_owned(),
-        (Kind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
+        (GoalKind::Yoyo, ..) => "Does not spin stably about its string axis.".to_owned(),
+        (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
             format!("Stands until tilted by {}.", quantity(tilt, "°"))
         }
-        (Kind::Stand, ..) => "Does not stand.".to_owned(),
+        (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
     }
 }
 
