@@ -55,14 +55,24 @@ impl PinSite {
         self.turned(&[vec![mouth], profile[1..].to_vec()].concat())
     }
 
+    /// What stands out of the cut face, as a closed mesh.
+    pub fn standing_out(&self) -> TriMesh {
+        self.turned(&self.pin_profile())
+    }
+
+    /// What the socket takes away, as a closed mesh.
+    pub fn taken_away(&self) -> TriMesh {
+        self.turned(&self.socket_profile())
+    }
+
     /// The volume that stands out of the cut face, mm³.
     pub fn pin_volume_mm3(&self) -> f64 {
-        self.turned(&self.pin_profile()).signed_volume_mm3()
+        self.standing_out().signed_volume_mm3()
     }
 
     /// The volume the socket takes away, mm³.
     pub fn socket_volume_mm3(&self) -> f64 {
-        self.turned(&self.socket_profile()).signed_volume_mm3()
+        self.taken_away().signed_volume_mm3()
     }
 
     /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's diameter, so that the

@@ -89,6 +89,13 @@ impl CutPlan {
         }
     }
 
+    /// One mesh of what the pins add and, turned inside out, of what the sockets take away: its moments are what the
+    /// assembled parts have more than the uncut body.
+    pub fn pegs(&self) -> TriMesh {
+        let peg = |pin: &PinSite| pin.standing_out().joined(&pin.taken_away().reversed());
+        self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)))
+    }
+
     /// The faces left whole, in the coordinates of the cuts' planes; faces on no cut of the plan are left out.
     pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
         let bridge = |face: &UncutFace| {
@@ -155,7 +162,7 @@ impl Layout {
         let parted = split(&scene.material, &planes)?;
         let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
         let bridges = bridges(&cutting, &parted);
-        let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
+        let pieces = rejoined(parted.clone(), &planes, &bridges)?;
         // What stays joined must not seal what the cut opened.
         let (pieces, bridges) =
             if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };

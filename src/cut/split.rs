@@ -19,6 +19,7 @@ const SHEET_VOLUME_MM3: f64 = 1e-6;
 const ON_PLANE_MM: f64 = 1e-7;
 
 /// A piece of the cut body, bounded by its own surface and by cut faces.
+#[derive(Clone)]
 pub(crate) struct Piece {
     pub(crate) mesh: TriMesh,
     pub(crate) volume_mm3: f64,
@@ -26,6 +27,7 @@ pub(crate) struct Piece {
 }
 
 /// A connected flat face that a cut has left on a piece.
+#[derive(Clone)]
 pub(crate) struct Cap {
     /// Which cut.
     pub(crate) cut: usize,

@@ -2,47 +2,29 @@
 
 use rayon::prelude::*;
 
-use super::{Error, Setup, Solved, phase, stopwatch::Stopwatch, tuning::is_tuned};
+use super::{
+    Error, Setup, Solved, phase,
+    stopwatch::Stopwatch,
+    tuner::{Tuner, Voids},
+    tuning::is_tuned,
+    written::WrittenPart,
+};
 use crate::cut::{
-    self, CutError, CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference, parts, plan,
-    plan_for_cuts,
+    self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_for_cuts,
 };
 use crate::hollow::Solution;
-use crate::io::stl;
 use crate::job::CutMode;
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Crossings, Hollowed, TriMesh, weld};
+use crate::mesh::Hollowed;
 use crate::printer::PrintPose;
 use crate::progress::Progress;
-use crate::verify::{PartEvidence, Pose, assembly_moments};
-use crate::voids::{Cavity, CavitySpec, Voids as Bodies};
+use crate::verify::{PartEvidence, assembly_moments};
 
-/// Rounds of measuring and solving again, at most. Two bring the parts to a micrometre; a third would only follow
-/// pins that came to lie elsewhere.
-const MAX_ROUNDS: usize = 4;
-/// The surface of a void may lie this share of a pixel from the true one.
-const SURFACE_TOLERANCE_PIXELS: f64 = 0.5;
-/// No finer than this, mm: below, triangles grow without any printer showing it.
-const FINEST_SURFACE_TOLERANCE_MM: f64 = 0.02;
-
-/// Places on the plate that are tried until a part's file is free of folds. Each of them folds another sliver of a
-/// thousand, so few are needed.
-const PLACES: usize = 6;
-/// From one place to the next, mm: far less than a part's room on the plate, and no multiple of a file's steps.
-const PLACE_STEP_MM: [f64; 2] = [0.013_7, 0.009_1];
-
-/// A part as it is written.
-#[derive(Debug, Clone)]
-pub struct WrittenPart {
-    /// The part.
-    pub part: Part,
-    /// Its file, relative to the kit.
-    pub file: String,
-    /// The bytes of its STL file.
-    pub bytes: Vec<u8>,
-    /// The triangles read back from those bytes, print pose.
-    pub read_back: TriMesh,
-}
+/// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right but for the rounding of
+/// their files, unless the plan had to be changed.
+const MAX_ASSEMBLIES: usize = 3;
+/// How often voids that no cut opens are refused and the rest planned again.
+const MAX_PLANS: usize = 4;
 
 /// The parts of a kit, tuned so that what is written meets the goal.
 #[derive(Debug, Clone)]
@@ -51,14 +33,12 @@ pub struct Assembly {
     pub solution: Solution,
     /// The uncut body.
     pub hollowed: Hollowed,
-    /// The volume of voids that were too small to clean and stay solid, mm³.
+    /// The volume of voids that could not be cleaned and stay solid, mm³.
     pub refused_mm3: f64,
     /// The cuts and pins.
     pub plan: CutPlan,
     /// The parts.
     pub parts: Vec<WrittenPart>,
-    /// The moments of nothing emptied that the solution was found with, goal frame.
-    fixed: Moments,
     /// How many times it was solved again.
     pub rounds: usize,
 }
@@ -73,21 +53,22 @@ impl Assembly {
         watch: &mut Stopwatch,
     ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
-        let spec = cavity_spec(setup);
-        let cavity = Cavity::extract(&setup.model.solid, &spec, progress)?;
+        let mut tuner = Tuner::new(setup, &solved, progress)?;
         watch.lap("shell");
-        let source = Source { setup, solved: &solved, cavity: &cavity };
-        let tuned = source.tuned()?;
+        let voids = tuner.first()?;
         watch.lap("voids");
         progress.report(phase::PARTS, 0.0);
-        let assembly = source.with_parts(tuned)?;
+        let request = plan_request(setup);
+        let (voids, plan) = planned(setup, &mut tuner, voids, &request)?;
+        watch.lap("plan");
+        let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
         watch.lap("parts");
         Ok(assembly)
     }
 
     /// The moments of the written parts put together, model frame.
     pub fn written_moments(&self) -> Moments {
-        assembly_moments(&self.evidence())
+        written_moments(&self.parts)
     }
 
     /// The parts as the judge sees them.
@@ -96,144 +77,78 @@ impl Assembly {
     }
 }
 
-impl WrittenPart {
-    /// The part as it is written and read back, at the first place on the plate where the rounding of the file's
-    /// coordinates folds no sliver of its surface.
-    fn of(part: Part, job: &str, count: usize) -> Result<Self, Error> {
-        let name = format!("{job}_{}of{count:02}", part.id);
-        let mut written = Self::at_place(part.clone(), &name, 0)?;
-        for place in 1..PLACES {
-            if Crossings::of(&weld(&written.read_back)).pairs == 0 {
-                break;
-            }
-            written = Self::at_place(part.clone(), &name, place)?;
+fn written_moments(parts: &[WrittenPart]) -> Moments {
+    let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
+    assembly_moments(&evidence)
+}
+
+/// The cuts and pins for the voids. Those that no cut opens are refused, and the rest solved for again.
+fn planned(
+    setup: &Setup,
+    tuner: &mut Tuner,
+    mut voids: Voids,
+    request: &PlanRequest,
+) -> Result<(Voids, CutPlan), Error> {
+    for _ in 0..MAX_PLANS {
+        match planned_once(setup, &voids, request) {
+            Err(CutError::Unopenable { voids: refused, .. }) => voids = tuner.without(&voids, &refused)?,
+            plan => return Ok((voids, plan?)),
         }
-        Ok(written)
     }
+    let plan = planned_once(setup, &voids, request)?;
+    Ok((voids, plan))
+}
 
-    /// The part written at one of the places tried.
-    fn at_place(mut part: Part, name: &str, place: usize) -> Result<Self, Error> {
-        let pose = &mut part.pose.print_from_model;
-        pose[0][3] += PLACE_STEP_MM[0] * place as f64;
-        pose[1][3] += PLACE_STEP_MM[1] * place as f64;
-        let pose = Pose { rows: *pose };
-        let laid = part.solid.mesh().map_vertices(|p| pose.to_print(p));
-        let bytes = stl::encode(&laid, name);
-        let read_back = stl::decode(&bytes)?;
-        Ok(Self { part, file: format!("parts/{name}.stl"), bytes, read_back })
-    }
-
-    /// The part as the judge sees it.
-    pub fn evidence(&self) -> PartEvidence {
-        let pose = Pose { rows: self.part.pose.print_from_model };
-        PartEvidence { id: self.part.id.clone(), mesh: self.read_back.clone(), pose }
+fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
+    match setup.job.cut {
+        CutMode::Auto => cut::plan(&voids.hollowed, request),
+        CutMode::Never => plan_for_cuts(&voids.hollowed, request, &[]),
     }
 }
 
-/// The voids of a solution.
-struct Voids {
-    solution: Solution,
-    fixed: Moments,
-    hollowed: Hollowed,
-    refused_mm3: f64,
-    rounds: usize,
-}
-
-/// What the voids of a setup are made from.
-struct Source<'a> {
-    setup: &'a Setup,
-    solved: &'a Solved,
-    cavity: &'a Cavity,
-}
-
-impl Source<'_> {
-    /// The voids of the first solution.
-    fn first(&self) -> Result<Voids, Error> {
-        self.voids(self.solved.solution.clone(), self.setup.placement.goal.solid, 0)
-    }
-
-    /// The voids solved for once more, with `defect` (goal frame) added to what stays.
-    fn corrected(&self, fixed: Moments, defect: Moments, rounds: usize) -> Result<Voids, Error> {
-        let fixed = fixed + defect;
-        self.voids(self.solved.corrected(self.setup, fixed), fixed, rounds + 1)
-    }
-
-    fn voids(&self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
-        let (setup, frame) = (self.setup, &self.setup.placement.goal.frame);
-        let Bodies { bodies, dropped_mm3, .. } = self.cavity.void_bodies(&solution.quadric, frame)?;
-        let hollowed = Hollowed { outer: setup.model.solid.clone(), voids: bodies };
-        Ok(Voids { solution, fixed, hollowed, refused_mm3: dropped_mm3, rounds })
-    }
-
-    /// The voids whose uncut mesh meets the goal's constraints, before cuts and pins.
-    fn tuned(&self) -> Result<Voids, Error> {
-        let goal = &self.setup.placement.goal;
-        let mut voids = self.first()?;
-        while voids.rounds < MAX_ROUNDS {
-            let written = moments_of_mesh(&voids.hollowed.to_mesh()).in_frame(&goal.frame);
-            if is_tuned(goal, &written) {
-                break;
-            }
-            voids = self.corrected(voids.fixed, written - voids.solution.moments, voids.rounds)?;
+/// The parts by a plan, of voids solved for again with what the pins and sockets change.
+fn assembled(
+    setup: &Setup,
+    tuner: &mut Tuner,
+    (mut voids, mut plan): (Voids, CutPlan),
+    request: &PlanRequest,
+) -> Result<Assembly, Error> {
+    let goal = &setup.placement.goal;
+    let mut more = moments_of_mesh(&plan.pegs());
+    let mut attempts = 0;
+    loop {
+        voids = tuner.tuned(voids, more)?;
+        let parts = written_parts(setup, &voids, &mut plan, request)?;
+        let written = written_moments(&parts);
+        attempts += 1;
+        if attempts == MAX_ASSEMBLIES || is_tuned(goal, &written.in_frame(&goal.frame)) {
+            let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
+            return Ok(Assembly { solution, hollowed, refused_mm3, plan, parts, rounds });
         }
-        Ok(voids)
-    }
-
-    /// The parts of tuned voids, solved for again until they too meet the goal as written.
-    fn with_parts(&self, voids: Voids) -> Result<Assembly, Error> {
-        let request = plan_request(self.setup);
-        let plan = match self.setup.job.cut {
-            CutMode::Auto => plan(&voids.hollowed, &request)?,
-            CutMode::Never => plan_for_cuts(&voids.hollowed, &request, &[])?,
-        };
-        let goal = &self.setup.placement.goal;
-        let most = voids.rounds + MAX_ROUNDS;
-        let mut assembly = assembled(self.setup, voids, plan, &request)?;
-        while assembly.rounds < most {
-            let written = assembly.written_moments().in_frame(&goal.frame);
-            if is_tuned(goal, &written) {
-                break;
-            }
-            let defect = written - assembly.solution.moments;
-            let voids = self.corrected(assembly.fixed, defect, assembly.rounds)?;
-            assembly = assembled(self.setup, voids, assembly.plan, &request)?;
-        }
-        Ok(assembly)
+        more = written - moments_of_mesh(&voids.hollowed.to_mesh());
     }
 }
 
 /// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed so that the plan leaves
 /// one closed, it is planned anew.
-fn assembled(setup: &Setup, voids: Voids, plan: CutPlan, request: &PlanRequest) -> Result<Assembly, Error> {
-    let (plan, parts) = match parts(&voids.hollowed, &plan, request) {
+fn written_parts(
+    setup: &Setup,
+    voids: &Voids,
+    plan: &mut CutPlan,
+    request: &PlanRequest,
+) -> Result<Vec<WrittenPart>, Error> {
+    let parts = match parts(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
-            let plan = cut::plan(&voids.hollowed, request)?;
-            let parts = parts(&voids.hollowed, &plan, request)?;
-            (plan, parts)
+            *plan = cut::plan(&voids.hollowed, request)?;
+            parts(&voids.hollowed, plan, request)?
         }
-        parts => (plan, parts?),
+        parts => parts?,
     };
     let (job, count) = (setup.name(), parts.len());
-    let written = parts
-        .into_par_iter()
-        .map(|part| WrittenPart::of(part, &job, count))
-        .collect::<Result<Vec<_>, _>>()?;
-    let Voids { solution, fixed, hollowed, refused_mm3, rounds } = voids;
-    Ok(Assembly { solution, fixed, hollowed, refused_mm3, plan, parts: written, rounds })
+    parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count)).collect()
 }
-
-/// What the surface of the voids is made to.
-fn cavity_spec(setup: &Setup) -> CavitySpec<'_> {
-    let pixel_mm = setup.printer.pixel_x_mm.value.min(setup.printer.pixel_y_mm.value);
-    CavitySpec {
-        wall_mm: setup.wall.wall_mm,
-        tolerance_mm: (SURFACE_TOLERANCE_PIXELS * pixel_mm).max(FINEST_SURFACE_TOLERANCE_MM),
-        keeps: &setup.placement.keeps,
-        min_void_mm: setup.printer.min_opening_mm.value,
-    }
-}
-
 /// What cuts, pins and poses are asked for.
+
 pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
     PlanRequest {

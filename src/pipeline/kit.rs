@@ -96,7 +96,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
     }
 }
 
-fn promised_part(written: &super::assembly::WrittenPart) -> PromisedPart {
+fn promised_part(written: &super::written::WrittenPart) -> PromisedPart {
     let part = &written.part;
     PromisedPart {
         id: part.id.clone(),

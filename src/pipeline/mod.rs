@@ -7,7 +7,9 @@ mod rows;
 mod setup;
 mod solving;
 mod stopwatch;
+mod tuner;
 mod tuning;
+mod written;
 
 pub use assembly::Assembly;
 pub use outcome::{Impossible, Outcome, Prepared};

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::kit::{figure_name, verdict};
-use super::{Assembly, Setup, assembly::WrittenPart};
+use super::{Assembly, Setup, written::WrittenPart};
 use crate::cut::PinSite;
 use crate::geom::Vector;
 use crate::goal::{Goal, GoalKind, Objective, Warning};

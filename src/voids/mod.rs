@@ -3,6 +3,7 @@
 mod cavity;
 mod crossing;
 mod decimate;
+mod dilate;
 mod extract;
 mod field;
 mod inscribed;
@@ -44,14 +45,17 @@ pub struct CavitySpec<'a> {
 pub struct Voids {
     /// The voids as bodies of air, disjoint, by volume descending.
     pub bodies: Vec<Solid>,
-    /// How many parts were left solid because no ball of the minimum diameter fits into them.
-    pub dropped: usize,
-    /// The volume of those, mm³.
-    pub dropped_mm3: f64,
-    /// How many pieces of material float loose in the voids (inward shells of the bodies).
-    pub islands: usize,
-    /// The volume of those, mm³.
-    pub islands_mm3: f64,
+    /// What is left solid because no ball of the minimum diameter fits into it, as bodies of air, by volume descending.
+    pub refused: Vec<TriMesh>,
+    /// The volume of material that would have floated loose in the voids and was emptied too, mm³.
+    pub emptied_mm3: f64,
+}
+
+impl Voids {
+    /// The volume of what is left solid because it is too small, mm³.
+    pub fn refused_mm3(&self) -> f64 {
+        self.refused.iter().map(TriMesh::signed_volume_mm3).sum()
+    }
 }
 
 /// Why no voids could be made.
@@ -138,8 +142,7 @@ impl Cavity {
     }
 
     /// The voids: the parts of the cavity in which the quadric, given in `frame`, is positive; in model coordinates,
-    /// the largest first.
-    ///
+    /// the largest first. Material that would float loose in one is emptied with it.
     /// Where a void is bounded by the quadric it follows it within half the tolerance; elsewhere it is the cavity's
     /// own surface, so the wall is kept as the cavity keeps it.
     pub fn void_bodies(&self, quadric: &Quadric, frame: &Frame) -> Result<Voids, VoidError> {
@@ -149,6 +152,20 @@ impl Cavity {
             Region::Part(region) => self.body.intersect(&region)?.simplify(SLIVER_MM).to_mesh()?,
         };
         split::voids(&parts, self.min_void_mm)
+    }
+
+    /// The cavity without these bodies and what lies within about `margin_mm` of them: the wall is kept as before.
+    ///
+    /// A void that is refused for one quadric is so kept solid for all that differ little from it.
+    pub fn without(&self, bodies: &[TriMesh], margin_mm: f64) -> Result<Self, VoidError> {
+        let all = bodies.iter().fold(TriMesh::default(), |all, body| all.joined(body));
+        if all.triangles().is_empty() {
+            return Ok(self.clone());
+        }
+        let solid = Csg::of_mesh(&dilate::dilated(&all, margin_mm)?)?;
+        let body = self.body.subtract(&solid)?;
+        let mesh = body.to_mesh()?;
+        Ok(Self { body, bvh: Bvh::new(mesh.iter_corners()), mesh, ..*self })
     }
 }
 
@@ -399,7 +416,7 @@ mod tests {
     }
 
     #[test]
-    fn the_inside_of_a_ball_is_a_ball_and_its_outside_leaves_an_island() {
+    fn the_inside_of_a_ball_is_a_ball_and_its_outside_is_emptied_of_it() {
         let (cavity, frame) = setting();
         let inside = Quadric([9.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0, -1.0, -1.0]);
         let volumes = sound_voids(&cavity, &frame, inside);
@@ -407,8 +424,9 @@ mod tests {
         // Half the tolerance on 113 mm² of sphere.
         assert!((volumes[0] - exact).abs() < 113.1 * 0.5 * TOLERANCE_MM, "{volumes:?}");
         let voids = cavity.void_bodies(&Quadric(inside.0.map(|g| -g)), &frame).unwrap();
-        assert_eq!((voids.bodies.len(), voids.islands), (1, 1));
-        assert!((voids.islands_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
+        assert_eq!(voids.bodies.len(), 1);
+        assert!((voids.emptied_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
+        assert!((signed_volume(voids.bodies[0].mesh()) - signed_volume(cavity.mesh())).abs() < 1e-9);
     }
 
     #[test]
@@ -442,9 +460,24 @@ mod tests {
         let frame = Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::z());
         let slab = |half: f64| Quadric([half * half, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]);
         let thin = cavity.void_bodies(&slab(0.7), &frame).unwrap();
-        assert_eq!((thin.bodies.len(), thin.dropped), (0, 1));
-        assert!((thin.dropped_mm3 - 12.0 * 10.0 * 1.4).abs() < 5.0, "{}", thin.dropped_mm3);
+        assert_eq!((thin.bodies.len(), thin.refused.len()), (0, 1));
+        assert!((thin.refused_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0, "{}", thin.refused_mm3());
         assert_eq!(cavity.void_bodies(&slab(1.3), &frame).unwrap().bodies.len(), 1);
+    }
+
+    #[test]
+    fn what_is_taken_out_of_a_cavity_stays_out_of_its_voids() {
+        let (cavity, frame) = setting();
+        let thin = block([2.0, 2.0, 2.0], [12.0, 10.0, 2.5]);
+        let rest = cavity.without(std::slice::from_ref(&thin), 0.3).unwrap();
+        assert_sound(rest.mesh());
+        let lost = signed_volume(cavity.mesh()) - signed_volume(rest.mesh());
+        // The slab grown by 0.3 mm on all sides: its volume, its faces' 196 mm² times 0.3, and a little at its edges;
+        // the surface may sag by 0.4 of the margin.
+        assert!(lost > 40.0 + 196.0 * 0.3 * 0.6 && lost < 40.0 + 196.0 * 0.3 + 10.0, "{lost}");
+        let voids = rest.void_bodies(&EVERYTHING, &frame).unwrap();
+        assert!(MeshDistance::new(&thin).min_distance_to(voids.bodies[0].mesh()) > 0.1);
+        assert_eq!(cavity.without(&[], 0.3).unwrap().mesh(), cavity.mesh());
     }
 
     #[test]

@@ -4,10 +4,13 @@ use rayon::prelude::*;
 
 use super::inscribed::ball_fits;
 use super::{VoidError, Voids};
-use crate::mesh::{Solid, TriMesh, bodies, shells};
+use crate::mesh::{Solid, TriMesh, bodies, shells, winding_number};
 
 /// Parts of less volume are rounding of the boolean engine, mm³: a cube of a hundredth of a millimetre.
 const NO_VOLUME_MM3: f64 = 1e-6;
+
+/// A point is inside a surface that winds around it by more than this many turns.
+const HALF_TURN: f64 = 0.5;
 
 /// The bodies of `parts` into which a ball of `min_void_mm` fits, and what was left out.
 pub(super) fn voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidError> {
@@ -21,15 +24,20 @@ pub(super) fn voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidErro
         })
         .collect();
     let mut voids = Voids::default();
-    for ((volume, body), is_kept) in sized.into_iter().zip(kept) {
+    let mut islands: Vec<TriMesh> = Vec::new();
+    for ((_, body), is_kept) in sized.into_iter().zip(kept) {
+        if islands.iter().any(|island| winding_number(island, &body.vertices()[0]).abs() > HALF_TURN) {
+            continue;
+        }
         if is_kept {
-            count_islands(&body, &mut voids);
+            let (body, loose) = without_islands(&body);
             voids.bodies.push(Solid::new(body)?);
+            islands.extend(loose);
         } else {
-            voids.dropped += 1;
-            voids.dropped_mm3 += volume;
+            voids.refused.push(body);
         }
     }
+    voids.emptied_mm3 = islands.iter().map(|island| island.signed_volume_mm3().abs()).sum();
     Ok(voids)
 }
 
@@ -39,12 +47,44 @@ fn corner(body: &TriMesh) -> f64 {
     min.x + min.y + min.z
 }
 
-fn count_islands(body: &TriMesh, voids: &mut Voids) {
-    for shell in shells(body) {
-        let volume = shell.signed_volume_mm3();
-        if volume < 0.0 {
-            voids.islands += 1;
-            voids.islands_mm3 -= volume;
-        }
+/// The body without what floats loose in it, and the surfaces of that.
+fn without_islands(body: &TriMesh) -> (TriMesh, Vec<TriMesh>) {
+    let (outward, inward): (Vec<_>, Vec<_>) =
+        shells(body).into_iter().partition(|shell| shell.signed_volume_mm3() > 0.0);
+    (outward.into_iter().fold(TriMesh::default(), |hull, shell| hull.joined(&shell)), inward)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use crate::voids::shapes::{ball, block};
+
+    #[test]
+    fn what_floats_loose_in_a_void_is_emptied_and_counted() {
+        let center = Point::new(4.0, 4.0, 4.0);
+        let parts = block([0.0; 3], [8.0; 3]).joined(&ball(center, 2.0, 3).reversed());
+        let voids = voids(&parts, 1.0).unwrap();
+        assert_eq!(voids.bodies.len(), 1);
+        assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);
+        let ball_mm3 = ball(center, 2.0, 3).signed_volume_mm3();
+        assert!((voids.emptied_mm3 - ball_mm3).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_void_in_what_floats_loose_is_emptied_with_it() {
+        let center = Point::new(4.0, 4.0, 4.0);
+        let ring = ball(center, 3.0, 3).reversed().joined(&ball(center, 2.0, 3));
+        let voids = voids(&block([0.0; 3], [8.0; 3]).joined(&ring), 1.0).unwrap();
+        assert_eq!(voids.bodies.len(), 1);
+        assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_holds_no_ball_of_the_minimum_is_refused() {
+        let parts = block([0.0; 3], [8.0; 3]).joined(&block([10.0, 0.0, 0.0], [11.0, 8.0, 8.0]));
+        let voids = voids(&parts, 2.0).unwrap();
+        assert_eq!((voids.bodies.len(), voids.refused.len()), (1, 1));
+        assert!((voids.refused_mm3() - 64.0).abs() < 1e-9);
     }
 }

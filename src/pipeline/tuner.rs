@@ -1,0 +1,123 @@
+//! The voids of a solution, solved for again until what will be written meets the goal (THEORY §4).
+
+use super::{Error, Setup, Solved, tuning::is_tuned};
+use crate::hollow::Solution;
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::{Hollowed, TriMesh};
+use crate::progress::Progress;
+use crate::voids::{Cavity, CavitySpec};
+
+/// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
+/// each may find another void too small; more than a few mean that voids come and go.
+const MAX_ROUNDS: usize = 8;
+/// The surface of a void may lie this share of a pixel from the true one.
+const SURFACE_TOLERANCE_PIXELS: f64 = 0.5;
+/// No finer than this, mm: below, triangles grow without any printer showing it.
+const FINEST_SURFACE_TOLERANCE_MM: f64 = 0.02;
+/// What is refused is kept solid with so much around it, mm: more than a surface moves from round to round, less than
+/// anybody misses.
+const REFUSED_MARGIN_MM: f64 = 0.3;
+/// A refused void below this volume, mm³, may come back in a later round: at 50 mm from the axis of 50 cm³ it moves the
+/// centre of mass by a hundred-thousandth of a millimetre.
+const SIGNIFICANT_MM3: f64 = 0.01;
+
+/// The voids of a solution.
+#[derive(Debug, Clone)]
+pub struct Voids {
+    /// The solution they were made from.
+    pub solution: Solution,
+    /// The moments of nothing emptied that the solution was found with, goal frame.
+    pub fixed: Moments,
+    /// The body with the voids in it.
+    pub hollowed: Hollowed,
+    /// The volume of voids that were too small to clean and stay solid, mm³.
+    pub refused_mm3: f64,
+    /// How many times it was solved again.
+    pub rounds: usize,
+}
+
+/// Makes voids, measures them and solves again.
+pub struct Tuner<'a> {
+    setup: &'a Setup,
+    solved: &'a Solved,
+    /// What may be emptied, without what was refused.
+    cavity: Cavity,
+    refused_mm3: f64,
+}
+
+impl<'a> Tuner<'a> {
+    /// Draws what may be emptied.
+    pub fn new(setup: &'a Setup, solved: &'a Solved, progress: &Progress) -> Result<Self, Error> {
+        let cavity = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
+        Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
+    }
+
+    /// The voids whose uncut mesh meets the goal's constraints before cuts and pins.
+    pub fn first(&mut self) -> Result<Voids, Error> {
+        let voids = self.voids(self.solved.solution.clone(), self.setup.placement.goal.solid, 0)?;
+        self.tuned(voids, Moments::default())
+    }
+
+    /// The voids solved for again until the uncut mesh and `more` (model frame) together meet the goal's
+    /// constraints.
+    pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
+        let goal = &self.setup.placement.goal;
+        for _ in 0..MAX_ROUNDS {
+            let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + more).in_frame(&goal.frame);
+            if is_tuned(goal, &written) {
+                break;
+            }
+            voids = self.again(&voids, written)?;
+        }
+        Ok(voids)
+    }
+
+    /// The voids without these of them, and solved for again.
+    pub fn without(&mut self, voids: &Voids, refused: &[usize]) -> Result<Voids, Error> {
+        let bodies: Vec<TriMesh> =
+            refused.iter().filter_map(|&i| voids.hollowed.voids.get(i)).map(|s| s.mesh().clone()).collect();
+        self.refuse(&bodies)?;
+        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
+        self.tuned(less, Moments::default())
+    }
+
+    /// The voids solved for once more with the difference between what was measured and what was solved for (goal frame) added
+    /// to what stays.
+    fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
+        let fixed = voids.fixed + (written - voids.solution.moments);
+        self.voids(self.solved.corrected(self.setup, fixed), fixed, voids.rounds + 1)
+    }
+
+    /// The voids of a solution; what is too small is refused for good, or it would come and go from round to round.
+    fn voids(&mut self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
+        let frame = &self.setup.placement.goal.frame;
+        let bodies = self.cavity.void_bodies(&solution.quadric, frame)?;
+        let crumbs_mm3 = bodies.refused_mm3();
+        let significant: Vec<TriMesh> =
+            bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > SIGNIFICANT_MM3).collect();
+        let refused_mm3 = self.refused_mm3 + crumbs_mm3;
+        self.refuse(&significant)?;
+        let hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        Ok(Voids { solution, fixed, hollowed, refused_mm3, rounds })
+    }
+
+    /// Keeps these bodies solid from now on.
+    fn refuse(&mut self, bodies: &[TriMesh]) -> Result<(), Error> {
+        if !bodies.is_empty() {
+            self.refused_mm3 += bodies.iter().map(TriMesh::signed_volume_mm3).sum::<f64>();
+            self.cavity = self.cavity.without(bodies, REFUSED_MARGIN_MM)?;
+        }
+        Ok(())
+    }
+}
+
+/// What the surface of the voids is made to.
+fn cavity_spec(setup: &Setup) -> CavitySpec<'_> {
+    let pixel_mm = setup.printer.pixel_x_mm.value.min(setup.printer.pixel_y_mm.value);
+    CavitySpec {
+        wall_mm: setup.wall.wall_mm,
+        tolerance_mm: (SURFACE_TOLERANCE_PIXELS * pixel_mm).max(FINEST_SURFACE_TOLERANCE_MM),
+        keeps: &setup.placement.keeps,
+        min_void_mm: setup.printer.min_opening_mm.value,
+    }
+}

@@ -1,0 +1,58 @@
+//! Bodies grown on all sides: what is refused as a void is kept solid with a little around it.
+
+use super::VoidError;
+use super::extract::Extractor;
+use super::field::Resolution;
+use super::wall_field::WallField;
+use crate::geom::Bvh;
+use crate::mesh::TriMesh;
+
+/// The finest cell and the largest one near the surface, over the margin. Finer makes triangles that
+/// nobody needs: the surface only has to clear the bodies.
+const FINEST_RATIO: f64 = 0.5;
+const COARSE_RATIO: f64 = 1.0;
+
+/// How far a chord may stray from the grown surface, over the margin.
+const STRAY_RATIO: f64 = 0.4;
+
+/// A body that holds every point of `bodies` and everything within about `margin_mm` of them, give or take half of it.
+pub(super) fn dilated(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
+    let surface = Bvh::new(bodies.iter_corners());
+    let coarse_mm = COARSE_RATIO * margin_mm;
+    let field =
+        WallField { surface: &surface, keeps: &[], iso_mm: -margin_mm, keep_margin_mm: 0.0, coarse_mm };
+    let resolution = Resolution {
+        finest_mm: FINEST_RATIO * margin_mm,
+        crease_mm: FINEST_RATIO * margin_mm,
+        outside_mm: STRAY_RATIO * margin_mm,
+        inside_mm: STRAY_RATIO * margin_mm,
+    };
+    let aabb = surface.aabb().inflated(2.0 * margin_mm);
+    let too_fine = VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm };
+    let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(too_fine)?;
+    let leaves = extractor.leaves();
+    extractor.settle(leaves);
+    Ok(extractor.mesh()?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use crate::mesh::MeshDistance;
+    use crate::voids::shapes::{ball, block};
+
+    #[test]
+    fn a_grown_body_clears_the_body_by_about_the_margin() {
+        let bodies = block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
+        let grown = dilated(&bodies, 0.3).unwrap();
+        let distance = MeshDistance::new(&bodies);
+        for p in grown.vertices() {
+            // Vertices lie on the surface itself; triangles sag by up to four tenths.
+            assert!((distance.signed(p) + 0.3).abs() < 1e-3, "{p}");
+        }
+        let clearance_mm = distance.min_distance_to(&grown);
+        assert!(clearance_mm > 0.3 * 0.5, "{clearance_mm}");
+        assert!(grown.signed_volume_mm3() > bodies.signed_volume_mm3());
+    }
+}
