@@ -133,7 +133,7 @@ fn material_row(setup: &Setup) -> MaterialRow {
         id: material.id.clone(),
         name: material.name.clone(),
         density_g_cm3: material.density_g_cm3.value,
-        density_source: material.density_g_cm3.provenance(),
+        density_source: material.density_g_cm3.source.clone(),
         density_sure: material.density_g_cm3.sure.to_string(),
         density_spread_ratio: Some(material.density_spread_ratio.value),
     }
@@ -317,8 +317,8 @@ fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
         let plane = cut.plane().ok()?;
         let outward: Vector = -plane.normal * plane.distance(&center).signum();
         match (pose.rotation() * outward).z {
-            z if z < -LEVEL_COSINE => Some(format!("cut {} down", cut.id)),
-            z if z > LEVEL_COSINE => Some(format!("cut {} up", cut.id)),
+            z if z < -LEVEL_COSINE => Some(format!("cut face {} down", cut.id)),
+            z if z > LEVEL_COSINE => Some(format!("cut face {} up", cut.id)),
             _ => None,
         }
     };

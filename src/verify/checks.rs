@@ -61,7 +61,7 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
         }
         GoalKind::Stand => vec![Check::new(
             "standing",
-            "it stands, and topples only when tilted by",
+            "it stands: to topple it must be tilted, by",
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
@@ -76,7 +76,7 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
         Check::new("axis tilt", "the spin axis is a principal axis", assembly.axis_tilt_deg, tilt),
         Check::new(
             "dominance",
-            "it turns most heavily about the spin axis (I_b/I_c)",
+            "the moment of inertia is largest about the spin axis (I_b/I_c)",
             assembly.dominance_ratio,
             dominance,
         ),
