@@ -6,12 +6,11 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{
-    ChoiceError, Contact, CutMode, GoalKind, ModelUnit, Objective, PartFormat, Solver, SpinPoint, Up,
-};
+pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
 
 use crate::{
     digest::sha256_hex,
+    goal::Request,
     toml_text::{self, TextFault},
     units::Length,
 };
@@ -47,7 +46,7 @@ pub struct Job {
     pub printer: PrinterChoice,
     /// What it is to do.
     #[serde(deserialize_with = "possible_goal")]
-    pub goal: GoalChoice,
+    pub goal: Request,
 }
 
 /// The model file and its size.
@@ -96,72 +95,6 @@ pub struct PrinterChoice {
     pub material: Option<String>,
 }
 
-/// The goal as it was asked for, not yet placed in the model.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct GoalChoice {
-    /// What the object is to do.
-    pub kind: GoalKind,
-    /// The spin axis or up.
-    pub up: Up,
-    /// Where a top touches the ground; none for other goals.
-    pub contact: Option<Contact>,
-    /// What a yo-yo spins about; none for other goals.
-    pub spin_point: Option<SpinPoint>,
-    /// What is made as good as it can be.
-    pub objective: Objective,
-}
-
-/// A goal whose parts do not go together.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-pub enum GoalChoiceError {
-    /// An objective of another goal.
-    #[error("the objective {objective} does not go with the goal {kind}; remedy: use {known}")]
-    Objective {
-        /// The objective asked for.
-        objective: Objective,
-        /// The goal.
-        kind: GoalKind,
-        /// The goal's objectives.
-        known: String,
-    },
-    /// A contact point for what is not a top.
-    #[error("a contact point goes with the goal top, not with {0}; remedy: leave it out")]
-    Contact(GoalKind),
-    /// A spin point for what is not a yo-yo.
-    #[error("a spin point goes with the goal yoyo, not with {0}; remedy: leave it out")]
-    SpinPoint(GoalKind),
-}
-
-impl GoalChoice {
-    /// The goal with the defaults of its kind: lowest contact, spin point in the centre, first objective.
-    pub fn new(kind: GoalKind, up: Up) -> Self {
-        Self {
-            kind,
-            up,
-            contact: (kind == GoalKind::Top).then_some(Contact::Lowest),
-            spin_point: (kind == GoalKind::Yoyo).then_some(SpinPoint::Center),
-            objective: kind.default_objective(),
-        }
-    }
-
-    /// The same, if its parts go together.
-    pub fn checked(self) -> Result<Self, GoalChoiceError> {
-        let Self { kind, objective, .. } = self;
-        if !kind.objectives().contains(&objective) {
-            let known = kind.objectives().iter().map(|known| known.word()).collect::<Vec<_>>().join(" or ");
-            return Err(GoalChoiceError::Objective { objective, kind, known });
-        }
-        if self.contact.is_some() && kind != GoalKind::Top {
-            return Err(GoalChoiceError::Contact(kind));
-        }
-        if self.spin_point.is_some() && kind != GoalKind::Yoyo {
-            return Err(GoalChoiceError::SpinPoint(kind));
-        }
-        Ok(self)
-    }
-}
-
 /// Why a job cannot be read, written or replayed.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
@@ -195,7 +128,7 @@ pub enum JobError {
 
 impl Job {
     /// The job of default settings.
-    pub fn new(model: ModelChoice, printer: PrinterChoice, goal: GoalChoice) -> Self {
+    pub fn new(model: ModelChoice, printer: PrinterChoice, goal: Request) -> Self {
         Self {
             schema: JOB_SCHEMA,
             wall: None,
@@ -257,13 +190,14 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     }
 }
 
-fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<GoalChoice, D::Error> {
-    GoalChoice::deserialize(deserializer)?.checked().map_err(D::Error::custom)
+fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, D::Error> {
+    Request::deserialize(deserializer)?.checked().map_err(D::Error::custom)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::goal::{Contact, GoalKind, Objective, Up};
     use proptest::prelude::*;
 
     fn job() -> Job {
@@ -273,7 +207,7 @@ mod tests {
             scaling: Scaling::Size(Length::from_mm(100.0).unwrap()),
         };
         let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
-        Job::new(model, printer, GoalChoice::new(GoalKind::Top, Up::Z))
+        Job::new(model, printer, Request::new(GoalKind::Top))
     }
 
     fn reread(job: &Job) -> Job {
@@ -289,7 +223,7 @@ mod tests {
         other.printer.material = Some("vero-white".into());
         other.model.scaling = Scaling::Factor(0.1 + 0.2);
         other.goal =
-            GoalChoice { objective: Objective::Dominance, ..GoalChoice::new(GoalKind::Yoyo, Up::Principal) };
+            Request { up: Up::Principal, objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) };
         for job in [job(), other] {
             assert_eq!(reread(&job), job);
         }

@@ -13,7 +13,8 @@
 //!
 //! # Example
 //! ```no_run
-//! use equipoise::job::{GoalChoice, GoalKind, Job, ModelChoice, PrinterChoice, Scaling, Up};
+//! use equipoise::goal::{GoalKind, Request};
+//! use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 //! use equipoise::pipeline::{Outcome, run};
 //! use equipoise::progress::Progress;
 //! use equipoise::report::Existing;
@@ -24,7 +25,7 @@
 //!     scaling: Scaling::Size("100mm".parse()?),
 //! };
 //! let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
-//! let job = Job::new(model, printer, GoalChoice::new(GoalKind::Top, Up::Z));
+//! let job = Job::new(model, printer, Request::new(GoalKind::Top));
 //! match run(&job, &Progress::silent())? {
 //!     Outcome::Prepared(prepared) => prepared.kit.write("top-kit".as_ref(), Existing::Keep)?,
 //!     Outcome::Impossible(why) => println!("{}", why.reason),
@@ -56,3 +57,4 @@ pub mod toml_text;
 pub mod units;
 pub mod verify;
 pub mod voids;
+pub mod words;

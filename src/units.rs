@@ -25,6 +25,11 @@ pub struct Length {
     mm: f64,
 }
 
+/// Counts one thing or several: `1 pin`, `3 pins`.
+pub fn counted(count: usize, thing: &str) -> String {
+    if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
+}
+
 /// What is wrong with a length.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LengthError {
@@ -198,6 +203,11 @@ mod tests {
 
     fn mm(text: &str) -> f64 {
         text.parse::<Length>().unwrap().mm()
+    }
+
+    #[test]
+    fn one_thing_is_singular_and_none_is_not() {
+        assert_eq!([0, 1, 3].map(|count| counted(count, "pin")), ["0 pins", "1 pin", "3 pins"]);
     }
 
     #[test]

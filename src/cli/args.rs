@@ -13,11 +13,10 @@ use clap::{
 };
 
 use crate::{
-    job::{
-        ChoiceError, Contact, CutMode, GoalChoice, GoalChoiceError, GoalKind, Job, JobError, ModelChoice,
-        ModelUnit, Objective, PartFormat, PrinterChoice, Scaling, Solver, SpinPoint, Up,
-    },
+    goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
+    job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
     units::Length,
+    words::ChoiceError,
 };
 
 const EXIT_CODES: &str = "\
@@ -223,7 +222,7 @@ pub struct Request {
 pub enum ArgsError {
     /// The goal's.
     #[error(transparent)]
-    Goal(#[from] GoalChoiceError),
+    Goal(#[from] RequestError),
     /// The replayed job's.
     #[error(transparent)]
     Job(#[from] JobError),
@@ -260,16 +259,16 @@ impl PrepareArgs {
         })
     }
 
-    fn goal(&self) -> Result<GoalChoice, ArgsError> {
-        let kind = self.goal.ok_or(ArgsError::Missing("--goal"))?;
-        let default = GoalChoice::new(kind, self.up.unwrap_or(Up::Z));
-        let goal = GoalChoice {
+    fn goal(&self) -> Result<goal::Request, ArgsError> {
+        let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
+        let asked = goal::Request {
+            up: self.up.unwrap_or(default.up),
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),
             ..default
         };
-        Ok(goal.checked()?)
+        Ok(asked.checked()?)
     }
 }
 

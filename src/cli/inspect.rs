@@ -11,6 +11,7 @@ use crate::geom::Vector;
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, repair, scaled};
+use crate::units::counted;
 
 /// Why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -112,10 +113,10 @@ fn dominance(body: &Body, axis: usize) -> f64 {
 fn text(findings: &Findings) -> String {
     let [x, y, z] = findings.size_mm;
     let mut text = format!(
-        "{} triangles, {} vertices, {} shells{}\nsize {x:.3} × {y:.3} × {z:.3} mm, surface {:.1} mm²\nrepairs: {}\n",
+        "{} triangles, {} vertices, {}{}\nsize {x:.3} × {y:.3} × {z:.3} mm, surface {:.1} mm²\nrepaired: {}\n",
         findings.triangles,
         findings.vertices,
-        findings.shells,
+        counted(findings.shells, "shell"),
         findings.genus.map_or(String::new(), |genus| format!(", genus {genus}")),
         findings.area_mm2,
         findings.repairs,
@@ -143,7 +144,7 @@ fn mass_text(mass: &Mass) -> String {
     let [cx, cy, cz] = mass.center_mm;
     let [ax, ay, az] = mass.dominant_axis;
     let mut text = format!(
-        "a solid of {:.1} mm³, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\ndominant axis ({ax:.4}, {ay:.4}, {az:.4})\n",
+        "a solid of {:.1} mm³, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which --up principal takes\n",
         mass.volume_mm3
     );
     for (axis, ratio) in ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis) {
@@ -152,7 +153,7 @@ fn mass_text(mass: &Mass) -> String {
         } else {
             "only hollowing could make it spin"
         };
-        text += &format!("up {axis}: I_b/I_c {ratio:.3}: {word}\n");
+        text += &format!("about {axis}: I_b/I_c {ratio:.3}, {word}\n");
     }
     text
 }

@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::pipeline::{Impossible, Outcome, Prepared, run};
 use crate::progress::Progress;
 use crate::report::{Checklist, Existing};
+use crate::units::counted;
 use crate::verify::Check;
 
 /// Why `prepare` could not run.
@@ -79,7 +80,7 @@ fn tell_prepared(
     if voice.manner.verbose > 0 {
         write!(out, "{}", details(checklist))?;
     }
-    writeln!(out, "{}", last_line(checklist, request))?;
+    write!(out, "{}", last_lines(checklist, request))?;
     Ok(())
 }
 
@@ -112,7 +113,10 @@ fn quantity(value: f64, unit: &str) -> String {
         magnitude if magnitude >= 0.01 => format!("{value:.4}"),
         _ => format!("{value:.2e}"),
     };
-    if unit.is_empty() { number } else { format!("{number} {unit}") }
+    match unit {
+        "" | "°" => number + unit,
+        _ => format!("{number} {unit}"),
+    }
 }
 
 /// Certificate, timings and the solver's rows.
@@ -136,15 +140,29 @@ fn details(checklist: &Checklist) -> String {
     text
 }
 
-fn last_line(checklist: &Checklist, request: &Request) -> String {
+/// What was written where, how long it took, and what to do next.
+fn last_lines(checklist: &Checklist, request: &Request) -> String {
     let seconds = checklist.timing_s.as_ref().map_or(0.0, |timing| timing.total_s());
+    let counts = [
+        counted(checklist.parts.len(), "part"),
+        counted(checklist.cuts.len(), "cut"),
+        counted(checklist.voids.len(), "void"),
+    ];
+    let sheet = request.out.join("checklist.html");
     format!(
-        "{} parts, {} cuts, {} voids in {} ({seconds:.1} s)",
-        checklist.parts.len(),
-        checklist.cuts.len(),
-        checklist.voids.len(),
-        request.out.display()
+        "{} ({seconds:.1} s)\n{}; the job sheet is {}\n",
+        counts.join(", "),
+        summary(&checklist.checks),
+        sheet.display()
     )
+}
+
+/// Whether every promise is kept, in words.
+pub fn summary(checks: &[Check]) -> String {
+    match checks.iter().filter(|check| !check.pass).count() {
+        0 => "all promises kept".to_owned(),
+        broken => format!("{} BROKEN", counted(broken, "promise")),
+    }
 }
 
 fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -> Result<(), PrepareError> {

@@ -68,8 +68,14 @@ fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Printe
     writeln!(out)?;
     out.write_all(table(&numbers(printer)).as_bytes())?;
     writeln!(out)?;
-    Ok(out.write_all(table(&materials(printer)).as_bytes())?)
+    out.write_all(table(&materials(printer)).as_bytes())?;
+    Ok(writeln!(out, "\n{SURE}")?)
 }
+
+/// What the words for how sure a number is mean.
+const SURE: &str = "\
+sure: read = seen in the source; paper = from a paper the method rests on; computed = from the source's numbers;
+third party = not from the maker; recalled = remembered, not read again; own choice = for the reason given";
 
 fn words(printer: &Printer) -> Vec<[String; 2]> {
     let word = |name: &str, value: String| [name.to_owned(), value];

@@ -138,11 +138,39 @@ mod tests {
         let solid = block([-5., -5., -1.], [5., 5., 1.]);
         let tilt = 0.02_f64;
         let request = Request {
-            up: Up::Vector([tilt.sin(), 0.0, tilt.cos()]),
-            contact: Contact::Center,
+            up: Up::Along([tilt.sin(), 0.0, tilt.cos()]),
+            contact: Some(Contact::Center),
             ..Request::new(GoalKind::Top)
         };
         let goal = place(&solid, 0.5, &request).unwrap().goal;
         assert!((figures(&goal, &goal.solid).axis_tilt_rad - tilt).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_functional_of_a_yo_yo_is_a_number_whatever_the_weight_of_a_lever_it_does_not_have() {
+        // About its centre of mass a cube has s_z = 0, so that s_z over that of the solid would be 0/0; its three
+        // moments are equal and the functional is γ_I (1 + 1).
+        let solid = block([-1., -1., -1.], [1., 1., 1.]);
+        for gamma_c in [0.0, 1.0] {
+            let objective = Objective::SpinIt { gamma_c, gamma_i: 3.0 };
+            let request = Request { objective, ..Request::new(GoalKind::Yoyo) };
+            let goal = place(&solid, 0.5, &request).unwrap().goal;
+            assert_eq!(goal.solid.0[3], 0.0);
+            assert!((figures(&goal, &goal.solid).spin_it.unwrap() - 6.0).abs() < 1e-12, "{gamma_c}");
+        }
+    }
+
+    #[test]
+    fn a_top_without_a_weight_on_its_lever_has_the_functional_of_its_tensor_alone() {
+        // A cube on its face: about the centre all moments are equal, whatever the lever.
+        let solid = block([-1., -1., 0.], [1., 1., 2.]);
+        let spin_it = |gamma_c| {
+            let objective = Objective::SpinIt { gamma_c, gamma_i: 1.0 };
+            let goal =
+                place(&solid, 0.5, &Request { objective, ..Request::new(GoalKind::Top) }).unwrap().goal;
+            figures(&goal, &goal.solid).spin_it.unwrap()
+        };
+        assert!((spin_it(0.0) - 2.0).abs() < 1e-12);
+        assert!((spin_it(0.5) - 2.5).abs() < 1e-12);
     }
 }

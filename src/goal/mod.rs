@@ -6,6 +6,8 @@
 
 mod figures;
 mod place;
+mod request;
+mod sites;
 mod stand;
 mod support;
 mod top;
@@ -20,133 +22,9 @@ use crate::shell::Keep;
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
 pub use place::{GoalError, place};
+pub use request::{GoalKind, Objective, Request, RequestError};
+pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
-
-/// What the object shall do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum GoalKind {
-    /// Spin on a contact point.
-    Top,
-    /// Spin freely about an axis through a point inside.
-    Yoyo,
-    /// Stand on its lowest points.
-    Stand,
-}
-
-/// The direction of the model that becomes the spin axis or up.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Up {
-    /// The model's x axis.
-    X,
-    /// The model's y axis.
-    Y,
-    /// The model's z axis.
-    Z,
-    /// Against the model's x axis.
-    #[serde(rename = "-x")]
-    MinusX,
-    /// Against the model's y axis.
-    #[serde(rename = "-y")]
-    MinusY,
-    /// Against the model's z axis.
-    #[serde(rename = "-z")]
-    MinusZ,
-    /// Any direction of the model, of any length but zero.
-    Vector([f64; 3]),
-    /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two senses the one
-    /// in which the centre of mass stands lower above the lowest point.
-    Principal,
-}
-
-/// Where a top touches the floor.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Contact {
-    /// The lowest point of the model; the middle of the lowest feature where that is an edge or a face.
-    Lowest,
-    /// Vertically below the solid's centre of mass, at the height of the lowest point.
-    Center,
-    /// A point of the model, mm.
-    Point([f64; 3]),
-}
-
-/// The point about which a yo-yo spins.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum SpinPoint {
-    /// The solid's centre of mass.
-    Center,
-    /// A point of the model, mm.
-    Point([f64; 3]),
-}
-
-/// What "best" means.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Objective {
-    /// Top: the least speed at which it spins upright, ω² = g s_z/(I_zz − λ_max(I′)) (Spin-It eq. 1).
-    CriticalSpeed,
-    /// Spin-It's functional. Yo-yo: γ_I ((I_xx² + 2 I_xy² + I_yy²)/I_zz²) (eq. 2, 5, 6). Top: the same with I′, plus
-    /// γ_c (s_z / s_z of the solid)² (eq. 3, 7, with s_z made free of units).
-    SpinIt {
-        /// The weight of a low, light body; a yo-yo has no use for it.
-        gamma_c: f64,
-        /// The weight of a flat inertia tensor.
-        gamma_i: f64,
-    },
-    /// Yo-yo: the largest moment across the axis over the moment about it, I_b/I_c; below 1 it spins stably.
-    Dominance,
-    /// Stand: the largest tilt before it topples.
-    TopplingAngle,
-    /// Stand: the lowest centre of mass above the middle of the support.
-    LowestCenter,
-}
-
-impl Objective {
-    /// What is optimised where nothing else is asked for.
-    pub fn default_of(kind: GoalKind) -> Self {
-        match kind {
-            GoalKind::Top => Self::CriticalSpeed,
-            GoalKind::Yoyo => Self::SpinIt { gamma_c: 0.0, gamma_i: 1.0 },
-            GoalKind::Stand => Self::TopplingAngle,
-        }
-    }
-
-    /// Whether this objective is one for goals of this kind.
-    pub fn suits(&self, kind: GoalKind) -> bool {
-        match self {
-            Self::CriticalSpeed => kind == GoalKind::Top,
-            Self::SpinIt { .. } => kind != GoalKind::Stand,
-            Self::Dominance => kind == GoalKind::Yoyo,
-            Self::TopplingAngle | Self::LowestCenter => kind == GoalKind::Stand,
-        }
-    }
-}
-
-/// What is asked for, before it is known whether the model allows it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub struct Request {
-    /// What the object shall do.
-    pub kind: GoalKind,
-    /// The direction that becomes z.
-    pub up: Up,
-    /// Where a top touches the floor; others ignore it.
-    pub contact: Contact,
-    /// Where a yo-yo's axis passes; others ignore it.
-    pub spin_point: SpinPoint,
-    /// What "best" means; none for the goal's own default.
-    pub objective: Option<Objective>,
-}
-
-impl Request {
-    /// The request with every choice left at its default: up z, lowest contact, spin about the centre.
-    pub fn new(kind: GoalKind) -> Self {
-        Self { kind, up: Up::Z, contact: Contact::Lowest, spin_point: SpinPoint::Center, objective: None }
-    }
-}
 
 /// What the object shall do, placed in the model.
 #[derive(Debug, Clone, PartialEq)]

@@ -35,7 +35,7 @@ fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
     }
     let [x, y] = match contact {
         Contact::Lowest => lowest_feature_middle(site),
-        Contact::Center | Contact::Point(_) => [site.upright_center().x, site.upright_center().y],
+        Contact::Center | Contact::At(_) => [site.upright_center().x, site.upright_center().y],
     };
     Ok(Point::new(x, y, site.lowest_mm))
 }

@@ -6,7 +6,7 @@ use super::{Placement, SpinPoint};
 pub(super) fn place(site: &Site, spin_point: SpinPoint) -> Result<Placement, GoalError> {
     let origin = match spin_point {
         SpinPoint::Center => site.upright_center(),
-        SpinPoint::Point(point) => site.upright.to_local(&checked_point("spin-point", point)?),
+        SpinPoint::At(point) => site.upright.to_local(&checked_point("spin-point", point)?),
     };
     Ok(Placement { goal: site.goal_at(&origin, Vec::new()), keeps: Vec::new(), warnings: Vec::new() })
 }

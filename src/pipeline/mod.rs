@@ -3,7 +3,6 @@
 mod assembly;
 mod kit;
 mod outcome;
-mod request;
 mod rows;
 mod setup;
 mod solving;

@@ -13,7 +13,7 @@ use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, Kind, PromisedFigure};
+use crate::verify::{Aim, FigureName, Judgement, PromisedFigure};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -74,12 +74,7 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
 
 /// The goal as the judge sees it.
 pub fn aim(goal: &Goal) -> Aim {
-    let kind = match goal.kind {
-        GoalKind::Top => Kind::Top,
-        GoalKind::Yoyo => Kind::Yoyo,
-        GoalKind::Stand => Kind::Stand,
-    };
-    Aim { kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
+    Aim { kind: goal.kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
 }
 
 /// The density of the material, g/cm³.
@@ -138,7 +133,7 @@ fn material_row(setup: &Setup) -> MaterialRow {
         id: material.id.clone(),
         name: material.name.clone(),
         density_g_cm3: material.density_g_cm3.value,
-        density_source: material.density_g_cm3.provenance(),
+        density_source: material.density_g_cm3.source.clone(),
         density_sure: material.density_g_cm3.sure.to_string(),
         density_spread_ratio: Some(material.density_spread_ratio.value),
     }
@@ -322,8 +317,8 @@ fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
         let plane = cut.plane().ok()?;
         let outward: Vector = -plane.normal * plane.distance(&center).signum();
         match (pose.rotation() * outward).z {
-            z if z < -LEVEL_COSINE => Some(format!("cut {} down", cut.id)),
-            z if z > LEVEL_COSINE => Some(format!("cut {} up", cut.id)),
+            z if z < -LEVEL_COSINE => Some(format!("cut face {} down", cut.id)),
+            z if z > LEVEL_COSINE => Some(format!("cut face {} up", cut.id)),
             _ => None,
         }
     };

@@ -1,6 +1,6 @@
 //! Everything a run rests on before it solves: the solid, the printer, the wall and the placed goal.
 
-use super::{Error, request::request_of};
+use super::Error;
 use crate::digest::sha256_hex;
 use crate::goal::{Placement, place};
 use crate::io;
@@ -50,7 +50,7 @@ impl Setup {
         let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()))?;
         let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
         let (job, model) = load(job)?;
-        let placement = place(&model.solid, wall.wall_mm, &request_of(&job.goal))?;
+        let placement = place(&model.solid, wall.wall_mm, &job.goal)?;
         Ok(Self { job, model, printer, material, wall, pitch_mm, placement })
     }
 

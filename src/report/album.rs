@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::picture::{Camera, Color, Item, PictureError, Scene, render};
 use crate::geom::{Aabb, Frame, Plane, Point, Vector};
+use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::verify::{Aim, PartEvidence, Shells};
 
@@ -61,7 +62,9 @@ pub fn part_picture_file(id: &str) -> String {
 pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let view = View::of(&outer, &sitting.aim.frame());
-    let mut shots = vec![model_shot(&outer, &view), cut_away_shot(&outer, &voids, &view)];
+    let stands = sitting.aim.kind == GoalKind::Stand;
+    let upright = if stands { "The model as it stands." } else { "The model, its spin axis upright." };
+    let mut shots = vec![model_shot(&outer, &view, upright), cut_away_shot(&outer, &voids, &view)];
     let in_place = parts_in_model(sitting.parts);
     shots.push(exploded_shot(&in_place, &shifts(&in_place, sitting.cuts), &view));
     shots.extend(sitting.parts.iter().enumerate().map(|(index, part)| part_shot(index, part)));
@@ -111,10 +114,10 @@ fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
     Item { mesh, color, shift: Vector::zeros() }
 }
 
-fn model_shot<'a>(outer: &'a TriMesh, view: &View) -> Shot<'a> {
+fn model_shot<'a>(outer: &'a TriMesh, view: &View, caption: &str) -> Shot<'a> {
     Shot {
         file: "pictures/model.png".to_owned(),
-        caption: "The model, its axis upright.".to_owned(),
+        caption: caption.to_owned(),
         scene: Scene { items: vec![still(outer, BODY)], cut: None },
         camera: view.camera,
     }
@@ -123,7 +126,7 @@ fn model_shot<'a>(outer: &'a TriMesh, view: &View) -> Shot<'a> {
 fn cut_away_shot<'a>(outer: &'a TriMesh, voids: &'a TriMesh, view: &View) -> Shot<'a> {
     Shot {
         file: "pictures/cut-away.png".to_owned(),
-        caption: "Cut away along its axis: material orange, voids blue.".to_owned(),
+        caption: "Cut open from top to bottom: material orange, voids blue.".to_owned(),
         scene: Scene { items: vec![still(outer, BODY), still(voids, VOID)], cut: Some((view.cut, SECTION)) },
         camera: view.camera,
     }

@@ -4,9 +4,10 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::base64::base64;
 use super::steps::steps;
-use super::words::{self, extent, number, quantity, quantity_or_dash};
+use super::words::{self, coordinates, extent, number, quantity, quantity_or_dash};
 use super::{Checklist, PartRow, Picture, Verdict};
-use crate::verify::Check;
+use crate::units::counted;
+use crate::verify::{Check, Figures};
 
 /// How the page looks; part of the page, so that it is one file.
 const STYLE: &str = include_str!("page.css");
@@ -58,7 +59,7 @@ fn header(sheet: &Checklist) -> Markup {
             tr { th { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / 1000.0, "cm³")) " solid" } }
             tr { th { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
             tr { th { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
-            tr { th { "Goal" } td { (goal(sheet)) } }
+            tr { th { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
             tr { th { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
             tr { th { "Wall" } td { "ordered " (quantity(sheet.wall.required_mm, "mm")) ", thinnest measured " (quantity_or_dash(sheet.wall.measured_min_mm, "mm")) } }
         }
@@ -68,13 +69,6 @@ fn header(sheet: &Checklist) -> Markup {
 fn pixels(sheet: &Checklist) -> String {
     let [x, y] = sheet.printer.pixel_mm.map(|pitch| number(pitch * 1000.0));
     format!("{x} × {y}\u{a0}µm")
-}
-
-fn goal(sheet: &Checklist) -> String {
-    let [origin, axis] = [sheet.goal.aim.origin_mm, sheet.goal.aim.axis].map(|v| v.map(number).join(", "));
-    let kind = format!("{:?}", sheet.goal.aim.kind).to_lowercase();
-    let objective = sheet.goal.objective.replace('_', " ");
-    format!("{kind}, best {objective}; about ({origin})\u{a0}mm along ({axis}), model axes")
 }
 
 fn warnings(sheet: &Checklist) -> Markup {
@@ -112,24 +106,26 @@ fn parts(sheet: &Checklist) -> Markup {
         table {
             tr {
                 th { "Part and file" } th class="n" { "Mass" } th class="n" { "Volume" } th { "Size on the plate" }
-                th { "Lies" } th { "Pins, sockets" } th { "SHA-256" }
+                th { "Lies with" } th { "Pins, sockets" }
             }
             @for part in &sheet.parts { (part_line(sheet, part)) }
         }
-        p class="small" { "One of each. Sizes are along the printer's x, y and z." }
+        p class="small" { "Print one of each. Sizes are along the printer's x, y and z. Below each file the first digits of its SHA-256." }
     }
 }
 
 fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
     html! {
         tr {
-            td { strong { (part.id) } br; code { (part.file) } }
+            td {
+                strong { (part.id) } br; code { (part.file) } br;
+                span class="small" { code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) } }
+            }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
             td class="n" { (quantity(part.volume_mm3 / 1000.0, "cm³")) }
             td { (extent(&part.size_mm)) }
             td { (part.lies) }
-            td { (words::counted(part.pins.len(), "pin")) ", " (words::counted(part.sockets.len(), "socket")) }
-            td { code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) } }
+            td { (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket")) }
         }
     }
 }
@@ -153,7 +149,7 @@ fn checks(checks: &[Check]) -> Markup {
             @for check in checks {
                 tr {
                     td { (check.name) }
-                    td { (check.promise) @if let Some(detail) = &check.detail { br; span class="small" { (detail) } } }
+                    td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (detail) } } }
                     td class="n" { (quantity_or_dash(check.value, &check.unit)) }
                     td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
                     td { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
@@ -172,25 +168,35 @@ fn proof(sheet: &Checklist) -> Markup {
     }
 }
 
+/// A column of the table of bodies: its head, its unit, and what stands in it.
+type Column = (&'static str, &'static str, fn(&Figures) -> Option<f64>);
+
+/// What is told of a body where it is known.
+const COLUMNS: [Column; 6] = [
+    ("Off the axis", "mm", |body| body.axis_offset_mm),
+    ("Axis tilt", "°", |body| body.axis_tilt_deg),
+    ("I_b/I_c", "", |body| body.dominance_ratio),
+    ("Critical speed", "rpm", |body| body.critical_speed_rpm),
+    ("Centre's height", "mm", |body| Some(body.center_height_mm)),
+    ("Topples at", "°", |body| body.topples_deg),
+];
+
 fn bodies(sheet: &Checklist) -> Markup {
     let bodies = [("solid", &sheet.solid), ("hollowed", &sheet.hollowed), ("assembly", &sheet.assembly)];
+    let columns = COLUMNS.iter().filter(|(_, _, of)| bodies.iter().any(|(_, body)| of(body).is_some()));
+    let columns: Vec<&Column> = columns.collect();
     html! {
         table {
             tr {
-                th { "Body" } th class="n" { "Mass" } th { "Centre, model axes" } th class="n" { "Off the axis" }
-                th class="n" { "Axis tilt" } th class="n" { "I_b/I_c" } th class="n" { "Critical speed" }
-                th class="n" { "Topples at" }
+                th { "Body" } th class="n" { "Mass" } th { "Centre of mass, mm" }
+                @for (head, _, _) in &columns { th class="n" { (head) } }
             }
             @for (name, body) in bodies {
                 tr {
                     td { (name) }
                     td class="n" { (quantity(body.mass_g, "g")) }
-                    td { (body.center_mm.map(number).join(", ")) "\u{a0}mm" }
-                    td class="n" { (quantity_or_dash(body.axis_offset_mm, "mm")) }
-                    td class="n" { (quantity_or_dash(body.axis_tilt_deg, "°")) }
-                    td class="n" { (quantity_or_dash(body.dominance_ratio, "")) }
-                    td class="n" { (quantity_or_dash(body.critical_speed_rpm, "rpm")) }
-                    td class="n" { (quantity_or_dash(body.topples_deg, "°")) }
+                    td { (coordinates(&body.center_mm)) }
+                    @for (_, unit, of) in &columns { td class="n" { (quantity_or_dash(of(body), unit)) } }
                 }
             }
         }
@@ -213,6 +219,7 @@ fn small_print(sheet: &Checklist) -> Markup {
     html! {
         h2 { "Small print" }
         @for note in &sheet.notes { p class="small" { (note) } }
+        p class="small" { "What the printer's numbers rest on, and how sure they are:" }
         @for source in &sheet.printer.sources { p class="small" { (source) } }
         p class="small" {
             "Made by " (sheet.tool.name) " " (sheet.tool.version) " from " (sheet.model.file) " (SHA-256 " code { (sheet.model.sha256) } ", "

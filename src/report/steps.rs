@@ -3,9 +3,10 @@
 use maud::{Markup, html};
 
 use super::page::{figure, mass_with_window};
-use super::words::{counted, quantity};
+use super::words::quantity;
 use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
-use crate::verify::Kind;
+use crate::goal::GoalKind;
+use crate::units::counted;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
@@ -39,7 +40,7 @@ fn print(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             @for part in &sheet.parts {
                 li {
                     strong { (part.id) } ": " code { (part.file) } ", " (part.lies) ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
-                    ". Machine " (blank()) " lot " (blank())
+                    ". " span class="field" { "Machine " (blank()) } " " span class="field" { "Lot " (blank()) }
                 }
             }
         }
@@ -72,7 +73,7 @@ fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @if let Some(hidden) = hidden_ratio(sheet, void) {
                 " " (format!("{:.0} %", hidden * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
             }
-            " Full of support it would make the parts " (quantity(full_g, "g")) " heavier, about."
+            " Left full of support, it would weigh about " (quantity(full_g, "g")) "."
         }
     }
 }
@@ -164,7 +165,7 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
     let body = &sheet.assembly;
     let height = quantity(body.center_height_mm, "mm");
     match sheet.goal.aim.kind {
-        Kind::Top => {
+        GoalKind::Top => {
             let speed = body.critical_speed_rpm.map(|rpm| {
                 format!(
                     "Spin it on its contact point faster than {}: it stays upright, and falls below that.",
@@ -174,11 +175,12 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
             let hang = format!("Its centre of mass lies {height} above the contact point, on the axis.");
             tip(sheet).into_iter().chain(speed).chain([hang]).collect()
         }
-        Kind::Yoyo => vec![
-            "Hung by its spin point it stays in any position: it is balanced.".to_owned(),
-            "Spun about its axis it does not wobble.".to_owned(),
+        GoalKind::Yoyo => vec![
+            "Held between two points on its axis it stays however it is turned: its centre of mass lies on the axis."
+                .to_owned(),
+            "Spun up about its axis and let go in the air, it goes on turning about it and does not wobble.".to_owned(),
         ],
-        Kind::Stand => {
+        GoalKind::Stand => {
             let tilt = body.topples_deg.map(|deg| {
                 format!(
                     "Set on a tilted board it stands up to {}, whichever way it is turned.",

@@ -1,7 +1,8 @@
 //! Numbers and promises as people read them.
 
-use super::{Certificate, Checklist};
-use crate::verify::{FigureName, Kind};
+use super::{Certificate, Checklist, GoalRow};
+use crate::goal::GoalKind;
+use crate::verify::FigureName;
 
 /// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
 const SIGNIFICANT_DIGITS: i32 = 4;
@@ -43,25 +44,56 @@ pub fn extent(size_mm: &[f64; 3]) -> String {
     format!("{}\u{a0}mm", size_mm.map(number).join(" × "))
 }
 
-/// Counts one thing or several: `1 pin`, `3 pins`.
-pub fn counted(count: usize, thing: &str) -> String {
-    if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
+/// The coordinates of a point in mm, or of a direction, with what is below a thousandth left out: `(0.135, 55.76, 0)`.
+pub fn coordinates(at: &[f64; 3]) -> String {
+    let shown = |value: f64| if value.abs() < SMALL { number(0.0) } else { number(value) };
+    format!("({})", at.map(shown).join(", "))
+}
+
+/// What the object is to do and what was made best, in one sentence.
+pub fn goal(goal: &GoalRow) -> String {
+    let [at, along] = [&goal.aim.origin_mm, &goal.aim.axis].map(coordinates);
+    let best = best(&goal.objective);
+    match goal.aim.kind {
+        GoalKind::Top => {
+            format!("top: spins on its contact point {at}\u{a0}mm about the axis {along}, with {best}")
+        }
+        GoalKind::Yoyo => format!("yo-yo: spins about the axis {along} through {at}\u{a0}mm, with {best}"),
+        GoalKind::Stand => {
+            format!("standing: {along} is up, the middle of its support {at}\u{a0}mm, with {best}")
+        }
+    }
+}
+
+/// What an objective of the checklist asks for.
+fn best(objective: &str) -> String {
+    match objective {
+        "critical_speed" => "the least speed at which it stays upright".to_owned(),
+        "spin_it" => "the least value of Spin-It's functional".to_owned(),
+        "dominance" => "the most dominant axis".to_owned(),
+        "toppling_angle" => "the largest tilt before it topples".to_owned(),
+        "lowest_center" => "the lowest centre of mass".to_owned(),
+        other => format!("the best {}", other.replace('_', " ")),
+    }
 }
 
 /// What the finished object does, in one sentence with its figure.
 pub fn promise(sheet: &Checklist) -> String {
     let body = &sheet.assembly;
     match (sheet.goal.aim.kind, body.critical_speed_rpm, body.topples_deg, body.dominance_ratio) {
-        (Kind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
-        (Kind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
-        (Kind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
-            format!("Spins true about its string axis (I_b/I_c = {}, stable below 1).", number(ratio))
+        (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
+        (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
+        (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
+            format!(
+                "Spins stably: its moment of inertia across the axis is at most {} of the one about it.",
+                number(ratio)
+            )
         }
-        (Kind::Yoyo, ..) => "Does not spin stably about its string axis.".to_owned(),
-        (Kind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
+        (GoalKind::Yoyo, ..) => "Does not spin stably about its axis.".to_owned(),
+        (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
             format!("Stands until tilted by {}.", quantity(tilt, "°"))
         }
-        (Kind::Stand, ..) => "Does not stand.".to_owned(),
+        (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
     }
 }
 
@@ -76,7 +108,11 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
-        format!("The calculated optimum is {}; {}.", quantity(proof.value, unit), gap(proof.gap_ratio)),
+        format!(
+            "The calculated optimum is {}, {} away from that.",
+            quantity(proof.value, unit),
+            gap(proof.gap_ratio)
+        ),
     ];
     words.extend(proof.written_value.map(|written| {
         let share = reached_ratio(proof, written);
@@ -92,9 +128,9 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
 /// The distance between the optimum and its proof, in words.
 fn gap(ratio: f64) -> String {
     if ratio.abs() <= NO_GAP_RATIO {
-        format!("between it and the proof lies less than {} of it", number(NO_GAP_RATIO))
+        format!("less than {} of it", number(NO_GAP_RATIO))
     } else {
-        format!("between it and the proof lies {} of it", number(ratio))
+        format!("{} of it", number(ratio))
     }
 }
 
@@ -122,6 +158,11 @@ mod tests {
         assert_eq!(quantity(2.5, "mm"), "2.5\u{a0}mm");
         assert_eq!(quantity(2.5, "°"), "2.5°");
         assert_eq!(quantity_or_dash(None, "rpm"), "—");
-        assert_eq!((counted(1, "pin"), counted(0, "pin")), ("1 pin".to_owned(), "0 pins".to_owned()));
+    }
+
+    #[test]
+    fn coordinates_leave_out_what_is_less_than_a_micrometre() {
+        assert_eq!(coordinates(&[6.5e-7, -4e-4, 55.764_5]), "(0, 0, 55.76)");
+        assert_eq!(coordinates(&[0.0, -1.0, 0.134_91]), "(0, -1, 0.135)");
     }
 }

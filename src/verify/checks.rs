@@ -1,6 +1,7 @@
 //! The list of checks, and the limits they hold.
 
-use super::{Check, FigureName, Figures, Judgement, Kind, Limit, PartFacts, Peg, Promise};
+use super::{Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise};
+use crate::goal::GoalKind;
 
 /// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
 /// far below it is lost in the printer's own accuracy.
@@ -42,7 +43,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 }
 
 /// Whether the assembly does what the goal asks of any body.
-fn goal_checks(kind: Kind, assembly: &Figures) -> Vec<Check> {
+fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
     let offset = |promise| {
         Check::new(
             "axis offset",
@@ -52,15 +53,15 @@ fn goal_checks(kind: Kind, assembly: &Figures) -> Vec<Check> {
         )
     };
     match kind {
-        Kind::Top => {
+        GoalKind::Top => {
             [vec![offset("the centre of mass lies on the spin axis")], spinning_checks(assembly)].concat()
         }
-        Kind::Yoyo => {
+        GoalKind::Yoyo => {
             [vec![offset("the centre of mass lies in the spin point")], spinning_checks(assembly)].concat()
         }
-        Kind::Stand => vec![Check::new(
+        GoalKind::Stand => vec![Check::new(
             "standing",
-            "it stands, and topples only when tilted by",
+            "it stands: to topple it must be tilted, by",
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
@@ -75,7 +76,7 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
         Check::new("axis tilt", "the spin axis is a principal axis", assembly.axis_tilt_deg, tilt),
         Check::new(
             "dominance",
-            "it turns most heavily about the spin axis (I_b/I_c)",
+            "the moment of inertia is largest about the spin axis (I_b/I_c)",
             assembly.dominance_ratio,
             dominance,
         ),

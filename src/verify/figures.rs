@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Aim, FigureName, Kind, Support};
+use super::{Aim, FigureName, Support};
 use crate::geom::{Frame, Matrix};
+use crate::goal::GoalKind;
 use crate::mass::{Body, Moments};
 use crate::units::STANDARD_GRAVITY_MM_S2;
 
@@ -60,9 +61,9 @@ impl Figures {
         let frame = setting.aim.frame();
         let plain = Self::without_goal(moments.volume(), &body);
         match setting.aim.kind {
-            Kind::Top => plain.of_top(&body, &frame),
-            Kind::Yoyo => plain.of_yoyo(&body, &frame),
-            Kind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
+            GoalKind::Top => plain.of_top(&body, &frame),
+            GoalKind::Yoyo => plain.of_yoyo(&body, &frame),
+            GoalKind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
         }
     }
 
@@ -171,7 +172,7 @@ mod tests {
         Moments::from_parts(volume, &Vector::zeros(), &second).translated(&middle)
     }
 
-    fn setting(kind: Kind, axis: [f64; 3]) -> Setting {
+    fn setting(kind: GoalKind, axis: [f64; 3]) -> Setting {
         Setting { density_g_cm3: 2.0, aim: Aim { kind, origin_mm: [0.0; 3], axis }, support: None }
     }
 
@@ -181,7 +182,7 @@ mod tests {
 
     #[test]
     fn a_plate_has_the_mass_and_moments_of_the_textbook() {
-        let figures = Figures::new(&plate(), &setting(Kind::Top, [0.0, 0.0, 1.0]));
+        let figures = Figures::new(&plate(), &setting(GoalKind::Top, [0.0, 0.0, 1.0]));
         let mass = 60.0 * 40.0 * 4.0 * 2.0e-3;
         assert!((figures.mass_g - mass).abs() < 1e-12 * mass);
         let axial = mass / 12.0 * (60.0 * 60.0 + 40.0 * 40.0);
@@ -191,7 +192,7 @@ mod tests {
 
     #[test]
     fn a_top_stays_up_from_the_speed_of_spin_it_equation_1() {
-        let figures = Figures::new(&plate(), &setting(Kind::Top, [0.0, 0.0, 1.0]));
+        let figures = Figures::new(&plate(), &setting(GoalKind::Top, [0.0, 0.0, 1.0]));
         let (ic, ib) = (60.0_f64.powi(2) + 40.0 * 40.0, 60.0 * 60.0 + 4.0 * 4.0);
         let omega = (9806.65 * 12.0 * 12.0 / (ic - ib)).sqrt();
         let rpm = omega * 60.0 / (2.0 * std::f64::consts::PI);
@@ -201,15 +202,15 @@ mod tests {
 
     #[test]
     fn the_speed_does_not_depend_on_the_density() {
-        let light = Setting { density_g_cm3: 0.7, ..setting(Kind::Top, [0.0, 0.0, 1.0]) };
+        let light = Setting { density_g_cm3: 0.7, ..setting(GoalKind::Top, [0.0, 0.0, 1.0]) };
         let speed = |setting| Figures::new(&plate(), setting).critical_speed_rpm.unwrap();
-        let (a, b) = (speed(&light), speed(&setting(Kind::Top, [0.0, 0.0, 1.0])));
+        let (a, b) = (speed(&light), speed(&setting(GoalKind::Top, [0.0, 0.0, 1.0])));
         assert!((a - b).abs() < 1e-12 * a);
     }
 
     #[test]
     fn no_speed_is_enough_about_an_axis_that_is_not_dominant() {
-        let figures = Figures::new(&plate(), &setting(Kind::Top, [1.0, 0.0, 0.0]));
+        let figures = Figures::new(&plate(), &setting(GoalKind::Top, [1.0, 0.0, 0.0]));
         assert_eq!(figures.critical_speed_rpm, None);
         assert!(figures.dominance_ratio.unwrap() > 1.0);
     }
@@ -217,15 +218,15 @@ mod tests {
     #[test]
     fn an_axis_leaning_by_a_known_angle_is_reported_with_that_angle() {
         let lean = 0.01_f64;
-        let figures = Figures::new(&plate(), &setting(Kind::Top, [lean.sin(), 0.0, lean.cos()]));
+        let figures = Figures::new(&plate(), &setting(GoalKind::Top, [lean.sin(), 0.0, lean.cos()]));
         assert!((figures.axis_tilt_deg.unwrap() - lean.to_degrees()).abs() < 1e-9);
     }
 
     #[test]
     fn a_top_may_be_high_above_its_contact_but_a_yo_yo_must_be_at_its_point() {
         let offset = |kind| Figures::new(&plate(), &setting(kind, [0.0, 0.0, 1.0])).axis_offset_mm.unwrap();
-        assert!(offset(Kind::Top) < 1e-12);
-        assert!((offset(Kind::Yoyo) - 12.0).abs() < 1e-12);
+        assert!(offset(GoalKind::Top) < 1e-12);
+        assert!((offset(GoalKind::Yoyo) - 12.0).abs() < 1e-12);
     }
 
     #[test]
@@ -233,7 +234,7 @@ mod tests {
         let corners_mm = vec![[-30.0, -20.0], [30.0, -20.0], [30.0, 20.0], [-30.0, 20.0]];
         let support = Some(Support { corners_mm, ground_mm: 10.0 });
         // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
-        let aim = Aim { kind: Kind::Stand, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+        let aim = Aim { kind: GoalKind::Stand, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] };
         assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
         let figures = Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support });
         assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
@@ -244,7 +245,7 @@ mod tests {
     #[test]
     fn the_spin_it_ratio_does_not_depend_on_how_the_frame_is_turned_about_its_axis() {
         let value =
-            |axis: [f64; 3]| Figures::new(&plate(), &setting(Kind::Yoyo, axis)).spin_it_ratio.unwrap();
+            |axis: [f64; 3]| Figures::new(&plate(), &setting(GoalKind::Yoyo, axis)).spin_it_ratio.unwrap();
         let (xx, yy, zz) = (40.0 * 40.0 + 16.0, 60.0 * 60.0 + 16.0, 60.0 * 60.0 + 40.0 * 40.0);
         let want = (xx * xx + yy * yy) / (zz * zz);
         assert!((value([0.0, 0.0, 1.0]) - want).abs() < 1e-12);

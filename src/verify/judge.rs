@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::{
-    Check, Figures, Kind, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    Check, Figures, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments, checks, smallest_wall_mm,
 };
+use crate::goal::GoalKind;
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, weld};
 
@@ -72,6 +73,6 @@ pub fn judge(evidence: &Evidence) -> Judgement {
 /// How the bodies of a kit are looked at: its goal, and the support polygon of the outer surface.
 pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
     let aim = promise.goal;
-    let support = (aim.kind == Kind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
+    let support = (aim.kind == GoalKind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
     Setting { density_g_cm3: promise.material.density_g_cm3, aim, support }
 }

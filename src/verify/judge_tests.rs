@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::geom::{Matrix, Point, Vector};
+use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use test_meshes::{block, tray};
 
@@ -35,7 +36,7 @@ fn promise(poses: &[Pose]) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]) },
         material: Density { density_g_cm3: 1.2 },
-        goal: Aim { kind: Kind::Top, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] },
+        goal: Aim { kind: GoalKind::Top, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] },
         promise: None,
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
@@ -158,14 +159,14 @@ fn a_checklist_that_states_another_mass_is_found() {
 #[test]
 fn a_body_turned_about_its_longest_axis_cannot_spin_and_says_so() {
     let mut evidence = sound();
-    evidence.promise.goal = Aim { kind: Kind::Yoyo, origin_mm: [0.0, 0.0, 16.0], axis: [1.0, 0.0, 0.0] };
+    evidence.promise.goal = Aim { kind: GoalKind::Yoyo, origin_mm: [0.0, 0.0, 16.0], axis: [1.0, 0.0, 0.0] };
     assert_eq!(failures(&evidence), ["dominance"]);
 }
 
 #[test]
 fn the_same_box_stands_until_its_centre_is_over_its_edge() {
     let mut evidence = sound();
-    evidence.promise.goal.kind = Kind::Stand;
+    evidence.promise.goal.kind = GoalKind::Stand;
     assert_eq!(failures(&evidence), Vec::<String>::new());
     let angle = judge(&evidence).assembly.topples_deg.unwrap();
     assert!((angle - (20.0_f64 / 6.0).atan().to_degrees()).abs() < 1e-9);

@@ -30,8 +30,7 @@ pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_k
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Kind, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA,
-    WallOrder,
+    Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA, WallOrder,
 };
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{Figures, Pose};
 use crate::geom::{Frame, Point, Vector};
+use crate::goal::GoalKind;
 
 /// The schema of `checklist.json` this judge understands.
 pub const SCHEMA: u32 = 1;
@@ -52,23 +53,11 @@ pub struct Density {
     pub density_g_cm3: f64,
 }
 
-/// What an assembly must do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Kind {
-    /// Spin on a contact point under gravity.
-    Top,
-    /// Spin about a point, held by a string.
-    Yoyo,
-    /// Stand on its support polygon.
-    Stand,
-}
-
 /// The goal, as placed on the model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
     /// What it must do.
-    pub kind: Kind,
+    pub kind: GoalKind,
     /// The contact point, the spin point, or a point of the support plane; model frame, mm.
     pub origin_mm: [f64; 3],
     /// The spin axis or up, model frame; any length but zero.

@@ -30,8 +30,14 @@ SUPPORT_BAND_RATIO = 0.002
 AGREEMENT_RATIO = 1e-7
 # Critical speeds divide by a difference of moments, which costs up to two digits.
 SPEED_AGREEMENT_RATIO = 1e-5
+# Triangles this many times longer than most are cut into pieces before near ones are looked for.
+LONG = 4
+# Pairs of triangles held in memory at once.
+PAIRS_AT_ONCE = 4_000_000
+# More pairs than this are not looked at: minutes and gigabytes, and a surface made of slivers.
+PAIRS_LIMIT = 40_000_000
 # How many points of the voids are measured to the outside.
-WALL_SAMPLES = 200_000
+WALL_SAMPLES = 50_000
 
 
 class Table:
@@ -51,6 +57,9 @@ class Table:
             return
         scale = abs(measured) if scale is None else scale
         self.line(name, float(promised), float(measured), abs(promised - measured) <= ratio * scale)
+
+    def none(self, name, count):
+        self.line(name, 0, "not looked at" if count is None else count, not count)
 
     def at_most(self, name, limit, measured):
         self.line(f"{name} ≤", float(limit), float(measured), bool(measured <= limit))
@@ -153,6 +162,110 @@ def split(mesh):
     return pick(lambda v: v > 0), pick(lambda v: v <= 0)
 
 
+def cells_of(low, high, size):
+    """Every (cell, box) that a box touches in a grid of cubes."""
+    low, high = (np.floor(corner / size).astype(np.int64) for corner in (low, high))
+    counts = (high - low + 1).prod(axis=1)
+    owner = np.repeat(np.arange(len(low)), counts)
+    rank = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
+    x, y, _ = (high - low + 1)[owner].T
+    cell = low[owner] + np.stack([rank % x, rank // x % y, rank // (x * y)], 1) - low.min(axis=0)
+    span = cell.max(axis=0) + 1
+    return (cell[:, 0] * span[1] + cell[:, 1]) * span[2] + cell[:, 2], owner
+
+
+def cut_up(corners, size):
+    """The triangles halved across their longest side until none is longer than size; and whose piece each is."""
+    owner, pieces, owners = np.arange(len(corners)), [], []
+    while len(corners):
+        lengths = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+        is_long = lengths.max(axis=1) > size
+        pieces.append(corners[~is_long])
+        owners.append(owner[~is_long])
+        start = lengths[is_long].argmax(axis=1)
+        a, b, c = (corners[is_long, (start + k) % 3] for k in range(3))
+        middle = (a + b) / 2
+        corners = np.concatenate([np.stack([a, middle, c], 1), np.stack([middle, b, c], 1)])
+        owner = np.tile(owner[is_long], 2)
+    return np.concatenate(pieces), np.concatenate(owners)
+
+
+def grid_pairs(corners, size):
+    """Pairs of triangles that share a cell of the grid and overlap in their boxes, some at a time."""
+    # Middles of sides are rounded, so boxes are a little wider than their pieces.
+    low, high = corners.min(axis=1) - 1e-9, corners.max(axis=1) + 1e-9
+    key, owner = cells_of(low, high, size)
+    order = np.argsort(key, kind="stable")
+    key, owner, held, found = key[order], owner[order], 0, []
+    alike = np.arange(len(key) - 1)
+    for step in range(1, len(key)):
+        alike = alike[alike + step < len(key)]
+        alike = alike[key[alike + step] == key[alike]]
+        i, j = owner[alike], owner[alike + step]
+        boxes = ((low[i] <= high[j]) & (low[j] <= high[i])).all(axis=1)
+        found.append(np.stack([i[boxes], j[boxes]], 1))
+        held += len(found[-1])
+        if len(alike) == 0 or held > PAIRS_AT_ONCE:
+            yield np.concatenate(found)
+            held, found = 0, []
+        if len(alike) == 0:
+            return
+
+
+def near_pairs(corners):
+    """Pairs of triangles that come near each other, long triangles looked at piece by piece; None if too many."""
+    typical = np.median(np.ptp(corners, axis=1).max(axis=1))
+    pieces, owner = cut_up(corners, LONG * typical)
+    keys, looked_at = np.empty(0, np.int64), 0
+    for pairs in grid_pairs(pieces, 2 * typical):
+        looked_at += len(pairs)
+        if looked_at > PAIRS_LIMIT:
+            return None
+        pairs = np.sort(owner[pairs], axis=1)
+        keys = np.unique(np.concatenate([keys, pairs[:, 0] * len(corners) + pairs[:, 1]]))
+    pairs = np.stack([keys // len(corners), keys % len(corners)], 1)
+    return pairs[pairs[:, 0] != pairs[:, 1]]
+
+
+def sign_of(normal, offset):
+    """The sign of normal · offset; zero where rounding decides."""
+    value = np.einsum("ij,ij->i", normal, offset)
+    noise = 1e-14 * np.linalg.norm(normal, axis=1) * np.linalg.norm(offset, axis=1)
+    return np.where(np.abs(value) > noise, np.sign(value), 0)
+
+
+def side(a, b, c, d):
+    """The sign of the tetrahedron a, b, c, d; zero where rounding decides."""
+    return sign_of(np.cross(b - a, c - a), a - d)
+
+
+def piercing(corners, normals, first, second):
+    """Where an edge of the first triangle passes strictly through the second."""
+    plane, foot = normals[second], corners[second, 0]
+    sides = [sign_of(plane, foot - corners[first, k]) for k in range(3)]
+    found = np.zeros(len(first), bool)
+    for k, m in ((0, 1), (1, 2), (2, 0)):
+        at = np.flatnonzero(sides[k] * sides[m] < 0)
+        p, q, target = corners[first[at], k], corners[first[at], m], corners[second[at]]
+        turns = sum(side(p, q, target[:, i], target[:, (i + 1) % 3]) for i in range(3))
+        found[at] |= np.abs(turns) == 3
+    return found
+
+
+def self_intersections(corners):
+    """How many pairs of triangles have an edge of one strictly through the inside of the other; None if slivers make
+    too many pairs to look at."""
+    pairs = near_pairs(corners)
+    if pairs is None:
+        return None
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    count = 0
+    for chunk in np.array_split(pairs, 1 + 4 * len(pairs) // PAIRS_AT_ONCE):
+        first, second = chunk.T
+        count += int((piercing(corners, normals, first, second) | piercing(corners, normals, second, first)).sum())
+    return count
+
+
 def smallest_wall(outer, voids):
     """The least distance from vertices, edge middles and face middles of the voids to the outer surface."""
     corners = np.concatenate(voids)
@@ -175,6 +288,7 @@ def judge_part(table, kit, part, room):
     table.line(f"{part['id']} watertight, outward", True, sound, sound)
     cavities = len(split(mesh)[1])
     table.line(f"{part['id']} closed cavities", 0, cavities, cavities == 0)
+    table.none(f"{part['id']} self-intersections", self_intersections(corners))
     table.same(f"{part['id']} volume, mm³", part["volume_mm3"], moments(corners)[0])
     low, high = mesh.bounds
     table.at_most(f"{part['id']} height of lowest point, mm", RESTING_LIMIT_MM, abs(low[2]))
@@ -200,6 +314,7 @@ def judge(kit):
     hollowed = read_stl(kit / "hollowed.stl")
     whole = welded(hollowed)
     table.line("hollowed.stl watertight", True, bool(whole.is_watertight), bool(whole.is_watertight))
+    table.none("hollowed.stl self-intersections", self_intersections(hollowed))
     outer, voids = split(whole)
     density = sheet["material"]["density_g_cm3"] / 1000
     volume, mass, center, inertia = body(parts, density)

@@ -1,24 +1,9 @@
-//! Makes the models that the documentation and the tests speak of, by code alone, as binary STL in mm:
-//!
-//! ```text
-//! cargo run --example make_models -- OUTDIR
-//! ```
-//!
-//! * `tilted-ellipsoid`: as a solid no top; hollowed it spins upright on its lowest point (z up);
-//! * `asymmetric-heart`: a top on its tip, with lobes of different size;
-//! * `balancing-figure`: leans so far over its foot that only hollowing lets it stand;
-//! * `yoyo-cuboid`: almost square and askew, so that its spin axis (z) is not its dominant one;
-//! * `three-spheres`: a leaning stack on a small foot that no hollowing alone can make stand.
-
-#![allow(clippy::print_stdout, reason = "an example talks to the person who runs it")]
+//! The models we ship and speak of, made by code, each with what it is good for.
 
 use std::f64::consts::{PI, TAU};
-use std::path::Path;
 
-use anyhow::{Context, Result};
 use equipoise::geom::{Frame, Matrix, Point, Vector};
-use equipoise::io::stl;
-use equipoise::mesh::{Solid, TriMesh, primitives, scaled};
+use equipoise::mesh::{Defects, Solid, TriMesh, primitives, scaled};
 
 /// The longest side of every model.
 const SIZE_MM: f64 = 100.0;
@@ -29,25 +14,28 @@ const LEVEL: u32 = 4;
 /// Corners of every ring of a stack: 2.3 mm apart on a model of 100 mm around.
 const RING_CORNERS: usize = 48;
 
-fn main() -> Result<()> {
-    let folder = std::env::args_os().nth(1).context("name the folder to write the models to")?;
-    let folder = Path::new(&folder);
-    std::fs::create_dir_all(folder)
-        .with_context(|| format!("cannot make the folder {}", folder.display()))?;
-    let models = [
-        ("tilted-ellipsoid", tilted_ellipsoid()),
-        ("asymmetric-heart", asymmetric_heart()),
-        ("balancing-figure", balancing_figure()),
-        ("yoyo-cuboid", yoyo_cuboid()),
-        ("three-spheres", three_spheres()),
-    ];
-    for (name, mesh) in models {
-        let solid = Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm())).context(name)?;
-        let path = folder.join(name).with_extension("stl");
-        stl::write(&path, solid.mesh(), name)?;
-        println!("{}: {} triangles", path.display(), solid.mesh().triangles().len());
-    }
-    Ok(())
+/// Makes a model of any size.
+pub type Maker = fn() -> TriMesh;
+
+/// Every model by its name.
+///
+/// * `tilted-ellipsoid`: as a solid no top; hollowed it spins upright on its lowest point (z up);
+/// * `asymmetric-heart`: a top on its tip, with lobes of different size;
+/// * `balancing-figure`: leans so far over its foot that only hollowing lets it stand;
+/// * `yoyo-cuboid`: almost square and askew, so that its spin axis (z) is not its dominant one;
+/// * `three-spheres`: a leaning stack on a small foot that no hollowing alone can make stand.
+pub const MODELS: [(&str, Maker); 5] = [
+    ("tilted-ellipsoid", tilted_ellipsoid),
+    ("asymmetric-heart", asymmetric_heart),
+    ("balancing-figure", balancing_figure),
+    ("yoyo-cuboid", yoyo_cuboid),
+    ("three-spheres", three_spheres),
+];
+
+/// A model as a solid whose longest side is 100 mm.
+pub fn solid(make: Maker) -> Result<Solid, Defects> {
+    let mesh = make();
+    Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm()))
 }
 
 /// An ellipsoid of three different axes, tilted two ways, with a vertex on its lowest point.

@@ -1,0 +1,132 @@
+//! Values that are read from and printed as words: the macros that make them, and what is said of any other word.
+
+use crate::toml_text::nearest;
+
+/// A text that is none of the words, or not the numbers, that were asked for.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum ChoiceError {
+    /// An unknown word.
+    #[error("`{text}` is not a {what}; remedy: {remedy}")]
+    Unknown {
+        /// What was asked for.
+        what: &'static str,
+        /// What was given.
+        text: String,
+        /// The nearest word, or all of them.
+        remedy: String,
+    },
+    /// Three numbers that are not finite.
+    #[error("`{0}` has a coordinate that is not finite; remedy: give three plain numbers X,Y,Z")]
+    NotFinite(String),
+    /// A direction of no length.
+    #[error("`{0}` has no direction; remedy: give at least one coordinate that is not zero")]
+    ZeroVector(String),
+}
+
+impl ChoiceError {
+    /// The fault of a text that is none of the `known` words for a `what`; suggests the nearest of them.
+    pub fn unknown(what: &'static str, text: &str, known: &[&str]) -> Self {
+        let remedy = match nearest(text, known.iter().copied()) {
+            Some(word) => format!("did you mean `{word}`?"),
+            None => format!("use {}", known.join(", ")),
+        };
+        Self::Unknown { what, text: text.to_owned(), remedy }
+    }
+}
+
+/// So many numbers with commas between them, finite or not; none if they are not so many, or not numbers.
+pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
+    let numbers: Vec<f64> =
+        text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    numbers.try_into().ok()
+}
+
+/// An enum of which each value is one word.
+macro_rules! choice {
+    ($(#[$about:meta])* $name:ident, $what:literal { $($(#[$doc:meta])* $value:ident = $word:literal,)+ }) => {
+        $(#[$about])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+        pub enum $name {
+            $($(#[$doc])* #[serde(rename = $word)] $value,)+
+        }
+
+        impl $name {
+            /// Every value's word, in the order of the values.
+            pub const WORDS: &'static [&'static str] = &[$($word),+];
+
+            /// The word it reads from and prints as.
+            pub fn word(self) -> &'static str {
+                match self { $(Self::$value => $word,)+ }
+            }
+        }
+
+        impl std::fmt::Display for $name {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str(self.word())
+            }
+        }
+
+        impl std::str::FromStr for $name {
+            type Err = $crate::words::ChoiceError;
+
+            fn from_str(text: &str) -> Result<Self, Self::Err> {
+                match text {
+                    $($word => Ok(Self::$value),)+
+                    _ => Err($crate::words::ChoiceError::unknown($what, text, Self::WORDS)),
+                }
+            }
+        }
+    };
+}
+
+/// Text in serde's files, through `FromStr` and `Display`; the type says `#[serde(try_from = "String", into = "String")]`.
+macro_rules! as_text {
+    ($($name:ident)+) => { $(
+        impl TryFrom<String> for $name {
+            type Error = $crate::words::ChoiceError;
+
+            fn try_from(text: String) -> Result<Self, Self::Error> {
+                text.parse()
+            }
+        }
+
+        impl From<$name> for String {
+            fn from(value: $name) -> Self {
+                value.to_string()
+            }
+        }
+    )+ };
+}
+
+pub(crate) use {as_text, choice};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    choice! {
+        /// Two words.
+        Answer, "reply" {
+            /// Yes.
+            Yes = "yes",
+            /// No.
+            No = "no",
+        }
+    }
+
+    #[test]
+    fn every_word_reads_and_prints_as_itself() {
+        for word in Answer::WORDS {
+            assert_eq!(word.parse::<Answer>().unwrap().to_string(), *word);
+        }
+        let error = "yess".parse::<Answer>().unwrap_err().to_string();
+        assert_eq!(error, "`yess` is not a reply; remedy: did you mean `yes`?");
+    }
+
+    #[test]
+    fn numbers_are_as_many_as_asked_for() {
+        assert_eq!(numbers("1, -2.5,3e-9"), Some([1.0, -2.5, 3e-9]));
+        assert_eq!(numbers::<3>("1,2"), None);
+        assert_eq!(numbers::<2>("1,two"), None);
+    }
+}
