@@ -30,7 +30,7 @@ pub use access::VoidAccess;
 pub use error::CutError;
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
-pub use plan::{Cut, CutPlan, JointNote, UncutFace, plan, plan_for_cuts};
+pub use plan::{Cut, CutPlan, JointNote, UncutFace, plan, plan_for_cuts, plan_of};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use section::{Point2, Ring, Section};

@@ -137,7 +137,7 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    described(&scene, &layout, notes)
+    described(&scene, layout, notes)
 }
 
 /// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
@@ -146,19 +146,28 @@ pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -
     let scene = Scene::new(hollowed, request);
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let pieces = split(&scene.material, &planes)?;
-    described(&scene, &Layout { planes, pieces, bridges: Vec::new() }, Vec::new())
+    let voids = accesses(hollowed, &planes)?;
+    described(&scene, Layout { planes, voids, pieces, bridges: Vec::new() }, Vec::new())
 }
 
-/// Cuts, and the pieces they leave.
+/// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
+/// sights. Cuts, pins and joints stay.
+pub fn plan_of(hollowed: &Hollowed, plan: CutPlan) -> Result<CutPlan, CutError> {
+    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    Ok(CutPlan { voids: accesses(hollowed, &planes)?, ..plan })
+}
+
+/// Cuts, how they open the voids, and the pieces they leave.
 struct Layout {
     planes: Vec<Plane>,
+    voids: Vec<VoidAccess>,
     pieces: Vec<Piece>,
     bridges: Vec<Bridge>,
 }
 
 impl Layout {
     /// The pieces between the planes, left joined where a cut would part them needlessly.
-    fn new(scene: &Scene, planes: Vec<Plane>) -> Result<Self, CutError> {
+    fn new(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Result<Self, CutError> {
         let parted = split(&scene.material, &planes)?;
         let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
         let bridges = bridges(&cutting, &parted);
@@ -166,7 +175,7 @@ impl Layout {
         // What stays joined must not seal what the cut opened.
         let (pieces, bridges) =
             if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };
-        Ok(Self { planes, pieces, bridges })
+        Ok(Self { planes, voids, pieces, bridges })
     }
 }
 
@@ -195,7 +204,7 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
 /// The best of the smallest plans, and its pieces.
 fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutError> {
     if scene.hollowed.voids.is_empty() {
-        return Layout::new(scene, Vec::new());
+        return Layout::new(scene, Vec::new(), Vec::new());
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
@@ -204,11 +213,12 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
         if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
-            return Layout::new(scene, planes);
+            return Layout::new(scene, planes, voids);
         }
-        narrow = narrow.or(Some(planes));
+        narrow = narrow.or(Some((planes, voids)));
     }
-    Layout::new(scene, narrow.unwrap_or_default())
+    let (planes, voids) = narrow.unwrap_or_default();
+    Layout::new(scene, planes, voids)
 }
 
 fn proof_note(found: &Found) -> String {
@@ -249,34 +259,35 @@ fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>)
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         let middle = off_vertices(&scene.material, &middle);
-        let planes = layout.planes.iter().copied().chain([middle]).collect();
-        *layout = Layout::new(scene, planes)?;
+        let planes: Vec<Plane> = layout.planes.iter().copied().chain([middle]).collect();
+        let voids = accesses(scene.hollowed, &planes)?;
+        *layout = Layout::new(scene, planes, voids)?;
         notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
     }
     Ok(())
 }
 
 /// The plan's data for these cuts and pieces.
-fn described(scene: &Scene, layout: &Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
-    let Layout { planes, pieces, bridges } = layout;
-    check_no_cavity(pieces)?;
-    let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
+fn described(scene: &Scene, layout: Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
+    let Layout { planes, voids, pieces, bridges } = layout;
+    check_no_cavity(&pieces)?;
+    let pin_scene =
+        PinScene { request: scene.request, planes: &planes, pieces: &pieces, material: &scene.material };
     let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
     let mut placed: Vec<Vec<Peg>> = Vec::new();
-    for joint in joints(pieces) {
+    for joint in joints(&pieces) {
         let placement = place(&pin_scene, &joint, &placed);
         placed.push(placement.pegs.clone());
         notes.extend(shortage(scene.request, &joint, &placement));
-        joint_notes.push(joint_note(pieces, &joint, &placement, pins.len()));
+        joint_notes.push(joint_note(&pieces, &joint, &placement, pins.len()));
         pins.extend(placement.sites.into_iter().map(|site| PinSite { cut: cut_id(joint.cut), ..site }));
     }
     for (index, pin) in pins.iter_mut().enumerate() {
         pin.id = pin_id(index);
     }
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
-    let voids = accesses(scene.hollowed, planes)?;
     notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
-    let uncut = bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect();
+    let uncut = bridges.iter().map(|bridge| uncut_face(&planes, bridge)).collect();
     Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
 }
 

@@ -16,6 +16,9 @@ const LOWEST_FEATURE_RATIO: f64 = 1e-6;
 /// Air below the surface that is no more than this part of the height is rounding, not a missing tip.
 const AIR_RATIO: f64 = 1e-6;
 
+/// Air below the surface that no printer could fill, mm: less than its layer, so no tip is missing.
+const TOUCHING_MM: f64 = 0.01;
+
 pub(super) fn place(site: &Site, wall_mm: f64, contact: Contact) -> Result<Placement, GoalError> {
     let origin = contact_point(site, contact)?;
     let depth_mm = origin.z - site.upright_center().z;
@@ -52,7 +55,9 @@ fn warnings(site: &Site, contact: &Point, surface_mm: Option<f64>) -> Vec<Warnin
     let depth_mm = contact.z - site.lowest_mm;
     let air = match surface_mm {
         None => Some(Warning::AxisMissesModel),
-        Some(missing_mm) if missing_mm > tolerance_mm => Some(Warning::ContactInAir { missing_mm }),
+        Some(missing_mm) if missing_mm > tolerance_mm.max(TOUCHING_MM) => {
+            Some(Warning::ContactInAir { missing_mm })
+        }
         Some(_) => None,
     };
     let below = (depth_mm > tolerance_mm).then_some(Warning::BelowContact { depth_mm });

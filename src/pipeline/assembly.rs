@@ -122,6 +122,7 @@ fn assembled(
         let written = written_moments(&parts);
         attempts += 1;
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &written.in_frame(&goal.frame)) {
+            let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
             return Ok(Assembly { solution, hollowed, refused_mm3, plan, parts, rounds });
         }
