@@ -5,6 +5,7 @@ mod columns;
 mod integrate;
 mod moments;
 mod row;
+mod without;
 
 pub use build::BuildError;
 pub use columns::Columns;

@@ -75,7 +75,7 @@ impl Row {
 
 /// Takes the open stretch (bottom, top) out of ascending disjoint intervals; nothing if not bottom < top.
 #[inline]
-fn subtract(intervals: &mut Vec<[f64; 2]>, [bottom, top]: [f64; 2]) {
+pub(super) fn subtract(intervals: &mut Vec<[f64; 2]>, [bottom, top]: [f64; 2]) {
     let mut index = 0;
     while index < intervals.len() && intervals[index][1] <= bottom {
         index += 1;

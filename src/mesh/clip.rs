@@ -6,8 +6,8 @@ use manifold_rust::{
     types::{Error, MeshGL64},
 };
 
-use super::{Defects, MeshError, Solid, TriMesh, bodies::bodies};
-use crate::geom::Plane;
+use super::{Defects, MeshError, Solid, TriMesh, bodies::bodies, primitives::cuboid};
+use crate::geom::{Plane, Point, orthonormal_basis};
 
 /// Why a boolean, a cut or an import failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -36,6 +36,10 @@ pub enum ClipError {
 /// How far the squared length of a plane's normal may be from one. Rounding leaves 1e-15; a normal that was
 /// never normalised is off by far more.
 const UNIT_LENGTH_TOLERANCE: f64 = 1e-9;
+
+/// How far the box that stands for a half-space reaches, in diagonals of the body: more than half of one on every side,
+/// so that its other faces stay clear of the body.
+const SPACE_RATIO: f64 = 2.0;
 
 /// A closed mesh in the form in which it can be cut and combined.
 ///
@@ -103,8 +107,26 @@ impl Csg {
         if !is_unit || !plane.offset_mm.is_finite() {
             return Err(ClipError::DegeneratePlane);
         }
-        let (positive, negative) = self.0.split_by_plane(Vec3::new(n.x, n.y, n.z), plane.offset_mm);
+        let above = self.half_space(plane)?;
+        let (positive, negative) =
+            rayon::join(|| self.0.intersection(&above.0), || self.0.difference(&above.0));
         Ok((checked(positive, "cutting by a plane")?, checked(negative, "cutting by a plane")?))
+    }
+
+    /// A box that holds what lies of this body on the positive side of a plane.
+    fn half_space(&self, plane: &Plane) -> Result<Self, ClipError> {
+        let aabb = self.0.bounding_box();
+        let corner = |at: Vec3| Point::new(at.x, at.y, at.z);
+        let (low, high) = (corner(aabb.min), corner(aabb.max));
+        let reach = SPACE_RATIO * (high - low).norm().max(f64::MIN_POSITIVE);
+        let center = nalgebra::center(&low, &high);
+        let foot = center - plane.normal * plane.distance(&center);
+        let depth = reach + plane.distance(&center).abs();
+        let (u, v) = orthonormal_basis(&plane.normal);
+        let unit = cuboid(&Point::new(-1.0, -1.0, 0.0), &Point::new(1.0, 1.0, 1.0));
+        Self::of_mesh(
+            &unit.map_vertices(|p| foot + (u * p.x + v * p.y) * reach + plane.normal * (p.z * depth)),
+        )
     }
 
     /// The separate bodies, each with its cavities, in the order of their first triangles.
@@ -160,7 +182,7 @@ fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Point, Vector};
+    use crate::geom::Vector;
 
     /// An axis-aligned box as twelve triangles.
     fn cuboid(min: [f64; 3], max: [f64; 3]) -> TriMesh {

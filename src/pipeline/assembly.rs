@@ -53,7 +53,7 @@ impl Assembly {
         watch: &mut Stopwatch,
     ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
-        let mut tuner = Tuner::new(setup, &solved, progress)?;
+        let mut tuner = Tuner::new(setup, solved, progress)?;
         watch.lap("shell");
         let voids = tuner.first()?;
         watch.lap("voids");

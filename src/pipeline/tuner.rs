@@ -1,11 +1,14 @@
 //! The voids of a solution, solved for again until what will be written meets the goal (THEORY §4).
 
+use rayon::prelude::*;
+
 use super::{Error, Setup, Solved, tuning::is_tuned};
 use crate::hollow::Solution;
+use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, TriMesh};
 use crate::progress::Progress;
-use crate::voids::{Cavity, CavitySpec};
+use crate::voids::{Cavity, CavitySpec, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
 /// each may find another void too small; more than a few mean that voids come and go.
@@ -14,12 +17,12 @@ const MAX_ROUNDS: usize = 8;
 const SURFACE_TOLERANCE_PIXELS: f64 = 0.5;
 /// No finer than this, mm: below, triangles grow without any printer showing it.
 const FINEST_SURFACE_TOLERANCE_MM: f64 = 0.02;
-/// What is refused is kept solid with so much around it, mm: more than a surface moves from round to round, less than
-/// anybody misses.
-const REFUSED_MARGIN_MM: f64 = 0.3;
-/// A refused void below this volume, mm³, may come back in a later round: at 50 mm from the axis of 50 cm³ it moves the
-/// centre of mass by a hundred-thousandth of a millimetre.
-const SIGNIFICANT_MM3: f64 = 0.01;
+/// What is refused is kept solid with so much around it, in minimum openings: what lies nearer would hardly be cleaned
+/// either. Less takes more rounds, as slices beside it are refused one after the other; the value reached is the same.
+const REFUSED_MARGIN_RATIO: f64 = 0.5;
+/// A refused void below this share of the model's volume may come back in a later round: at 50 mm from the axis it moves
+/// the centre of mass by a tenth of a micrometre.
+const SIGNIFICANT_RATIO: f64 = 2e-6;
 
 /// The voids of a solution.
 #[derive(Debug, Clone)]
@@ -39,15 +42,16 @@ pub struct Voids {
 /// Makes voids, measures them and solves again.
 pub struct Tuner<'a> {
     setup: &'a Setup,
-    solved: &'a Solved,
-    /// What may be emptied, without what was refused.
+    /// The columns of what may be emptied, without what was refused, and the last solution on them.
+    solved: Solved,
+    /// The surface of the same.
     cavity: Cavity,
     refused_mm3: f64,
 }
 
 impl<'a> Tuner<'a> {
     /// Draws what may be emptied.
-    pub fn new(setup: &'a Setup, solved: &'a Solved, progress: &Progress) -> Result<Self, Error> {
+    pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
         let cavity = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
         Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
     }
@@ -69,7 +73,7 @@ impl<'a> Tuner<'a> {
             }
             voids = self.again(&voids, written)?;
         }
-        Ok(voids)
+        finished(voids)
     }
 
     /// The voids without these of them, and solved for again.
@@ -84,8 +88,11 @@ impl<'a> Tuner<'a> {
     /// The voids solved for once more with the difference between what was measured and what was solved for (goal frame) added
     /// to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
-        let fixed = voids.fixed + (written - voids.solution.moments);
-        self.voids(self.solved.corrected(self.setup, fixed), fixed, voids.rounds + 1)
+        // What was refused since the voids were solved for is known to the columns now.
+        let planned = voids.fixed - moments_where_positive(&self.solved.columns, &voids.solution.quadric);
+        let fixed = voids.fixed + (written - planned);
+        self.solved.solution = self.solved.corrected(self.setup, fixed);
+        self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
     }
 
     /// The voids of a solution; what is too small is refused for good, or it would come and go from round to round.
@@ -93,8 +100,9 @@ impl<'a> Tuner<'a> {
         let frame = &self.setup.placement.goal.frame;
         let bodies = self.cavity.void_bodies(&solution.quadric, frame)?;
         let crumbs_mm3 = bodies.refused_mm3();
+        let least_mm3 = SIGNIFICANT_RATIO * self.setup.placement.goal.solid.volume();
         let significant: Vec<TriMesh> =
-            bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > SIGNIFICANT_MM3).collect();
+            bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > least_mm3).collect();
         let refused_mm3 = self.refused_mm3 + crumbs_mm3;
         self.refuse(&significant)?;
         let hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
@@ -103,12 +111,25 @@ impl<'a> Tuner<'a> {
 
     /// Keeps these bodies solid from now on.
     fn refuse(&mut self, bodies: &[TriMesh]) -> Result<(), Error> {
-        if !bodies.is_empty() {
-            self.refused_mm3 += bodies.iter().map(TriMesh::signed_volume_mm3).sum::<f64>();
-            self.cavity = self.cavity.without(bodies, REFUSED_MARGIN_MM)?;
+        if bodies.is_empty() {
+            return Ok(());
         }
+        let frame = &self.setup.placement.goal.frame;
+        let all = bodies.iter().fold(TriMesh::default(), |all, body| all.joined(body));
+        let margin_mm = REFUSED_MARGIN_RATIO * self.setup.printer.min_opening_mm.value;
+        let solid = grown(&all, margin_mm)?;
+        self.refused_mm3 += all.signed_volume_mm3();
+        self.cavity = self.cavity.without(&solid)?;
+        self.solved.columns = self.solved.columns.without(&solid.map_vertices(|p| frame.to_local(p)));
         Ok(())
     }
+}
+
+/// The voids as they can be written.
+fn finished(mut voids: Voids) -> Result<Voids, Error> {
+    let bodies = std::mem::take(&mut voids.hollowed.voids);
+    voids.hollowed.voids = bodies.par_iter().map(without_slivers).collect::<Result<_, _>>()?;
+    Ok(voids)
 }
 
 /// What the surface of the voids is made to.

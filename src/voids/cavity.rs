@@ -43,8 +43,8 @@ const ATTEMPTS: usize = 3;
 
 /// How far a simplification may stray from the drawn vertices, mm outward and in tolerances inward: the drawn triangles
 /// stray themselves.
-const SIMPLE_OUTSIDE_MM: f64 = 0.007;
-const SIMPLE_INSIDE_RATIO: f64 = 0.25;
+const SIMPLE_OUTSIDE_MM: f64 = 0.02;
+const SIMPLE_INSIDE_RATIO: f64 = 0.35;
 
 /// The model and what must stay solid: what the walls are measured against.
 struct Limits<'a> {

@@ -3,7 +3,7 @@
 use super::crossing::crossing_triangles;
 use rayon::prelude::*;
 
-use super::decimate::{Rules, decimated};
+use super::decimate::{Decimation, Rules};
 use crate::mesh::{MeshError, TriMesh};
 
 /// How often what failed is locked and the rest done again, before everything is left as it was.
@@ -15,8 +15,9 @@ const LOCKED_RINGS: usize = 2;
 /// The mesh with fewer triangles by these rules, free of self-intersection; the mesh itself if that cannot be had.
 pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
     let mut locked = vec![false; mesh.vertices().len()];
+    let mut decimation = Decimation::new(&mesh, rules);
     for _ in 0..ROUNDS {
-        let (simple, names) = compacted(&mesh, decimated(&mesh, rules, &locked))?;
+        let (simple, names) = compacted(&mesh, decimation.run(&locked))?;
         let failed = failed_triangles(&simple, rules);
         if failed.is_empty() {
             return Ok(simple);

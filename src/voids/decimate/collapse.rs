@@ -19,6 +19,11 @@ const TURN_COSINE: f64 = 0.5;
 /// collapse when the file's `f32` rounds them.
 const SHAPE_RATIO: f64 = 0.05;
 
+/// A new triangle that goes less than this beyond the vertex it replaces counts as inside, mm: twice the error of the
+/// drawn vertices. Above, triangles that the judge refuses pass unseen and the work is done again around them; below,
+/// he is asked about every flat place.
+const FLAT_MM: f64 = 2e-4;
+
 /// Vertices that the triangles around one vertex may stand for: the time for a merge grows with them.
 const POINTS_MAX: usize = 160;
 
@@ -38,6 +43,15 @@ struct Fresh {
     triangle: u32,
     corners: [Point; 3],
     normal: Vector,
+    /// How far it lies outside the vertex that goes, mm; negative inside.
+    outside_mm: f64,
+}
+
+impl Fresh {
+    /// Whether it lies inside what was there: a judge who allowed the surface so far allows everything inside it.
+    fn is_inside(&self) -> bool {
+        self.outside_mm <= FLAT_MM
+    }
 }
 
 impl Patch {
@@ -80,7 +94,7 @@ impl Patch {
             if self.is_link_simple(edge, scratch)
                 && self.make_fresh(edge, scratch)
                 && self.settle_points(rules.stray, scratch)
-                && scratch.fresh.iter().all(|fresh| (rules.allows)(&fresh.corners))
+                && scratch.fresh.iter().all(|fresh| fresh.is_inside() || (rules.allows)(&fresh.corners))
             {
                 self.merge(edge, scratch);
                 return;
@@ -136,7 +150,9 @@ impl Patch {
             if !is_good {
                 return false;
             }
-            scratch.fresh.push(Fresh { triangle: leaving / 3, corners, normal: after / length });
+            let normal = after / length;
+            let outside_mm = normal.dot(&(target - old[0]));
+            scratch.fresh.push(Fresh { triangle: leaving / 3, corners, normal, outside_mm });
         }
         true
     }

@@ -37,71 +37,121 @@ pub(super) struct Rules<'a> {
     pub allows: &'a (dyn Fn(&[Point; 3]) -> bool + Sync),
 }
 
-/// Triangles over some vertices of a mesh, and what they leave out.
-struct State {
+/// Triangles over some vertices of a mesh, and the removed vertices that each stands for.
+#[derive(Debug, Clone, Default)]
+struct Parts {
     triangles: Vec<[u32; 3]>,
-    /// For each triangle the removed vertices that it stands for.
-    stands_for: Vec<Vec<u32>>,
+    /// The removed vertices, triangle by triangle.
+    points: Vec<u32>,
+    /// Where each triangle's removed vertices end.
+    ends: Vec<u32>,
+}
+
+impl Parts {
+    /// Adds a triangle that stands for these vertices.
+    fn push(&mut self, triangle: [u32; 3], points: impl Iterator<Item = u32>) {
+        self.triangles.push(triangle);
+        self.points.extend(points);
+        self.ends.push(self.points.len() as u32);
+    }
+
+    /// Adds all of another's triangles.
+    fn append(&mut self, other: &Self) {
+        let before = self.points.len() as u32;
+        self.triangles.extend_from_slice(&other.triangles);
+        self.points.extend_from_slice(&other.points);
+        self.ends.extend(other.ends.iter().map(|end| before + end));
+    }
+
+    /// The removed vertices that a triangle stands for.
+    fn points_of(&self, triangle: u32) -> &[u32] {
+        let t = triangle as usize;
+        let start = if t == 0 { 0 } else { self.ends[t - 1] as usize };
+        &self.points[start..self.ends[t] as usize]
+    }
+}
+
+/// A mesh on its way to fewer triangles.
+struct State {
+    parts: Parts,
     /// Whether a vertex may still be removable: it was on a seam, or something beside it has changed since it was tried.
     is_open: Vec<bool>,
 }
 
-/// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
-///
-/// Closed and 2-manifold if `mesh` is; it may intersect itself where sheets are nearer than the tolerance. The result
-/// does not depend on the number of threads.
-pub(super) fn decimated(mesh: &TriMesh, rules: Rules, locked: &[bool]) -> Vec<[u32; 3]> {
-    let mut state = State {
-        triangles: mesh.triangles().to_vec(),
-        stands_for: vec![Vec::new(); mesh.triangles().len()],
-        is_open: vec![true; mesh.vertices().len()],
-    };
-    let first = mesh.aabb().size().imax();
-    for round in 0..ROUNDS {
-        state = decimate_slabs(state, mesh.vertices(), (first + round) % 3, (rules, locked));
-    }
-    state.triangles
+/// The simplification of a mesh, which can be done again with more vertices locked at little cost.
+pub(super) struct Decimation<'a> {
+    mesh: &'a TriMesh,
+    rules: Rules<'a>,
+    /// What must not be removed, as of the last run.
+    locked: Vec<bool>,
+    /// The slabs of the first round, and what they became in the last run.
+    first: Vec<Parts>,
 }
 
-/// Triangles, and the removed vertices that each stands for.
-type Parts = (Vec<[u32; 3]>, Vec<Vec<u32>>);
-
-/// One round: equal shares of the triangles along an axis, each on its own, with the seams locked.
-fn decimate_slabs(state: State, vertices: &[Point], axis: usize, limits: (Rules, &[bool])) -> State {
-    let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][axis]).sum::<f64>();
-    let mut order: Vec<u32> = (0..state.triangles.len() as u32).collect();
-    order.par_sort_by(|&a, &b| {
-        let [p, q] = [a, b].map(|i| center(&state.triangles[i as usize]));
-        p.total_cmp(&q).then(a.cmp(&b))
-    });
-    let slabs: Vec<&[u32]> = order.chunks(SLAB_TRIANGLES.max(1)).collect();
-    let slab_of_vertex = slabs_of_vertices(&state, vertices.len(), &slabs);
-    let is_locked = |v: u32| limits.1[v as usize] || slab_of_vertex[v as usize] == SEVERAL;
-    let done: Vec<Parts> = slabs
-        .par_iter()
-        .map(|slab| {
-            let mut patch = Patch::new(&state, vertices, slab, &is_locked);
-            patch.decimate(limits.0);
-            patch.into_parts()
-        })
-        .collect();
-    let is_open = slab_of_vertex.iter().map(|&slab| slab == SEVERAL).collect();
-    let mut merged = State { triangles: Vec::new(), stands_for: Vec::new(), is_open };
-    for part in done {
-        merged.triangles.extend(part.0);
-        merged.stands_for.extend(part.1);
+impl<'a> Decimation<'a> {
+    /// Prepares the simplification of a closed 2-manifold.
+    pub fn new(mesh: &'a TriMesh, rules: Rules<'a>) -> Self {
+        Self { mesh, rules, locked: vec![false; mesh.vertices().len()], first: Vec::new() }
     }
-    merged.open_beside_seams();
-    merged
+
+    /// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
+    ///
+    /// Closed and 2-manifold; it may intersect itself where sheets are nearer than the tolerance. The result does not
+    /// depend on the number of threads, nor on earlier runs.
+    pub fn run(&mut self, locked: &[bool]) -> Vec<[u32; 3]> {
+        let count = self.mesh.vertices().len();
+        let triangles = self.mesh.triangles();
+        let parts =
+            Parts { triangles: triangles.to_vec(), points: Vec::new(), ends: vec![0; triangles.len()] };
+        let mut state = State { parts, is_open: vec![true; count] };
+        let first = self.mesh.aabb().size().imax();
+        for round in 0..ROUNDS {
+            let slabs = Slabs::new(&state, self.mesh.vertices(), (first + round) % 3);
+            let known = if round == 0 { std::mem::take(&mut self.first) } else { Vec::new() };
+            let done = self.decimate_slabs(&state, &slabs, locked, known);
+            state = slabs.merged(&done);
+            if round == 0 {
+                self.first = done;
+            }
+        }
+        self.locked.copy_from_slice(locked);
+        state.parts.triangles
+    }
+
+    /// One round: each slab on its own, with the seams locked; slabs `known` from the last run are not done again
+    /// where nothing more is locked.
+    fn decimate_slabs(
+        &self,
+        state: &State,
+        slabs: &Slabs,
+        locked: &[bool],
+        mut known: Vec<Parts>,
+    ) -> Vec<Parts> {
+        known.resize(slabs.triangles.len(), Parts::default());
+        let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
+        let has_changed = |&v: &u32| locked[v as usize] != self.locked[v as usize];
+        let corners = |t: &u32| state.parts.triangles[*t as usize];
+        slabs
+            .triangles
+            .par_iter()
+            .zip(known)
+            .map(|(slab, known)| {
+                if !known.triangles.is_empty() && !slab.iter().any(|t| corners(t).iter().any(has_changed)) {
+                    return known;
+                }
+                let mut patch = Patch::new(state, self.mesh.vertices(), slab, &is_locked);
+                patch.decimate(self.rules);
+                patch.into_parts()
+            })
+            .collect()
+    }
 }
 
-impl State {
-    /// Opens the vertices beside open ones: only now can they be merged into those.
-    fn open_beside_seams(&mut self) {
-        let beside = |t: &&[u32; 3]| t.iter().any(|&v| self.is_open[v as usize]);
-        let near: Vec<u32> = self.triangles.iter().filter(beside).flatten().copied().collect();
-        near.into_iter().for_each(|v| self.is_open[v as usize] = true);
-    }
+/// Equal shares of the triangles along an axis.
+struct Slabs {
+    triangles: Vec<Vec<u32>>,
+    /// For each vertex its slab, or [`NONE`] or [`SEVERAL`].
+    of_vertex: Vec<u32>,
 }
 
 /// "In no slab yet."
@@ -110,17 +160,42 @@ const NONE: u32 = u32::MAX;
 /// "On a seam."
 const SEVERAL: u32 = u32::MAX - 1;
 
-fn slabs_of_vertices(state: &State, count: usize, slabs: &[&[u32]]) -> Vec<u32> {
-    let mut slab_of = vec![NONE; count];
-    for (number, slab) in slabs.iter().enumerate() {
-        for &triangle in slab.iter() {
-            for v in state.triangles[triangle as usize] {
-                let seen = &mut slab_of[v as usize];
-                *seen = if *seen == NONE || *seen == number as u32 { number as u32 } else { SEVERAL };
+impl Slabs {
+    fn new(state: &State, vertices: &[Point], axis: usize) -> Self {
+        let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][axis]).sum::<f64>();
+        let triangles = &state.parts.triangles;
+        let mut order: Vec<(f64, u32)> = triangles.iter().map(center).zip(0..).collect();
+        order.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let slabs: Vec<Vec<u32>> =
+            order.chunks(SLAB_TRIANGLES).map(|slab| slab.iter().map(|&(_, t)| t).collect()).collect();
+        let mut of_vertex = vec![NONE; vertices.len()];
+        for (number, slab) in (0..).zip(&slabs) {
+            for v in slab.iter().flat_map(|&t| triangles[t as usize]) {
+                let seen = &mut of_vertex[v as usize];
+                *seen = if *seen == NONE || *seen == number { number } else { SEVERAL };
             }
         }
+        Self { triangles: slabs, of_vertex }
     }
-    slab_of
+
+    /// What the slabs became, as one.
+    fn merged(&self, done: &[Parts]) -> State {
+        let mut parts = Parts::default();
+        done.iter().for_each(|part| parts.append(part));
+        let mut state =
+            State { parts, is_open: self.of_vertex.iter().map(|&slab| slab == SEVERAL).collect() };
+        state.open_beside_seams();
+        state
+    }
+}
+
+impl State {
+    /// Opens the vertices beside open ones: only now can they be merged into those.
+    fn open_beside_seams(&mut self) {
+        let beside = |t: &&[u32; 3]| t.iter().any(|&v| self.is_open[v as usize]);
+        let near: Vec<u32> = self.parts.triangles.iter().filter(beside).flatten().copied().collect();
+        near.into_iter().for_each(|v| self.is_open[v as usize] = true);
+    }
 }
 
 #[cfg(test)]
@@ -135,7 +210,7 @@ mod tests {
     const RULES: Rules = Rules { stray: STRAY, allows: &|_| true };
 
     fn decimated_mesh(mesh: &TriMesh, locked: &[bool]) -> TriMesh {
-        let triangles = decimated(mesh, RULES, locked);
+        let triangles = Decimation::new(mesh, RULES).run(locked);
         welded(triangles.iter().map(|t| t.map(|v| mesh.vertices()[v as usize])))
     }
 
@@ -197,8 +272,20 @@ mod tests {
         let fine = ball(Point::origin(), 5.0, 7);
         let with_threads = |n| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
-            pool.install(|| decimated(&fine, RULES, &vec![false; fine.vertices().len()]))
+            pool.install(|| Decimation::new(&fine, RULES).run(&vec![false; fine.vertices().len()]))
         };
         assert_eq!(with_threads(1), with_threads(2));
+    }
+
+    #[test]
+    fn a_second_run_with_more_locked_is_what_a_first_one_would_be() {
+        let fine = ball(Point::origin(), 5.0, 7);
+        let none = vec![false; fine.vertices().len()];
+        let some: Vec<bool> = fine.vertices().iter().map(|p| p.x > 4.0 && p.y > 1.0).collect();
+        let mut decimation = Decimation::new(&fine, RULES);
+        let before = decimation.run(&none);
+        let again = decimation.run(&some);
+        assert_ne!(before, again);
+        assert_eq!(again, Decimation::new(&fine, RULES).run(&some));
     }
 }

@@ -48,15 +48,12 @@ pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
 impl Patch {
     /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names must stay.
     pub fn new(state: &State, vertices: &[Point], slab: &[u32], is_locked: &impl Fn(u32) -> bool) -> Self {
-        let mut names: Vec<u32> = Vec::with_capacity(slab.len());
-        for &t in slab {
-            names.extend(state.triangles[t as usize]);
-            names.extend(&state.stands_for[t as usize]);
-        }
-        names.sort_unstable();
-        names.dedup();
-        let local = |name: u32| names.partition_point(|&other| other < name) as u32;
-        let start: Vec<u32> = slab.iter().flat_map(|&t| state.triangles[t as usize]).map(local).collect();
+        let corners = || slab.iter().flat_map(|&t| state.parts.triangles[t as usize]);
+        let removed =
+            || (0..).zip(slab).flat_map(|(i, &t)| state.parts.points_of(t).iter().map(move |&p| (i, p)));
+        let (names, numbers) = numbered(vertices.len(), corners().chain(removed().map(|(_, name)| name)));
+        let local = |name: u32| numbers[name as usize];
+        let start: Vec<u32> = corners().map(local).collect();
         let mut patch = Self {
             points: names.iter().map(|&name| vertices[name as usize]).collect(),
             twin: twins(&start),
@@ -71,16 +68,13 @@ impl Patch {
             first_point: vec![NIL; slab.len()],
             next_point: vec![NIL; names.len()],
             start,
-            names: Vec::new(),
+            names,
         };
         for (edge, &v) in patch.start.iter().enumerate() {
             patch.leaving[v as usize] = edge as u32;
         }
         patch.find_pinched();
-        for (i, &t) in slab.iter().enumerate() {
-            state.stands_for[t as usize].iter().for_each(|&name| patch.give(i as u32, local(name)));
-        }
-        patch.names = names;
+        removed().for_each(|(triangle, name)| patch.give(triangle, local(name)));
         patch
     }
 
@@ -107,12 +101,13 @@ impl Patch {
 
     /// The triangles left, in the mesh's own numbers.
     pub fn into_parts(self) -> Parts {
-        let alive: Vec<u32> =
-            (0..self.is_alive.len() as u32).filter(|&t| self.is_alive[t as usize]).collect();
         let name = |v: u32| self.names[v as usize];
-        let triangle = |&t: &u32| [0, 1, 2].map(|k| name(self.start[(3 * t + k) as usize]));
-        let stands_for = alive.iter().map(|&t| self.points_of(t).map(name).collect()).collect();
-        (alive.iter().map(triangle).collect(), stands_for)
+        let mut parts = Parts::default();
+        for t in (0..self.is_alive.len() as u32).filter(|&t| self.is_alive[t as usize]) {
+            let corners = [0, 1, 2].map(|k| name(self.start[(3 * t + k) as usize]));
+            parts.push(corners, self.points_of(t).map(name));
+        }
+        parts
     }
 
     /// Lets a triangle stand for a removed vertex.
@@ -170,6 +165,18 @@ impl Patch {
             }
         }
     }
+}
+
+/// The names in use among `count`, ascending, and the place of each among them.
+fn numbered(count: usize, used: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<u32>) {
+    let mut numbers = vec![NIL; count];
+    used.for_each(|name| numbers[name as usize] = 0);
+    let mut names = Vec::new();
+    for (name, number) in (0..).zip(&mut numbers).filter(|(_, number)| **number != NIL) {
+        *number = names.len() as u32;
+        names.push(name);
+    }
+    (names, numbers)
 }
 
 /// For each half-edge the one that runs the other way.

@@ -15,8 +15,11 @@ const COARSE_RATIO: f64 = 1.0;
 /// How far a chord may stray from the grown surface, over the margin.
 const STRAY_RATIO: f64 = 0.4;
 
-/// A body that holds every point of `bodies` and everything within about `margin_mm` of them, give or take half of it.
-pub(super) fn dilated(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
+/// A body that holds closed `bodies` and everything within about `margin_mm` of them, give or take half of it.
+///
+/// A void that is refused for one quadric, grown by more than surfaces move when it is solved for again, can be kept
+/// solid for all quadrics that differ little.
+pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;
     let field =
@@ -45,7 +48,7 @@ mod tests {
     #[test]
     fn a_grown_body_clears_the_body_by_about_the_margin() {
         let bodies = block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
-        let grown = dilated(&bodies, 0.3).unwrap();
+        let grown = grown(&bodies, 0.3).unwrap();
         let distance = MeshDistance::new(&bodies);
         for p in grown.vertices() {
             // Vertices lie on the surface itself; triangles sag by up to four tenths.
