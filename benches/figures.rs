@@ -200,7 +200,7 @@ fn solve_at_native_pitch(bencher: Bencher, name: &str) {
     bencher.bench(|| scene.refined(black_box(columns), middle));
 }
 
-#[divan::bench(args = names(), sample_count = 3, sample_size = 1)]
+#[divan::bench(args = names(), sample_count = 2, sample_size = 1)]
 fn cavity_extraction(bencher: Bencher, name: &str) {
     let scene = scene(name);
     scene.placement();
@@ -215,7 +215,7 @@ fn void_bodies(bencher: Bencher, name: &str) {
     bencher.bench(|| cavity.void_bodies(black_box(&solution.quadric), frame).unwrap());
 }
 
-#[divan::bench(args = names(), sample_count = 2, sample_size = 1)]
+#[divan::bench(args = names(), sample_count = 1, sample_size = 1)]
 fn whole_prepare(bencher: Bencher, name: &str) {
     let job = scene(name).job();
     bencher.bench(|| pipeline::run(black_box(&job), &Progress::silent()).unwrap());

@@ -13,19 +13,16 @@ const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
 /// Every step: print, clean, dry fit, glue, weigh, test.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+    let steps = [
+        ("1. Print", print(sheet, pictures)),
+        ("2. Clean every void", clean(sheet)),
+        ("3. Dry fit", dry_fit(sheet)),
+        ("4. Glue", glue(sheet)),
+        ("5. Weigh", weigh(sheet)),
+        ("6. Test", test(sheet)),
+    ];
     html! {
-        h2 { "1. Print" }
-        (print(sheet, pictures))
-        h2 { "2. Clean every void" }
-        (clean(sheet))
-        h2 { "3. Dry fit" }
-        (dry_fit(sheet))
-        h2 { "4. Glue" }
-        (glue(sheet))
-        h2 { "5. Weigh" }
-        (weigh(sheet))
-        h2 { "6. Test" }
-        (test(sheet))
+        @for (name, step) in &steps { section { h2 { (name) } (step) } }
     }
 }
 
@@ -40,7 +37,7 @@ fn print(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             @for part in &sheet.parts {
                 li {
                     strong { (part.id) } ": " code { (part.file) } ", " (part.lies) ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
-                    ". " span class="field" { "Machine " (blank()) } " " span class="field" { "Lot " (blank()) }
+                    "." br; span class="field" { "Machine " (blank()) } " " span class="field" { "Lot " (blank()) }
                 }
             }
         }
@@ -73,7 +70,7 @@ fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @if let Some(hidden) = hidden_ratio(sheet, void) {
                 " " (format!("{:.0} %", hidden * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
             }
-            " Left full of support, it would weigh about " (quantity(full_g, "g")) "."
+            " Left full of support, it adds about " (quantity(full_g, "g")) "."
         }
     }
 }

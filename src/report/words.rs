@@ -44,7 +44,7 @@ pub fn extent(size_mm: &[f64; 3]) -> String {
     format!("{}\u{a0}mm", size_mm.map(number).join(" × "))
 }
 
-/// The coordinates of a point in mm, or of a direction, with what is below a thousandth left out: `(0.135, 55.76, 0)`.
+/// The coordinates of a point in mm, or of a direction, with what is below a thousandth as zero: `(0.1349, 55.76, 0)`.
 pub fn coordinates(at: &[f64; 3]) -> String {
     let shown = |value: f64| if value.abs() < SMALL { number(0.0) } else { number(value) };
     format!("({})", at.map(shown).join(", "))
@@ -163,6 +163,6 @@ mod tests {
     #[test]
     fn coordinates_leave_out_what_is_less_than_a_micrometre() {
         assert_eq!(coordinates(&[6.5e-7, -4e-4, 55.764_5]), "(0, 0, 55.76)");
-        assert_eq!(coordinates(&[0.0, -1.0, 0.134_91]), "(0, -1, 0.135)");
+        assert_eq!(coordinates(&[0.0, -1.0, 0.134_91]), "(0, -1, 0.1349)");
     }
 }

@@ -61,7 +61,7 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
         }
         GoalKind::Stand => vec![Check::new(
             "standing",
-            "it stands: to topple it must be tilted, by",
+            "it stands, and topples when tilted by",
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
