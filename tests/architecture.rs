@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// Who may see whom: a room and everything it may import. A new arrow is a decision, written down here.
 ///
-/// units, progress → geom → mesh → io | shell → mass → goal | printer → interior → hollow → voids → cut → report →
+/// units, progress, words → geom → mesh → io | shell → mass → goal → job | printer → interior → hollow → voids → cut → report →
 /// pipeline → cli. `verify` sees nothing of shell, interior, hollow, voids and cut: the judge does not know the accused.
 const ARROWS: &[(&str, &[&str])] = &[
     ("units", &[]),

@@ -148,8 +148,8 @@ fn written_parts(
     let (job, count) = (setup.name(), parts.len());
     parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count)).collect()
 }
-/// What cuts, pins and poses are asked for.
 
+/// What cuts, pins and poses are asked for.
 pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
     PlanRequest {

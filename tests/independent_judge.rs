@@ -1,0 +1,51 @@
+//! A judge in another language, with nothing of ours, finds in a kit's files what the checklist promises.
+
+#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+
+use std::ffi::OsString;
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output};
+
+const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
+
+/// The Python to judge with: `EQUIPOISE_JUDGE_PYTHON`, or `python3`; none where it lacks the judge's packages.
+fn python() -> Option<OsString> {
+    let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
+    let imports = Command::new(&python).args(["-c", "import numpy, scipy, trimesh, rtree"]).output();
+    imports.is_ok_and(|output| output.status.success()).then_some(python)
+}
+
+fn judged(python: &OsString, kit: &Path) -> (Option<i32>, String) {
+    let Output { status, stdout, stderr } =
+        Command::new(python).arg(JUDGE).arg(kit).env("PYTHONDONTWRITEBYTECODE", "1").output().unwrap();
+    (status.code(), String::from_utf8_lossy(&[stdout, stderr].concat()).into_owned())
+}
+
+#[test]
+fn an_independent_judge_agrees_with_the_checklist_and_finds_a_lie_in_it() {
+    let Some(python) = python() else {
+        eprintln!("SKIPPED: no Python with numpy, scipy, trimesh and rtree here");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+        .args(["-q", "prepare", MODEL, "--printer", "objet-connex350", "--goal", "top", "--size", "60mm"])
+        .args(["--wall", "1.5mm", "--pitch", "0.3mm", "--out"])
+        .arg(&kit)
+        .output()
+        .unwrap();
+    assert!(prepared.status.success(), "{}", String::from_utf8_lossy(&prepared.stderr));
+    let (code, said) = judged(&python, &kit);
+    assert_eq!(code, Some(0), "{said}");
+    let sheet = kit.join("checklist.json");
+    let mut checklist: serde_json::Value = serde_json::from_slice(&fs::read(&sheet).unwrap()).unwrap();
+    let mass_g = checklist["assembly"]["mass_g"].as_f64().unwrap();
+    checklist["assembly"]["mass_g"] = (mass_g * 1.000_01).into();
+    fs::write(&sheet, checklist.to_string()).unwrap();
+    let (code, said) = judged(&python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL mass"), "{code:?} {said}");
+}
