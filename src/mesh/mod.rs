@@ -1,7 +1,6 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 
 mod bodies;
-mod box_tree;
 mod clip;
 mod crossings;
 mod defects;

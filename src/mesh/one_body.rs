@@ -28,8 +28,8 @@ impl fmt::Display for ShellRole {
         f.write_str(match self {
             Self::Body => "a body",
             Self::Cavity => "a cavity",
-            Self::Island => "a loose body in a cavity",
-            Self::Doubled => "a body inside the material of another",
+            Self::Island => "a loose body (in a cavity)",
+            Self::Doubled => "a body (inside the material of another)",
         })
     }
 }

@@ -1,4 +1,7 @@
-//! Where a closed mesh meets itself.
+//! Where a closed mesh meets itself or all but does: nearer than the rounding of a file would keep apart, while
+//! [`crate::mesh::Crossings`] judges coordinates as they stand.
+
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
@@ -20,10 +23,14 @@ pub(super) fn crossing_triangles(mesh: &TriMesh) -> Vec<u32> {
     let bvh = Bvh::new(mesh.iter_corners());
     let meets_of = |i: u32| {
         let corners = mesh.corners(i as usize);
-        let others = bvh.overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM));
-        let meets =
-            others.into_iter().filter(move |&j| j > i).filter(move |&j| meet(mesh, i as usize, j as usize));
-        meets.flat_map(move |j| [i, j]).collect::<Vec<u32>>()
+        let mut meeting = Vec::new();
+        bvh.visit_overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM), |j, _| {
+            if j > i && meet(mesh, i as usize, j as usize) {
+                meeting.extend([i, j]);
+            }
+            ControlFlow::Continue(())
+        });
+        meeting
     };
     let mut crossing: Vec<u32> =
         (0..mesh.triangles().len() as u32).into_par_iter().flat_map_iter(meets_of).collect();
