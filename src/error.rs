@@ -7,7 +7,7 @@ use crate::goal::GoalError;
 use crate::interior::BuildError;
 use crate::io::{ReadError, StlError};
 use crate::job::JobError;
-use crate::mesh::{ClipError, Defects};
+use crate::mesh::{ClipError, Defects, NotOneBody};
 use crate::printer::{MaterialError, ProfileError, WallError};
 use crate::report::{ChecklistError, KitError, PictureError};
 use crate::shell::ShellError;
@@ -27,6 +27,14 @@ pub enum Error {
         path: PathBuf,
         /// Every defect.
         source: Box<Defects>,
+    },
+    /// The model is not one body.
+    #[error("{} is not one body", path.display())]
+    NotOneBody {
+        /// The model's file.
+        path: PathBuf,
+        /// Its shells, or where it passes through itself.
+        source: Box<NotOneBody>,
     },
     /// The job is not one, or its model has changed.
     #[error(transparent)]

@@ -41,6 +41,15 @@ fn stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
     bytes
 }
 
+/// The box between two corners, turned outward.
+fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<[[f32; 3]; 3]> {
+    let corner =
+        |bits: usize| [0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { high[axis] } else { low[axis] });
+    let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+    let halves = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    halves.map(|triangle| triangle.map(corner)).collect()
+}
+
 /// The faces of the tetrahedron at the origin; the first three leave it open.
 const FACES: [[[f32; 3]; 3]; 4] = [
     [[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
@@ -53,6 +62,27 @@ const FACES: [[[f32; 3]; 3]; 4] = [
 fn an_open_mesh_is_refused_with_its_holes() {
     let said = refused("open.stl", &stl(&FACES[..3]));
     assert!(said.contains("does not bound a solid") && said.contains("hole"), "{said}");
+}
+
+#[test]
+fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
+    let hole = cuboid([6.0, 6.0, 6.0], [16.0, 16.0, 16.0]).into_iter().map(|[a, b, c]| [a, c, b]);
+    let holed: Vec<_> = cuboid([0.0; 3], [40.0; 3]).into_iter().chain(hole).collect();
+    let said = refused("holed.stl", &stl(&holed));
+    assert!(said.contains("a cavity of 1000.000 mm³ about (11.00, 11.00, 11.00) mm"), "{said}");
+    assert!(said.contains("remedy: remove the inner surfaces"), "{said}");
+}
+
+#[test]
+fn bodies_beside_each_other_in_each_other_and_through_each_other_are_refused_before_any_work() {
+    let body = cuboid([0.0; 3], [40.0; 3]);
+    let with = |low: f32, high: f32| stl(&[&body[..], &cuboid([low; 3], [high; 3])].concat());
+    let beside = refused("beside.stl", &with(50.0, 60.0));
+    assert!(beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"), "{beside}");
+    let within = refused("within.stl", &with(10.0, 20.0));
+    assert!(within.contains("a body (inside the material of another)"), "{within}");
+    let through = refused("through.stl", &with(30.0, 60.0));
+    assert!(through.contains("pass through each other") && through.contains("boolean union"), "{through}");
 }
 
 #[test]

@@ -92,6 +92,18 @@ fn an_existing_kit_is_replaced_only_with_force(kit: &Path) {
     assert_ne!(files(kit), before);
 }
 
+/// At so coarse a pitch there is one level of columns only, whose proof must count as that of finer ones does.
+#[test]
+fn an_impossible_goal_is_proved_on_the_coarsest_columns_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("kit");
+    let usual = ["prepare", ELLIPSOID, "--printer", "objet-connex350", "--goal", "top", "--size", "60mm"];
+    let coarse = ["--wall", "12mm", "--pitch", "2mm", "--out", out.to_str().unwrap()];
+    let output = equipoise(&[&usual[..], &coarse[..]].concat());
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    assert!(text(&output.stdout).contains("Impossible") && !out.exists());
+}
+
 #[test]
 fn an_impossible_goal_is_an_answer_with_the_reason_and_remedies_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();

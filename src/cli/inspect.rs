@@ -10,7 +10,7 @@ use super::prepare::Voice;
 use crate::geom::Vector;
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
-use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, repair, scaled};
+use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, one_body, repair, scaled};
 use crate::units::counted;
 
 /// Why `inspect` could not run.
@@ -42,6 +42,7 @@ struct Findings {
     degenerate_triangles: usize,
     repairs: String,
     defects: Option<String>,
+    not_one_body: Option<String>,
     solid: Option<Mass>,
 }
 
@@ -55,7 +56,7 @@ struct Mass {
     dominance_ratio_by_axis: [f64; 3],
 }
 
-/// Tells the facts and defects of a model on `out`; a model that bounds no solid ends in [`Exit::NotKept`].
+/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends in [`Exit::NotKept`].
 pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, InspectError> {
     let (mesh, repairs) = repair(read_model(&args.model)?);
     let mesh = scaled(&mesh, args.scaling.scaling().factor(mesh.longest_side_mm()));
@@ -67,7 +68,8 @@ pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<
     } else if !voice.manner.quiet {
         write!(out, "{}", text(&findings))?;
     }
-    Ok(if solid.is_ok() { Exit::Kept } else { Exit::NotKept })
+    let is_sound = findings.defects.is_none() && findings.not_one_body.is_none();
+    Ok(if is_sound { Exit::Kept } else { Exit::NotKept })
 }
 
 fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) -> Findings {
@@ -84,6 +86,7 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         degenerate_triangles: facts.degenerate_triangles,
         repairs,
         defects: solid.as_ref().err().map(ToString::to_string),
+        not_one_body: solid.as_ref().ok().and_then(|solid| Some(one_body(solid).err()?.to_string())),
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
     }
 }
@@ -132,6 +135,9 @@ fn text(findings: &Findings) -> String {
         if count > 0 {
             text += &format!("{count} {what}\n");
         }
+    }
+    if let Some(reason) = &findings.not_one_body {
+        text += &format!("prepare needs one body: {reason}\n");
     }
     match (&findings.solid, &findings.defects) {
         (Some(mass), _) => text + &mass_text(mass),

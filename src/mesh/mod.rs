@@ -1,7 +1,6 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
 
 mod bodies;
-mod box_tree;
 mod clip;
 mod crossings;
 mod defects;
@@ -10,6 +9,7 @@ mod edges;
 mod facts;
 mod fans;
 mod hollowed;
+mod one_body;
 mod orient;
 pub mod primitives;
 mod repair;
@@ -27,6 +27,7 @@ pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
 pub use facts::MeshFacts;
 pub use hollowed::Hollowed;
+pub use one_body::{NotOneBody, ShellFact, ShellRole, one_body};
 pub use repair::{Repairs, repair};
 pub use solid::Solid;
 pub use tri_mesh::{MeshError, TriMesh, scaled};

@@ -75,7 +75,8 @@ pub(super) fn joins(kind: EdgeKind) -> bool {
     matches!(kind, EdgeKind::Paired | EdgeKind::Misoriented)
 }
 
-fn shell_box(mesh: &TriMesh, triangles: &[u32]) -> Aabb {
+/// The box about these triangles.
+pub(super) fn shell_box(mesh: &TriMesh, triangles: &[u32]) -> Aabb {
     let corners = triangles.iter().flat_map(|&t| mesh.corners(t as usize));
     corners.fold(Aabb::EMPTY, |aabb, corner| aabb.grown_over(&corner))
 }

@@ -5,7 +5,7 @@ use crate::digest::sha256_hex;
 use crate::goal::{Placement, place};
 use crate::io;
 use crate::job::Job;
-use crate::mesh::{Repairs, Solid, TriMesh, repair, scaled};
+use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
 use crate::printer::{Material, Printer, WallChoice};
 use crate::progress::Progress;
 
@@ -69,13 +69,10 @@ fn load(job: &Job) -> Result<(Job, Model), Error> {
         .map_err(|source| io::ReadError::Content { path: job.model.path.clone(), source })?;
     let job = job.clone().bound_to(&bytes)?;
     let (mesh, repairs) = repair(mesh);
-    let scale_ratio = job.model.scaling.factor(longest_side(&mesh));
+    let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
     let solid = Solid::new(scaled(&mesh, scale_ratio))
         .map_err(|source| Error::NotSolid { path: job.model.path.clone(), source: Box::new(source) })?;
+    one_body(&solid)
+        .map_err(|source| Error::NotOneBody { path: job.model.path.clone(), source: Box::new(source) })?;
     Ok((job, Model { solid, repairs, sha256: sha256_hex(&[&bytes]), scale_ratio }))
-}
-
-/// The longest side of the box about a mesh, in the file's numbers.
-fn longest_side(mesh: &TriMesh) -> f64 {
-    mesh.aabb().size().max()
 }

@@ -33,7 +33,10 @@ impl Solved {
         let goal = &setup.placement.goal;
         let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
         let mut level: Option<Self> = None;
-        for (done, pitch_mm) in pitches(setup, &shell).into_iter().enumerate() {
+        let pitches = pitches(setup, &shell);
+        // The first of several levels may lack what a finer one has; the last one has the last word.
+        let first_to_tell = pitches.len().min(2) - 1;
+        for (done, pitch_mm) in pitches.into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
             let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent())?;
             watch.lap("columns");
@@ -42,7 +45,7 @@ impl Solved {
             if progress.is_cancelled() {
                 return Err(Error::Cancelled);
             }
-            if done > 0 && !solution.is_usable() {
+            if done >= first_to_tell && !solution.is_usable() {
                 return Ok(Err(impossible(setup, &solution)));
             }
             level = Some(Self { columns, solution });

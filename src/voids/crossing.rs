@@ -1,4 +1,7 @@
-//! Where a closed mesh meets itself.
+//! Where a closed mesh meets itself or all but does: nearer than the rounding of a file would keep apart, while
+//! [`crate::mesh::Crossings`] judges coordinates as they stand.
+
+use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
@@ -21,10 +24,15 @@ pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
     let bvh = Bvh::new(mesh.iter_corners());
     let meets_of = |i: u32| {
         let corners = mesh.corners(i as usize);
-        let others = bvh.overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM));
-        let is_due = move |&j: &u32| j > i || !is_asked[j as usize];
-        let meets = others.into_iter().filter(is_due).filter(move |&j| meet(mesh, i as usize, j as usize));
-        meets.flat_map(move |j| [i, j]).collect::<Vec<u32>>()
+        let mut meeting = Vec::new();
+        bvh.visit_overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM), |j, _| {
+            let is_due = j > i || !is_asked[j as usize];
+            if is_due && meet(mesh, i as usize, j as usize) {
+                meeting.extend([i, j]);
+            }
+            ControlFlow::Continue(())
+        });
+        meeting
     };
     let asked = (0..mesh.triangles().len() as u32).into_par_iter().filter(|&i| is_asked[i as usize]);
     let mut crossing: Vec<u32> = asked.flat_map_iter(meets_of).collect();

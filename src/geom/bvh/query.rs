@@ -1,5 +1,7 @@
 //! Asking the hierarchy: nearest point, distances of triangles and segments, winding along a ray.
 
+use std::ops::ControlFlow;
+
 use super::Bvh;
 use crate::geom::triangle::{
     Feature, TrianglePoint, closest_on_triangle, disjoint_triangles_distance_squared,
@@ -108,18 +110,20 @@ impl Bvh {
         )
     }
 
-    /// The triangles whose boxes overlap `aabb` (touching counts), in an order that depends on the tree alone.
-    pub fn overlapping(&self, aabb: &Aabb) -> Vec<u32> {
-        self.visit(
-            Vec::new(),
+    /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's numbers and with their
+    /// corners, until it breaks off; in an order that depends on the tree alone.
+    pub fn visit_overlapping(&self, aabb: &Aabb, mut see: impl FnMut(u32, &[Point; 3]) -> ControlFlow<()>) {
+        _ = self.visit(
+            ControlFlow::Continue(()),
             |other| gap_squared(aabb, other),
-            |_| f64::MIN_POSITIVE,
-            |found, slot| {
-                if gap_squared(aabb, &Aabb::of_points(&self.corners[slot])) <= 0.0 {
-                    found.push(self.ids[slot]);
+            |flow| if flow.is_break() { f64::NEG_INFINITY } else { f64::MIN_POSITIVE },
+            |flow, slot| {
+                let corners = &self.corners[slot];
+                if flow.is_continue() && gap_squared(aabb, &Aabb::of_points(corners)) <= 0.0 {
+                    *flow = see(self.ids[slot], corners);
                 }
             },
-        )
+        );
     }
 
     /// How often the surface winds around `p`: the signed crossings of the ray from `p` along +z.
@@ -392,6 +396,31 @@ mod tests {
                 .fold(f64::INFINITY, f64::min)
                 .sqrt();
             assert!((bvh.segment_distance(&t[0], &t[1], f64::INFINITY) - segment).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn every_triangle_whose_box_overlaps_is_seen_until_the_walk_is_broken_off() {
+        let triangles = soup(300);
+        let bvh = Bvh::new(triangles.clone());
+        for i in 0..100 {
+            let low = noise_point(13 * i + 1, 10.0);
+            let aabb = Aabb { min: low, max: low + noise_point(13 * i + 2, 3.0).coords };
+            let overlaps = |t: &[Point; 3]| gap_squared(&aabb, &Aabb::of_points(t)) <= 0.0;
+            let brute: Vec<u32> = (0..300).filter(|&t| overlaps(&triangles[t as usize])).collect();
+            let (mut seen, mut shown) = (Vec::new(), 0);
+            bvh.visit_overlapping(&aabb, |t, corners| {
+                assert_eq!(*corners, triangles[t as usize]);
+                seen.push(t);
+                ControlFlow::Continue(())
+            });
+            seen.sort_unstable();
+            assert_eq!(seen, brute);
+            bvh.visit_overlapping(&aabb, |_, _| {
+                shown += 1;
+                if shown < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            });
+            assert_eq!(shown, brute.len().min(3));
         }
     }
 

@@ -1,0 +1,199 @@
+//! Whether a solid is one body: what a kit can be made of. Inner surfaces, loose bodies and overlaps are named.
+
+use std::fmt;
+
+use super::edges::EdgeTable;
+use super::shells::{Shells, shell_box};
+use super::{Crossings, Solid, TriMesh};
+use crate::geom::Point;
+
+/// How many shells are named; a scan with more crumbs than that is cleaned as a whole.
+const NAMED_SHELLS: usize = 12;
+
+/// What a shell is to the body that holds it or stands beside it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum ShellRole {
+    /// Faces outward and lies in no other: a body.
+    Body,
+    /// Faces inward: the wall of a cavity.
+    Cavity,
+    /// Faces outward and lies in a cavity: a loose body.
+    Island,
+    /// Faces outward and lies in the material of another, which would count twice.
+    Doubled,
+}
+
+impl fmt::Display for ShellRole {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Body => "a body",
+            Self::Cavity => "a cavity",
+            Self::Island => "a loose body (in a cavity)",
+            Self::Doubled => "a body (inside the material of another)",
+        })
+    }
+}
+
+/// One connected surface of a solid that has several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShellFact {
+    /// What it is.
+    pub role: ShellRole,
+    /// The volume it encloses, mm³.
+    pub volume_mm3: f64,
+    /// The middle of its bounding box, mm.
+    pub center: Point,
+}
+
+impl fmt::Display for ShellFact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Point { coords: at } = self.center;
+        let place = format!("({:.2}, {:.2}, {:.2}) mm", at.x, at.y, at.z);
+        write!(f, "{} of {:.3} mm³ about {place}", self.role, self.volume_mm3)
+    }
+}
+
+/// Why a solid is not one body.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum NotOneBody {
+    /// The surface passes through itself: what lies in the overlap would count twice.
+    #[error(
+        "{} pairs of its triangles pass through each other or lie on each other{}; remedy: unite the overlapping bodies \
+         in a modelling program (boolean union), or mend the surface there, then export again",
+        .0.pairs, first_at(.0)
+    )]
+    Crosses(Crossings),
+    /// There are several shells.
+    #[error("{}", listed(.0))]
+    SeveralShells(Vec<ShellFact>),
+}
+
+fn first_at(crossings: &Crossings) -> String {
+    crossings.first.map_or(String::new(), |p| format!(", first at ({:.2}, {:.2}, {:.2}) mm", p.x, p.y, p.z))
+}
+
+/// The shells and, once for each kind, the remedy.
+fn listed(shells: &[ShellFact]) -> String {
+    let named = shells.iter().take(NAMED_SHELLS).map(ToString::to_string);
+    let more = shells.len().saturating_sub(NAMED_SHELLS);
+    let more = (more > 0).then(|| format!("{more} more"));
+    let named: Vec<String> = named.chain(more).collect();
+    format!(
+        "it has {} surfaces: {}; remedy: {}",
+        shells.len(),
+        named.join(", "),
+        remedies(shells).join(", and ")
+    )
+}
+
+fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
+    let count = |role| shells.iter().filter(|shell| shell.role == role).count();
+    let inner = shells.len() - count(ShellRole::Body);
+    let within = (inner > 0).then_some(
+        "remove the inner surfaces in a mesh editor, as equipoise makes the voids itself and needs the filled body",
+    );
+    let beside = (count(ShellRole::Body) > 1).then_some(
+        "join the separate bodies into one (boolean union, with a bridge where they do not touch), or keep the one that \
+         is meant",
+    );
+    within.into_iter().chain(beside).collect()
+}
+
+/// Whether a solid is one body: a single shell that does not pass through itself. A kit's voids, cuts and moments rest on
+/// it. Costs as much as [`Crossings::of`], and for several shells a pass over the triangles for each pair.
+pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
+    let mesh = solid.mesh();
+    let crossings = Crossings::of(mesh);
+    if crossings.pairs > 0 {
+        return Err(NotOneBody::Crosses(crossings));
+    }
+    let shells = Shells::of(mesh, &EdgeTable::of(mesh));
+    if shells.count() == 1 { Ok(()) } else { Err(NotOneBody::SeveralShells(facts(mesh, &shells))) }
+}
+
+/// What each shell is, the largest first.
+fn facts(mesh: &TriMesh, shells: &Shells) -> Vec<ShellFact> {
+    let (volumes, enclosing) = (shells.volumes_mm3(mesh), shells.enclosing(mesh));
+    let mut facts: Vec<ShellFact> = (0..shells.count())
+        .map(|shell| ShellFact {
+            role: role(&volumes, &enclosing[shell], shell),
+            volume_mm3: volumes[shell].abs(),
+            center: shell_box(mesh, &shells.members()[shell]).center(),
+        })
+        .collect();
+    facts.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    facts
+}
+
+fn role(volumes: &[f64], around: &[usize], shell: usize) -> ShellRole {
+    let winding: f64 = around.iter().map(|&outer| volumes[outer].signum()).sum();
+    if volumes[shell] < 0.0 {
+        ShellRole::Cavity
+    } else if around.is_empty() {
+        ShellRole::Body
+    } else if winding > 0.0 {
+        ShellRole::Doubled
+    } else {
+        ShellRole::Island
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives::{ball, cuboid};
+
+    fn cube(half: f64) -> TriMesh {
+        cuboid(&Point::new(-half, -half, -half), &Point::new(half, half, half))
+    }
+
+    fn refused(mesh: TriMesh) -> NotOneBody {
+        one_body(&Solid::new(mesh).unwrap()).unwrap_err()
+    }
+
+    fn roles(mesh: TriMesh) -> Vec<ShellRole> {
+        match refused(mesh) {
+            NotOneBody::SeveralShells(shells) => shells.iter().map(|shell| shell.role).collect(),
+            crosses => panic!("{crosses}"),
+        }
+    }
+
+    #[test]
+    fn a_single_closed_surface_is_one_body() {
+        for mesh in [cube(2.0), ball(&Point::origin(), 1.0, 2)] {
+            assert_eq!(one_body(&Solid::new(mesh).unwrap()), Ok(()));
+        }
+    }
+
+    #[test]
+    fn each_shell_is_told_by_what_holds_it() {
+        use ShellRole::*;
+        let onion = cube(4.0).joined(&cube(3.0).reversed()).joined(&cube(2.0));
+        assert_eq!(roles(onion), [Body, Cavity, Island]);
+        assert_eq!(roles(cube(4.0).joined(&cube(3.0))), [Body, Doubled]);
+        let apart = cuboid(&Point::new(9.0, 0.0, 0.0), &Point::new(10.0, 1.0, 1.0));
+        assert_eq!(roles(cube(4.0).joined(&apart)), [Body, Body]);
+    }
+
+    #[test]
+    fn the_words_hold_place_volume_and_remedy_of_each_shell() {
+        let hole = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(3.0, 3.0, 3.0)).reversed();
+        let said = refused(cube(4.0).joined(&hole)).to_string();
+        assert!(said.contains("a cavity of 8.000 mm³ about (2.00, 2.00, 2.00) mm"), "{said}");
+        assert!(said.contains("remove the inner surfaces") && !said.contains("separate"), "{said}");
+    }
+
+    #[test]
+    fn a_hundred_crumbs_are_counted_not_listed() {
+        let crumb = |i: i32| cube(0.1).map_vertices(|p| p + crate::geom::Vector::x() * f64::from(i));
+        let said = refused((0..100).map(crumb).reduce(|all, next| all.joined(&next)).unwrap()).to_string();
+        assert!(said.contains("it has 100 surfaces") && said.contains("88 more"), "{said}");
+    }
+
+    #[test]
+    fn bodies_that_overlap_are_to_be_united() {
+        let other = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(9.0, 9.0, 9.0));
+        let said = refused(cube(4.0).joined(&other)).to_string();
+        assert!(said.contains("pass through each other") && said.contains("boolean union"), "{said}");
+    }
+}
