@@ -4,7 +4,7 @@ use super::{
     Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, stand, top, yoyo,
 };
 use crate::geom::{Frame, Point, Vector};
-use crate::mass::{Body, moments_of_mesh};
+use crate::mass::{Body, Moments, moments_of_mesh};
 use crate::mesh::Solid;
 
 /// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides between the two
@@ -74,6 +74,8 @@ pub(super) struct Site<'a> {
     pub solid: &'a Solid,
     pub kind: GoalKind,
     pub objective: Objective,
+    /// The solid's moments, model frame.
+    pub moments: Moments,
     /// Mass properties for unit density, model frame.
     pub body: Body,
     /// The model turned so that z is up, its origin at the model's own.
@@ -85,7 +87,8 @@ pub(super) struct Site<'a> {
 
 impl<'a> Site<'a> {
     fn new(solid: &'a Solid, request: &Request) -> Result<Self, GoalError> {
-        let body = Body::new(&moments_of_mesh(solid.mesh()), 1.0);
+        let moments = moments_of_mesh(solid.mesh());
+        let body = Body::new(&moments, 1.0);
         let up = up_direction(request.up, solid, &body)?;
         let (lowest_mm, highest_mm) = extent_along(solid, &up);
         let upright = Frame::with_axis(Point::origin(), &up);
@@ -93,6 +96,7 @@ impl<'a> Site<'a> {
             solid,
             kind: request.kind,
             objective: request.objective,
+            moments,
             body,
             upright,
             lowest_mm,
@@ -103,7 +107,7 @@ impl<'a> Site<'a> {
     /// The goal whose frame has this origin, given in the upright frame.
     pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
         let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
-        let solid = moments_of_mesh(self.solid.mesh()).in_frame(&frame);
+        let solid = self.moments.in_frame(&frame);
         Goal { kind: self.kind, frame, objective: self.objective, support, solid }
     }
 

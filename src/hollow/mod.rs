@@ -133,7 +133,16 @@ use work::Work;
 /// For coarse columns: a top takes 150 to 250 passes over them, the others about ten. Cancelling `progress` ends it after
 /// the pass at hand, with [`Status::Cancelled`].
 pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
-    let work = Work::new(problem, settings, progress);
+    answer_of(problem, Work::new(problem, settings, progress))
+}
+
+/// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
+/// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
+pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
+    answer_of(problem, Work::on_model_columns(problem, settings, progress))
+}
+
+fn answer_of(problem: &Problem, work: Work) -> Solution {
     let objective = problem.goal.objective;
     let answer = match problem.goal.kind {
         GoalKind::Top => top::solve(&work, objective),
@@ -354,6 +363,35 @@ mod tests {
         let solution = solved(&world);
         let solid = figures(&world.goal, &world.fixed).critical_speed_rpm.unwrap();
         assert!((solution.certificate.value / solid - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn columns_of_the_model_and_of_the_goal_give_the_same_answer() {
+        // The same points seen from a frame that is moved and turned by a quarter, so that cells stay cells.
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let quarter = crate::geom::Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let frame = crate::geom::Frame { origin: crate::geom::Point::new(3.0, -7.0, 11.0), axes: quarter };
+        let mut goal = world.goal.clone();
+        goal.frame = frame;
+        let mut columns = world.columns.clone();
+        for center in &mut columns.centers {
+            let placed = frame.to_model(&crate::geom::Point::new(center[0], center[1], 0.0));
+            *center = [placed.x, placed.y];
+        }
+        columns.intervals.iter_mut().flatten().for_each(|end| *end += frame.origin.z);
+        let problem = Problem { goal: &goal, columns: &columns, ..world.problem() };
+        let turned = solve_on_model_columns(&problem, &Settings::default(), &Progress::silent());
+        let straight = solved(&world);
+        assert_eq!(turned.status, Status::Solved);
+        assert!((turned.certificate.value / straight.certificate.value - 1.0).abs() < 1e-7);
+        assert!(
+            turned
+                .moments
+                .0
+                .iter()
+                .zip(straight.moments.0)
+                .all(|(a, b)| (a - b).abs() < 1e-5 * b.abs().max(1.0))
+        );
     }
 
     #[test]

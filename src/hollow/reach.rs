@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use nalgebra::SVector;
 
-use crate::geom::Quadric;
+use crate::geom::{Frame, Quadric};
 use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_positive};
 use crate::mass::Moments;
 
@@ -50,6 +50,8 @@ impl Scale {
 /// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the passes made over it.
 pub(super) struct Reach<'a> {
     columns: &'a Columns,
+    /// From moments in the columns' coordinates to moments in the goal's; none where they are the same.
+    turn: Option<Matrix10>,
     pub scale: Scale,
     /// The moments with nothing emptied: the component-wise greatest of all squares and of the volume.
     pub solid: Vector10,
@@ -69,8 +71,21 @@ pub(super) struct Extreme {
 
 impl<'a> Reach<'a> {
     pub fn new(columns: &'a Columns, fixed: &Moments, scale: Scale) -> Self {
+        Self::turned(columns, None, fixed, scale)
+    }
+
+    /// The same for columns given in model coordinates, while everything else is in the coordinates of `frame`.
+    ///
+    /// Moments turn linearly with the frame, s = T s_columns, so the quadric turns with Tᵀ and its derivative with both.
+    pub fn of_model_columns(columns: &'a Columns, frame: &Frame, fixed: &Moments, scale: Scale) -> Self {
+        let seen = |i: usize| Vector10::from(Moments(Vector10::ith(i, 1.0).into()).in_frame(frame).0);
+        let turn = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(seen));
+        Self::turned(columns, Some(turn), fixed, scale)
+    }
+
+    fn turned(columns: &'a Columns, turn: Option<Matrix10>, fixed: &Moments, scale: Scale) -> Self {
         let solid = scale.moments_to_units(fixed);
-        let mut reach = Self { columns, scale, solid, shell: solid, passes: Cell::new(0) };
+        let mut reach = Self { columns, turn, scale, solid, shell: solid, passes: Cell::new(0) };
         reach.shell = reach.least(&Vector10::ith(0, 1.0));
         reach
     }
@@ -78,17 +93,30 @@ impl<'a> Reach<'a> {
     /// The extreme point along g and its derivative; one pass.
     pub fn extreme(&self, g: &Vector10) -> Extreme {
         self.passes.set(self.passes.get() + 1);
-        let (emptied, derivative) = moments_and_derivative(self.columns, &self.scale.quadric_to_mm(g));
+        let (emptied, derivative) = moments_and_derivative(self.columns, &self.quadric_of_columns(g));
+        let derivative = self.turn.map_or(derivative, |turn| turn * derivative * turn.transpose());
         let unit = self.scale.units().map(f64::recip);
         let w = derivative.zip_map(&(unit * unit.transpose()), |entry, factor| entry * factor);
-        Extreme { s: self.solid - self.scale.moments_to_units(&emptied), w }
+        Extreme { s: self.solid - self.seen(emptied), w }
     }
 
     /// The extreme point along g alone; one cheaper pass.
     pub fn least(&self, g: &Vector10) -> Vector10 {
         self.passes.set(self.passes.get() + 1);
-        let emptied = moments_where_positive(self.columns, &self.scale.quadric_to_mm(g));
-        self.solid - self.scale.moments_to_units(&emptied)
+        let emptied = moments_where_positive(self.columns, &self.quadric_of_columns(g));
+        self.solid - self.seen(emptied)
+    }
+
+    /// The quadric of these coefficients over the columns' own coordinates, mm.
+    fn quadric_of_columns(&self, g: &Vector10) -> Quadric {
+        let quadric = self.scale.quadric_to_mm(g);
+        self.turn.map_or(quadric, |turn| Quadric((turn.transpose() * Vector10::from(quadric.0)).into()))
+    }
+
+    /// Moments in the columns' coordinates as the solver's.
+    fn seen(&self, emptied: Moments) -> Vector10 {
+        let turned = self.turn.map_or(emptied, |turn| Moments((turn * Vector10::from(emptied.0)).into()));
+        self.scale.moments_to_units(&turned)
     }
 
     /// How many passes over the columns have been made.

@@ -30,6 +30,17 @@ impl<'a> Work<'a> {
         Self { goal: problem.goal, reach, settings, progress, first_damping, log: RefCell::default() }
     }
 
+    /// A bench whose columns are given in model coordinates.
+    pub fn on_model_columns(
+        problem: &Problem<'a>,
+        settings: &'a Settings,
+        progress: &'a Progress<'a>,
+    ) -> Self {
+        let scale = Scale::of(&problem.goal.solid);
+        let reach = Reach::of_model_columns(problem.columns, &problem.goal.frame, &problem.fixed, scale);
+        Self { reach, ..Self::new(problem, settings, progress) }
+    }
+
     /// The same bench for a search that starts near its answer.
     pub fn warmed(self) -> Self {
         Self { first_damping: WARM_DAMPING, ..self }

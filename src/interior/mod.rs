@@ -2,6 +2,7 @@
 
 mod build;
 mod columns;
+mod depths;
 mod integrate;
 mod moments;
 mod row;
@@ -9,4 +10,5 @@ mod without;
 
 pub use build::BuildError;
 pub use columns::Columns;
+pub use depths::Depths;
 pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};
