@@ -35,6 +35,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 pub mod cli;
 pub mod cut;
 pub mod digest;

@@ -25,6 +25,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("printer", &["digest", "toml_text", "units"]),
     ("interior", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("hollow", &["geom", "goal", "interior", "mass", "mesh", "progress", "shell", "units"]),
+    ("advice", &["geom", "goal", "hollow", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("voids", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("cut", &["geom", "mass", "mesh", "printer", "progress", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),

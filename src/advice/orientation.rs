@@ -1,0 +1,178 @@
+//! Which way up is best: axes over the whole sphere, ranked, and the best of them refined.
+
+use rayon::prelude::*;
+
+use super::Case;
+use super::directions::{is_new, lattice, rounded_direction};
+use super::footing::resting_directions;
+use super::ground::{COARSE_SAMPLES, FINE_SAMPLES, Ground, Trial};
+use super::reached::Reached;
+use crate::geom::{Frame, Point, Vector};
+use crate::goal::{Contact, GoalKind, Request, Up};
+use crate::mass::{Body, moments_of_mesh};
+use crate::mesh::TriMesh;
+
+/// Directions of the lattice: 16° apart. Fewer miss the narrow ranges in which a top stands over its contact; more cost
+/// some milliseconds each.
+const LATTICE: usize = 160;
+/// Directions nearer than this are one: cos 3°.
+const SAME_COSINE: f64 = 0.9986;
+/// How many of the best are refined, and how far apart they are: cos 10°.
+const STARTS: usize = 3;
+const APART_COSINE: f64 = 0.985;
+/// The first and the last tilt of a refinement, rad. The last is where the critical speed changes by less than its
+/// certificate on the coarse columns can tell.
+const FIRST_TILT: f64 = 0.14;
+const LAST_TILT: f64 = 0.008;
+/// Ways to tilt from each place.
+const WAYS: usize = 6;
+
+/// An axis, and what the goal reaches on it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orientation {
+    /// The request with its axis, and a standing object's face, chosen.
+    pub request: Request,
+    /// What it is ranked by, on sampled columns.
+    pub reached: Reached,
+    /// How many axes were tried before the best were refined.
+    pub tried: usize,
+    /// For how many of them the goal is possible.
+    pub possible: usize,
+}
+
+/// The axis on which the goal reaches most, over all directions; none where it is possible on none of those tried.
+///
+/// The contact follows by the request's own rule. Tried are a lattice over the sphere (half of it for a yo-yo, whose axis
+/// has no sense), the coordinate axes, the solid's principal axes and, for a top on its lowest point, the directions in
+/// which a corner lies below the centre of mass; for a standing object the faces of its convex hull. The best few are
+/// refined by tilting less and less. Takes some hundred trials, about a second on 10 000 triangles.
+pub fn best_orientation(case: &Case) -> Option<Orientation> {
+    let coarse = Ground::new(*case, COARSE_SAMPLES);
+    let axes = candidates(case);
+    let ranked = ranked(&coarse, &axes);
+    let starts = spread(&ranked);
+    let ground = Ground::new(*case, FINE_SAMPLES);
+    let refined: Vec<Option<Place>> = starts.par_iter().map(|start| refined(&ground, start)).collect();
+    let best = refined.into_iter().flatten().min_by(by_score)?;
+    let (request, reached) = (best.request, best.reached);
+    Some(Orientation { request, reached, tried: axes.len(), possible: ranked.len() })
+}
+
+/// A possible axis.
+#[derive(Debug, Clone, Copy)]
+struct Place {
+    axis: Vector,
+    request: Request,
+    reached: Reached,
+}
+
+fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
+    a.reached.score().total_cmp(&b.reached.score())
+}
+
+/// The request with this axis.
+pub(super) fn along(request: &Request, axis: &Vector) -> Request {
+    Request { up: Up::Along((*axis).into()), ..*request }
+}
+
+/// What a goal reaches on an axis; none where it is impossible.
+fn place_on(ground: &Ground, axis: &Vector) -> Option<Place> {
+    let axis = rounded_direction(axis);
+    let request = along(&ground.case.request, &axis);
+    let trial = ground.trial(&request, ground.case.wall_mm).filter(Trial::is_possible)?;
+    Some(Place { axis, request, reached: Reached::of(&trial) })
+}
+
+/// The possible axes, the best first.
+fn ranked(ground: &Ground, axes: &[Vector]) -> Vec<Place> {
+    let places: Vec<Option<Place>> = axes.par_iter().map(|axis| place_on(ground, axis)).collect();
+    let mut places: Vec<Place> = places.into_iter().flatten().collect();
+    places.sort_by(by_score);
+    places
+}
+
+/// The best few that lie apart.
+fn spread(ranked: &[Place]) -> Vec<Place> {
+    let mut chosen: Vec<Vector> = Vec::new();
+    let mut starts = Vec::new();
+    for place in ranked {
+        if starts.len() < STARTS && is_new(&chosen, &place.axis, APART_COSINE) {
+            chosen.push(place.axis);
+            starts.push(*place);
+        }
+    }
+    starts
+}
+
+/// A place on the finer ground, tilted as long as that is better, less and less.
+fn refined(ground: &Ground, start: &Place) -> Option<Place> {
+    let mut best = place_on(ground, &start.axis)?;
+    let mut tilt = if ground.case.request.kind == GoalKind::Stand { 0.0 } else { FIRST_TILT };
+    while tilt > LAST_TILT {
+        let ways: Vec<Option<Place>> =
+            tilted(&best.axis, tilt).par_iter().map(|axis| place_on(ground, axis)).collect();
+        let better = ways.into_iter().flatten().min_by(by_score);
+        match better.filter(|place| by_score(place, &best).is_lt()) {
+            Some(place) => best = place,
+            None => tilt *= 0.5,
+        }
+    }
+    Some(best)
+}
+
+/// The directions this much aside, evenly around.
+fn tilted(axis: &Vector, tilt: f64) -> Vec<Vector> {
+    let frame = Frame::with_axis(Point::origin(), axis);
+    let around = (0..WAYS).map(|i| std::f64::consts::TAU * i as f64 / WAYS as f64);
+    let aside = |angle: f64| {
+        let local = Vector::new(tilt.sin() * angle.cos(), tilt.sin() * angle.sin(), tilt.cos());
+        frame.direction_to_model(&local)
+    };
+    around.map(aside).collect()
+}
+
+/// The axes to try.
+fn candidates(case: &Case) -> Vec<Vector> {
+    let mesh = case.solid.mesh();
+    if case.request.kind == GoalKind::Stand {
+        return resting_directions(mesh);
+    }
+    let mut all = special_axes(case);
+    all.extend(lattice(LATTICE));
+    if case.request.contact == Some(Contact::Lowest) {
+        let center = moments_of_mesh(mesh).centroid();
+        let over: Vec<Vector> = all.iter().filter_map(|axis| over_its_corner(mesh, &center, axis)).collect();
+        all.extend(over);
+    }
+    if case.request.kind == GoalKind::Yoyo {
+        all.iter_mut().filter(|axis| points_down(axis)).for_each(|axis| *axis = -*axis);
+    }
+    let mut axes: Vec<Vector> = Vec::new();
+    for axis in all {
+        if is_new(&axes, &axis, SAME_COSINE) {
+            axes.push(axis);
+        }
+    }
+    axes
+}
+
+/// The coordinate axes and the solid's principal ones, in both senses.
+pub(super) fn special_axes(case: &Case) -> Vec<Vector> {
+    let principal = Body::new(&moments_of_mesh(case.solid.mesh()), 1.0).principal().axes;
+    let own = [2, 1, 0].map(|i| rounded_direction(&principal.column(i).into_owned()));
+    let axes = [Vector::z(), Vector::y(), Vector::x()].into_iter().chain(own);
+    axes.flat_map(|axis| [axis, -axis]).collect()
+}
+
+/// Whether the first of z, y, x that is not zero is negative: one of the two senses of an axis.
+pub(super) fn points_down(axis: &Vector) -> bool {
+    let first = [axis.z, axis.y, axis.x].into_iter().find(|part| part.abs() > f64::EPSILON);
+    first.is_some_and(|part| part < 0.0)
+}
+
+/// From the vertex that is lowest along an axis to the centre of mass: where that vertex is still the lowest, the solid
+/// balances on it.
+fn over_its_corner(mesh: &TriMesh, center: &Point, axis: &Vector) -> Option<Vector> {
+    let lowest = mesh.vertices().iter().min_by(|a, b| a.coords.dot(axis).total_cmp(&b.coords.dot(axis)))?;
+    (center - lowest).try_normalize(0.0)
+}

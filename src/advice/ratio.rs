@@ -1,0 +1,113 @@
+//! The greatest wall at this size, and with it the least size at this wall.
+
+use super::Case;
+use super::ground::{Ground, Trial};
+use super::remedy::{Kind, Remedy};
+use crate::units::show_mm;
+
+/// How much thinner the wall may become, or the model larger, before nothing is advised: nobody prints an object twenty
+/// times as large as planned.
+const MOST_TIMES: f64 = 20.0;
+/// How nearly the greatest wall is found.
+const PRECISION_RATIO: f64 = 0.01;
+/// Thinner and thinner walls that are tried to confirm what was found on samples.
+const CONFIRMING_STEPS: i32 = 5;
+/// Walls are printed to a thousandth of a millimetre, far below any printer's step.
+const WALLS_PER_MM: f64 = 1e3;
+
+/// The least size at this wall and the greatest wall at this size.
+///
+/// The wall that was found is confirmed by a solve; the size is rounded up and the wall down to what can be typed and
+/// printed, which lets still more be emptied.
+pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
+    let case = &ground.case;
+    match greatest_wall(ground) {
+        Some((wall_mm, trial)) => vec![larger(case, wall_mm, &trial), thinner(case, wall_mm, &trial)],
+        None => {
+            let words =
+                format!("no size and no wall help: even {MOST_TIMES} times as large it stays impossible");
+            vec![Remedy::nothing(Kind::LeastSize, words)]
+        }
+    }
+}
+
+/// The thickest wall, mm, in the model's present size that makes the goal possible, confirmed; none if even a wall
+/// [`MOST_TIMES`] thinner does not.
+///
+/// A thinner wall lets more be emptied, and more choice never makes a goal impossible: possible and impossible walls are
+/// parted by one number, so bisection finds it. Goals do not know how large a millimetre is (with the wall and the contact
+/// scaled alike), so the same number is also by how much a larger model would do: only wall/size counts. The precision
+/// is one per cent.
+fn greatest_wall(ground: &Ground) -> Option<(f64, Trial)> {
+    let (request, wall_mm) = (&ground.case.request, ground.case.wall_mm);
+    let halves = std::iter::successors(Some(0.5 * wall_mm), |wall| Some(0.5 * wall));
+    let tried = halves.take_while(|&wall| wall > wall_mm / MOST_TIMES).chain([wall_mm / MOST_TIMES]);
+    let mut thickest_mm = tried.into_iter().find(|&wall| ground.allows(request, wall))?;
+    let mut too_thick_mm = (2.0 * thickest_mm).min(wall_mm);
+    while too_thick_mm > thickest_mm * (1.0 + PRECISION_RATIO) {
+        let middle_mm = (too_thick_mm * thickest_mm).sqrt();
+        if ground.allows(request, middle_mm) {
+            thickest_mm = middle_mm;
+        } else {
+            too_thick_mm = middle_mm;
+        }
+    }
+    let mut walls = (0..CONFIRMING_STEPS).map(|step| thickest_mm * (1.0 - PRECISION_RATIO).powi(step));
+    walls.find_map(|wall| Some((wall, ground.confirmed(request, wall)?)))
+}
+
+fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
+    let size_mm = size_for(case, greatest_mm, case.wall_mm);
+    let thinner = (case.least_wall_mm < case.wall_mm).then(|| {
+        let least_mm = case.least_wall_mm;
+        let size_mm = size_for(case, greatest_mm, least_mm);
+        format!(" ({} with the thinnest wall this printer makes, {})", show_mm(size_mm), show_mm(least_mm))
+    });
+    let words = format!(
+        "make it {} or larger with the wall of {}{}",
+        show_mm(size_mm),
+        show_mm(case.wall_mm),
+        thinner.unwrap_or_default()
+    );
+    Remedy::found(Kind::LeastSize, size_mm, [format!("--size={size_mm}mm"), words], trial)
+}
+
+/// The size, mm, at which a wall is as thick for the model as `greatest_mm` is at the present size.
+fn size_for(case: &Case, greatest_mm: f64, wall_mm: f64) -> f64 {
+    rounded_up(case.solid.mesh().longest_side_mm() * wall_mm / greatest_mm)
+}
+
+fn thinner(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
+    let steps = (greatest_mm / case.wall_step_mm).floor();
+    let wall_mm = (steps * case.wall_step_mm * WALLS_PER_MM).floor() / WALLS_PER_MM;
+    if wall_mm < case.least_wall_mm {
+        let words = format!(
+            "at this size only a wall of {} or thinner would do, and this printer makes none below {}",
+            show_mm(greatest_mm),
+            show_mm(case.least_wall_mm)
+        );
+        return Remedy::nothing(Kind::GreatestWall, words);
+    }
+    let words = format!("make the wall {} or thinner at this size", show_mm(wall_mm));
+    Remedy::found(Kind::GreatestWall, wall_mm, [format!("--wall={wall_mm}mm"), words], trial)
+}
+
+/// To three significant digits, never less than the number.
+fn rounded_up(number: f64) -> f64 {
+    let decimals = 2 - number.log10().floor() as i32;
+    let unit = 10f64.powi(decimals);
+    (number * unit).ceil() / unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_size_is_rounded_up_to_three_digits() {
+        for (number, rounded) in [(100.0, 100.0), (100.2, 101.0), (1234.0, 1240.0), (9.871, 9.88), (0.5, 0.5)]
+        {
+            assert_eq!(rounded_up(number), rounded);
+        }
+    }
+}
