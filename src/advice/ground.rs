@@ -1,7 +1,7 @@
 //! The ground every search walks on: one model, sampled once, tried at any wall, contact and axis.
 
 use super::Case;
-use crate::goal::{Placement, Request, place};
+use crate::goal::{Placement, Request, Warning, place};
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
 use crate::progress::Progress;
@@ -34,6 +34,11 @@ impl Trial {
     /// Whether there is an interior that does what is asked.
     pub fn is_possible(&self) -> bool {
         self.solution.is_usable()
+    }
+
+    /// Whether the spin axis passes through the model above its contact; no advice leads beside it.
+    pub fn meets_the_model(&self) -> bool {
+        !self.placement.warnings.contains(&Warning::AxisMissesModel)
     }
 }
 

@@ -26,6 +26,9 @@ const CONFIRMING_STEPS: i32 = 6;
 /// By how much each of them is longer.
 const CONFIRMING_GROWTH: f64 = 1.02;
 
+/// Decimals of a printed point, in mm: at 1e-3 the rounding of its height already counts as a gap to the model.
+const POINT_DECIMALS: i32 = 4;
+
 /// The two ends of a stretch of a ray that the border of the possible crosses.
 #[derive(Debug, Clone, Copy)]
 struct Border {
@@ -67,7 +70,7 @@ impl Search<'_> {
     }
 
     fn allows(&self, step: &Vector) -> bool {
-        self.trial(step).is_some_and(|trial| trial.is_possible())
+        self.trial(step).is_some_and(|trial| trial.is_possible() && trial.meets_the_model())
     }
 
     /// The nearest border on the rays to the seeds.
@@ -172,21 +175,22 @@ impl Search<'_> {
             let step = border.towards * length;
             let request = printed(self.moves.part, self.moves.request(&step));
             let trial = self.ground.confirmed(&request, self.ground.case.wall_mm)?;
+            trial.meets_the_model().then_some(())?;
             Some(Nearest { step, request, trial })
         })
     }
 }
 
-/// The request with its numbers as short as they are printed: points to a hundredth of a millimetre, directions to four
-/// decimals, which is 0.004°.
+/// The request with its numbers as short as they are printed: points and directions to the
+/// decimals they are told with.
 fn printed(part: Part, request: Request) -> Request {
     use crate::goal::{Contact, SpinPoint, Up};
     match (part, request) {
         (Part::Contact, Request { contact: Some(Contact::At(at)), .. }) => {
-            Request { contact: Some(Contact::At(rounded(at, 2))), ..request }
+            Request { contact: Some(Contact::At(rounded(at, POINT_DECIMALS))), ..request }
         }
         (Part::SpinPoint, Request { spin_point: Some(SpinPoint::At(at)), .. }) => {
-            Request { spin_point: Some(SpinPoint::At(rounded(at, 2))), ..request }
+            Request { spin_point: Some(SpinPoint::At(rounded(at, POINT_DECIMALS))), ..request }
         }
         (_, Request { up: Up::Along(along), .. }) => {
             Request { up: Up::Along(rounded_direction(&along.into()).into()), ..request }

@@ -161,7 +161,7 @@ pub(super) fn special_axes(case: &Case) -> Vec<Vector> {
     let principal = Body::new(&moments_of_mesh(case.solid.mesh()), 1.0).principal().axes;
     let own = [2, 1, 0].map(|i| rounded_direction(&principal.column(i).into_owned()));
     let axes = [Vector::z(), Vector::y(), Vector::x()].into_iter().chain(own);
-    axes.flat_map(|axis| [axis, -axis]).collect()
+    axes.flat_map(|axis| [axis, -axis]).map(|axis| rounded_direction(&axis)).collect()
 }
 
 /// Whether the first of z, y, x that is not zero is negative: one of the two senses of an axis.
