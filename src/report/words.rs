@@ -100,11 +100,13 @@ pub fn promise(sheet: &Checklist) -> String {
 /// The certificate in plain words.
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
+    let is_top = sheet.goal.aim.kind == GoalKind::Top;
     let better = if more_is_better(proof.figure) { "higher" } else { "lower" };
     let mut words = vec![
         format!(
-            "It is proved that no hollowing of this model with a wall of {} has a {} {better} than {}.",
+            "It is proved that no hollowing of this model with a wall of {}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
+            if is_top { " and its centre of mass at this height" } else { "" },
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
@@ -114,6 +116,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             gap(proof.gap_ratio)
         ),
     ];
+    words.extend(is_top.then(|| other_heights(proof)));
     words.extend(proof.written_value.map(|written| {
         let share = reached_ratio(proof, written);
         format!(
@@ -123,6 +126,20 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         )
     }));
     words
+}
+
+/// What is known of a top's centre of mass at other heights.
+fn other_heights(proof: &Certificate) -> String {
+    let Some(over) = proof.over_heights else {
+        return "Other heights of the centre of mass were searched, and none was better; a proof for them is missing."
+            .to_owned();
+    };
+    format!(
+        "At any other height of the centre of mass the {} could be lower by {:.1} % at most (proved on columns {} apart).",
+        proof.figure.name(),
+        100.0 * (1.0 - over.bound / over.value),
+        quantity(over.pitch_mm, "mm")
+    )
 }
 
 /// The distance between the optimum and its proof, in words.
