@@ -120,7 +120,7 @@ fn assembled(
     let mut more = moments_of_mesh(&plan.pegs());
     let mut attempts = 0;
     loop {
-        voids = tuner.tuned(voids, more)?;
+        voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
         attempts += 1;

@@ -16,24 +16,26 @@ const TOUCH_MM: f64 = 1e-7;
 /// Two triangles at a side are folded onto each other when the cosine of the angle between them exceeds this.
 const FOLD_COSINE: f64 = 1.0 - 1e-10;
 
-/// The triangles that meet another one elsewhere than at a shared corner or side, ascending.
+/// The triangles that meet another one elsewhere than at a shared corner or side, ascending; only pairs are looked at of
+/// which one `is_asked`.
 ///
-/// Every pair whose boxes overlap is measured exactly.
-pub(super) fn crossing_triangles(mesh: &TriMesh) -> Vec<u32> {
+/// Every such pair whose boxes overlap is measured exactly.
+pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
     let bvh = Bvh::new(mesh.iter_corners());
     let meets_of = |i: u32| {
         let corners = mesh.corners(i as usize);
         let mut meeting = Vec::new();
         bvh.visit_overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM), |j, _| {
-            if j > i && meet(mesh, i as usize, j as usize) {
+            let is_due = j > i || !is_asked[j as usize];
+            if is_due && meet(mesh, i as usize, j as usize) {
                 meeting.extend([i, j]);
             }
             ControlFlow::Continue(())
         });
         meeting
     };
-    let mut crossing: Vec<u32> =
-        (0..mesh.triangles().len() as u32).into_par_iter().flat_map_iter(meets_of).collect();
+    let asked = (0..mesh.triangles().len() as u32).into_par_iter().filter(|&i| is_asked[i as usize]);
+    let mut crossing: Vec<u32> = asked.flat_map_iter(meets_of).collect();
     crossing.sort_unstable();
     crossing.dedup();
     crossing
@@ -98,6 +100,24 @@ fn is_fold(a: &Point, b: &Point, c: &Point, d: &Point) -> bool {
 mod tests {
     use super::*;
     use crate::voids::shapes::{ball, block};
+
+    fn crossing_triangles(mesh: &TriMesh) -> Vec<u32> {
+        crossing_among(mesh, &vec![true; mesh.triangles().len()])
+    }
+
+    #[test]
+    fn what_a_triangle_asked_about_meets_is_found_and_nothing_else() {
+        let two = block([0.0; 3], [2.0; 3]).joined(&block([1.0; 3], [3.0; 3]));
+        let all = crossing_triangles(&two);
+        let mut asked = vec![false; two.triangles().len()];
+        assert!(crossing_among(&two, &asked).is_empty());
+        asked[..12].fill(true);
+        assert_eq!(crossing_among(&two, &asked), all);
+        asked.fill(false);
+        asked[all[0] as usize] = true;
+        let met = crossing_among(&two, &asked);
+        assert!(met.contains(&all[0]) && met.len() > 1 && met.iter().all(|i| all.contains(i)));
+    }
 
     #[test]
     fn a_ball_and_a_box_do_not_meet_themselves() {

@@ -127,14 +127,8 @@ impl Cavity {
             }
         }
         let mesh = cavity::extract(solid, spec, progress)?;
-        let body = Csg::of_mesh(&mesh)?;
-        Ok(Self {
-            body,
-            bvh: Bvh::new(mesh.iter_corners()),
-            mesh,
-            tolerance_mm: spec.tolerance_mm,
-            min_void_mm: spec.min_void_mm,
-        })
+        let (body, bvh) = rayon::join(|| Csg::of_mesh(&mesh), || Bvh::new(mesh.iter_corners()));
+        Ok(Self { body: body?, bvh, mesh, tolerance_mm: spec.tolerance_mm, min_void_mm: spec.min_void_mm })
     }
 
     /// Its surface, oriented outward as a body of air; without triangles where the wall leaves nothing.

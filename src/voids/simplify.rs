@@ -1,6 +1,6 @@
 //! Fewer triangles, and none that meet or that a judge refuses: where that fails the old ones stay.
 
-use super::crossing::crossing_triangles;
+use super::crossing::crossing_among;
 use rayon::prelude::*;
 
 use super::decimate::{Decimation, Rules};
@@ -16,9 +16,10 @@ const LOCKED_RINGS: usize = 2;
 pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
     let mut locked = vec![false; mesh.vertices().len()];
     let mut decimation = Decimation::new(&mesh, rules);
+    let mut passed = Passed::default();
     for _ in 0..ROUNDS {
         let (simple, names) = compacted(&mesh, decimation.run(&locked))?;
-        let failed = failed_triangles(&simple, rules);
+        let failed = passed.failed(&simple, &names, rules);
         if failed.is_empty() {
             return Ok(simple);
         }
@@ -29,12 +30,27 @@ pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshErr
     Ok(mesh)
 }
 
-/// The triangles that meet others or that the rules forbid.
-fn failed_triangles(mesh: &TriMesh, rules: Rules) -> Vec<u32> {
-    let mut failed = crossing_triangles(mesh);
-    let forbidden = (0..mesh.triangles().len() as u32).into_par_iter();
-    failed.par_extend(forbidden.filter(|&i| !(rules.allows)(&mesh.corners(i as usize))));
-    failed
+/// The triangles that have met none and were not forbidden, by the old numbers of their corners, ascending.
+#[derive(Default)]
+struct Passed(Vec<[u32; 3]>);
+
+impl Passed {
+    /// The triangles that meet others or that the rules forbid; only those that have not passed before are looked at,
+    /// and whatever they meet.
+    fn failed(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
+        let named = |t: &[u32; 3]| t.map(|v| names[v as usize]);
+        let is_new: Vec<bool> =
+            mesh.triangles().par_iter().map(|t| self.0.binary_search(&named(t)).is_err()).collect();
+        let mut failed = crossing_among(mesh, &is_new);
+        let all = (0..mesh.triangles().len() as u32).into_par_iter();
+        failed.par_extend(all.filter(|&i| is_new[i as usize] && !(rules.allows)(&mesh.corners(i as usize))));
+        let mut has_failed = vec![false; is_new.len()];
+        failed.iter().for_each(|&i| has_failed[i as usize] = true);
+        self.0 =
+            mesh.triangles().iter().zip(has_failed).filter(|(_, bad)| !bad).map(|(t, _)| named(t)).collect();
+        self.0.par_sort_unstable();
+        failed
+    }
 }
 
 /// Locks these vertices and those around them.

@@ -13,8 +13,12 @@ use crate::geom::Point;
 use crate::mesh::TriMesh;
 use patch::Patch;
 
-/// Triangles to a slab: fewer leave more locked seams, more share the work worse and leave the cache.
-const SLAB_TRIANGLES: usize = 40_000;
+/// Triangles of the mesh to a slab of the first round: fewer leave more locked seams, more leave the cache and are more to
+/// do again where one fails.
+const SLAB_TRIANGLES: usize = 16_000;
+
+/// Slabs of the first round to one of the later rounds, in which fewer triangles are left.
+const LATER_SLABS: usize = 2;
 
 /// Rounds, each with slabs across another axis, so that the seams of one are inside the slabs of the next.
 const ROUNDS: usize = 3;
@@ -38,7 +42,7 @@ pub(super) struct Rules<'a> {
 }
 
 /// Triangles over some vertices of a mesh, and the removed vertices that each stands for.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone, Default, PartialEq)]
 struct Parts {
     triangles: Vec<[u32; 3]>,
     /// The removed vertices, triangle by triangle.
@@ -78,20 +82,46 @@ struct State {
     is_open: Vec<bool>,
 }
 
+/// A slab as it was before its vertices were merged: all that the outcome depends on.
+#[derive(PartialEq)]
+struct Slab {
+    parts: Parts,
+    /// Of every corner whether it must stay and whether it is open.
+    corners: Vec<[bool; 2]>,
+}
+
+/// A slab and what it became.
+struct Done {
+    before: Slab,
+    after: Parts,
+}
+
 /// The simplification of a mesh, which can be done again with more vertices locked at little cost.
 pub(super) struct Decimation<'a> {
     mesh: &'a TriMesh,
     rules: Rules<'a>,
-    /// What must not be removed, as of the last run.
-    locked: Vec<bool>,
-    /// The slabs of the first round, and what they became in the last run.
-    first: Vec<Parts>,
+    rounds: Vec<Round>,
+}
+
+/// A round: where its slabs begin, and what they were and became in the last run.
+struct Round {
+    axis: usize,
+    /// Ascending, mm.
+    cuts_mm: Vec<f64>,
+    done: Vec<Done>,
 }
 
 impl<'a> Decimation<'a> {
     /// Prepares the simplification of a closed 2-manifold.
     pub fn new(mesh: &'a TriMesh, rules: Rules<'a>) -> Self {
-        Self { mesh, rules, locked: vec![false; mesh.vertices().len()], first: Vec::new() }
+        let longest = mesh.aabb().size().imax();
+        let slabs = mesh.triangles().len().div_ceil(SLAB_TRIANGLES);
+        let round = |number| {
+            let axis = (longest + number) % 3;
+            let count = if number == 0 { slabs } else { slabs.div_ceil(LATER_SLABS) };
+            Round { axis, cuts_mm: quantiles(mesh.vertices(), axis, count), done: Vec::new() }
+        };
+        Self { mesh, rules, rounds: (0..ROUNDS).map(round).collect() }
     }
 
     /// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
@@ -99,55 +129,62 @@ impl<'a> Decimation<'a> {
     /// Closed and 2-manifold; it may intersect itself where sheets are nearer than the tolerance. The result does not
     /// depend on the number of threads, nor on earlier runs.
     pub fn run(&mut self, locked: &[bool]) -> Vec<[u32; 3]> {
-        let count = self.mesh.vertices().len();
         let triangles = self.mesh.triangles();
         let parts =
             Parts { triangles: triangles.to_vec(), points: Vec::new(), ends: vec![0; triangles.len()] };
-        let mut state = State { parts, is_open: vec![true; count] };
-        let first = self.mesh.aabb().size().imax();
-        for round in 0..ROUNDS {
-            let slabs = Slabs::new(&state, self.mesh.vertices(), (first + round) % 3);
-            let known = if round == 0 { std::mem::take(&mut self.first) } else { Vec::new() };
-            let done = self.decimate_slabs(&state, &slabs, locked, known);
-            state = slabs.merged(&done);
-            if round == 0 {
-                self.first = done;
-            }
+        let mut state = State { parts, is_open: vec![true; self.mesh.vertices().len()] };
+        for round in &mut self.rounds {
+            let slabs = Slabs::new(&state, self.mesh.vertices(), round);
+            let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
+            let mut known = std::mem::take(&mut round.done);
+            known.resize_with(slabs.triangles.len(), Done::none);
+            round.done = slabs
+                .triangles
+                .par_iter()
+                .zip(known)
+                .map(|(slab, known)| {
+                    let before = Slab::new(&state, slab, &is_locked);
+                    if before == known.before {
+                        return known;
+                    }
+                    let mut patch = Patch::new(&state, self.mesh.vertices(), slab, &is_locked);
+                    patch.decimate(self.rules);
+                    Done { before, after: patch.into_parts() }
+                })
+                .collect();
+            state = slabs.merged(&round.done);
         }
-        self.locked.copy_from_slice(locked);
         state.parts.triangles
-    }
-
-    /// One round: each slab on its own, with the seams locked; slabs `known` from the last run are not done again
-    /// where nothing more is locked.
-    fn decimate_slabs(
-        &self,
-        state: &State,
-        slabs: &Slabs,
-        locked: &[bool],
-        mut known: Vec<Parts>,
-    ) -> Vec<Parts> {
-        known.resize(slabs.triangles.len(), Parts::default());
-        let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
-        let has_changed = |&v: &u32| locked[v as usize] != self.locked[v as usize];
-        let corners = |t: &u32| state.parts.triangles[*t as usize];
-        slabs
-            .triangles
-            .par_iter()
-            .zip(known)
-            .map(|(slab, known)| {
-                if !known.triangles.is_empty() && !slab.iter().any(|t| corners(t).iter().any(has_changed)) {
-                    return known;
-                }
-                let mut patch = Patch::new(state, self.mesh.vertices(), slab, &is_locked);
-                patch.decimate(self.rules);
-                patch.into_parts()
-            })
-            .collect()
     }
 }
 
-/// Equal shares of the triangles along an axis.
+impl Done {
+    /// No triangles, from no triangles.
+    fn none() -> Self {
+        Self { before: Slab { parts: Parts::default(), corners: Vec::new() }, after: Parts::default() }
+    }
+}
+
+impl Slab {
+    fn new(state: &State, triangles: &[u32], is_locked: &impl Fn(u32) -> bool) -> Self {
+        let mut parts = Parts::default();
+        for &t in triangles {
+            parts.push(state.parts.triangles[t as usize], state.parts.points_of(t).iter().copied());
+        }
+        let flags = |&v: &u32| [is_locked(v), state.is_open[v as usize]];
+        let corners = parts.triangles.iter().flatten().map(flags).collect();
+        Self { parts, corners }
+    }
+}
+
+/// Where to cut so that `count` slabs across an axis hold equally many of the points, ascending, mm.
+fn quantiles(points: &[Point], axis: usize, count: usize) -> Vec<f64> {
+    let mut all: Vec<f64> = points.iter().map(|p| p[axis]).collect();
+    all.par_sort_unstable_by(f64::total_cmp);
+    (1..count).map(|i| all[i * all.len() / count]).collect()
+}
+
+/// The triangles slab by slab, each where its centre lies.
 struct Slabs {
     triangles: Vec<Vec<u32>>,
     /// For each vertex its slab, or [`NONE`] or [`SEVERAL`].
@@ -161,13 +198,18 @@ const NONE: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
 impl Slabs {
-    fn new(state: &State, vertices: &[Point], axis: usize) -> Self {
-        let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][axis]).sum::<f64>();
+    fn new(state: &State, vertices: &[Point], Round { axis, cuts_mm, .. }: &Round) -> Self {
+        let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][*axis]).sum::<f64>() / 3.0;
         let triangles = &state.parts.triangles;
         let mut order: Vec<(f64, u32)> = triangles.iter().map(center).zip(0..).collect();
         order.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let slabs: Vec<Vec<u32>> =
-            order.chunks(SLAB_TRIANGLES).map(|slab| slab.iter().map(|&(_, t)| t).collect()).collect();
+        let mut rest = &order[..];
+        let mut slabs: Vec<Vec<u32>> = Vec::with_capacity(cuts_mm.len() + 1);
+        for cut_mm in cuts_mm.iter().chain([&f64::INFINITY]) {
+            let (slab, beyond) = rest.split_at(rest.partition_point(|(at, _)| at < cut_mm));
+            slabs.push(slab.iter().map(|&(_, t)| t).collect());
+            rest = beyond;
+        }
         let mut of_vertex = vec![NONE; vertices.len()];
         for (number, slab) in (0..).zip(&slabs) {
             for v in slab.iter().flat_map(|&t| triangles[t as usize]) {
@@ -179,9 +221,9 @@ impl Slabs {
     }
 
     /// What the slabs became, as one.
-    fn merged(&self, done: &[Parts]) -> State {
+    fn merged(&self, done: &[Done]) -> State {
         let mut parts = Parts::default();
-        done.iter().for_each(|part| parts.append(part));
+        done.iter().for_each(|done| parts.append(&done.after));
         let mut state =
             State { parts, is_open: self.of_vertex.iter().map(|&slab| slab == SEVERAL).collect() };
         state.open_beside_seams();
