@@ -160,6 +160,7 @@ fn certificate(sheet: &Sheet) -> Certificate {
         value: shown(certificate.value),
         bound: shown(certificate.bound),
         gap_ratio: certificate.gap_ratio,
+        kept_solid_mm3: sheet.assembly.refused_mm3,
         over_heights: sheet.assembly.height_proof,
         written_value: sheet.judgement.assembly.value_of(figure),
     }

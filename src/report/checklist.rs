@@ -154,8 +154,12 @@ pub struct Certificate {
     pub figure: FigureName,
     /// Its value at the solver's optimum.
     pub value: f64,
-    /// No hollowing of this model with this wall can do better than this; for tops none whose centre of mass is as high.
+    /// No hollowing of this model with this wall, in which `kept_solid_mm3` stay solid, can do better than this; for tops
+    /// none whose centre of mass is as high.
     pub bound: f64,
+    /// The volume of voids that could not have been cleaned: those places, and what lies a minimum opening around them,
+    /// were taken out of what may be emptied, mm³.
+    pub kept_solid_mm3: f64,
     /// |value − bound| / |bound|.
     pub gap_ratio: f64,
     /// Tops: what is proved for every height of the centre of mass; none where that was not proved.
