@@ -1,6 +1,8 @@
 //! The figures the design holds, stage by stage: `cargo bench`, or `cargo bench -- NAME` for one of them.
 //!
-//! The table of what is held and what was measured is in README.md beside this file.
+//! What is held, on two cores and 100 mm models with a wall of 1 mm: the solve at 100 columns a side in 30 ms and at the
+//! printer's own pitch in 3 s; the whole of `prepare` in 10 s for 12 000 triangles (elephant) and in 15 s and 2 GiB for
+//! 86 000 (armadillo).
 
 #![allow(clippy::unwrap_used, reason = "a benchmark whose input cannot be had has failed")]
 

@@ -8,7 +8,7 @@ use crate::interior::BuildError;
 use crate::io::{ReadError, StlError};
 use crate::job::JobError;
 use crate::mesh::{ClipError, Defects, NotOneBody};
-use crate::printer::{MaterialError, ProfileError, WallError};
+use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::report::{ChecklistError, KitError, PictureError};
 use crate::shell::ShellError;
 use crate::verify::VerifyError;
@@ -48,6 +48,9 @@ pub enum Error {
     /// The wall cannot be printed.
     #[error(transparent)]
     Wall(#[from] WallError),
+    /// The model is too small or too long.
+    #[error(transparent)]
+    Size(#[from] SizeError),
     /// The goal cannot be placed on the model.
     #[error(transparent)]
     Goal(#[from] GoalError),

@@ -119,6 +119,59 @@ fn a_missing_file_is_said_to_be_missing() {
     assert!(said.contains("no such file"), "{said}");
 }
 
+/// Runs `prepare` on the shipped model with more arguments; gives what it said on the standard error.
+fn refused_arguments(more: &[&str]) -> String {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+    let folder = tempfile::tempdir().unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+        .args(["prepare", model, "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .arg(folder.path().join("kit"))
+        .args(more)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{more:?}: {said}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{more:?} left something behind");
+    assert!(said.lines().all(|line| line.len() < 400), "{said}");
+    said
+}
+
+#[test]
+fn absurd_sizes_walls_pitches_points_and_threads_are_refused_at_once() {
+    for (size, words) in
+        [("0", "above zero"), ("-1", "above zero"), ("nan", "above zero"), ("1e300", "1.0e300 mm long")]
+    {
+        assert!(refused_arguments(&["--size", size]).contains(words), "{size}");
+    }
+    for (more, words) in [
+        (["--size", "5m"], "for objet-connex350 may be"),
+        (["--size", "0.5mm"], "leave nothing inside"),
+        (["--wall", "200mm"], "leave nothing inside"),
+        (["--pitch", "1e-9"], "larger --pitch"),
+        (["--contact", "1e300,0,0"], "times the model's length away"),
+        (["--threads", "100000"], "1..=256"),
+    ] {
+        let said = refused_arguments(&more);
+        assert!(said.contains(words), "{more:?}: {said}");
+    }
+}
+
+#[test]
+fn a_target_inside_a_file_is_told_before_any_work_is_done() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("file"), "").unwrap();
+    let target = folder.path().join("file").join("kit");
+    // The model is not read before the target is known to be writable.
+    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+        .args(["prepare", "absent.stl", "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .arg(&target)
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(said.contains("cannot write") && !said.contains("absent.stl"), "{said}");
+}
+
 #[test]
 fn a_target_that_cannot_be_written_is_told_before_any_work_is_done() {
     let folder = tempfile::tempdir().unwrap();

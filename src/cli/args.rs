@@ -2,7 +2,6 @@
 
 use std::{
     ffi::OsString,
-    num::NonZeroUsize,
     path::{Path, PathBuf},
     str::FromStr,
 };
@@ -35,6 +34,9 @@ pub struct Cli {
     pub command: Command,
 }
 
+/// The most threads. Far more than there are cores, and the waiting ones take the time of those at work.
+const MAX_THREADS: i64 = 256;
+
 /// What every command takes.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Everywhere")]
@@ -45,9 +47,9 @@ pub struct GlobalArgs {
     /// Say more; twice, say everything
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Use so many threads; the result does not depend on it [default: all]
-    #[arg(long, global = true, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
+    /// Use so many threads, up to 256; the result does not depend on it [default: one for each core]
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
+    pub threads: Option<u16>,
     /// Print the result as JSON on the standard output
     #[arg(long, global = true)]
     pub json: bool,
@@ -410,6 +412,7 @@ mod tests {
             ("--solver octree", "possible values: quadric"),
             ("--objective fastest", "invalid value 'fastest'"),
             ("--threads 0", "invalid value '0'"),
+            ("--threads 100000", "invalid value '100000'"),
             ("--wal 1", "a similar argument exists: '--wall'"),
             ("-q -v", "cannot be used with"),
             ("--job job.toml", "cannot be used with"),
@@ -470,7 +473,7 @@ mod tests {
         for line in ["equipoise -q --threads 2 --json printers", "equipoise printers --json --threads 2 -q"] {
             let global = parse(line).unwrap().global;
             assert!(global.quiet && global.json, "{line}");
-            assert_eq!(global.threads.map(NonZeroUsize::get), Some(2));
+            assert_eq!(global.threads, Some(2));
         }
         assert_eq!(parse("equipoise inspect a.stl -vv").unwrap().global.verbose, 2);
     }

@@ -20,6 +20,7 @@ use super::{
 use crate::{
     geom::{Plane, Point, Vector},
     mesh::{Hollowed, Solid, TriMesh},
+    units::counted,
 };
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
@@ -222,14 +223,12 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
 }
 
 fn proof_note(found: &Found) -> String {
-    let cuts = found.plans.first().map_or(0, Vec::len);
+    let cuts = counted(found.plans.first().map_or(0, Vec::len), "cut");
     let (family, nodes) = (found.family, found.nodes);
     if found.is_proved {
-        format!(
-            "{cuts} cut(s): fewer do not open every void (exact cover over {family} planes, {nodes} nodes)"
-        )
+        format!("{cuts}: fewer do not open every void (exact cover over {family} planes, {nodes} nodes)")
     } else {
-        format!("{cuts} cut(s): fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
+        format!("{cuts}: fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
     }
 }
 

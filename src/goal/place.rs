@@ -11,6 +11,10 @@ use crate::mesh::Solid;
 /// senses of a symmetric model's axis; above 1e-6 a real difference would be ignored.
 const TIE_RATIO: f64 = 1e-9;
 
+/// How many of the model's lengths a point may lie off it. No tip reaches farther than one; beyond some thousands rounding
+/// would decide.
+const FAR_LENGTHS: f64 = 10.0;
+
 /// Why a goal cannot be placed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GoalError {
@@ -28,6 +32,15 @@ pub enum GoalError {
         y: f64,
         /// Its z.
         z: f64,
+    },
+    /// A point far away from the model.
+    #[error(
+        "{name} lies more than {FAR_LENGTHS} times the model's length away from it; give a point of the model, in mm of its \
+         final size"
+    )]
+    FarAway {
+        /// Which option.
+        name: &'static str,
     },
     /// The wall is zero, negative or not a number.
     #[error("a wall of {0} mm is not a wall; give a positive thickness")]
@@ -121,18 +134,22 @@ impl<'a> Site<'a> {
         self.upright.to_local(&self.body.center)
     }
 
+    /// The point an option names, in the upright frame, if it is one on the model or not far from it.
+    pub fn given_point(&self, name: &'static str, [x, y, z]: [f64; 3]) -> Result<Point, GoalError> {
+        if !(x.is_finite() && y.is_finite() && z.is_finite()) {
+            return Err(GoalError::NotAPoint { name, x, y, z });
+        }
+        let (point, mesh) = (Point::new(x, y, z), self.solid.mesh());
+        let far_mm = FAR_LENGTHS * mesh.longest_side_mm();
+        if mesh.aabb().distance_squared(&point) > far_mm * far_mm {
+            return Err(GoalError::FarAway { name });
+        }
+        Ok(self.upright.to_local(&point))
+    }
+
     /// The height of the model, mm.
     pub fn height_mm(&self) -> f64 {
         self.highest_mm - self.lowest_mm
-    }
-}
-
-/// The point an option names, if it is one.
-pub(super) fn checked_point(name: &'static str, [x, y, z]: [f64; 3]) -> Result<Point, GoalError> {
-    if x.is_finite() && y.is_finite() && z.is_finite() {
-        Ok(Point::new(x, y, z))
-    } else {
-        Err(GoalError::NotAPoint { name, x, y, z })
     }
 }
 
@@ -162,16 +179,6 @@ fn extent_along(solid: &Solid, direction: &Vector) -> (f64, f64) {
     let heights = solid.mesh().vertices().iter().map(|vertex| direction.dot(&vertex.coords));
     heights
         .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
-}
-
-impl Contact {
-    /// The given point, if one is given, checked.
-    pub(super) fn given(self) -> Result<Option<Point>, GoalError> {
-        match self {
-            Self::At(point) => checked_point("contact", point).map(Some),
-            Self::Lowest | Self::Center => Ok(None),
-        }
-    }
 }
 
 #[cfg(test)]

@@ -33,12 +33,10 @@ pub(super) fn place(site: &Site, wall_mm: f64, contact: Contact) -> Result<Place
 }
 
 fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
-    if let Some(point) = contact.given()? {
-        return Ok(site.upright.to_local(&point));
-    }
     let [x, y] = match contact {
+        Contact::At(point) => return site.given_point("contact", point),
         Contact::Lowest => lowest_feature_middle(site),
-        Contact::Center | Contact::At(_) => [site.upright_center().x, site.upright_center().y],
+        Contact::Center => [site.upright_center().x, site.upright_center().y],
     };
     Ok(Point::new(x, y, site.lowest_mm))
 }

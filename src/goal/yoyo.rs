@@ -1,12 +1,12 @@
 //! The yo-yo: it spins freely about an axis through a point inside.
 
-use super::place::{GoalError, Site, checked_point};
+use super::place::{GoalError, Site};
 use super::{Placement, SpinPoint};
 
 pub(super) fn place(site: &Site, spin_point: SpinPoint) -> Result<Placement, GoalError> {
     let origin = match spin_point {
         SpinPoint::Center => site.upright_center(),
-        SpinPoint::At(point) => site.upright.to_local(&checked_point("spin-point", point)?),
+        SpinPoint::At(point) => site.given_point("spin-point", point)?,
     };
     Ok(Placement { goal: site.goal_at(&origin, Vec::new()), keeps: Vec::new(), warnings: Vec::new() })
 }

@@ -8,23 +8,26 @@ use super::Columns;
 use super::row::{Reaching, Row};
 use crate::progress::Progress;
 use crate::shell::{Bins, Ruler, Shell};
+use crate::units::show_mm;
 
 /// The name of this phase in progress reports.
 const PHASE: &str = "columns";
 /// Rows a thread sweeps at a time. More make the last blocks wait for one thread; fewer list every piece in more
 /// blocks. Has no influence on the result.
 const ROWS_PER_BLOCK: usize = 8;
-/// Most columns of the whole grid, occupied or not. Above, indices could outgrow the 32 bits they are kept in.
-const MAX_GRID_COLUMNS: f64 = 1e9;
+/// Most columns of the whole grid, occupied or not. Each that is occupied that is occupied takes some 60 bytes while it is built, so ten times more would not fit
+/// the memory of a desk machine; ten times fewer would refuse a printer's own pitch on its whole plate.
+const MAX_GRID_COLUMNS: f64 = 1e8;
 
 /// Why there are no columns.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BuildError {
     /// A pitch is not positive and finite, or so fine that the columns could not be counted.
     #[error(
-        "a pitch of {} mm × {} mm makes no grid of columns here; it must be positive, finite and give fewer than 1e9 columns",
-        pitch_mm[0],
-        pitch_mm[1]
+        "columns {} × {} apart are not possible here, where at most {MAX_GRID_COLUMNS:.0e} may stand; remedy: give a larger \
+         --pitch or a smaller model",
+        shown(pitch_mm[0]),
+        shown(pitch_mm[1])
     )]
     Pitch {
         /// The pitch asked for, mm.
@@ -33,6 +36,11 @@ pub enum BuildError {
     /// The caller stopped the run.
     #[error("stopped while building columns")]
     Cancelled,
+}
+
+/// A pitch for people, however small.
+fn shown(mm: f64) -> String {
+    if mm < 1e-3 { format!("{mm:.1e} mm") } else { show_mm(mm) }
 }
 
 impl Columns {

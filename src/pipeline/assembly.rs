@@ -18,6 +18,7 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
 use crate::printer::PrintPose;
 use crate::progress::Progress;
+use crate::report::HeightProof;
 use crate::verify::{PartEvidence, assembly_moments};
 
 /// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right but for the rounding of
@@ -31,6 +32,8 @@ const MAX_PLANS: usize = 4;
 pub struct Assembly {
     /// The solution the parts were made from.
     pub solution: Solution,
+    /// Tops: the proof for other heights of the centre.
+    pub height_proof: Option<HeightProof>,
     /// The uncut body.
     pub hollowed: Hollowed,
     /// The volume of voids that could not be cleaned and stay solid, mm³.
@@ -124,7 +127,8 @@ fn assembled(
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &written.in_frame(&goal.frame)) {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
-            return Ok(Assembly { solution, hollowed, refused_mm3, plan, parts, rounds });
+            let height_proof = tuner.height_proof();
+            return Ok(Assembly { solution, height_proof, hollowed, refused_mm3, plan, parts, rounds });
         }
         more = written - moments_of_mesh(&voids.hollowed.to_mesh());
     }

@@ -160,6 +160,8 @@ fn certificate(sheet: &Sheet) -> Certificate {
         value: shown(certificate.value),
         bound: shown(certificate.bound),
         gap_ratio: certificate.gap_ratio,
+        kept_solid_mm3: sheet.assembly.refused_mm3,
+        over_heights: sheet.assembly.height_proof,
         written_value: sheet.judgement.assembly.value_of(figure),
     }
 }
@@ -259,8 +261,8 @@ fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
 fn warnings(sheet: &Sheet) -> Vec<String> {
     let setup = sheet.setup;
     let placement = setup.placement.warnings.iter().map(ToString::to_string);
-    let repairs =
-        (!setup.model.repairs.is_empty()).then(|| format!("the model was repaired: {}", setup.model.repairs));
+    let repairs = setup.model.repairs.notable();
+    let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
     let small =
         (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));

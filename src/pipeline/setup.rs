@@ -6,7 +6,7 @@ use crate::goal::{Placement, place};
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
-use crate::printer::{Material, Printer, WallChoice};
+use crate::printer::{Material, Printer, WallChoice, leaves_room};
 use crate::progress::Progress;
 
 /// The model as it is used: closed, in mm.
@@ -49,7 +49,8 @@ impl Setup {
         let material = printer.material(job.printer.material.as_deref())?.clone();
         let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()))?;
         let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
-        let (job, model) = load(job)?;
+        let (job, model) = load(job, &printer)?;
+        leaves_room(model.solid.mesh().longest_side_mm(), wall.wall_mm)?;
         let placement = place(&model.solid, wall.wall_mm, &job.goal)?;
         Ok(Self { job, model, printer, material, wall, pitch_mm, placement })
     }
@@ -63,13 +64,14 @@ impl Setup {
 }
 
 /// The model of a job, and the job bound to it.
-fn load(job: &Job) -> Result<(Job, Model), Error> {
+fn load(job: &Job, printer: &Printer) -> Result<(Job, Model), Error> {
     let bytes = io::read_bytes(&job.model.path)?;
     let mesh = io::decode_model(&bytes)
         .map_err(|source| io::ReadError::Content { path: job.model.path.clone(), source })?;
     let job = job.clone().bound_to(&bytes)?;
     let (mesh, repairs) = repair(mesh);
     let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
+    printer.allows_length(scale_ratio * mesh.longest_side_mm())?;
     let solid = Solid::new(scaled(&mesh, scale_ratio))
         .map_err(|source| Error::NotSolid { path: job.model.path.clone(), source: Box::new(source) })?;
     one_body(&solid)

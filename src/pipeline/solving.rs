@@ -1,10 +1,11 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
-use crate::hollow::{Problem, Settings, Solution, refine, solve};
+use crate::hollow::{Certificate, Problem, Settings, Solution, refine, solve};
 use crate::interior::Columns;
 use crate::mass::Moments;
 use crate::progress::Progress;
+use crate::report::HeightProof;
 use crate::shell::Shell;
 
 /// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search over
@@ -20,6 +21,8 @@ pub struct Solved {
     pub columns: Columns,
     /// The solution on them.
     pub solution: Solution,
+    /// Tops: the proof for other heights of the centre, on the finest columns it was made on.
+    pub height_proof: Option<HeightProof>,
 }
 
 impl Solved {
@@ -48,7 +51,9 @@ impl Solved {
             if done >= first_to_tell && !solution.is_usable() {
                 return Ok(Err(impossible(setup, &solution)));
             }
-            level = Some(Self { columns, solution });
+            let height_proof =
+                height_proof(&columns, &solution).or(level.and_then(|level| level.height_proof));
+            level = Some(Self { columns, solution, height_proof });
         }
         level.map_or(Err(Error::Cancelled), |solved| Ok(Ok(solved)))
     }
@@ -57,6 +62,12 @@ impl Solved {
     pub fn corrected(&self, setup: &Setup, fixed: Moments) -> Solution {
         solution_on(setup, &self.columns, Some(self), fixed)
     }
+}
+
+/// What a solution proves of tops with their centre of mass at any other height.
+fn height_proof(columns: &Columns, solution: &Solution) -> Option<HeightProof> {
+    let Certificate { value, bound_over_heights, .. } = solution.certificate;
+    bound_over_heights.map(|bound| HeightProof { pitch_mm: columns.pitch_mm[0], value, bound })
 }
 
 /// The pitches from coarse to fine; the last is the printer's own.

@@ -8,6 +8,7 @@ use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, TriMesh};
 use crate::progress::Progress;
+use crate::report::HeightProof;
 use crate::voids::{Cavity, CavitySpec, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
@@ -64,6 +65,11 @@ impl<'a> Tuner<'a> {
     pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
         let cavity = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
         Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
+    }
+
+    /// The proof for other heights of a top's centre.
+    pub fn height_proof(&self) -> Option<HeightProof> {
+        self.solved.height_proof
     }
 
     /// The voids whose uncut mesh meets the goal's constraints before cuts and pins.

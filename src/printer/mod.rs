@@ -33,6 +33,7 @@ mod material;
 mod profile;
 mod quantity;
 mod resolve;
+mod size;
 mod sourced;
 mod wall;
 
@@ -40,5 +41,6 @@ pub use error::{Fault, Faults, Problem, ProfileError};
 pub use machine::{Grid, PrintPose, Printer, Support, Tolerance};
 pub use material::{Material, MaterialError};
 pub use quantity::Quantity;
+pub use size::{SizeError, leaves_room};
 pub use sourced::{Sourced, Sure};
 pub use wall::{WallChoice, WallError};

@@ -154,12 +154,29 @@ pub struct Certificate {
     pub figure: FigureName,
     /// Its value at the solver's optimum.
     pub value: f64,
-    /// No hollowing of this model with this wall can do better than this.
+    /// No hollowing of this model with this wall, in which `kept_solid_mm3` stay solid, can do better than this; for tops
+    /// none whose centre of mass is as high.
     pub bound: f64,
+    /// The volume of voids that could not have been cleaned: those places, and what lies a minimum opening around them,
+    /// were taken out of what may be emptied, mm³.
+    pub kept_solid_mm3: f64,
     /// |value − bound| / |bound|.
     pub gap_ratio: f64,
+    /// Tops: what is proved for every height of the centre of mass; none where that was not proved.
+    pub over_heights: Option<HeightProof>,
     /// The value of the written assembly.
     pub written_value: Option<f64>,
+}
+
+/// What is proved of tops with their centre of mass at any height, on columns coarser than the printer's.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct HeightProof {
+    /// The pitch of those columns, mm.
+    pub pitch_mm: f64,
+    /// The optimum on them, in the certificate's figure.
+    pub value: f64,
+    /// No hollowing on them, with its centre of mass at any height, can do better than this.
+    pub bound: f64,
 }
 
 /// The wall that was ordered and the one that was measured.

@@ -20,9 +20,11 @@ pub enum Existing {
 }
 
 impl Existing {
-    /// Whether a kit may take `target`, looked at before any work is done; see [`Kit::write`].
+    /// Whether a kit may take `target`, tried before any work is done by making a hidden folder beside it and removing it
+    /// again; see [`Kit::write`].
     pub fn allows(self, target: &Path) -> Result<(), KitError> {
-        may_take(target, self)
+        may_take(target, self)?;
+        Staging::beside(target).map(drop)
     }
 }
 

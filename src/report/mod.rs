@@ -17,8 +17,8 @@ mod words;
 
 pub use album::{Picture, Sitting, album, part_picture_file};
 pub use checklist::{
-    Certificate, Checklist, ChecklistError, GoalRow, LogRow, MaterialRow, ModelRow, PrinterRow, Tool,
-    Verdict, WallRow,
+    Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
+    Tool, Verdict, WallRow,
 };
 pub use kit::{Existing, Kit, KitError};
 pub use page::page;

@@ -52,6 +52,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             value: speed,
             bound: speed,
             gap_ratio: 1e-9,
+            kept_solid_mm3: 0.0,
+            over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
         },
         wall: WallRow { required_mm: 3.0, measured_min_mm: found.wall_min_mm },

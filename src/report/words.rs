@@ -100,11 +100,14 @@ pub fn promise(sheet: &Checklist) -> String {
 /// The certificate in plain words.
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
+    let is_top = sheet.goal.aim.kind == GoalKind::Top;
     let better = if more_is_better(proof.figure) { "higher" } else { "lower" };
     let mut words = vec![
         format!(
-            "It is proved that no hollowing of this model with a wall of {} has a {} {better} than {}.",
+            "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
+            kept_solid(proof),
+            if is_top { " and its centre of mass at this height" } else { "" },
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
@@ -114,6 +117,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
             gap(proof.gap_ratio)
         ),
     ];
+    words.extend(is_top.then(|| other_heights(proof)));
     words.extend(proof.written_value.map(|written| {
         let share = reached_ratio(proof, written);
         format!(
@@ -123,6 +127,25 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         )
     }));
     words
+}
+
+/// What the proof takes as solid besides the wall.
+fn kept_solid(proof: &Certificate) -> &'static str {
+    if proof.kept_solid_mm3 > 0.0 { ", solid where voids would be too small to be cleaned," } else { "" }
+}
+
+/// What is known of a top's centre of mass at other heights.
+fn other_heights(proof: &Certificate) -> String {
+    let Some(over) = proof.over_heights else {
+        return "Other heights of the centre of mass were searched, and none was better; a proof for them is missing."
+            .to_owned();
+    };
+    format!(
+        "At any other height of the centre of mass the {} could be lower by {:.1} % at most (proved on columns {} apart).",
+        proof.figure.name(),
+        100.0 * (1.0 - over.bound / over.value),
+        quantity(over.pitch_mm, "mm")
+    )
 }
 
 /// The distance between the optimum and its proof, in words.
@@ -151,6 +174,16 @@ mod tests {
     fn numbers_have_four_digits_and_small_ones_a_power_of_ten() {
         let shown = [1234.5, 12.345_67, 0.004_216, 100.0, -0.5, 1.5e-7, -0.0, 123_456.7].map(number);
         assert_eq!(shown, ["1234", "12.35", "0.004216", "100", "-0.5", "1.5e-7", "0", "123457"]);
+    }
+
+    #[test]
+    fn the_proof_says_that_it_holds_with_solid_places_where_there_are_any() {
+        let (mut sheet, _) = crate::report::sample::sample();
+        let is_said =
+            |sheet: &Checklist| certificate(sheet)[0].contains("solid where voids would be too small");
+        assert!(!is_said(&sheet));
+        sheet.certificate.kept_solid_mm3 = 12.0;
+        assert!(is_said(&sheet));
     }
 
     #[test]
