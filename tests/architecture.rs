@@ -41,15 +41,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "pipeline",
         &[
-            "cut", "digest", "error", "geom", "goal", "hollow", "interior", "io", "job", "mass", "mesh",
-            "printer", "progress", "report", "shell", "units", "verify", "voids",
+            "advice", "cut", "digest", "error", "geom", "goal", "hollow", "interior", "io", "job", "mass",
+            "mesh", "printer", "progress", "report", "shell", "units", "verify", "voids",
         ],
     ),
     (
         "cli",
         &[
-            "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer", "progress",
-            "report", "units", "verify", "words",
+            "advice", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
+            "progress", "report", "units", "verify", "words",
         ],
     ),
     ("guide", &[]),

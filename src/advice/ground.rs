@@ -12,8 +12,9 @@ use crate::shell::Shell;
 pub(super) const FINE_SAMPLES: usize = 40_000;
 /// Samples for a first look at many axes.
 pub(super) const COARSE_SAMPLES: usize = 8_000;
-/// Columns a side of the confirming solve: those on which a run proves first that a goal is impossible.
-pub(super) const CONFIRMING_COLUMNS: usize = 100;
+/// Columns a side of the confirming solve. A run proves on four times as many that a goal is impossible; at 100 an answer
+/// at the very border may be another than there, at 400 the advice on a large mesh takes three times as long.
+pub(super) const CONFIRMING_COLUMNS: usize = 200;
 
 /// A model whose depths are known.
 pub(super) struct Ground<'a> {
@@ -61,19 +62,25 @@ impl<'a> Ground<'a> {
         self.trial(request, wall_mm).is_some_and(|trial| trial.is_possible())
     }
 
-    /// The same question put to the exact columns that a run solves on first, with nothing known; none unless the answer
-    /// is yes.
+    /// The same question put to exact columns, with nothing known from before; none unless the answer is yes.
     pub fn confirmed(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
-        let placement = place(self.case.solid, wall_mm, request).ok()?;
-        let shell = Shell::new(self.case.solid, &placement.goal.frame, wall_mm, &placement.keeps).ok()?;
-        let pitch_mm = shell.coarse_pitch(CONFIRMING_COLUMNS);
-        let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent()).ok()?;
+        let (placement, columns) = self.exact(request, wall_mm)?;
         let solution = solve(&problem(&placement, &columns), &Settings::default(), &Progress::silent());
         let trial = Trial { columns: columns.len(), placement, solution };
         trial.is_possible().then_some(trial)
     }
+
+    /// A request placed, with the exact columns of what may then be emptied.
+    pub fn exact(&self, request: &Request, wall_mm: f64) -> Option<(Placement, Columns)> {
+        let placement = place(self.case.solid, wall_mm, request).ok()?;
+        let shell = Shell::new(self.case.solid, &placement.goal.frame, wall_mm, &placement.keeps).ok()?;
+        let pitch_mm = shell.coarse_pitch(CONFIRMING_COLUMNS);
+        let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent()).ok()?;
+        Some((placement, columns))
+    }
 }
 
-fn problem<'p>(placement: &'p Placement, columns: &'p Columns) -> Problem<'p> {
+/// The plain question: what of these columns is to be emptied for the goal.
+pub(super) fn problem<'p>(placement: &'p Placement, columns: &'p Columns) -> Problem<'p> {
     Problem { goal: &placement.goal, fixed: placement.goal.solid, columns }
 }

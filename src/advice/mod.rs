@@ -18,6 +18,8 @@
 //! The files, in reading order: `ground` what a trial is · `ratio` size and wall · `moves`, `nearest` contact and axis ·
 //! `footing` the faces to stand on · `ballast` · `remedy` the values and their words · `orientation` and `prospects`.
 
+mod ballast;
+mod confirm;
 mod directions;
 mod footing;
 mod ground;
@@ -55,6 +57,10 @@ pub struct Case<'a> {
     pub least_wall_mm: f64,
     /// Walls are whole multiples of this, mm.
     pub wall_step_mm: f64,
+    /// The density of what is printed, g/cm³.
+    pub density_g_cm3: f64,
+    /// The longest model whose kit this printer could print, mm.
+    pub greatest_size_mm: f64,
 }
 
 /// What would make an impossible goal possible: a remedy for each way there is, in a fixed order, also those that lead
@@ -67,14 +73,20 @@ pub fn remedies(case: &Case) -> Vec<Remedy> {
     let Some(asked) = ground.trial(&case.request, case.wall_mm) else { return Vec::new() };
     let goal = &asked.placement.goal;
     let moves = Moves::of(case, goal);
-    let (mut all, moved): (Vec<Remedy>, Vec<Remedy>) = rayon::join(
+    let (mut all, (moved, ballast)): (Vec<Remedy>, (Vec<Remedy>, Remedy)) = rayon::join(
         || ratio::remedies(&ground),
-        || moves.par_iter().map(|moves| moved(&ground, moves)).collect(),
+        || {
+            rayon::join(
+                || moves.par_iter().map(|moves| moved(&ground, moves)).collect(),
+                || ballast::remedy(&ground),
+            )
+        },
     );
     all.extend(moved);
     if goal.kind == GoalKind::Stand {
         all.push(footing::remedy(&ground, &goal.frame.axis()));
     }
+    all.push(ballast);
     all
 }
 

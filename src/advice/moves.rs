@@ -3,14 +3,14 @@
 use super::Case;
 use super::directions::lattice;
 use super::nearest::Nearest;
+use super::orientation::over_corners;
 use super::remedy::{Kind, Remedy};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::{Contact, Goal, GoalKind, Request, SpinPoint, Up};
 use crate::mass::{Body, Moments};
 use crate::units::show_mm;
 
-/// Directions that are tried one after the other, the least tilt first, where no ray from the axis asked for leads to a
-/// possible one: 20° apart.
+/// Directions of the lattice that are tried one after the other, the least tilt first: 20° apart.
 const FAR_DIRECTIONS: usize = 100;
 
 /// What is moved.
@@ -37,7 +37,7 @@ pub(super) struct Moves {
     pub limit: f64,
     /// Steps to look towards first.
     pub seeds: Vec<Vector>,
-    /// Steps to try where that leads nowhere, the shortest first.
+    /// Steps to try besides, as far as they are shorter than what that leads to; the shortest first.
     pub far: Vec<Vector>,
 }
 
@@ -67,12 +67,13 @@ impl Moves {
         let has_sense = goal.kind == GoalKind::Top;
         let local = |axis: Vector| goal.frame.direction_to_local(&axis);
         let is_nearer = |axis: &Vector| has_sense || axis.z >= 0.0;
-        let mut far: Vec<Vector> = lattice(FAR_DIRECTIONS)
-            .into_iter()
-            .map(local)
-            .filter(is_nearer)
-            .map(|axis| tilt_to(&axis))
-            .collect();
+        let corners = if case.request.contact == Some(Contact::Lowest) {
+            over_corners(case.solid.mesh())
+        } else {
+            Vec::new()
+        };
+        let far = lattice(FAR_DIRECTIONS).into_iter().chain(corners).map(local).filter(is_nearer);
+        let mut far: Vec<Vector> = far.map(|axis| tilt_to(&axis)).collect();
         far.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
         let seeds = tilts_to_principal(has_sense, &goal.solid);
         Self { limit: std::f64::consts::PI, seeds, far, ..Self::none(case, goal) }

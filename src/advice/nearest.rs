@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+use super::confirm::least_excess;
 use super::directions::{rounded, rounded_direction};
 use super::ground::{Ground, Trial};
 use super::moves::{Moves, Part};
@@ -21,11 +22,6 @@ const WORTHWHILE_RATIO: f64 = 0.99;
 /// The part of the longest step by which a place is moved to see how the proof changes: small against any step that is
 /// advised, large against rounding.
 const PROBE_OF_LIMIT: f64 = 1e-4;
-/// Steps longer and longer that are tried to confirm what was found on samples.
-const CONFIRMING_STEPS: i32 = 6;
-/// By how much each of them is longer.
-const CONFIRMING_GROWTH: f64 = 1.02;
-
 /// Decimals of a printed point, in mm: at 1e-3 the rounding of its height already counts as a gap to the model.
 const POINT_DECIMALS: i32 = 4;
 
@@ -50,12 +46,13 @@ pub(super) struct Nearest {
 /// The shortest step |u| with φ(u) ≤ 0, where φ is what the proof of impossibility amounts to, points along −∇φ at its
 /// end (Karush, Kuhn and Tucker). The proof is the integral of a quadric over the interior it is least for; by the
 /// envelope theorem that interior may be held fast while the frame moves, so ∇φ costs no solve: the same moments are
-/// seen from frames moved a little. From the first rays (down the slope, and towards where the solid itself is best) the
-/// border is bisected, and then each tangent of the border gives the ray to its foot, until the step no longer shortens.
+/// seen from frames moved a little. From the first rays (down the slope, towards where the solid itself is best, towards the
+/// nearest possible one of many places) the border is bisected, and then each tangent of the border gives the ray to its foot, until the step no longer shortens.
 /// What is found is shortest among its neighbours.
 pub(super) fn nearest(ground: &Ground, moves: &Moves) -> Option<Nearest> {
     let search = Search { ground, moves };
-    let first = search.nearest_border().or_else(|| search.far_border())?;
+    let near = search.nearest_border();
+    let first = search.far_border(near.map_or(f64::INFINITY, |border| border.possible)).or(near)?;
     search.confirmed(&search.rounded_by_tangents(first))
 }
 
@@ -83,9 +80,10 @@ impl Search<'_> {
         best
     }
 
-    /// The border on the ray to the first of the far places that is possible.
-    fn far_border(&self) -> Option<Border> {
-        let place = self.moves.far.par_iter().find_first(|step| self.allows(step))?;
+    /// The border on the ray to the first of the far places that is possible, if it is nearer than `limit`.
+    fn far_border(&self, limit: f64) -> Option<Border> {
+        let nearer: Vec<&Vector> = self.moves.far.iter().filter(|step| step.norm() < limit).collect();
+        let place = nearer.into_par_iter().find_first(|step| self.allows(step))?;
         let (towards, possible) = (place.try_normalize(0.0)?, place.norm());
         Some(self.bisected(Border { towards, impossible: 0.0, possible }))
     }
@@ -170,13 +168,12 @@ impl Search<'_> {
 
     /// The step as it is printed, a little longer where the exact columns ask for it.
     fn confirmed(&self, border: &Border) -> Option<Nearest> {
-        let lengths = (0..CONFIRMING_STEPS).map(|i| border.possible * CONFIRMING_GROWTH.powi(i));
-        lengths.into_iter().find_map(|length| {
+        least_excess(|excess| {
+            let length = (border.possible * (1.0 + excess)).min(self.moves.limit);
             let step = border.towards * length;
             let request = printed(self.moves.part, self.moves.request(&step));
             let trial = self.ground.confirmed(&request, self.ground.case.wall_mm)?;
-            trial.meets_the_model().then_some(())?;
-            Some(Nearest { step, request, trial })
+            trial.meets_the_model().then_some(Nearest { step, request, trial })
         })
     }
 }

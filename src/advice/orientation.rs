@@ -10,7 +10,7 @@ use super::reached::Reached;
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::mass::{Body, moments_of_mesh};
-use crate::mesh::TriMesh;
+use crate::mesh::{Csg, TriMesh};
 
 /// Directions of the lattice: 16° apart. Fewer miss the narrow ranges in which a top stands over its contact; more cost
 /// some milliseconds each.
@@ -24,6 +24,9 @@ const APART_COSINE: f64 = 0.985;
 /// certificate on the coarse columns can tell.
 const FIRST_TILT: f64 = 0.14;
 const LAST_TILT: f64 = 0.008;
+/// How much higher than the lowest a corner may be to be tried, as a part of the longest side: hollowing shifts the centre
+/// of mass by some per cent of it.
+const CORNER_SLACK_RATIO: f64 = 0.02;
 /// Ways to tilt from each place.
 const WAYS: usize = 6;
 
@@ -42,11 +45,19 @@ pub struct Orientation {
 
 /// The axis on which the goal reaches most, over all directions; none where it is possible on none of those tried.
 ///
-/// The contact follows by the request's own rule. Tried are a lattice over the sphere (half of it for a yo-yo, whose axis
+/// The contact follows by the request's own rule; where the lowest point allows no axis, it is put below the centre of mass,
+/// where a tip has to reach it. Tried are a lattice over the sphere (half of it for a yo-yo, whose axis
 /// has no sense), the coordinate axes, the solid's principal axes and, for a top on its lowest point, the directions in
 /// which a corner lies below the centre of mass; for a standing object the faces of its convex hull. The best few are
 /// refined by tilting less and less. Takes some hundred trials, about a second on 10 000 triangles.
 pub fn best_orientation(case: &Case) -> Option<Orientation> {
+    let center = Request { contact: Some(Contact::Center), ..case.request };
+    let is_lowest = case.request.contact == Some(Contact::Lowest);
+    best_by_its_rule(case)
+        .or_else(|| if is_lowest { best_by_its_rule(&Case { request: center, ..*case }) } else { None })
+}
+
+fn best_by_its_rule(case: &Case) -> Option<Orientation> {
     let coarse = Ground::new(*case, COARSE_SAMPLES);
     let axes = candidates(case);
     let ranked = ranked(&coarse, &axes);
@@ -140,9 +151,7 @@ fn candidates(case: &Case) -> Vec<Vector> {
     let mut all = special_axes(case);
     all.extend(lattice(LATTICE));
     if case.request.contact == Some(Contact::Lowest) {
-        let center = moments_of_mesh(mesh).centroid();
-        let over: Vec<Vector> = all.iter().filter_map(|axis| over_its_corner(mesh, &center, axis)).collect();
-        all.extend(over);
+        all.extend(over_corners(mesh));
     }
     if case.request.kind == GoalKind::Yoyo {
         all.iter_mut().filter(|axis| points_down(axis)).for_each(|axis| *axis = -*axis);
@@ -170,9 +179,16 @@ pub(super) fn points_down(axis: &Vector) -> bool {
     first.is_some_and(|part| part < 0.0)
 }
 
-/// From the vertex that is lowest along an axis to the centre of mass: where that vertex is still the lowest, the solid
-/// balances on it.
-fn over_its_corner(mesh: &TriMesh, center: &Point, axis: &Vector) -> Option<Vector> {
-    let lowest = mesh.vertices().iter().min_by(|a, b| a.coords.dot(axis).total_cmp(&b.coords.dot(axis)))?;
-    (center - lowest).try_normalize(0.0)
+/// The directions from a corner of the convex hull to the centre of mass, where that corner is the lowest or nearly so: the
+/// solid all but balances on it, and hollowing has the least to do.
+pub(super) fn over_corners(mesh: &TriMesh) -> Vec<Vector> {
+    let center = moments_of_mesh(mesh).centroid();
+    let hull = Csg::convex_hull(mesh.vertices()).and_then(|hull| hull.to_mesh()).unwrap_or_default();
+    let slack_mm = CORNER_SLACK_RATIO * mesh.longest_side_mm();
+    let is_low = |corner: &Point, up: &Vector| {
+        let height_mm = corner.coords.dot(up) - slack_mm;
+        hull.vertices().iter().all(|other| other.coords.dot(up) >= height_mm)
+    };
+    let over = |corner: &Point| (center - corner).try_normalize(0.0).filter(|up| is_low(corner, up));
+    hull.vertices().iter().filter_map(over).collect()
 }

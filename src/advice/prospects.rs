@@ -5,11 +5,12 @@ use serde::Serialize;
 
 use super::Case;
 use super::directions::is_new;
-use super::ground::{COARSE_SAMPLES, Ground};
+use super::ground::{COARSE_SAMPLES, Ground, Trial};
 use super::orientation::{along, points_down, special_axes};
 use super::reached::Reached;
 use crate::geom::Vector;
 use crate::goal::{GoalKind, Request, Up};
+use crate::hollow::Status;
 
 /// A principal axis this near to a coordinate axis is that axis: cos 1°.
 const SAME_COSINE: f64 = 0.999_85;
@@ -70,8 +71,22 @@ fn worded(axis: &Vector) -> Up {
 
 fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
     let trial = ground.trial(wish, ground.case.wall_mm)?;
-    let (solution, possible) = (&trial.solution, trial.is_possible());
+    let possible = trial.is_possible();
     let reached = Reached::of(&trial);
-    let reason = if possible { String::new() } else { solution.status.explain(&trial.placement.goal) };
+    let reason = if possible { String::new() } else { brief(&trial) };
     Some(Prospect { kind: wish.kind, up: wish.up, possible, reached: possible.then_some(reached), reason })
+}
+
+/// Why a goal is impossible, in a few words with the number.
+fn brief(trial: &Trial) -> String {
+    match trial.solution.status {
+        Status::ConstraintsInfeasible { .. } => "it cannot be balanced about this axis".to_owned(),
+        Status::NotDominant { least_ratio } | Status::UnstableForEveryInterior { least_ratio, .. } => {
+            format!("I_b/I_c stays above {least_ratio:.3}")
+        }
+        Status::CannotStand { greatest_angle_rad } => {
+            format!("it leans over by {:.1}° at least", -greatest_angle_rad.to_degrees())
+        }
+        status => status.explain(&trial.placement.goal),
+    }
 }

@@ -1,6 +1,7 @@
 //! The greatest wall at this size, and with it the least size at this wall.
 
 use super::Case;
+use super::confirm::least_excess;
 use super::ground::{Ground, Trial};
 use super::remedy::{Kind, Remedy};
 use crate::units::show_mm;
@@ -10,8 +11,6 @@ use crate::units::show_mm;
 const MOST_TIMES: f64 = 20.0;
 /// How nearly the greatest wall is found.
 const PRECISION_RATIO: f64 = 0.01;
-/// Thinner and thinner walls that are tried to confirm what was found on samples.
-const CONFIRMING_STEPS: i32 = 5;
 /// Walls are printed to a thousandth of a millimetre, far below any printer's step.
 const WALLS_PER_MM: f64 = 1e3;
 
@@ -21,24 +20,27 @@ const WALLS_PER_MM: f64 = 1e3;
 /// printed, which lets still more be emptied.
 pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
     let case = &ground.case;
-    match greatest_wall(ground) {
+    let Some(thickest_mm) = greatest_wall(ground) else {
+        let words = format!("no size and no wall help: even {MOST_TIMES} times as large it stays impossible");
+        return vec![Remedy::nothing(Kind::LeastSize, words)];
+    };
+    match confirmed(ground, thickest_mm) {
         Some((wall_mm, trial)) => vec![larger(case, wall_mm, &trial), thinner(case, wall_mm, &trial)],
         None => {
-            let words =
-                format!("no size and no wall help: even {MOST_TIMES} times as large it stays impossible");
-            vec![Remedy::nothing(Kind::LeastSize, words)]
+            let words = "no size was found that surely helps: it stays at the very border of the possible";
+            vec![Remedy::nothing(Kind::LeastSize, words.to_owned())]
         }
     }
 }
 
-/// The thickest wall, mm, in the model's present size that makes the goal possible, confirmed; none if even a wall
-/// [`MOST_TIMES`] thinner does not.
+/// The thickest wall, mm, at the present size that makes the goal possible, on samples; none if even a wall [`MOST_TIMES`]
+/// thinner does not.
 ///
 /// A thinner wall lets more be emptied, and more choice never makes a goal impossible: possible and impossible walls are
 /// parted by one number, so bisection finds it. Goals do not know how large a millimetre is (with the wall and the contact
 /// scaled alike), so the same number is also by how much a larger model would do: only wall/size counts. The precision
 /// is one per cent.
-fn greatest_wall(ground: &Ground) -> Option<(f64, Trial)> {
+fn greatest_wall(ground: &Ground) -> Option<f64> {
     let (request, wall_mm) = (&ground.case.request, ground.case.wall_mm);
     let halves = std::iter::successors(Some(0.5 * wall_mm), |wall| Some(0.5 * wall));
     let tried = halves.take_while(|&wall| wall > wall_mm / MOST_TIMES).chain([wall_mm / MOST_TIMES]);
@@ -52,12 +54,28 @@ fn greatest_wall(ground: &Ground) -> Option<(f64, Trial)> {
             too_thick_mm = middle_mm;
         }
     }
-    let mut walls = (0..CONFIRMING_STEPS).map(|step| thickest_mm * (1.0 - PRECISION_RATIO).powi(step));
-    walls.find_map(|wall| Some((wall, ground.confirmed(request, wall)?)))
+    Some(thickest_mm)
+}
+
+/// That wall, or a thinner one, confirmed.
+fn confirmed(ground: &Ground, thickest_mm: f64) -> Option<(f64, Trial)> {
+    least_excess(|excess| {
+        let wall_mm = thickest_mm / (1.0 + excess);
+        Some((wall_mm, ground.confirmed(&ground.case.request, wall_mm)?))
+    })
 }
 
 fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     let size_mm = size_for(case, greatest_mm, case.wall_mm);
+    if size_mm > case.greatest_size_mm {
+        let words = format!(
+            "with the wall of {} only {} or larger would do, and a kit for this printer may be {} at most",
+            show_mm(case.wall_mm),
+            show_mm(size_mm),
+            show_mm(case.greatest_size_mm)
+        );
+        return Remedy::nothing(Kind::LeastSize, words);
+    }
     let thinner = (case.least_wall_mm < case.wall_mm).then(|| {
         let least_mm = case.least_wall_mm;
         let size_mm = size_for(case, greatest_mm, least_mm);

@@ -21,6 +21,8 @@ pub enum Kind {
     NearestAxis,
     /// Turn the model until it stands on another face; by degrees.
     NearestFace,
+    /// Put steel inside; g.
+    LeastBallast,
 }
 
 impl Kind {
@@ -28,6 +30,7 @@ impl Kind {
     fn unit(self) -> &'static str {
         match self {
             Self::NearestAxis | Self::NearestFace => "°",
+            Self::LeastBallast => "g",
             _ => "mm",
         }
     }
@@ -68,9 +71,9 @@ pub struct Remedy {
     pub kind: Kind,
     /// To what, or by how much; none where this way leads nowhere.
     pub amount: Option<f64>,
-    /// The unit of the amount: mm or °.
+    /// The unit of the amount: mm, ° or g.
     pub unit: &'static str,
-    /// What to type in place of what was typed; empty where nothing helps.
+    /// What to type in place of what was typed; empty where nothing helps, and for ballast.
     pub flags: String,
     /// The sentence for a maker.
     pub words: String,

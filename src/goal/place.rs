@@ -21,6 +21,9 @@ pub enum GoalError {
     /// A direction without direction.
     #[error("up = {0} is not a direction; give three finite numbers that are not all zero")]
     NoDirection(Up),
+    /// A direction that is still to be chosen.
+    #[error("up = auto is no direction yet; have one chosen first (advice::best_orientation)")]
+    NotChosen,
     /// A point with a coordinate that is not a number.
     #[error("{name} = ({x}, {y}, {z}) is not a point; give three finite numbers in mm")]
     NotAPoint {
@@ -156,6 +159,7 @@ impl<'a> Site<'a> {
 fn up_direction(up: Up, solid: &Solid, body: &Body) -> Result<Vector, GoalError> {
     match up {
         Up::Principal => Ok(principal_direction(solid, body)),
+        Up::Auto => Err(GoalError::NotChosen),
         _ => up.direction().ok_or(GoalError::NoDirection(up)),
     }
 }

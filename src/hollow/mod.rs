@@ -100,6 +100,7 @@
 
 mod answer;
 mod ascent;
+mod ballast;
 mod cover;
 mod heights;
 mod mass;
@@ -121,6 +122,7 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
+pub use ballast::{Ballast, least_ballast};
 pub use problem::Problem;
 pub use settings::Settings;
 pub use solution::{Certificate, Figure, LogRow, Solution, Stage};
@@ -139,7 +141,7 @@ pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Sol
 /// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
 /// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
 pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
-    answer_of(problem, Work::on_model_columns(problem, settings, progress))
+    answer_of(problem, Work::new(problem, settings, progress).on_model_columns())
 }
 
 fn answer_of(problem: &Problem, work: Work) -> Solution {

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::ascent::{Budget, COLD_DAMPING, Climb, End, WARM_DAMPING, climb};
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
-use super::reach::{Reach, Scale};
+use super::reach::{Heavy, Reach, Scale};
 use super::settings::Settings;
 use super::solution::LogRow;
 use crate::goal::Goal;
@@ -30,15 +30,16 @@ impl<'a> Work<'a> {
         Self { goal: problem.goal, reach, settings, progress, first_damping, log: RefCell::default() }
     }
 
-    /// A bench whose columns are given in model coordinates.
-    pub fn on_model_columns(
-        problem: &Problem<'a>,
-        settings: &'a Settings,
-        progress: &'a Progress<'a>,
-    ) -> Self {
-        let scale = Scale::of(&problem.goal.solid);
-        let reach = Reach::of_model_columns(problem.columns, &problem.goal.frame, &problem.fixed, scale);
-        Self { reach, ..Self::new(problem, settings, progress) }
+    /// The same bench, its columns given in model coordinates.
+    pub fn on_model_columns(self) -> Self {
+        let reach = self.reach.of_model_columns(&self.goal.frame);
+        Self { reach, ..self }
+    }
+
+    /// The same bench with a heavy material to be had.
+    pub fn with(self, heavy: Heavy) -> Self {
+        let reach = self.reach.with(heavy);
+        Self { reach, ..self }
     }
 
     /// The same bench for a search that starts near its answer.

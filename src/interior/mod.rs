@@ -5,6 +5,7 @@ mod columns;
 mod depths;
 mod integrate;
 mod moments;
+mod outside;
 mod row;
 mod without;
 

@@ -1,0 +1,212 @@
+//! The least ballast: how much of a denser material inside makes a goal possible that hollowing alone does not meet.
+
+use nalgebra::DMatrix;
+
+use super::ascent::{Climb, End};
+use super::heights::Heights;
+use super::problem::Problem;
+use super::programme::{DualPoint, Programme};
+use super::reach::{Heavy, Vector10};
+use super::settings::Settings;
+use super::work::Work;
+use crate::geom::Quadric;
+use crate::goal::{GoalKind, Objective};
+use crate::progress::Progress;
+
+/// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an ascent starts with; far
+/// smaller, the cost is lost beside the tolerance of its value.
+const PRICE: f64 = 0.1;
+/// I_b/I_c that counts as stable: a per cent below the border, where the least speed would be without bound.
+const STABLE_RATIO: f64 = 0.99;
+/// The toppling angle that counts as standing, rad: half a degree.
+const STANDING_RAD: f64 = 0.0087;
+/// Heights of a top's centre that are looked at before the best is refined.
+const HEIGHTS: usize = 9;
+/// Rounds of golden section about the best height, each of which leaves 0.62 of the range.
+const GOLDEN_ROUNDS: usize = 8;
+/// Growth of the weight of a limit until it is kept, and how often it may grow.
+const WEIGHT_GROWTH: f64 = 4.0;
+const MOST_GROWTHS: usize = 14;
+/// How nearly the least ballast is found: the proved bound is this near, as a part of it.
+const PRECISION_RATIO: f64 = 5e-3;
+/// Bisections of the weight's logarithm at most.
+const MOST_BISECTIONS: usize = 12;
+/// How exact the ascents are, with the price as the unit of their value.
+const TOLERANCE: f64 = 1e-6;
+
+/// The least ballast, and where it goes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Ballast {
+    /// Its volume, mm³.
+    pub volume_mm3: f64,
+    /// No ballast of less volume meets the goal, at the height of a top's centre that was found best, mm³; proved.
+    pub bound_mm3: f64,
+    /// The ballast is where this is positive; goal frame, mm.
+    pub filled: Quadric,
+    /// The void is where this is positive; goal frame, mm.
+    pub emptied: Quadric,
+}
+
+/// The least volume of a material `density_ratio` times as dense as the printed one with which the goal is possible,
+/// with a per cent to spare; none where even unlimited ballast inside does not help, or for goals it is not known for.
+///
+/// With ballast at hand every grain of the interior may be emptied, kept or replaced, and the reachable moments are again
+/// a convex set. Of the programme "least cost subject to the rows and to a limit on the goal's ratio" the dual prices
+/// the limit with one weight; for given multipliers a grain is emptied where the quadric q > 0 and replaced where q is
+/// so far below zero that the gain pays, q < −price/(ratio − 1): two level sets of one quadric. So two passes find the
+/// extreme interior and everything else is the ascent of [`super::solve`].
+pub fn least_ballast(
+    problem: &Problem,
+    density_ratio: f64,
+    settings: &Settings,
+    progress: &Progress,
+) -> Option<Ballast> {
+    let bench = |price| Work::new(problem, settings, progress).with(Heavy { density_ratio, price });
+    let shop = Shop { free: bench(0.0), priced: bench(PRICE) };
+    let bought = match (problem.goal.kind, problem.goal.objective) {
+        (GoalKind::Top, _) => shop.least_of_heights(),
+        (GoalKind::Yoyo, _) => shop.least(&|work| Programme::yoyo_dominance(&work.reach), STABLE_RATIO),
+        (GoalKind::Stand, Objective::LowestCenter) => {
+            shop.least(&|work| Programme::stand_lowest_center(&work.reach), f64::INFINITY)
+        }
+        (GoalKind::Stand, _) => {
+            shop.least(&|work| Programme::stand_toppling(&work.reach, problem.goal), -STANDING_RAD.tan())
+        }
+    }?;
+    shop.ballast(&bought)
+}
+
+/// The interior with the least ballast that was found.
+struct Bought {
+    climb: Climb,
+    /// Its cost.
+    cost: f64,
+    /// The least cost that is proved.
+    bound: f64,
+}
+
+/// The same interior with ballast for nothing and at a price.
+struct Shop<'a> {
+    free: Work<'a>,
+    priced: Work<'a>,
+}
+
+impl Shop<'_> {
+    fn ballast(&self, bought: &Bought) -> Option<Ballast> {
+        let (reach, quadric) = (&self.priced.reach, &bought.climb.best.quadric);
+        let volume_mm3 = |cost: f64| cost / PRICE * reach.scale.volume_mm3;
+        Some(Ballast {
+            volume_mm3: volume_mm3(bought.cost),
+            bound_mm3: volume_mm3(bought.bound),
+            filled: reach.filled_by(quadric)?,
+            emptied: reach.scale.quadric_to_mm(quadric),
+        })
+    }
+
+    /// The least over all heights of a top's centre: a look at several, then golden section about the best.
+    fn least_of_heights(&self) -> Option<Bought> {
+        let [low, high] = Heights::range(&self.free).ok()?;
+        let at =
+            |height: f64| self.least(&|work| Programme::top_dominance(&work.reach, height), STABLE_RATIO);
+        let width = (high - low) / HEIGHTS as f64;
+        let looks = (0..HEIGHTS).map(|i| low + (i as f64 + 0.5) * width);
+        let found = looks.filter_map(|height| Some((height, at(height)?)));
+        let (middle, mut best) = found.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
+        let cost = |found: &Option<Bought>| found.as_ref().map_or(f64::INFINITY, |bought| bought.cost);
+        let golden = 0.5 * (5f64.sqrt() - 1.0);
+        let (mut a, mut b) = (middle - width, middle + width);
+        for _ in 0..GOLDEN_ROUNDS {
+            let (left, right) = (at(b - golden * (b - a)), at(a + golden * (b - a)));
+            let is_left = cost(&left) < cost(&right);
+            if is_left {
+                b = a + golden * (b - a);
+            } else {
+                a = b - golden * (b - a);
+            }
+            let found = if is_left { left } else { right };
+            best = found.filter(|found| found.cost < best.cost).unwrap_or(best);
+        }
+        Some(best)
+    }
+
+    /// The least ballast with which the rows of a programme are met and its ratio is at most `limit`.
+    fn least(&self, programme: &dyn Fn(&Work) -> Programme, limit: f64) -> Option<Bought> {
+        let wish = programme(&self.free);
+        let best = self.free.climb_near(&wish, None, TOLERANCE)?;
+        if best.best.bound > limit {
+            return None;
+        }
+        let wish = programme(&self.priced);
+        let rows_alone = self.bought(&wish, 0.0, limit)?;
+        if is_kept(&wish, limit, &rows_alone.climb) {
+            return Some(rows_alone);
+        }
+        self.with_least_weight(&wish, limit)
+    }
+
+    /// The limit's weight, as small as keeps it.
+    fn with_least_weight(&self, wish: &Programme, limit: f64) -> Option<Bought> {
+        let mut light = 0.0;
+        let mut heavy = PRICE;
+        let mut kept = None;
+        for _ in 0..MOST_GROWTHS {
+            let bought = self.bought(wish, heavy, limit)?;
+            if is_kept(wish, limit, &bought.climb) {
+                kept = Some(bought);
+                break;
+            }
+            (light, heavy) = (heavy, heavy * WEIGHT_GROWTH);
+        }
+        let mut kept = kept?;
+        for _ in 0..MOST_BISECTIONS {
+            if kept.cost - kept.bound <= PRECISION_RATIO * kept.cost {
+                break;
+            }
+            let middle = 0.5 * (light + heavy);
+            let bought = self.bought(wish, middle, limit)?;
+            let bound = kept.bound.max(bought.bound);
+            if is_kept(wish, limit, &bought.climb) {
+                (heavy, kept) = (middle, bought);
+            } else {
+                light = middle;
+            }
+            kept.bound = bound;
+        }
+        Some(kept)
+    }
+
+    /// The interior of the least cost when the excess over the limit costs `weight` besides; none where the ascent fails.
+    fn bought(&self, wish: &Programme, weight: f64, limit: f64) -> Option<Bought> {
+        let programme = priced(wish, weight, limit);
+        let start = programme.cold_start(&self.priced.reach);
+        let climb = self.priced.climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
+        let is_met = climb.best.residual() <= self.priced.settings.accepted_residual.max(TOLERANCE);
+        let (cost, bound) = (climb.best.extreme.cost, climb.best.bound);
+        (is_met && climb.end != End::Cancelled).then_some(Bought { climb, cost, bound })
+    }
+}
+
+/// Minimise the cost plus the weighted excess n·s + max yᵀJs − limit·e·s, subject to the rows.
+fn priced(wish: &Programme, weight: f64, limit: f64) -> Programme {
+    let has_limit = weight > 0.0;
+    let numerator =
+        if has_limit { (wish.numerator - wish.denominator * limit) * weight } else { Vector10::zeros() };
+    let directions =
+        if has_limit { &wish.directions * weight } else { DMatrix::zeros(0, Vector10::zeros().len()) };
+    let set = if has_limit { wish.set } else { super::set::DualSet::Ball };
+    Programme {
+        numerator,
+        directions,
+        set,
+        denominator: Vector10::zeros(),
+        denominator_floor: 0.0,
+        denominator_ceiling: 0.0,
+        ..wish.clone()
+    }
+}
+
+/// Whether an interior's ratio is at most the limit.
+fn is_kept(wish: &Programme, limit: f64, climb: &Climb) -> bool {
+    let s = &climb.best.extreme.s;
+    limit == f64::INFINITY || wish.numerator_at(s) <= limit * wish.denominator_at(s)
+}
