@@ -1,7 +1,8 @@
 //! The least steel inside that makes a goal possible.
 
 use super::confirm::least_excess;
-use super::ground::{Ground, Trial, problem};
+use super::directions::rounded;
+use super::ground::{CONFIRMING_COLUMNS, Ground, Trial, problem};
 use super::remedy::{Kind, Remedy};
 use crate::geom::{Point, Quadric};
 use crate::goal::Placement;
@@ -12,6 +13,8 @@ use crate::units::show_mm;
 
 /// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between 7.7 and 7.9.
 const STEEL_G_CM3: f64 = 7.85;
+/// Columns a side of the search, which takes thousands of passes; the steel found on them is weighed on finer ones.
+const SEARCHING_COLUMNS: usize = 60;
 const MM3_PER_CM3: f64 = 1000.0;
 /// Halvings of the level at which a region has a given volume; what is left is far below what can be weighed.
 const LEVEL_ROUNDS: usize = 40;
@@ -32,12 +35,13 @@ pub(super) fn remedy(ground: &Ground) -> Remedy {
     };
     let mass_g = bought.volume_mm3 / MM3_PER_CM3 * STEEL_G_CM3;
     let ball_mm = (6.0 * bought.volume_mm3 / std::f64::consts::PI).cbrt();
+    let [x, y, z] = rounded(bought.center.into(), 0);
     let words = format!(
-        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({:.0}, {:.0}, {:.0}) mm",
+        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({}, {}, {}) mm",
         show_mm(ball_mm),
-        bought.center.x,
-        bought.center.y,
-        bought.center.z
+        x,
+        y,
+        z
     );
     Remedy::found(Kind::LeastBallast, mass_g, [String::new(), words], &bought.trial)
 }
@@ -48,9 +52,11 @@ fn bought(ground: &Ground) -> Option<Bought> {
     if excess_ratio <= 0.0 {
         return None;
     }
-    let (placement, columns) = ground.exact(&ground.case.request, ground.case.wall_mm)?;
-    let question = problem(&placement, &columns);
+    let exact = |columns| ground.exact(&ground.case.request, ground.case.wall_mm, columns);
+    let (placement, coarse) = exact(SEARCHING_COLUMNS)?;
+    let question = problem(&placement, &coarse);
     let ballast = least_ballast(&question, 1.0 + excess_ratio, &Settings::default(), &Progress::silent())?;
+    let (_, columns) = exact(CONFIRMING_COLUMNS)?;
     least_excess(|excess| {
         let volume_mm3 = (1.0 + excess) * ballast.volume_mm3;
         let filled = grown(&columns, ballast.filled, volume_mm3)?;

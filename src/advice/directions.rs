@@ -23,6 +23,17 @@ pub(super) fn is_new(known: &[Vector], direction: &Vector, cosine: f64) -> bool 
     known.iter().all(|other| other.dot(direction) < cosine)
 }
 
+/// The directions without those nearer to an earlier one than the angle of this cosine.
+pub(super) fn distinct(directions: Vec<Vector>, cosine: f64) -> Vec<Vector> {
+    let mut kept: Vec<Vector> = Vec::new();
+    for direction in directions {
+        if is_new(&kept, &direction, cosine) {
+            kept.push(direction);
+        }
+    }
+    kept
+}
+
 /// A unit direction to the decimals it is printed with; of length one to the same.
 pub(super) fn rounded_direction(direction: &Vector) -> Vector {
     rounded((*direction).into(), DECIMALS).into()

@@ -64,17 +64,22 @@ impl<'a> Ground<'a> {
 
     /// The same question put to exact columns, with nothing known from before; none unless the answer is yes.
     pub fn confirmed(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
-        let (placement, columns) = self.exact(request, wall_mm)?;
+        let (placement, columns) = self.exact(request, wall_mm, CONFIRMING_COLUMNS)?;
         let solution = solve(&problem(&placement, &columns), &Settings::default(), &Progress::silent());
         let trial = Trial { columns: columns.len(), placement, solution };
         trial.is_possible().then_some(trial)
     }
 
-    /// A request placed, with the exact columns of what may then be emptied.
-    pub fn exact(&self, request: &Request, wall_mm: f64) -> Option<(Placement, Columns)> {
+    /// A request placed, with the exact columns of what may then be emptied, so many along the longer side.
+    pub fn exact(
+        &self,
+        request: &Request,
+        wall_mm: f64,
+        columns_a_side: usize,
+    ) -> Option<(Placement, Columns)> {
         let placement = place(self.case.solid, wall_mm, request).ok()?;
         let shell = Shell::new(self.case.solid, &placement.goal.frame, wall_mm, &placement.keeps).ok()?;
-        let pitch_mm = shell.coarse_pitch(CONFIRMING_COLUMNS);
+        let pitch_mm = shell.coarse_pitch(columns_a_side);
         let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent()).ok()?;
         Some((placement, columns))
     }

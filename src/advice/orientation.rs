@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::Case;
-use super::directions::{is_new, lattice, rounded_direction};
+use super::directions::{distinct, is_new, lattice, rounded_direction};
 use super::footing::resting_directions;
 use super::ground::{COARSE_SAMPLES, FINE_SAMPLES, Ground, Trial};
 use super::reached::Reached;
@@ -156,13 +156,7 @@ fn candidates(case: &Case) -> Vec<Vector> {
     if case.request.kind == GoalKind::Yoyo {
         all.iter_mut().filter(|axis| points_down(axis)).for_each(|axis| *axis = -*axis);
     }
-    let mut axes: Vec<Vector> = Vec::new();
-    for axis in all {
-        if is_new(&axes, &axis, SAME_COSINE) {
-            axes.push(axis);
-        }
-    }
-    axes
+    distinct(all, SAME_COSINE)
 }
 
 /// The coordinate axes and the solid's principal ones, in both senses.
@@ -190,5 +184,5 @@ pub(super) fn over_corners(mesh: &TriMesh) -> Vec<Vector> {
         hull.vertices().iter().all(|other| other.coords.dot(up) >= height_mm)
     };
     let over = |corner: &Point| (center - corner).try_normalize(0.0).filter(|up| is_low(corner, up));
-    hull.vertices().iter().filter_map(over).collect()
+    distinct(hull.vertices().iter().filter_map(over).collect(), SAME_COSINE)
 }

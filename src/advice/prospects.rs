@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use serde::Serialize;
 
 use super::Case;
-use super::directions::is_new;
+use super::directions::distinct;
 use super::ground::{COARSE_SAMPLES, Ground, Trial};
 use super::orientation::{along, points_down, special_axes};
 use super::reached::Reached;
@@ -36,24 +36,13 @@ pub struct Prospect {
 /// The request of the case is not read. Costs about thirty trials.
 pub fn prospects(case: &Case) -> Vec<Prospect> {
     let ground = Ground::new(*case, COARSE_SAMPLES);
-    let axes = named_axes(case);
+    let axes = distinct(special_axes(case), SAME_COSINE);
     let wishes: Vec<Request> = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand]
         .iter()
         .flat_map(|&kind| wishes(kind, &axes))
         .collect();
     let found: Vec<Option<Prospect>> = wishes.par_iter().map(|wish| prospect(&ground, wish)).collect();
     found.into_iter().flatten().collect()
-}
-
-/// The axes to speak of; a principal axis that is a coordinate axis only once.
-fn named_axes(case: &Case) -> Vec<Vector> {
-    let mut axes: Vec<Vector> = Vec::new();
-    for axis in special_axes(case) {
-        if is_new(&axes, &axis, SAME_COSINE) {
-            axes.push(axis);
-        }
-    }
-    axes
 }
 
 fn wishes(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {

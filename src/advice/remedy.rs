@@ -26,6 +26,11 @@ pub enum Kind {
 }
 
 impl Kind {
+    /// Whether the contact or the axis gets another place, with warnings of its own.
+    fn moves(self) -> bool {
+        matches!(self, Self::NearestContact | Self::NearestAxis | Self::NearestFace)
+    }
+
     /// The unit of the amount.
     fn unit(self) -> &'static str {
         match self {
@@ -87,11 +92,12 @@ impl Remedy {
         self.confirmed.is_some()
     }
 
-    /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached and what the placement
+    /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached and what a new place
     /// warns of.
     pub(super) fn found(kind: Kind, amount: f64, [flags, words]: [String; 2], trial: &Trial) -> Self {
         let confirmed = Confirmation::of(trial);
-        let warned = trial.placement.warnings.iter().map(|warning| format!("; {warning}"));
+        let warnings = if kind.moves() { &trial.placement.warnings[..] } else { &[] };
+        let warned = warnings.iter().map(|warning| format!("; {warning}"));
         let words = format!("{words}; it then {}{}", confirmed.reached, warned.collect::<String>());
         Self { kind, amount: Some(amount), unit: kind.unit(), flags, words, confirmed: Some(confirmed) }
     }

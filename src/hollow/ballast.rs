@@ -22,8 +22,9 @@ const STABLE_RATIO: f64 = 0.99;
 const STANDING_RAD: f64 = 0.0087;
 /// Heights of a top's centre that are looked at before the best is refined.
 const HEIGHTS: usize = 9;
-/// Rounds of golden section about the best height, each of which leaves 0.62 of the range.
-const GOLDEN_ROUNDS: usize = 8;
+/// Rounds of golden section about the best height, and the part of the range that each leaves, (√5 − 1)/2.
+const GOLDEN_ROUNDS: usize = 6;
+const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Growth of the weight of a limit until it is kept, and how often it may grow.
 const WEIGHT_GROWTH: f64 = 4.0;
 const MOST_GROWTHS: usize = 14;
@@ -33,6 +34,9 @@ const PRECISION_RATIO: f64 = 5e-3;
 const MOST_BISECTIONS: usize = 12;
 /// How exact the ascents are, with the price as the unit of their value.
 const TOLERANCE: f64 = 1e-6;
+/// The residual of the rows up to which an interior is one: a ten-thousandth of the solid's radius of gyration, a small
+/// part of what the ballast itself moves.
+const ACCEPTED_RESIDUAL: f64 = 1e-4;
 
 /// The least ballast, and where it goes.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -85,6 +89,20 @@ struct Bought {
     bound: f64,
 }
 
+/// What a height of a top's centre costs.
+#[derive(Default)]
+struct Look {
+    height: f64,
+    bought: Option<Bought>,
+}
+
+impl Look {
+    fn by_cost(&self, other: &Self) -> std::cmp::Ordering {
+        let cost = |look: &Self| look.bought.as_ref().map_or(f64::INFINITY, |bought| bought.cost);
+        cost(self).total_cmp(&cost(other))
+    }
+}
+
 /// The same interior with ballast for nothing and at a price.
 struct Shop<'a> {
     free: Work<'a>,
@@ -106,27 +124,28 @@ impl Shop<'_> {
     /// The least over all heights of a top's centre: a look at several, then golden section about the best.
     fn least_of_heights(&self) -> Option<Bought> {
         let [low, high] = Heights::range(&self.free).ok()?;
-        let at =
-            |height: f64| self.least(&|work| Programme::top_dominance(&work.reach, height), STABLE_RATIO);
+        let at = |height: f64| {
+            let bought = self.least(&|work| Programme::top_dominance(&work.reach, height), STABLE_RATIO);
+            Look { height, bought }
+        };
         let width = (high - low) / HEIGHTS as f64;
-        let looks = (0..HEIGHTS).map(|i| low + (i as f64 + 0.5) * width);
-        let found = looks.filter_map(|height| Some((height, at(height)?)));
-        let (middle, mut best) = found.min_by(|a, b| a.1.cost.total_cmp(&b.1.cost))?;
-        let cost = |found: &Option<Bought>| found.as_ref().map_or(f64::INFINITY, |bought| bought.cost);
-        let golden = 0.5 * (5f64.sqrt() - 1.0);
-        let (mut a, mut b) = (middle - width, middle + width);
+        let looks = (0..HEIGHTS).map(|i| at(low + (i as f64 + 0.5) * width));
+        let best = looks.min_by(Look::by_cost)?;
+        let (mut a, mut b) = (best.height - width, best.height + width);
+        let golden = |from: f64, to: f64| at(from + GOLDEN_RATIO * (to - from));
+        let (mut left, mut right) = (golden(b, a), golden(a, b));
         for _ in 0..GOLDEN_ROUNDS {
-            let (left, right) = (at(b - golden * (b - a)), at(a + golden * (b - a)));
-            let is_left = cost(&left) < cost(&right);
-            if is_left {
-                b = a + golden * (b - a);
+            if Look::by_cost(&left, &right).is_lt() {
+                b = right.height;
+                right = std::mem::replace(&mut left, Look::default());
+                left = golden(b, a);
             } else {
-                a = b - golden * (b - a);
+                a = left.height;
+                left = std::mem::replace(&mut right, Look::default());
+                right = golden(a, b);
             }
-            let found = if is_left { left } else { right };
-            best = found.filter(|found| found.cost < best.cost).unwrap_or(best);
         }
-        Some(best)
+        [best, left, right].into_iter().min_by(Look::by_cost)?.bought
     }
 
     /// The least ballast with which the rows of a programme are met and its ratio is at most `limit`.
@@ -137,11 +156,10 @@ impl Shop<'_> {
             return None;
         }
         let wish = programme(&self.priced);
-        let rows_alone = self.bought(&wish, 0.0, limit)?;
-        if is_kept(&wish, limit, &rows_alone.climb) {
-            return Some(rows_alone);
-        }
-        self.with_least_weight(&wish, limit)
+        // Where the rows need no ballast, this ascent has its peak in the kink at no multipliers at all and finds nothing.
+        let rows_alone = self.bought(&wish, 0.0, limit);
+        let kept = rows_alone.filter(|bought| is_kept(&wish, limit, &bought.climb));
+        kept.or_else(|| self.with_least_weight(&wish, limit))
     }
 
     /// The limit's weight, as small as keeps it.
@@ -180,7 +198,7 @@ impl Shop<'_> {
         let programme = priced(wish, weight, limit);
         let start = programme.cold_start(&self.priced.reach);
         let climb = self.priced.climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
-        let is_met = climb.best.residual() <= self.priced.settings.accepted_residual.max(TOLERANCE);
+        let is_met = climb.best.residual() <= ACCEPTED_RESIDUAL;
         let (cost, bound) = (climb.best.extreme.cost, climb.best.bound);
         (is_met && climb.end != End::Cancelled).then_some(Bought { climb, cost, bound })
     }
