@@ -30,6 +30,8 @@ mod prospects;
 mod ratio;
 mod reached;
 mod remedy;
+#[cfg(test)]
+mod tests;
 
 use rayon::prelude::*;
 
