@@ -31,10 +31,11 @@ pub fn prepared(
         hollowed: stl::decode(&hollowed)?,
         parts: assembly.evidence(),
     };
-    let (promise, judgement) = judged(setup, evidence.clone());
+    let ((promise, judgement), pictures) =
+        rayon::join(|| judged(setup, evidence.clone()), || pictures(assembly, &evidence));
+    let pictures = pictures?;
     watch.lap(phase::VERIFY);
     progress.report(phase::REPORT, 0.0);
-    let pictures = pictures(assembly, &evidence)?;
     let mut kit = Kit::default();
     kit.add(HOLLOWED, hollowed);
     for part in &assembly.parts {
