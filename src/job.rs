@@ -268,7 +268,11 @@ mod tests {
             "kind = \"yoyo\"",
             "critical-speed does not go with the goal yoyo; remedy: use spin-it or dominance",
         ),
-        ("objective = ", "spin_point = \"center\"\nobjective = ", "a spin point goes with the goal yoyo"),
+        (
+            "objective = ",
+            "spin_point = \"center\"\nobjective = ",
+            "a spin point goes with the goal yoyo or balance",
+        ),
         ("size = \"100mm\"", "factor = -2.0", "-2 is not a positive, finite factor"),
         ("size = \"100mm\"", "length = 3", "unknown variant `length`"),
     ];

@@ -4,6 +4,7 @@
 //! the contact, the spin point or the support plane; z along the spin axis or up). [`figures`] then says what a body
 //! of given moments does in that frame, and is the same for the solid, the hollowed result and the assembled parts.
 
+mod balance;
 mod figures;
 mod place;
 mod request;
@@ -19,6 +20,7 @@ use crate::geom::Frame;
 use crate::mass::Moments;
 use crate::shell::Keep;
 
+pub use balance::{Rotor, Spindle};
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
 pub use place::{GoalError, place};
@@ -37,6 +39,8 @@ pub struct Goal {
     pub objective: Objective,
     /// Stand: the convex support polygon, counterclockwise, goal frame, mm; empty for the others.
     pub support: Vec<[f64; 2]>,
+    /// Balance: how the rotor runs and where it ends; none for the others.
+    pub spindle: Option<Spindle>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,
 }

@@ -1,7 +1,8 @@
 //! Placing a goal: the request's words and the solid's geometry become a frame.
 
 use super::{
-    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, stand, top, yoyo,
+    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, balance, stand, top,
+    yoyo,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Body, moments_of_mesh};
@@ -66,6 +67,10 @@ pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement
         GoalKind::Top => top::place(&site, wall_mm, request.contact.unwrap_or(Contact::Lowest)),
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
         GoalKind::Stand => stand::place(&site),
+        GoalKind::Balance => {
+            let point = request.spin_point.unwrap_or(SpinPoint::Center);
+            balance::place(&site, wall_mm, point, request.rotor.unwrap_or_default())
+        }
     }
 }
 
@@ -104,7 +109,7 @@ impl<'a> Site<'a> {
     pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
         let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
         let solid = moments_of_mesh(self.solid.mesh()).in_frame(&frame);
-        Goal { kind: self.kind, frame, objective: self.objective, support, solid }
+        Goal { kind: self.kind, frame, objective: self.objective, support, spindle: None, solid }
     }
 
     /// The model's vertices in the upright frame.

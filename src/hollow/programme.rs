@@ -225,6 +225,23 @@ impl Programme {
         Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
     }
 
+    /// Balance: the least material removed, as the most that stays; no ratio.
+    pub fn balance_least_removed() -> Self {
+        let kept = row(&[(ONE, -1.0)]);
+        Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), stack(&axis_rows()))
+    }
+
+    /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the axis, which together
+    /// have the static unbalance and the couple of the body: U_A + U_B = s_xy, a U_A + b U_B = (s_xz, s_yz).
+    pub fn balance_unbalance(reach: &Reach, [a, b]: [f64; 2]) -> Self {
+        let span = b - a;
+        let at_a = |first, product| row(&[(first, b / span), (product, -1.0 / span)]);
+        let at_b = |first, product| row(&[(first, -a / span), (product, 1.0 / span)]);
+        let planes = [at_a(X, XZ), at_a(Y, YZ), at_b(X, XZ), at_b(Y, YZ)];
+        let none = DMatrix::zeros(0, 10);
+        Self::new(Vector10::zeros(), stack(&planes), row(&[(ONE, 1.0)]), none).bounded(reach)
+    }
+
     /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that none meets them.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);

@@ -37,6 +37,14 @@ pub enum Status {
         /// The greatest angle any interior reaches, rad; not positive; proved.
         greatest_angle_rad: f64,
     },
+    /// Balance: every interior shakes more than the grade allows.
+    CannotBalance {
+        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked for; proved.
+        least_grade_mm_s: f64,
+        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass), whose integral over every
+        /// interior is positive.
+        separator: Quadric,
+    },
     /// The passes were used up before the limits were met.
     IterationLimit {
         /// The gap that is left, as a part of the value.
@@ -89,6 +97,10 @@ impl Status {
                  at least {:.3}°.",
                 -greatest_angle_rad.to_degrees()
             ),
+            Self::CannotBalance { least_grade_mm_s, .. } => format!(
+                "Impossible: whatever is hollowed out, at its speed the rotor's balance grade stays at G {least_grade_mm_s:.1} \
+                 or above."
+            ),
             Self::IterationLimit { gap_ratio, residual } => format!(
                 "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
                  {residual:.1e}. Allow more passes."
@@ -123,6 +135,11 @@ impl Status {
                 "give it a larger foot, or ballast in it",
                 "make the model larger with the same wall, or the wall thinner",
             ],
+            (Self::CannotBalance { .. }, _) => &[
+                "put ballast on its light side, opposite to the unbalance",
+                "make the model larger with the same wall, or the wall thinner",
+                "ask for a coarser grade or a lower speed",
+            ],
             _ => &[],
         }
     }
@@ -135,6 +152,7 @@ impl Status {
                 | Self::NotDominant { .. }
                 | Self::UnstableForEveryInterior { .. }
                 | Self::CannotStand { .. }
+                | Self::CannotBalance { .. }
         )
     }
 }
@@ -142,7 +160,9 @@ impl Status {
 impl Obstacle {
     fn task(self, kind: GoalKind) -> &'static str {
         match (self, kind) {
-            (Self::Center, GoalKind::Top) => "bring the centre of mass onto the spin axis",
+            (Self::Center, GoalKind::Top | GoalKind::Balance) => {
+                "bring the centre of mass onto the spin axis"
+            }
             (Self::Center, GoalKind::Yoyo) => "bring the centre of mass to the spin point",
             (Self::Center, GoalKind::Stand) => "bring the centre of mass over the middle of the support",
             (Self::PrincipalAxis, _) => "turn a principal axis of inertia onto the spin axis",
@@ -164,6 +184,7 @@ mod tests {
             (Status::NotDominant { least_ratio: 1.0637 }, "1.064"),
             (Status::UnstableForEveryInterior { least_ratio: 1.389, proved: true }, "1.389"),
             (Status::CannotStand { greatest_angle_rad: -0.0239 }, "1.369°"),
+            (Status::CannotBalance { least_grade_mm_s: 17.08, separator: Quadric([0.0; 10]) }, "G 17.1"),
             (
                 Status::ConstraintsInfeasible {
                     obstacle: Obstacle::Center,

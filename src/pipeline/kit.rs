@@ -122,5 +122,7 @@ pub fn figure_name(figure: crate::hollow::Figure) -> FigureName {
         Figure::DominanceRatio => FigureName::DominanceRatio,
         Figure::TopplingAngleRad => FigureName::TopplesDeg,
         Figure::CenterHeightMm => FigureName::CenterHeightMm,
+        Figure::VolumeMm3 => FigureName::MassG,
+        Figure::BalanceGradeMmS => FigureName::BalanceGradeMmS,
     }
 }

@@ -6,14 +6,14 @@ use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::cut::PinSite;
 use crate::geom::Vector;
-use crate::goal::{Goal, GoalKind, Objective, Warning};
+use crate::goal::{Goal, GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
 use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, PromisedFigure};
+use crate::verify::{Aim, FigureName, Judgement, PromisedFigure, RotorOrder};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -69,12 +69,17 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
         (GoalKind::Yoyo, _) => FigureName::SpinItRatio,
         (GoalKind::Stand, Objective::LowestCenter) => FigureName::CenterHeightMm,
         (GoalKind::Stand, _) => FigureName::TopplesDeg,
+        (GoalKind::Balance, _) => FigureName::BalanceGradeMmS,
     }
 }
 
 /// The goal as the judge sees it.
 pub fn aim(goal: &Goal) -> Aim {
-    Aim { kind: goal.kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
+    let rotor = goal.spindle.map(|spindle| {
+        let Rotor { speed_rpm, grade_mm_s, .. } = spindle.rotor;
+        RotorOrder { speed_rpm, grade_mm_s }
+    });
+    Aim { rotor, ..Aim::new(goal.kind, goal.frame.origin.into(), goal.frame.axis().into()) }
 }
 
 /// The density of the material, g/cm³.
@@ -153,6 +158,7 @@ fn certificate(sheet: &Sheet) -> Certificate {
     let figure = figure_name(certificate.figure);
     let shown = |value: f64| match certificate.figure {
         hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        hollow::Figure::VolumeMm3 => value * sheet.setup.material.density_g_mm3(),
         _ => value,
     };
     Certificate {

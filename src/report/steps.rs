@@ -187,7 +187,20 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
             let height = format!("Its centre of mass lies {height} above the ground.");
             tilt.into_iter().chain([height]).collect()
         }
+        GoalKind::Balance => rotor_lines(sheet),
     }
+}
+
+/// How to try a rotor.
+fn rotor_lines(sheet: &Checklist) -> Vec<String> {
+    let residual = sheet.assembly.unbalance.map(|unbalance| {
+        format!(
+            "On a balancing machine, planes at its two ends: no more than {} is left in either.",
+            quantity(unbalance.end_plane_g_mm, "g·mm")
+        )
+    });
+    let level = "Laid with its shaft on two level knife edges, it stays however it is turned.".to_owned();
+    [level].into_iter().chain(residual).collect()
 }
 
 /// What to add under a top whose contact point hangs in the air.

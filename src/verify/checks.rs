@@ -1,6 +1,6 @@
 //! The list of checks, and the limits they hold.
 
-use super::{Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise};
+use super::{Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder};
 use crate::goal::GoalKind;
 
 /// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
@@ -31,7 +31,7 @@ pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
 /// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there, can it be
 /// printed, do the parts make the whole.
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
-    let mut checks = goal_checks(promise.goal.kind, &found.assembly);
+    let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
     checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
     checks.extend(surface_checks(found));
@@ -43,7 +43,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 }
 
 /// Whether the assembly does what the goal asks of any body.
-fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
+fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
     let offset = |promise| {
         Check::new(
             "axis offset",
@@ -52,7 +52,7 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
             Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
         )
     };
-    match kind {
+    match aim.kind {
         GoalKind::Top => {
             [vec![offset("the centre of mass lies on the spin axis")], spinning_checks(assembly)].concat()
         }
@@ -65,7 +65,15 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
+        GoalKind::Balance => aim.rotor.iter().map(|order| grade_check(order, assembly)).collect(),
     }
+}
+
+/// Whether a rotor runs as true as it was ordered to.
+fn grade_check(order: &RotorOrder, assembly: &Figures) -> Check {
+    let promise = format!("at {} rpm its balance quality grade (ISO 21940-11) is G", order.speed_rpm);
+    let grade = assembly.value_of(FigureName::BalanceGradeMmS);
+    Check::new("balance quality", &promise, grade, Limit::at_most(order.grade_mm_s, "mm/s"))
 }
 
 /// What tops and yo-yos share: the axis is principal, and the stable one.
@@ -87,7 +95,7 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
 fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check {
     let slack = promised.abs() * FIGURE_SLACK_RATIO;
     let limit = match figure {
-        FigureName::TopplesDeg => Limit::at_least(promised - slack, figure.unit()),
+        _ if figure.more_is_better() => Limit::at_least(promised - slack, figure.unit()),
         _ => Limit::at_most(promised + slack, figure.unit()),
     };
     Check::new(figure.name(), figure.promise(), assembly.value_of(figure), limit)

@@ -36,7 +36,7 @@ fn promise(poses: &[Pose]) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]) },
         material: Density { density_g_cm3: 1.2 },
-        goal: Aim { kind: GoalKind::Top, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] },
+        goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),
         promise: None,
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
@@ -159,7 +159,7 @@ fn a_checklist_that_states_another_mass_is_found() {
 #[test]
 fn a_body_turned_about_its_longest_axis_cannot_spin_and_says_so() {
     let mut evidence = sound();
-    evidence.promise.goal = Aim { kind: GoalKind::Yoyo, origin_mm: [0.0, 0.0, 16.0], axis: [1.0, 0.0, 0.0] };
+    evidence.promise.goal = Aim::new(GoalKind::Yoyo, [0.0, 0.0, 16.0], [1.0, 0.0, 0.0]);
     assert_eq!(failures(&evidence), ["dominance"]);
 }
 

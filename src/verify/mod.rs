@@ -12,6 +12,7 @@ mod kit_tests;
 mod measure;
 mod pose;
 mod promise;
+mod rotor;
 mod shells;
 mod support;
 #[cfg(test)]
@@ -32,6 +33,7 @@ pub use pose::Pose;
 pub use promise::{
     Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA, WallOrder,
 };
+pub use rotor::{RotorOrder, Unbalance};
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use wall::smallest_wall_mm;
