@@ -13,7 +13,9 @@ use clap::{
 };
 
 use crate::{
-    goal::{self, Contact, GoalKind, Objective, RequestError, Rotor, SpinPoint, Up},
+    goal::{
+        self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
+    },
     job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
     units::Length,
     words::ChoiceError,
@@ -97,12 +99,15 @@ pub struct PrepareArgs {
     #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
     pub spin_point: Option<SpinPoint>,
     /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
-    /// lowest-center; balance: least-removed, least-unbalance [default: the first]
+    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]
     #[arg(long, value_parser = words::<Objective>(Objective::WORDS), hide_possible_values = true, help_heading = "Goal")]
     pub objective: Option<Objective>,
     /// How a rotor runs.
     #[command(flatten)]
     pub rotor: RotorArgs,
+    /// How it floats.
+    #[command(flatten)]
+    pub water: WaterArgs,
 
     /// The model's size.
     #[command(flatten)]
@@ -133,7 +138,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 18] = [
+const DECIDED_BY_JOB: [&str; 20] = [
     "printer",
     "material",
     "wall",
@@ -145,6 +150,8 @@ const DECIDED_BY_JOB: [&str; 18] = [
     "speed",
     "grade",
     "bore",
+    "liquid",
+    "waterline",
     "size",
     "scale",
     "unit",
@@ -178,6 +185,30 @@ impl RotorArgs {
             speed_rpm: self.speed.unwrap_or(known.speed_rpm),
             grade_mm_s: self.grade.unwrap_or(known.grade_mm_s),
             bore: self.bore.or(known.bore),
+        })
+    }
+}
+
+/// How an object floats, for the goal float.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct WaterArgs {
+    /// What it floats in: water, seawater or a density in g/cm³ [default: water]
+    #[arg(long, value_name = "LIQUID", allow_hyphen_values = true)]
+    pub liquid: Option<Liquid>,
+    /// How deep it lies: a LENGTH above its lowest point, or auto, where it is most stable [default: auto]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub waterline: Option<Waterline>,
+}
+
+impl WaterArgs {
+    /// What was said of the water, over `default`; none where nothing was said and there is no default.
+    fn over(&self, default: Option<Water>) -> Option<Water> {
+        let is_said = self.liquid.is_some() || self.waterline.is_some();
+        let known = default.or(is_said.then(Water::default))?;
+        Some(Water {
+            liquid: self.liquid.unwrap_or(known.liquid),
+            waterline: self.waterline.unwrap_or(known.waterline),
         })
     }
 }
@@ -301,6 +332,7 @@ impl PrepareArgs {
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),
             rotor: self.rotor.over(default.rotor),
+            water: self.water.over(default.water),
             ..default
         };
         Ok(asked.checked()?)
@@ -465,7 +497,7 @@ mod tests {
             ("equipoise prepare --printer prusa-mk4 --goal top", "<MODEL>"),
             (
                 "equipoise prepare m.stl --printer prusa-mk4 --goal swim",
-                "possible values: top, yoyo, stand, balance",
+                "possible values: top, yoyo, stand, float, balance",
             ),
             ("equipoise frobnicate", "unrecognized subcommand"),
         ] {
@@ -481,6 +513,7 @@ mod tests {
             ("--goal stand --objective spin-it", "use toppling-angle or lowest-center"),
             ("--goal yoyo --contact lowest", "a contact point goes with the goal top, not with yoyo"),
             ("--goal stand --spin-point center", "a spin point goes with the goal yoyo or balance"),
+            ("--goal stand --waterline 30mm", "a liquid or waterline goes with the goal float"),
             ("--goal top --speed 3000", "a speed, grade or bore goes with the goal balance"),
         ] {
             let line = format!("equipoise prepare m.stl --printer prusa-mk4 {arguments}");

@@ -6,6 +6,7 @@
 
 mod balance;
 mod figures;
+mod float;
 mod place;
 mod request;
 mod sites;
@@ -23,7 +24,8 @@ use crate::shell::Keep;
 pub use balance::{Rotor, Spindle};
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
-pub use place::{GoalError, place};
+pub use float::{Afloat, Hydrostatics, Liquid, Water, Waterline};
+pub use place::{GoalError, Stock, place, place_made_of};
 pub use request::{GoalKind, Objective, Request, RequestError};
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
@@ -41,6 +43,8 @@ pub struct Goal {
     pub support: Vec<[f64; 2]>,
     /// Balance: how the rotor runs and where it ends; none for the others.
     pub spindle: Option<Spindle>,
+    /// Float: what a body must be to float upright at the waterline; none for the others.
+    pub afloat: Option<Afloat>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,
 }

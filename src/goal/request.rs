@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, Rotor, SpinPoint, Up};
+use super::{Contact, Rotor, SpinPoint, Up, Water};
 use crate::words::{ChoiceError, as_text, choice, numbers};
 
 choice! {
@@ -16,6 +16,8 @@ choice! {
         Yoyo = "yoyo",
         /// Stand on its lowest points.
         Stand = "stand",
+        /// Float upright.
+        Float = "float",
         /// Turn about a given axis without shaking it.
         Balance = "balance",
     }
@@ -44,6 +46,8 @@ pub enum Objective {
     TopplingAngle,
     /// Stand: the lowest centre of mass above the middle of the support.
     LowestCenter,
+    /// Float: the greatest metacentric height GM, which is the lowest centre of mass (Wu et al. §3.3).
+    MetacentricHeight,
     /// Balance: the least material removed for static and couple unbalance to vanish.
     LeastRemoved,
     /// Balance: the least unbalance in the two end planes per mass, where it cannot vanish.
@@ -61,6 +65,7 @@ impl Objective {
         "dominance",
         "toppling-angle",
         "lowest-center",
+        "metacentric-height",
         "least-removed",
         "least-unbalance",
     ];
@@ -73,6 +78,7 @@ impl Objective {
             Self::Dominance => "dominance",
             Self::TopplingAngle => "toppling-angle",
             Self::LowestCenter => "lowest-center",
+            Self::MetacentricHeight => "metacentric-height",
             Self::LeastRemoved => "least-removed",
             Self::LeastUnbalance => "least-unbalance",
         }
@@ -111,6 +117,7 @@ impl GoalKind {
             Self::Top => &[Objective::CriticalSpeed, Objective::SPIN_IT],
             Self::Yoyo => &[Objective::SPIN_IT, Objective::Dominance],
             Self::Stand => &[Objective::TopplingAngle, Objective::LowestCenter],
+            Self::Float => &[Objective::MetacentricHeight],
             Self::Balance => &[Objective::LeastRemoved, Objective::LeastUnbalance],
         }
     }
@@ -128,6 +135,7 @@ impl FromStr for Objective {
             ("dominance", _) => Self::Dominance,
             ("toppling-angle", _) => Self::TopplingAngle,
             ("lowest-center", _) => Self::LowestCenter,
+            ("metacentric-height", _) => Self::MetacentricHeight,
             ("least-removed", _) => Self::LeastRemoved,
             ("least-unbalance", _) => Self::LeastUnbalance,
             _ => return Err(ChoiceError::unknown("known objective", text, Self::WORDS)),
@@ -165,6 +173,9 @@ pub struct Request {
     /// How a balanced rotor runs; none for the usual speed and grade, and for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotor: Option<Rotor>,
+    /// How it floats; none for fresh water and the most stable line, and for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub water: Option<Water>,
 }
 
 /// A request whose parts do not go together.
@@ -194,6 +205,9 @@ pub enum RequestError {
     /// A speed, grade or bore for what is not a rotor.
     #[error("a speed, grade or bore goes with the goal balance, not with {0}; remedy: leave it out")]
     NoRotor(GoalKind),
+    /// A liquid or waterline for what does not float.
+    #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
+    NoWater(GoalKind),
     /// A speed or grade that is not positive and finite.
     #[error(
         "a grade of {grade_mm_s} mm/s at {speed_rpm} rpm is none; remedy: give a speed and a grade above zero"
@@ -217,6 +231,7 @@ impl Request {
             spin_point: kind.has_spin_point().then_some(SpinPoint::Center),
             objective: Objective::default_of(kind),
             rotor: (kind == GoalKind::Balance).then(Rotor::default),
+            water: (kind == GoalKind::Float).then(Water::default),
         }
     }
 
@@ -237,6 +252,9 @@ impl Request {
             return Err(RequestError::SpinPoint(kind));
         }
         self.check_rotor()?;
+        if self.water.is_some() && kind != GoalKind::Float {
+            return Err(RequestError::NoWater(kind));
+        }
         Ok(self)
     }
 
@@ -259,8 +277,13 @@ mod tests {
 
     #[test]
     fn every_goal_has_its_default_objective_first_and_none_is_shared_but_spin_it() {
-        let defaults =
-            [Objective::CriticalSpeed, Objective::SPIN_IT, Objective::TopplingAngle, Objective::LeastRemoved];
+        let defaults = [
+            Objective::CriticalSpeed,
+            Objective::SPIN_IT,
+            Objective::TopplingAngle,
+            Objective::MetacentricHeight,
+            Objective::LeastRemoved,
+        ];
         let found: Vec<Objective> = GoalKind::ALL.iter().copied().map(Objective::default_of).collect();
         assert_eq!(found, defaults);
         for word in Objective::WORDS {

@@ -96,6 +96,9 @@ impl Answer {
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
+            Figure::MetacentricHeightMm => {
+                work.goal.afloat.unwrap_or_default().metacenter_mm - work.to_mm(ratio)
+            }
             Figure::VolumeMm3 => -ratio * work.reach.scale.volume_mm3,
             Figure::BalanceGradeMmS => {
                 let grade = |spindle: &Spindle| balance::grade_mm_s(spindle, work.to_mm(ratio));
@@ -125,6 +128,7 @@ fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
         (_, Objective::Dominance) => Figure::DominanceRatio,
         (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
         (_, Objective::LowestCenter) => Figure::CenterHeightMm,
+        (_, Objective::MetacentricHeight) => Figure::MetacentricHeightMm,
         (_, Objective::LeastRemoved) => Figure::VolumeMm3,
         (_, Objective::LeastUnbalance) => Figure::BalanceGradeMmS,
     }

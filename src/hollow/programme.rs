@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::reach::{Reach, Vector10};
 use super::set::DualSet;
 use super::solution::Stage;
-use crate::goal::{Goal, support_edges};
+use crate::goal::{Afloat, Goal, support_edges};
 
 /// Where the ten moments stand.
 pub(super) mod index {
@@ -225,6 +225,34 @@ impl Programme {
         Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
     }
 
+    /// Float: the height of the centre, for interiors as heavy as the water displaced, with their centre over that of
+    /// buoyancy; no ratio.
+    pub fn float_lowest_center(reach: &Reach, afloat: &Afloat) -> Self {
+        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
+        let [x, y] = over_buoyancy(reach, afloat);
+        let rows = stack(&[x, y, row(&[(ONE, 1.0)])]);
+        let height = row(&[(Z, 1.0 / mass)]);
+        let mut programme = Self::new(height, DMatrix::zeros(0, 10), Vector10::zeros(), rows);
+        programme.rhs[2] = mass;
+        programme
+    }
+
+    /// Float: how far the centre of an interior of the right mass is from its place; no ratio.
+    pub fn float_offset(reach: &Reach, afloat: &Afloat) -> Self {
+        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
+        let offset = stack(&over_buoyancy(reach, afloat)) / mass;
+        let mut programme =
+            Self::new(Vector10::zeros(), offset, Vector10::zeros(), stack(&[row(&[(ONE, 1.0)])]));
+        programme.rhs[0] = mass;
+        programme
+    }
+
+    /// The least (sense 1) or greatest (sense −1) mass of any interior; no ratio.
+    pub fn extreme_mass(sense: f64) -> Self {
+        let none = DMatrix::zeros(0, 10);
+        Self::new(row(&[(ONE, sense)]), none.clone(), Vector10::zeros(), none)
+    }
+
     /// Balance: the least material removed, as the most that stays; no ratio.
     pub fn balance_least_removed() -> Self {
         let kept = row(&[(ONE, -1.0)]);
@@ -309,6 +337,12 @@ impl Programme {
         let lambda = DVector::from_fn(self.rhs.len(), |i, _| multiplier(i));
         DualPoint { lambda, ..point.clone() }
     }
+}
+
+/// Mass times the offset of the centre from above that of buoyancy, along x and y.
+fn over_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
+    let place = afloat.buoyancy / reach.scale.length_mm;
+    [row(&[(X, 1.0), (ONE, -place.x)]), row(&[(Y, 1.0), (ONE, -place.y)])]
 }
 
 fn yoyo_rows() -> DMatrix<f64> {

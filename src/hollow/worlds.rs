@@ -2,7 +2,7 @@
 
 use super::Problem;
 use crate::geom::{Frame, Point, Quadric};
-use crate::goal::{Goal, GoalKind, Objective, Rotor, Spindle};
+use crate::goal::{Afloat, Goal, GoalKind, Objective, Rotor, Spindle};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
@@ -23,6 +23,7 @@ impl World {
             objective,
             support: Vec::new(),
             spindle: None,
+            afloat: None,
             solid: fixed,
         };
         Self { goal, fixed, columns }
@@ -132,6 +133,15 @@ pub(super) fn coupled_rotor(couple: f64) -> World {
 pub(super) fn blocks_on_an_axis() -> World {
     let mut world = blocks_on_a_slope().of_kind(GoalKind::Balance).turning(8.0);
     world.goal.objective = Objective::LeastUnbalance;
+    world
+}
+
+/// The bottle as a tank to float with this mass in all, its centre of buoyancy this far aside.
+pub(super) fn tank(mass: f64, [x, y]: [f64; 2]) -> World {
+    let mut world = bottle().of_kind(GoalKind::Float);
+    world.goal.objective = Objective::MetacentricHeight;
+    let buoyancy = Point::new(x, y, 3.0);
+    world.goal.afloat = Some(Afloat { waterline_mm: 6.0, buoyancy, material_mm3: mass, metacenter_mm: 7.0 });
     world
 }
 

@@ -9,7 +9,7 @@ use crate::shell::Shell;
 
 /// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search over
 /// heights dearer.
-const COARSE_COLUMNS: usize = 100;
+pub(super) const COARSE_COLUMNS: usize = 100;
 /// Columns a side of the middle level, on which an impossible goal is proved.
 const MIDDLE_COLUMNS: usize = 400;
 

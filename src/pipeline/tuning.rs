@@ -7,6 +7,8 @@ use crate::mass::{Body, Moments};
 const CENTER_TOLERANCE_MM: f64 = 0.0005;
 /// How near to its direction the principal axis must be, rad: a tenth of the promised 0.05°.
 const TILT_TOLERANCE_RAD: f64 = 8.7e-5;
+/// The share by which the mass of what floats may be off: a hundredth of what a kit promises.
+const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// The share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
@@ -18,9 +20,18 @@ pub fn is_tuned(goal: &Goal, solved: &Moments, moments: &Moments) -> bool {
     match goal.kind {
         GoalKind::Top => off_axis_mm <= CENTER_TOLERANCE_MM && is_upright(&body),
         GoalKind::Yoyo => body.center.coords.norm() <= CENTER_TOLERANCE_MM && is_upright(&body),
+        GoalKind::Float => is_trimmed(goal, moments),
         GoalKind::Balance => is_balanced(goal, &(*moments - *solved), moments),
         GoalKind::Stand => goal.objective != Objective::LowestCenter || off_axis_mm <= CENTER_TOLERANCE_MM,
     }
+}
+
+/// Whether a body weighs what the water carries, with its centre over that of buoyancy.
+fn is_trimmed(goal: &Goal, moments: &Moments) -> bool {
+    let afloat = goal.afloat.unwrap_or_default();
+    let aside_mm = (moments.centroid() - afloat.buoyancy).xy().norm();
+    let excess = (moments.volume() - afloat.material_mm3).abs();
+    aside_mm <= CENTER_TOLERANCE_MM && excess <= MASS_TOLERANCE_RATIO * afloat.material_mm3
 }
 
 /// Whether the static and couple unbalance in excess of what was solved for are a tenth of what the rotor's grade allows, and no more than any centre may be off.
@@ -56,6 +67,7 @@ mod tests {
             objective: Objective::default_of(kind),
             support: Vec::new(),
             spindle: None,
+            afloat: None,
             solid: Moments::default(),
         }
     }

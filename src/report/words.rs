@@ -62,6 +62,14 @@ pub fn goal(goal: &GoalRow) -> String {
         GoalKind::Stand => {
             format!("standing: {along} is up, the middle of its support {at}\u{a0}mm, with {best}")
         }
+        GoalKind::Float => format!(
+            "floating: {along} is up, {}with {best}",
+            goal.aim.water.map_or(String::new(), |order| format!(
+                "in a liquid of {} up to {} above its lowest point, ",
+                quantity(order.liquid_g_cm3, "g/cm³"),
+                quantity(order.waterline_mm, "mm")
+            ))
+        ),
         GoalKind::Balance => format!(
             "rotor: turns about the axis {along} through {at}\u{a0}mm{}, with {best}",
             goal.aim.rotor.map_or(String::new(), |order| format!(" at {}", quantity(order.speed_rpm, "rpm")))
@@ -77,6 +85,7 @@ fn best(objective: &str) -> String {
         "dominance" => "the most dominant axis".to_owned(),
         "toppling_angle" => "the largest tilt before it topples".to_owned(),
         "lowest_center" => "the lowest centre of mass".to_owned(),
+        "metacentric_height" => "the greatest metacentric height".to_owned(),
         "least_removed" => "the least material removed that balances it".to_owned(),
         "least_unbalance" => "the least unbalance".to_owned(),
         other => format!("the best {}", other.replace('_', " ")),
@@ -100,7 +109,21 @@ pub fn promise(sheet: &Checklist) -> String {
             format!("Stands until tilted by {}.", quantity(tilt, "°"))
         }
         (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
+        (GoalKind::Float, ..) => floats(sheet),
         (GoalKind::Balance, ..) => runs_true(sheet),
+    }
+}
+
+/// How it floats.
+fn floats(sheet: &Checklist) -> String {
+    match sheet.assembly.afloat {
+        Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
+            "Floats upright, {} deep, with a metacentric height of {}.",
+            quantity(afloat.waterline_mm, "mm"),
+            quantity(afloat.metacentric_height_mm, "mm")
+        ),
+        Some(_) => "Floats, but not upright.".to_owned(),
+        None => "Sinks.".to_owned(),
     }
 }
 

@@ -1,6 +1,9 @@
 //! The list of checks, and the limits they hold.
 
-use super::{Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder};
+use super::{
+    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder,
+    WaterOrder,
+};
 use crate::goal::GoalKind;
 
 /// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
@@ -12,6 +15,12 @@ pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
 pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
 /// A standing object must topple at more than this, degrees.
 pub const STANDING_LIMIT_DEG: f64 = 0.0;
+/// A floating object's waterline may be this far from the predicted one, mm: the surface of water hides far more.
+pub const WATERLINE_LIMIT_MM: f64 = 0.02;
+/// The metacentre must lie higher than this above the centre of mass, mm, for it to stay upright.
+pub const METACENTRIC_LIMIT_MM: f64 = 0.0;
+/// It must right itself from this heel, degrees: with less, a ripple turns it over.
+pub const RIGHTING_LIMIT_DEG: f64 = 5.0;
 /// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a printed wall
 /// loses a pixel.
 pub const WALL_TOLERANCE_MM: f64 = 0.01;
@@ -65,8 +74,38 @@ fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
+        GoalKind::Float => aim.water.iter().flat_map(|order| floating_checks(order, assembly)).collect(),
         GoalKind::Balance => aim.rotor.iter().map(|order| grade_check(order, assembly)).collect(),
     }
+}
+
+/// Whether it floats where it should, upright, and comes back when it is heeled; the outer surface is held to be tight.
+fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
+    let found = |value: fn(&Afloat) -> f64| assembly.afloat.as_ref().map(value);
+    let aside = found(|afloat| afloat.waterline_mm).map(|mm| (mm - order.waterline_mm).abs());
+    let depth = format!("it floats {:.2} mm deep, within", order.waterline_mm);
+    let check = |name, promise: &str, value, limit| Check::new(name, promise, value, limit);
+    vec![
+        check("waterline", &depth, aside, Limit::at_most(WATERLINE_LIMIT_MM, "mm")),
+        check(
+            "upright",
+            "its centre of mass is over its centre of buoyancy",
+            found(|afloat| afloat.offset_mm),
+            Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
+        ),
+        check(
+            "stability",
+            "its metacentre is above its centre of mass by",
+            found(|afloat| afloat.metacentric_height_mm),
+            Limit::above(METACENTRIC_LIMIT_MM, "mm"),
+        ),
+        check(
+            "righting",
+            "it rights itself whichever way it is heeled, at least from",
+            found(|afloat| afloat.rights_from_deg),
+            Limit::at_least(RIGHTING_LIMIT_DEG, "°"),
+        ),
+    ]
 }
 
 /// Whether a rotor runs as true as it was ordered to.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Aim, FigureName, Support, Unbalance};
+use super::{Afloat, Aim, FigureName, Hull, Support, Unbalance, WaterOrder};
 use crate::geom::{Frame, Matrix};
 use crate::goal::GoalKind;
 use crate::mass::{Body, Moments};
@@ -24,6 +24,8 @@ pub struct Setting {
     pub support: Option<Support>,
     /// Where the outer surface begins and ends along the axis, goal frame, mm; only a rotor has its planes there.
     pub ends_mm: Option<[f64; 2]>,
+    /// The outer surface in the goal frame; only what floats has water on it.
+    pub hull: Option<Hull>,
 }
 
 /// The mass properties of a body and its figures for the goal; a figure that the goal does not ask for, or that
@@ -57,6 +59,9 @@ pub struct Figures {
     /// What is left of a rotor's unbalance.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<Unbalance>,
+    /// How it floats; none where it sinks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub afloat: Option<Afloat>,
 }
 
 impl Figures {
@@ -69,6 +74,7 @@ impl Figures {
             GoalKind::Top => plain.of_top(&body, &frame),
             GoalKind::Yoyo => plain.of_yoyo(&body, &frame),
             GoalKind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
+            GoalKind::Float => plain.of_floating(&body, setting),
             GoalKind::Balance => plain.of_rotor(moments, setting),
         }
     }
@@ -81,6 +87,7 @@ impl Figures {
             FigureName::SpinItRatio => self.spin_it_ratio,
             FigureName::TopplesDeg => self.topples_deg,
             FigureName::CenterHeightMm => Some(self.center_height_mm),
+            FigureName::MetacentricHeightMm => self.afloat.map(|afloat| afloat.metacentric_height_mm),
             FigureName::MassG => Some(self.mass_g),
             FigureName::BalanceGradeMmS => self.unbalance.map(|unbalance| unbalance.grade_mm_s),
         }
@@ -102,6 +109,7 @@ impl Figures {
             critical_speed_rpm: None,
             topples_deg: None,
             unbalance: None,
+            afloat: None,
         }
     }
 
@@ -126,6 +134,15 @@ impl Figures {
             topples_deg: support.map(|support| support.toppling_angle(&center).to_degrees()),
             ..self
         }
+    }
+
+    fn of_floating(self, body: &Body, setting: &Setting) -> Self {
+        let center = setting.aim.frame().to_local(&body.center);
+        let float = |(hull, order): (&Hull, WaterOrder)| {
+            hull.float(body.mass_g / (order.liquid_g_cm3 / MM3_PER_CM3), &center)
+        };
+        let afloat = setting.hull.as_ref().zip(setting.aim.water).and_then(float);
+        Self { center_height_mm: center.z, afloat, ..self }
     }
 
     fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
@@ -194,7 +211,13 @@ mod tests {
     }
 
     fn setting(kind: GoalKind, axis: [f64; 3]) -> Setting {
-        Setting { density_g_cm3: 2.0, aim: Aim::new(kind, [0.0; 3], axis), support: None, ends_mm: None }
+        Setting {
+            density_g_cm3: 2.0,
+            aim: Aim::new(kind, [0.0; 3], axis),
+            support: None,
+            ends_mm: None,
+            hull: None,
+        }
     }
 
     fn plate() -> Moments {
@@ -257,7 +280,8 @@ mod tests {
         // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
         let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
         assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
-        let figures = Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support, ends_mm: None });
+        let figures =
+            Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support, ends_mm: None, hull: None });
         assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
         assert!((figures.center_height_mm - 2.0).abs() < 1e-12);
         assert_eq!(figures.axis_offset_mm, None);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{
-    Check, Figures, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    Check, Figures, Hull, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments, checks, rotor::ends_mm, smallest_wall_mm,
 };
 use crate::goal::GoalKind;
@@ -75,5 +75,6 @@ pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
     let aim = promise.goal;
     let support = (aim.kind == GoalKind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
     let ends_mm = (aim.kind == GoalKind::Balance).then(|| ends_mm(outer, &aim.frame()));
-    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm }
+    let hull = (aim.kind == GoalKind::Float).then(|| Hull::new(outer, &aim.frame()));
+    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm, hull }
 }
