@@ -203,6 +203,17 @@ impl Status {
         }
     }
 
+    /// The quadric whose integral over every interior proves that the goal cannot be met; none where the bound of the
+    /// solution's own quadric does.
+    pub fn separator(&self) -> Option<Quadric> {
+        match *self {
+            Self::ConstraintsInfeasible { separator, .. }
+            | Self::CannotTrim { separator, .. }
+            | Self::CannotBalance { separator, .. } => Some(separator),
+            _ => None,
+        }
+    }
+
     /// Whether this is a proof that the goal cannot be met.
     pub fn is_impossible(&self) -> bool {
         matches!(

@@ -45,8 +45,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let mut watch = Stopwatch::start();
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
-    let setup = waterline::chosen(setup)?;
-    watch.lap("waterline");
+    let setup = waterline::chosen(setup, &mut watch)?;
     let solved = match Solved::of(&setup, progress, &mut watch)? {
         Ok(solved) => solved,
         Err(impossible) => return Ok(Outcome::Impossible(Box::new(impossible))),

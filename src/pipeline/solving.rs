@@ -84,7 +84,7 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
         remedies: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
-        proof_quadric: solution.quadric.0,
+        proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),
         warnings: setup.placement.warnings.iter().map(ToString::to_string).collect(),

@@ -1,6 +1,6 @@
 //! The free waterline: the depth at which what floats is most stable.
 
-use super::{Error, Setup, solving::COARSE_COLUMNS};
+use super::{Error, Setup, solving::COARSE_COLUMNS, stopwatch::Stopwatch};
 use crate::goal::{Afloat, Hydrostatics, Waterline};
 use crate::hollow::{Problem, Settings, Status, solve};
 use crate::interior::Columns;
@@ -16,7 +16,7 @@ const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// The setup with the waterline at which the metacentric height is greatest, where the job leaves it free: the heights are
 /// looked over evenly on coarse columns, then refined about the best one. Where no height will do, the one that misses least.
-pub fn chosen(mut setup: Setup) -> Result<Setup, Error> {
+pub fn chosen(mut setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
     let Some(water) = setup.job.goal.water.filter(|water| water.waterline == Waterline::Auto) else {
         return Ok(setup);
     };
@@ -34,6 +34,7 @@ pub fn chosen(mut setup: Setup) -> Result<Setup, Error> {
     };
     let best = search.best();
     setup.placement.goal.afloat = Some(best);
+    watch.lap("waterline");
     Ok(setup)
 }
 

@@ -32,16 +32,16 @@ pub struct Afloat {
 }
 
 /// The heels tried, degrees.
-const HEELS_DEG: [f64; 7] = [1.0, 2.0, 5.0, 10.0, 20.0, 30.0, 45.0];
+const HEELS_DEG: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
 /// The ways to lean that are tried, around the axis.
 const LEANS: usize = 12;
-/// The heel whose righting arm gives the metacentric height, degrees: the arm's cubic term is 2e-6 of it. Above 1° it
-/// shows; below 0.001° rounding does.
-const PROBE_DEG: f64 = 0.1;
-/// Rounds of the search for the level; each gains a digit or more.
+/// The heel whose righting arm gives the metacentric height, degrees. Above 0.1° the waterplane of a knobbly model changes
+/// with it; below 0.001° rounding shows.
+const PROBE_DEG: f64 = 0.02;
+/// Rounds of the search for the level; Newton's method takes about five.
 const LEVEL_ROUNDS: usize = 60;
-/// The displaced volume is found to this share; below 1e-14 rounding decides.
-const VOLUME_TOLERANCE_RATIO: f64 = 1e-13;
+/// The displaced volume is found to this share; below 1e-13 rounding decides, above 1e-9 the metacentric height feels it.
+const VOLUME_TOLERANCE_RATIO: f64 = 1e-11;
 
 /// The outside of a body in the goal frame.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,6 +54,8 @@ pub struct Hull {
 #[derive(Debug, Clone, Copy, Default)]
 struct Buoyancy {
     volume: f64,
+    /// The area of the section at the level, by which the volume grows with it.
+    section: f64,
     /// ∫x over the displaced volume, across the vertical.
     first_across: Vector,
 }
@@ -70,25 +72,23 @@ impl Hull {
     /// How a body of this outside floats that displaces `volume_mm3` and has its centre of mass (goal frame) here; none if
     /// it sinks or has no mass.
     pub fn float(&self, volume_mm3: f64, center: &Point) -> Option<Afloat> {
-        let upright = Vector::z();
-        let level = self.level(volume_mm3, &upright)?;
-        let held = self.buoyancy(&upright, level);
+        let (level, held) = self.level(volume_mm3, &Vector::z(), center.z)?;
+        let held_up = Held { volume_mm3, center: *center, level };
         let aside = center.coords.xy() - held.first_across.xy() / held.volume;
         Some(Afloat {
             waterline_mm: level - self.lowest_mm,
             offset_mm: aside.norm(),
-            metacentric_height_mm: self.metacentric_height(volume_mm3, center)?,
-            rights_from_deg: self.rights_from_deg(volume_mm3, center),
+            metacentric_height_mm: self.metacentric_height(&held_up)?,
+            rights_from_deg: self.rights_from_deg(&held_up),
         })
     }
 
     /// The least over all leans of the righting arm's growth with the heel: the lesser eigenvalue of the 2 × 2 form that
     /// three leans determine.
-    fn metacentric_height(&self, volume_mm3: f64, center: &Point) -> Option<f64> {
+    fn metacentric_height(&self, body: &Held) -> Option<f64> {
         let heel = PROBE_DEG.to_radians();
         let growth = |lean_rad: f64| {
-            let [there, back] =
-                [heel, -heel].map(|heel| self.righting_arm(volume_mm3, center, lean_rad, heel));
+            let [there, back] = [heel, -heel].map(|heel| self.righting_arm(body, lean_rad, heel));
             Some((there? - back?) / (2.0 * heel.sin()))
         };
         let quarter = std::f64::consts::FRAC_PI_2;
@@ -98,10 +98,10 @@ impl Hull {
     }
 
     /// The greatest heel tried up to which every lean is righted.
-    fn rights_from_deg(&self, volume_mm3: f64, center: &Point) -> f64 {
+    fn rights_from_deg(&self, body: &Held) -> f64 {
         let lean = |i: usize| std::f64::consts::TAU * i as f64 / LEANS as f64;
         let is_righted = |heel_deg: &&f64| {
-            let arm = |i| self.righting_arm(volume_mm3, center, lean(i), heel_deg.to_radians());
+            let arm = |i| self.righting_arm(body, lean(i), heel_deg.to_radians());
             (0..LEANS).all(|i| arm(i).is_some_and(|arm| arm > 0.0))
         };
         HEELS_DEG.iter().take_while(is_righted).last().copied().unwrap_or(0.0)
@@ -109,44 +109,48 @@ impl Hull {
 
     /// The lever with which the water turns the body back, mm, when its side at `lean_rad` about the axis is lifted by
     /// `heel_rad` and it lies as deep as its mass wants.
-    fn righting_arm(&self, volume_mm3: f64, center: &Point, lean_rad: f64, heel_rad: f64) -> Option<f64> {
+    fn righting_arm(&self, body: &Held, lean_rad: f64, heel_rad: f64) -> Option<f64> {
         let lifted = Vector::new(lean_rad.cos(), lean_rad.sin(), 0.0);
         let up = Vector::z() * heel_rad.cos() + lifted * heel_rad.sin();
         let across = lifted * heel_rad.cos() - Vector::z() * heel_rad.sin();
-        let held = self.buoyancy(&up, self.level(volume_mm3, &up)?);
-        Some(across.dot(&center.coords) - across.dot(&held.first_across) / held.volume)
+        let near = up.dot(&Vector::new(body.center.x, body.center.y, body.level));
+        let (_, held) = self.level(body.volume_mm3, &up, near)?;
+        Some(across.dot(&body.center.coords) - across.dot(&held.first_across) / held.volume)
     }
 
-    /// The height along `up` of the level at which the body displaces this volume; none where it has less.
-    fn level(&self, volume_mm3: f64, up: &Vector) -> Option<f64> {
+    /// The height along `up` of the level at which the body displaces this volume, and what the water then does; none
+    /// where it has less. Newton's method from `near`, kept between the levels known to be too low and too high.
+    fn level(&self, volume_mm3: f64, up: &Vector, near: f64) -> Option<(f64, Buoyancy)> {
         let heights = self.triangles.iter().flatten().map(|corner| up.dot(&corner.coords));
         let [mut low, mut high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
             [low.min(height), high.max(height)]
         });
-        let excess = |level: f64| self.buoyancy(up, level).volume - volume_mm3;
-        let [mut below, mut above] = [-volume_mm3, excess(high)];
-        if !(volume_mm3 > 0.0 && above > 0.0) {
+        if !(volume_mm3 > 0.0 && self.buoyancy(up, high).volume > volume_mm3) {
             return None;
         }
-        // False position with the Illinois rule: the end that stays counts half the next time.
+        let mut level = near;
         for _ in 0..LEVEL_ROUNDS {
-            let middle = (low * above - high * below) / (above - below);
-            let found = excess(middle);
-            if found.abs() <= VOLUME_TOLERANCE_RATIO * volume_mm3 {
-                return Some(middle);
+            if !(low < level && level < high) {
+                level = 0.5 * (low + high);
             }
-            if found < 0.0 {
-                (low, below, above) = (middle, found, 0.5 * above);
+            let held = self.buoyancy(up, level);
+            let excess = held.volume - volume_mm3;
+            if excess.abs() <= VOLUME_TOLERANCE_RATIO * volume_mm3 {
+                return Some((level, held));
+            }
+            if excess < 0.0 {
+                low = level;
             } else {
-                (high, above, below) = (middle, found, 0.5 * below);
+                high = level;
             }
+            level -= excess / held.section;
         }
-        Some(0.5 * (low + high))
+        Some((level, self.buoyancy(up, level)))
     }
 
     /// The water's pressure summed over the triangles below a level across `up`: the divergence theorem turns
     /// ∬ ζ n·u dA into the displaced volume and ∬ x ζ n·u dA into its first moments across u, ζ the height over the level;
-    /// the level's own plane, where ζ = 0, adds nothing.
+    /// the level's own plane, where ζ = 0, adds nothing. The level's section is what the wet triangles do not close.
     fn buoyancy(&self, up: &Vector, level: f64) -> Buoyancy {
         let mut held = Buoyancy::default();
         for corners in &self.triangles {
@@ -158,6 +162,14 @@ impl Hull {
         }
         held
     }
+}
+
+/// A body held upright in the water: what it displaces, its centre, and the level.
+#[derive(Debug, Clone, Copy)]
+struct Held {
+    volume_mm3: f64,
+    center: Point,
+    level: f64,
 }
 
 /// A corner and its height over the level.
@@ -187,6 +199,7 @@ impl Buoyancy {
     fn add_triangle(&mut self, corners: [Sounding; 3], up: &Vector) {
         let [(a, p), (b, q), (c, r)] = corners;
         let area_up = 0.5 * (b - a).cross(&(c - a)).dot(up);
+        self.section -= area_up;
         for (from, to, depth) in [(a, b, p + q), (b, c, q + r), (c, a, r + p)] {
             let share = area_up / 3.0 * 0.5 * depth;
             let middle = nalgebra::center(&from, &to).coords;
@@ -212,17 +225,18 @@ mod tests {
         let found = pontoon().float(40.0 * 60.0 * 12.0, &Point::new(0.0, 0.0, 13.0)).unwrap();
         assert!((found.waterline_mm - 12.0).abs() < 1e-10 && found.offset_mm < 1e-10);
         let gm = 6.0 + 1600.0 / (12.0 * 12.0) - 8.0;
-        // A wall-sided body's arm is sin φ (GM + BM/2 tan² φ): 2e-6 BM at a tenth of a degree.
-        assert!((found.metacentric_height_mm - gm).abs() < 1e-4, "{} {gm}", found.metacentric_height_mm);
+        // A wall-sided body's arm is sin φ (GM + BM/2 tan² φ): 1e-7 BM at a fiftieth of a degree.
+        assert!((found.metacentric_height_mm - gm).abs() < 1e-5, "{} {gm}", found.metacentric_height_mm);
         assert!(found.rights_from_deg >= 20.0);
     }
 
     #[test]
     fn a_pontoon_heeled_five_degrees_has_the_arm_of_the_wall_sided_formula() {
-        let (volume, center, heel) = (40.0 * 60.0 * 12.0, Point::new(0.0, 0.0, 13.0), 5.0_f64.to_radians());
+        let heel = 5.0_f64.to_radians();
+        let body = Held { volume_mm3: 40.0 * 60.0 * 12.0, center: Point::new(0.0, 0.0, 13.0), level: 17.0 };
         let bm = 1600.0 / (12.0 * 12.0);
         let want = heel.sin() * (6.0 + bm - 8.0 + 0.5 * bm * heel.tan().powi(2));
-        let arm = pontoon().righting_arm(volume, &center, 0.0, heel).unwrap();
+        let arm = pontoon().righting_arm(&body, 0.0, heel).unwrap();
         assert!((arm - want).abs() < 1e-9, "{arm} {want}");
     }
 
