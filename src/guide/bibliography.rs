@@ -6,6 +6,8 @@
 //!   ray-reps", Computers & Graphics 58, 2016.
 //! * **Make It Stand**: R. Prévost, E. Whiting, S. Lefebvre, O. Sorkine-Hornung, "Make It Stand: Balancing Shapes for 3D
 //!   Fabrication", ACM Transactions on Graphics 32(4), 2013.
+//! * **Balance quality**: ISO 21940-11:2016, "Mechanical vibration: Rotor balancing. Part 11: Procedures and tolerances for
+//!   rotors with rigid behaviour".
 //! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science 13(7), 1967.
 //! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
 //!   vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.

@@ -1,12 +1,13 @@
 //! From the end of a search to a solution in mm, with its status and certificate.
 
 use super::ascent::{Climb, End};
+use super::balance;
 use super::programme::index;
 use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
 use super::status::{Obstacle, Status};
 use super::work::Work;
-use crate::goal::{GoalKind, Objective, to_rpm};
+use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
 use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
@@ -95,6 +96,14 @@ impl Answer {
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
+            Figure::MetacentricHeightMm => {
+                work.goal.afloat.unwrap_or_default().metacenter_mm - work.to_mm(ratio)
+            }
+            Figure::VolumeMm3 => -ratio * work.reach.scale.volume_mm3,
+            Figure::BalanceGradeMmS => {
+                let grade = |spindle: &Spindle| balance::grade_mm_s(spindle, work.to_mm(ratio));
+                work.goal.spindle.as_ref().map_or(f64::NAN, grade)
+            }
         }
     }
 }
@@ -119,6 +128,9 @@ fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
         (_, Objective::Dominance) => Figure::DominanceRatio,
         (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
         (_, Objective::LowestCenter) => Figure::CenterHeightMm,
+        (_, Objective::MetacentricHeight) => Figure::MetacentricHeightMm,
+        (_, Objective::LeastRemoved) => Figure::VolumeMm3,
+        (_, Objective::LeastUnbalance) => Figure::BalanceGradeMmS,
     }
 }
 

@@ -88,7 +88,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
             build_volume_mm: setup.printer.build_volume_mm.as_ref().map(|volume| volume.value),
         },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
-        goal: rows::aim(&setup.placement.goal),
+        goal: rows::aim(setup),
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(promised_part).collect(),
@@ -123,5 +123,8 @@ pub fn figure_name(figure: crate::hollow::Figure) -> FigureName {
         Figure::DominanceRatio => FigureName::DominanceRatio,
         Figure::TopplingAngleRad => FigureName::TopplesDeg,
         Figure::CenterHeightMm => FigureName::CenterHeightMm,
+        Figure::MetacentricHeightMm => FigureName::MetacentricHeightMm,
+        Figure::VolumeMm3 => FigureName::MassG,
+        Figure::BalanceGradeMmS => FigureName::BalanceGradeMmS,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Error;
 use crate::digest::sha256_hex;
-use crate::goal::{Placement, place};
+use crate::goal::{Placement, Stock, place_made_of};
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
@@ -51,7 +51,8 @@ impl Setup {
         let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
         let (job, model) = load(job, &printer)?;
         leaves_room(model.solid.mesh().longest_side_mm(), wall.wall_mm)?;
-        let placement = place(&model.solid, wall.wall_mm, &job.goal)?;
+        let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
+        let placement = place_made_of(&model.solid, &stock, &job.goal)?;
         Ok(Self { job, model, printer, material, wall, pitch_mm, placement })
     }
 
