@@ -1,6 +1,7 @@
 //! From the end of a search to a solution in mm, with its status and certificate.
 
 use super::ascent::{Climb, End};
+use super::method::figure_for;
 use super::programme::index;
 use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
@@ -110,15 +111,9 @@ pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
 }
 
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
-    match (verdict, objective) {
-        (Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }), _) => {
-            Figure::DominanceRatio
-        }
-        (_, Objective::CriticalSpeed) => Figure::CriticalSpeedRpm,
-        (_, Objective::SpinIt { .. }) => Figure::SpinIt,
-        (_, Objective::Dominance) => Figure::DominanceRatio,
-        (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
-        (_, Objective::LowestCenter) => Figure::CenterHeightMm,
+    match verdict {
+        Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => Figure::DominanceRatio,
+        _ => figure_for(objective),
     }
 }
 

@@ -103,6 +103,8 @@ mod ascent;
 mod cover;
 mod heights;
 mod mass;
+mod method;
+mod papers;
 mod problem;
 mod programme;
 mod reach;
@@ -121,6 +123,8 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
+pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
+pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;
 pub use settings::Settings;
 pub use solution::{Certificate, Figure, LogRow, Solution, Stage};
