@@ -10,7 +10,7 @@ use crate::mass::Moments;
 use crate::progress::Progress;
 
 /// A way to find what to empty.
-pub trait Method {
+pub trait Method: Sync {
     /// A word for it.
     fn name(&self) -> &'static str;
 
@@ -85,7 +85,9 @@ pub enum MethodError {
         objective: Objective,
     },
     /// There is nothing to choose.
-    #[error("nothing may be emptied, so {method} has nothing to choose; make the model larger or the wall thinner")]
+    #[error(
+        "nothing may be emptied, so {method} has nothing to choose; make the model larger or the wall thinner"
+    )]
     NothingToEmpty {
         /// The method's word.
         method: &'static str,

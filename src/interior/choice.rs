@@ -76,7 +76,8 @@ pub(super) mod testing {
             assert!((got - want).abs() < 1e-11 * drawn.0.iter().map(|s| s.abs()).sum::<f64>());
         }
         assert!(choice.moments(&choice.nothing()).0.iter().all(|s| s.abs() < 1e-9));
-        let total = |x: &[f64]| some_quadric().0.iter().zip(choice.moments(x).0).map(|(q, s)| q * s).sum::<f64>();
+        let total =
+            |x: &[f64]| some_quadric().0.iter().zip(choice.moments(x).0).map(|(q, s)| q * s).sum::<f64>();
         let mut slope = vec![0.0; x.len()];
         choice.derivative(&x, &some_quadric(), &mut slope);
         let step = 1e-5;
@@ -88,7 +89,11 @@ pub(super) mod testing {
             };
             // Moments are at most cubic in a number: the difference is exact to step² and to rounding over step.
             let difference = (moved(step) - moved(-step)) / (2.0 * step);
-            assert!((slope[i] * choice.weights()[i] - difference).abs() < 1e-6, "{i}: {} {difference}", slope[i]);
+            assert!(
+                (slope[i] * choice.weights()[i] - difference).abs() < 1e-6,
+                "{i}: {} {difference}",
+                slope[i]
+            );
         }
     }
 }

@@ -86,7 +86,8 @@ pub(super) fn whole([bottom_mm, top_mm]: [f64; 2]) -> Piece {
 
 /// ∫|β − β′| along one column: between two neighbouring ends of pieces both are constant.
 fn difference_mm(one: &[Piece], other: &[Piece]) -> f64 {
-    let mut ends: Vec<f64> = one.iter().chain(other).flat_map(|piece| [piece.bottom_mm, piece.top_mm]).collect();
+    let mut ends: Vec<f64> =
+        one.iter().chain(other).flat_map(|piece| [piece.bottom_mm, piece.top_mm]).collect();
     ends.sort_by(f64::total_cmp);
     let between = |pair: &[f64]| {
         let middle = 0.5 * (pair[0] + pair[1]);

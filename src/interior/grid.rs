@@ -23,9 +23,10 @@ impl<'a> Grid<'a> {
             columns.centers.iter().fold(ends, |(lo, hi), center| (lo.min(center[axis]), hi.max(center[axis])))
         };
         let (xs, ys) = (range(0), range(1));
-        let zs = columns.intervals.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), [bottom, top]| {
-            (lo.min(*bottom), hi.max(*top))
-        });
+        let zs =
+            columns.intervals.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), [bottom, top]| {
+                (lo.min(*bottom), hi.max(*top))
+            });
         let height_mm = columns.pitch_mm[0].max(columns.pitch_mm[1]);
         let at = |value: f64, lowest: f64, pitch: f64| ((value - lowest) / pitch).round() as u32;
         let place = |(i, center): (usize, &[f64; 2])| {

@@ -46,7 +46,8 @@ impl<'a> Octree<'a> {
         let mut open = vec![Leaf::root(grid.finest_level())];
         while let Some(leaf) = open.pop() {
             let volume = grid.volume_in(&leaf);
-            let wanted = if volume < WHOLE_RATIO * grid.box_of(&leaf) { levels.boundary } else { levels.inner };
+            let wanted =
+                if volume < WHOLE_RATIO * grid.box_of(&leaf) { levels.boundary } else { levels.inner };
             if volume > 0.0 && leaf.level() < wanted.max(levels.inner).min(grid.finest_level()) {
                 open.extend(leaf.children().into_iter().rev());
             } else if volume > 0.0 {

@@ -51,7 +51,8 @@ impl Method for ByOctree {
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
                 return Ok(rounded(problem, &target, &octree, Optimum { evaluations, ..optimum }));
             };
-            start = Start { x, known: Some((optimum.multipliers, optimum.penalty)), smoothing: self.smoothing };
+            start =
+                Start { x, known: Some((optimum.multipliers, optimum.penalty)), smoothing: self.smoothing };
             octree = finer;
         }
         let optimum = minimise(&target, &octree, start, (&self.accuracy, progress));

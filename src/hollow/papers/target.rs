@@ -33,7 +33,8 @@ impl<'a> Target<'a> {
             return Err(MethodError::NothingToEmpty { method });
         }
         let reach = Reach::new(problem.columns, &problem.fixed, Scale::of(&problem.goal.solid));
-        let mut target = Self { goal: problem.goal, reach, fixed: problem.fixed, rows: DMatrix::zeros(0, 10) };
+        let mut target =
+            Self { goal: problem.goal, reach, fixed: problem.fixed, rows: DMatrix::zeros(0, 10) };
         target.rows = target.constraints();
         Ok(target)
     }
