@@ -57,8 +57,8 @@ pub struct Rounding {
 pub enum Outcome {
     /// No interior is better, which is proved.
     Optimal,
-    /// No small change is better to first order, and the constraints are met, both within the method's tolerance. It
-    /// proves nothing about interiors further off.
+    /// The constraints are met, and no small change is better to first order, within the method's tolerance, or thirty
+    /// steps together gain less than 1e-8 of the value. It proves nothing about interiors further off.
     Converged,
     /// The evaluations were used up, or no step gained any more, before that; the constraints are met to a thousandth.
     Unfinished,

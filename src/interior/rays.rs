@@ -8,6 +8,13 @@ use super::{BLOCK, Columns, block_sums, mean_on_column};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
+/// A segment shorter than this part of its stretch has vanished: its place no longer matters.
+const VANISHED_RATIO: f64 = 1e-6;
+/// A segment opens again where q is below minus this, in its own unit; what it may still gain is of its square.
+const WORTH_OPENING: f64 = 1e-4;
+/// How far below the top of its stretch a segment opens again at least, so that it has room to grow upward.
+const ROOM_RATIO: f64 = 0.01;
+
 /// One stretch of a column that may be emptied, with a solid segment z₀ ≤ z ≤ z₁ in it: the ray-rep of an interior
 /// (Wu, Kramer, Westermann, "Shape interior modeling and mass property optimization using ray-reps", 2016).
 ///
@@ -58,6 +65,29 @@ impl<'a> Rays<'a> {
         let weight = |stretch: &Stretch| (stretch.top - stretch.bottom) * area_mm2 / whole.volume();
         let weights = stretches.iter().flat_map(|stretch| [weight(stretch); 2]).collect();
         Self { columns, stretches, whole, weights }
+    }
+
+    /// The numbers with every segment that has vanished where q is not least on its stretch moved there; none where
+    /// no segment would gain by that. A vanished segment does not feel where material is wanted, so that an optimiser
+    /// needs to be told.
+    pub fn reopened(&self, x: &[f64], quadric: &Quadric) -> Option<Vec<f64>> {
+        let mut moved = x.to_vec();
+        for (stretch, t) in self.stretches.iter().zip(moved.chunks_exact_mut(2)) {
+            let [z0, z1] = stretch.segment(t);
+            let length = stretch.top - stretch.bottom;
+            if z1 - z0 > VANISHED_RATIO * length {
+                continue;
+            }
+            let [c0, c1, c2] = mean_on_column(self.columns, stretch.column as usize, quadric);
+            let q = |z: f64| c0 + z * (c1 + z * c2);
+            let places = [stretch.bottom, stretch.top - ROOM_RATIO * length, (-0.5 * c1 / c2)];
+            let inside = places.into_iter().filter(|z| *z >= stretch.bottom && *z <= places[1]);
+            let Some(best) = inside.min_by(|a, b| q(*a).total_cmp(&q(*b))) else { continue };
+            if q(best) < -WORTH_OPENING && q(best) < q(z0) {
+                t.copy_from_slice(&[(best - stretch.bottom) / length, 0.0]);
+            }
+        }
+        (moved != x).then_some(moved)
     }
 
     fn area_mm2(&self) -> f64 {
@@ -118,6 +148,22 @@ mod tests {
     fn rays_have_the_moments_of_their_pieces_and_the_slopes_of_differences() {
         let columns = testing::uneven_columns();
         testing::holds_together(&Rays::of(&columns), &columns);
+    }
+
+    #[test]
+    fn a_vanished_segment_opens_again_where_material_is_wanted_and_nowhere_else() {
+        let columns = testing::uneven_columns();
+        let rays = Rays::of(&columns);
+        let wanted = Quadric([-1.0, 0., 0., 0., 0., 0., 0., 0., 0., 1.0]);
+        let all_gone = [1.0, 0.0].repeat(rays.count() / 2);
+        let moved = rays.reopened(&all_gone, &wanted).unwrap();
+        for (stretch, t) in rays.stretches.iter().zip(moved.chunks_exact(2)) {
+            let reaches = stretch.bottom < 1.0 && stretch.top > -1.0;
+            let z = stretch.segment(t)[0];
+            assert_eq!(z.abs() < 1.0, reaches, "{stretch:?} at {z}");
+        }
+        assert_eq!(rays.reopened(&moved, &wanted), None);
+        assert_eq!(rays.reopened(&rays.nothing(), &wanted), None);
     }
 
     #[test]

@@ -2,9 +2,11 @@
 
 use nalgebra::DVector;
 
+use super::super::reach::Vector10;
 use super::Accuracy;
 use super::descent::{Function, Limits, descend};
-use super::target::Target;
+use super::target::{Target, as_vector10};
+use crate::geom::Quadric;
 use crate::interior::Choice;
 use crate::progress::Progress;
 
@@ -14,6 +16,8 @@ const FIRST_PENALTY: f64 = 10.0;
 /// A round that does not bring the residual below this part of the one before raises the penalty by this factor.
 const ENOUGH_RATIO: f64 = 0.25;
 const STIFFEN: f64 = 4.0;
+/// No penalty is greater: beyond, the rows' curvature hides f's from L-BFGS, and the multipliers settle without it.
+const GREATEST_PENALTY: f64 = 1e5;
 /// The slope to which the first round goes, and how much exacter each one after it is.
 const FIRST_SLOPE: f64 = 1e-2;
 const SHARPEN: f64 = 0.2;
@@ -40,6 +44,8 @@ impl From<Vec<f64>> for Start {
 /// Where the rounds came to.
 pub(super) struct Optimum {
     pub x: Vec<f64>,
+    /// What material adds at each place, without unit; the void is where this is positive.
+    pub quadric: Quadric,
     pub multipliers: DVector<f64>,
     pub penalty: f64,
     pub evaluations: usize,
@@ -65,16 +71,23 @@ impl Function for Lagrangian<'_> {
         let s = self.target.left(&self.choice.moments(x));
         let (value, gradient) = self.target.at(&s);
         let misses = self.target.misses(&s);
-        let pull = self.target.rows().tr_mul(&(&self.multipliers + &misses * self.penalty));
+        self.choice.derivative(x, &self.quadric(gradient, &misses), slope);
         // Emptying takes moments away, so the quadric enters with the opposite sign.
-        let quadric = -(gradient + super::target::as_vector10(&pull));
-        self.choice.derivative(x, &self.target.scale().quadric_to_mm(&quadric), slope);
+        let volume_mm3 = self.target.scale().volume_mm3;
+        slope.iter_mut().for_each(|slope| *slope /= -volume_mm3);
         let constraints = self.multipliers.dot(&misses) + 0.5 * self.penalty * misses.norm_squared();
         value + constraints + self.roughness(x, slope)
     }
 }
 
 impl Lagrangian<'_> {
+    /// g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: what a grain of material adds to the whole, over its volume.
+    fn quadric(&self, gradient: Vector10, misses: &DVector<f64>) -> Quadric {
+        let pull = self.target.rows().tr_mul(&(&self.multipliers + misses * self.penalty));
+        let scale = self.target.scale();
+        scale.quadric_to_mm(&((gradient + as_vector10(&pull)) * scale.volume_mm3))
+    }
+
     /// The smoothing's part; its derivative, the uniform Laplacian, is added to the slope.
     fn roughness(&self, x: &[f64], slope: &mut [f64]) -> f64 {
         let pairs = self.choice.neighbours();
@@ -122,12 +135,14 @@ pub(super) fn minimise(
         }
         lagrangian.multipliers += misses * lagrangian.penalty;
         if residual > ENOUGH_RATIO * last_residual && residual > accuracy.residual {
-            lagrangian.penalty *= STIFFEN;
+            lagrangian.penalty = (lagrangian.penalty * STIFFEN).min(GREATEST_PENALTY);
         }
         (last_residual, last_value) = (residual, value);
         slope *= SHARPEN;
     }
+    let s = target.left(&choice.moments(&x));
     Optimum {
+        quadric: lagrangian.quadric(target.at(&s).1, &target.misses(&s)),
         x,
         multipliers: lagrangian.multipliers,
         penalty: lagrangian.penalty,

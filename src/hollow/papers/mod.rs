@@ -13,8 +13,8 @@
 //! −∫ over the cell of g·m: at the end it has one sign inside the quadric g and the other outside of it. They look for
 //! the same surface, cell by cell.
 //!
-//! What they cannot do: prove that nothing is better or that nothing is possible; objectives without a gradient (the
-//! toppling angle, [`MethodError::NotSmooth`]). λ_max is smoothed ([`ByRays`] and the others, critical speed and dominance).
+//! What they cannot do: prove that nothing is better or that nothing is possible; objectives without a gradient, which is
+//! the toppling angle ([`super::MethodError::NotSmooth`]). The λ_max of critical speed and dominance is smoothed.
 //!
 //! The files, in reading order: `target` f and A · `descent` L-BFGS between bounds · `lagrangian` the constraints ·
 //! `rays`, `voxels`, `octree` the three methods.
@@ -37,11 +37,10 @@ pub use octree::ByOctree;
 pub use rays::ByRays;
 pub use voxels::ByVoxels;
 
-use super::method::{Found, MethodError, Outcome, figure_for, value_of};
+use super::method::{Found, Outcome, figure_for, value_of};
 use super::problem::Problem;
 use crate::interior::Choice;
-use crate::progress::Progress;
-use lagrangian::{Optimum, Start, minimise};
+use lagrangian::Optimum;
 use target::Target;
 
 /// How exact the optimiser of the papers' methods shall be, and what it may cost.
@@ -89,16 +88,4 @@ fn outcome(optimum: &Optimum, residual: f64) -> Outcome {
         Optimum { has_converged: true, .. } => Outcome::Converged,
         _ => Outcome::Unfinished,
     }
-}
-
-/// Optimises a choice from the solid and says what was found.
-fn find_by(
-    method: &'static str,
-    problem: &Problem,
-    choice: &dyn Choice,
-    (accuracy, progress): (&Accuracy, &Progress),
-) -> Result<Found, MethodError> {
-    let target = Target::new(method, problem)?;
-    let optimum = minimise(&target, choice, Start::from(choice.nothing()), (accuracy, progress));
-    Ok(found(problem, &target, choice, &optimum))
 }

@@ -25,10 +25,13 @@ pub struct ByOctree {
 
 impl Default for ByOctree {
     fn default() -> Self {
-        Self { accuracy: Accuracy::default(), levels: Levels { inner: 5, boundary: 6 }, smoothing: 1e-5 }
+        let accuracy = Accuracy { evaluations: EVALUATIONS_A_ROUND, ..Accuracy::default() };
+        Self { accuracy, levels: Levels { inner: 5, boundary: 6 }, smoothing: 1e-5 }
     }
 }
 
+/// Evaluations of one round; most need a few hundred, and a round that does not end only delays the next splitting.
+const EVALUATIONS_A_ROUND: usize = 4000;
 /// Shares this near to 0 or 1 are not fractional.
 const FRACTION_TOLERANCE: f64 = 1e-3;
 /// Splittings at most, for each level; siblings that merge may have to be split again.

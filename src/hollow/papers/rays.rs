@@ -2,14 +2,20 @@
 
 use super::super::method::{Found, Method, MethodError};
 use super::super::problem::Problem;
-use super::{Accuracy, find_by};
-use crate::interior::Rays;
+use super::lagrangian::{Optimum, Start, minimise};
+use super::target::Target;
+use super::{Accuracy, found};
+use crate::interior::{Choice, Rays};
 use crate::progress::Progress;
+
+/// How often vanished segments may open again; the gain falls tenfold or more each time.
+const REOPENINGS: usize = 4;
 
 /// The ray-rep: z₀ and z₁ on every stretch of every column, with z̲ ≤ z₀ ≤ z₁ ≤ z̄ ([`Rays`], their eq. 11, 13, 14).
 ///
-/// The moments are at most cubic in them, so the programme is smooth but not convex; from the solid it has always been
-/// seen to reach the quadric's value. λ_max (critical speed, dominance) is smoothed by 1e-4 of the solid's moments.
+/// The moments are at most cubic in them, so the programme is smooth but not convex: a segment that has vanished does not
+/// feel that material is wanted elsewhere on its ray. After each solution such segments open again there
+/// ([`Rays::reopened`]; an interior point method, whose segments never quite vanish, need not be told). λ_max (critical speed, dominance) is smoothed by 1e-4 of the solid's moments.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByRays {
     /// How exact, at what cost.
@@ -22,6 +28,16 @@ impl Method for ByRays {
     }
 
     fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
-        find_by(self.name(), problem, &Rays::of(problem.columns), (&self.accuracy, progress))
+        let (target, rays) = (Target::new(self.name(), problem)?, Rays::of(problem.columns));
+        let mut optimum = minimise(&target, &rays, Start::from(rays.nothing()), (&self.accuracy, progress));
+        for _ in 0..REOPENINGS {
+            let reopened = rays.reopened(&optimum.x, &optimum.quadric);
+            let Some(x) = reopened.filter(|_| !optimum.is_cancelled) else { break };
+            let known = Some((optimum.multipliers, optimum.penalty));
+            let again =
+                minimise(&target, &rays, Start { x, known, smoothing: 0.0 }, (&self.accuracy, progress));
+            optimum = Optimum { evaluations: optimum.evaluations + again.evaluations, ..again };
+        }
+        Ok(found(problem, &target, &rays, &optimum))
     }
 }

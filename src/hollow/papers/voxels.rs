@@ -2,8 +2,10 @@
 
 use super::super::method::{Found, Method, MethodError};
 use super::super::problem::Problem;
-use super::{Accuracy, find_by};
-use crate::interior::Voxels;
+use super::lagrangian::{Start, minimise};
+use super::target::Target;
+use super::{Accuracy, found};
+use crate::interior::{Choice, Voxels};
 use crate::progress::Progress;
 
 /// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing is rounded: the voxels
@@ -21,6 +23,9 @@ impl Method for ByVoxels {
 
     fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
         let height_mm = problem.columns.pitch_mm[0].max(problem.columns.pitch_mm[1]);
-        find_by(self.name(), problem, &Voxels::of(problem.columns, height_mm), (&self.accuracy, progress))
+        let (target, voxels) = (Target::new(self.name(), problem)?, Voxels::of(problem.columns, height_mm));
+        let start = Start::from(voxels.nothing());
+        let optimum = minimise(&target, &voxels, start, (&self.accuracy, progress));
+        Ok(found(problem, &target, &voxels, &optimum))
     }
 }
