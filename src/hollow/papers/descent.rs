@@ -288,6 +288,6 @@ mod tests {
     #[test]
     fn sums_in_lanes_are_sums() {
         let a: Vec<f64> = (0..21).map(f64::from).collect();
-        assert_eq!(dot(&a, &a, &vec![1.0; 21]), 2870.0);
+        assert_eq!(dot(&a, &a, &[1.0; 21]), 2870.0);
     }
 }
