@@ -81,7 +81,7 @@
 //! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`], [`ByVoxels`]) run on the same
 //! [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One suite holds all four together. With q the optimal quadric,
 //! the regret of what a method empties, R = ∫|q| over where it differs from the best, is never negative, and the volume
-//! by which it differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: two thirds of that to all of it). Where
+//! by which it differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it). Where
 //! cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels (measured: L/10 to L/3) and eight
 //! times L for the octree, which merges and rounds (measured: 1.5 L to 2 L); rays end at R < 1e-5 of the solid's volume, or
 //! 1e-4 more where λ_max is smoothed for them. `benches/README.md` has their times.
