@@ -2,6 +2,7 @@
 
 use super::ascent::{Climb, End};
 use super::balance;
+use super::method::figure_for;
 use super::programme::index;
 use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
@@ -119,18 +120,9 @@ pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
 }
 
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
-    match (verdict, objective) {
-        (Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }), _) => {
-            Figure::DominanceRatio
-        }
-        (_, Objective::CriticalSpeed) => Figure::CriticalSpeedRpm,
-        (_, Objective::SpinIt { .. }) => Figure::SpinIt,
-        (_, Objective::Dominance) => Figure::DominanceRatio,
-        (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
-        (_, Objective::LowestCenter) => Figure::CenterHeightMm,
-        (_, Objective::MetacentricHeight) => Figure::MetacentricHeightMm,
-        (_, Objective::LeastRemoved) => Figure::VolumeMm3,
-        (_, Objective::LeastUnbalance) => Figure::BalanceGradeMmS,
+    match verdict {
+        Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => Figure::DominanceRatio,
+        _ => figure_for(objective),
     }
 }
 

@@ -77,8 +77,18 @@
 //!
 //! # The files, in reading order
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
-//! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `mass` the search over heights · `cover` the
-//! proof over all of them · `answer` back to mm, with a status.
+//! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `mass` the search
+//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `method` one trait for this
+//! solver and the papers' own, which live in `papers`.
+//!
+//! # The papers' own methods
+//! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`], [`ByVoxels`]) run on the same
+//! [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One suite holds all four together. With q the optimal quadric,
+//! the regret of what a method empties, R = ∫|q| over where it differs from the best, is never negative, and the volume
+//! by which it differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it). Where
+//! cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels (measured: L/10 to L/3) and eight
+//! times L for the octree, which merges and rounds (measured: 1.5 L to 2 L); rays end at R < 1e-5 of the solid's volume, or
+//! 1e-4 more where λ_max is smoothed for them. `benches/README.md` has their times.
 //!
 //! # Use
 //! ```
@@ -109,6 +119,8 @@ mod cover;
 mod float;
 mod heights;
 mod mass;
+mod method;
+mod papers;
 mod problem;
 mod programme;
 mod reach;
@@ -127,6 +139,8 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
+pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
+pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;
 pub use settings::Settings;
 pub use solution::{Certificate, Figure, LogRow, Solution, Stage};

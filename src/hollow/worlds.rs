@@ -92,7 +92,12 @@ fn shelled(objective: Objective, pitch: f64, center: [f64; 3], half: [f64; 3], l
 
 /// A leaning egg about its middle: its axis is not a principal one before hollowing.
 pub(super) fn egg(objective: Objective) -> World {
-    shelled(objective, 0.5, [0.0; 3], [14.0, 12.0, 6.0], 0.1).of_kind(GoalKind::Yoyo)
+    egg_at(objective, 0.5)
+}
+
+/// The same on columns of another pitch.
+pub(super) fn egg_at(objective: Objective, pitch: f64) -> World {
+    shelled(objective, pitch, [0.0; 3], [14.0, 12.0, 6.0], 0.1).of_kind(GoalKind::Yoyo)
 }
 
 /// The same egg standing on its tip, its middle above the contact and a little beside it.
