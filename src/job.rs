@@ -197,7 +197,7 @@ fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goal::{Contact, GoalKind, Objective, Up};
+    use crate::goal::{Contact, GoalKind, Liquid, Objective, Rotor, Up, Water, Waterline};
     use proptest::prelude::*;
 
     fn job() -> Job {
@@ -224,7 +224,12 @@ mod tests {
         other.model.scaling = Scaling::Factor(0.1 + 0.2);
         other.goal =
             Request { up: Up::Principal, objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) };
-        for job in [job(), other] {
+        let [mut rotor, mut boat] = [job(), job()];
+        rotor.goal = Request::new(GoalKind::Balance);
+        rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
+        boat.goal = Request::new(GoalKind::Float);
+        boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
+        for job in [job(), other, rotor, boat] {
             assert_eq!(reread(&job), job);
         }
     }
@@ -268,7 +273,11 @@ mod tests {
             "kind = \"yoyo\"",
             "critical-speed does not go with the goal yoyo; remedy: use spin-it or dominance",
         ),
-        ("objective = ", "spin_point = \"center\"\nobjective = ", "a spin point goes with the goal yoyo"),
+        (
+            "objective = ",
+            "spin_point = \"center\"\nobjective = ",
+            "a spin point goes with the goal yoyo or balance",
+        ),
         ("size = \"100mm\"", "factor = -2.0", "-2 is not a positive, finite factor"),
         ("size = \"100mm\"", "length = 3", "unknown variant `length`"),
     ];

@@ -1,4 +1,4 @@
-//! Equipoise hollows a 3D model so that its printed, glued parts spin, stand or balance as asked.
+//! Equipoise hollows a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
 //!
 //! A mesh, a printer and a goal go in; a kit comes out: parts that can be printed, cleaned and glued, and a job sheet
 //! that says what to do and what to measure. The void is provably the best there is: whatever the goal, the optimal

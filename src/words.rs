@@ -53,6 +53,8 @@ macro_rules! choice {
         impl $name {
             /// Every value's word, in the order of the values.
             pub const WORDS: &'static [&'static str] = &[$($word),+];
+            /// Every value, in their order.
+            pub const ALL: &'static [Self] = &[$(Self::$value),+];
 
             /// The word it reads from and prints as.
             pub fn word(self) -> &'static str {
@@ -116,8 +118,9 @@ mod tests {
 
     #[test]
     fn every_word_reads_and_prints_as_itself() {
-        for word in Answer::WORDS {
-            assert_eq!(word.parse::<Answer>().unwrap().to_string(), *word);
+        for (word, value) in Answer::WORDS.iter().zip(Answer::ALL) {
+            assert_eq!(word.parse::<Answer>().as_ref(), Ok(value));
+            assert_eq!(value.to_string(), *word);
         }
         let error = "yess".parse::<Answer>().unwrap_err().to_string();
         assert_eq!(error, "`yess` is not a reply; remedy: did you mean `yes`?");

@@ -15,6 +15,8 @@ use crate::units::show_mm;
 const STEEL_G_CM3: f64 = 7.85;
 /// Columns a side of the search, which takes thousands of passes; the steel found on them is weighed on finer ones.
 const SEARCHING_COLUMNS: usize = 60;
+/// Passes an ascent may take: with a price to pay it bends more sharply than without.
+const PASSES: usize = 150;
 const MM3_PER_CM3: f64 = 1000.0;
 /// Halvings of the level at which a region has a given volume; what is left is far below what can be weighed.
 const LEVEL_ROUNDS: usize = 40;
@@ -54,12 +56,17 @@ fn bought(ground: &Ground) -> Option<Bought> {
     }
     let exact = |columns| ground.exact(&ground.case.request, ground.case.wall_mm, columns);
     let (placement, coarse) = exact(SEARCHING_COLUMNS)?;
-    let question = problem(&placement, &coarse);
-    let ballast = least_ballast(&question, 1.0 + excess_ratio, &Settings::default(), &Progress::silent())?;
+    let least = |placement: Placement| {
+        let question = problem(&placement, &coarse);
+        let settings = Settings { passes_per_ascent: PASSES, ..Settings::default() };
+        let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &Progress::silent())?;
+        Some((placement, ballast))
+    };
+    let found = ground.at_its_lines(&placement).into_iter().filter_map(least);
+    let (placement, ballast) = found.min_by(|a, b| a.1.volume_mm3.total_cmp(&b.1.volume_mm3))?;
     let (_, columns) = exact(CONFIRMING_COLUMNS)?;
     least_excess(|excess| {
-        let volume_mm3 = (1.0 + excess) * ballast.volume_mm3;
-        let filled = grown(&columns, ballast.filled, volume_mm3)?;
+        let filled = grown(&columns, ballast.filled, (1.0 + excess) * ballast.volume_mm3)?;
         confirmed(&placement, &columns, &filled, excess_ratio)
     })
 }

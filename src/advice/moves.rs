@@ -54,6 +54,7 @@ impl Moves {
             GoalKind::Yoyo => {
                 vec![Self { part: Part::SpinPoint, seeds: vec![center], ..point }, Self::tilts(case, goal)]
             }
+            GoalKind::Float => vec![Self::tilts(case, goal)],
             _ => Vec::new(),
         }
     }
@@ -64,7 +65,7 @@ impl Moves {
     }
 
     fn tilts(case: &Case, goal: &Goal) -> Self {
-        let has_sense = goal.kind == GoalKind::Top;
+        let has_sense = goal.kind != GoalKind::Yoyo;
         let local = |axis: Vector| goal.frame.direction_to_local(&axis);
         let is_nearer = |axis: &Vector| has_sense || axis.z >= 0.0;
         let corners = if case.request.contact == Some(Contact::Lowest) {

@@ -101,9 +101,7 @@ impl Search<'_> {
         let here = trial.placement.goal.frame;
         let moments = trial.solution.moments.from_frame(&here);
         let proof = |step: &Vector| {
-            let wall_mm = self.ground.case.wall_mm;
-            let request = self.moves.request(step);
-            let moved = crate::goal::place(self.ground.case.solid, wall_mm, &request).ok()?;
+            let moved = self.ground.placed(&self.moves.request(step), self.ground.case.wall_mm)?;
             let seen = moments.in_frame(&moved.goal.frame);
             Some(trial.solution.quadric.0.iter().zip(seen.0).map(|(g, s)| g * s).sum::<f64>())
         };

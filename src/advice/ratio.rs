@@ -2,8 +2,10 @@
 
 use super::Case;
 use super::confirm::least_excess;
+use super::directions::rounded;
 use super::ground::{Ground, Trial};
 use super::remedy::{Kind, Remedy};
+use crate::goal::{Contact, Request, SpinPoint, Waterline};
 use crate::units::show_mm;
 
 /// How much thinner the wall may become, or the model larger, before nothing is advised: nobody prints an object twenty
@@ -87,7 +89,29 @@ fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
         show_mm(case.wall_mm),
         thinner.unwrap_or_default()
     );
-    Remedy::found(Kind::LeastSize, size_mm, [format!("--size={size_mm}mm"), words], trial)
+    let times = size_mm / case.solid.mesh().longest_side_mm();
+    let flags = format!("--size={size_mm}mm{}", scaled_places(&case.request, times));
+    Remedy::found(Kind::LeastSize, size_mm, [flags, words], trial)
+}
+
+/// What has to be typed besides so that places given in mm stay where they are on a model this many times as large.
+fn scaled_places(request: &Request, times: f64) -> String {
+    let point = |at: [f64; 3]| rounded(at.map(|coordinate| coordinate * times), 4);
+    let contact = match request.contact {
+        Some(Contact::At(at)) => format!(" --contact={}", Contact::At(point(at))),
+        _ => String::new(),
+    };
+    let spin_point = match request.spin_point {
+        Some(SpinPoint::At(at)) => format!(" --spin-point={}", SpinPoint::At(point(at))),
+        _ => String::new(),
+    };
+    let waterline = match request.water.map(|water| water.waterline) {
+        Some(Waterline::At(line)) => format!(" --waterline={:.3}mm", line.mm() * times),
+        _ => String::new(),
+    };
+    let bore = request.rotor.and_then(|rotor| rotor.bore);
+    let bore = bore.map_or(String::new(), |bore| format!(" --bore={:.3}mm", bore.mm() * times));
+    contact + &spin_point + &waterline + &bore
 }
 
 /// The size, mm, at which a wall is as thick for the model as `greatest_mm` is at the present size.
@@ -120,6 +144,14 @@ fn rounded_up(number: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::goal::GoalKind;
+
+    #[test]
+    fn places_in_mm_grow_with_the_model() {
+        let top = Request { contact: Some(Contact::At([1.0, -2.0, 0.5])), ..Request::new(GoalKind::Top) };
+        assert_eq!(scaled_places(&top, 1.5), " --contact=1.5,-3,0.75");
+        assert_eq!(scaled_places(&Request::new(GoalKind::Yoyo), 1.5), "");
+    }
 
     #[test]
     fn a_size_is_rounded_up_to_three_digits() {

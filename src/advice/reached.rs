@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::ground::Trial;
 use crate::hollow::Figure;
-use crate::units::show_mm;
+use crate::units::{show_mm, show_mm3};
 
 /// The best value of a figure, on the columns of one trial.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -25,7 +25,10 @@ impl Reached {
 
     /// The value so that less is better.
     pub(super) fn score(&self) -> f64 {
-        if self.figure == Figure::TopplingAngleRad { -self.value } else { self.value }
+        match self.figure {
+            Figure::TopplingAngleRad | Figure::MetacentricHeightMm | Figure::VolumeMm3 => -self.value,
+            _ => self.value,
+        }
     }
 }
 
@@ -39,6 +42,11 @@ impl fmt::Display for Reached {
             Figure::DominanceRatio => write!(f, "spins, with I_b/I_c at {value:.3}"),
             Figure::TopplingAngleRad => write!(f, "stands and topples at {:.1}°", value.to_degrees()),
             Figure::CenterHeightMm => write!(f, "stands, its centre of mass {} high", show_mm(value)),
+            Figure::MetacentricHeightMm => {
+                write!(f, "floats, its metacentre {} above its centre of mass", show_mm(value))
+            }
+            Figure::VolumeMm3 => write!(f, "runs true with {} of material", show_mm3(value)),
+            Figure::BalanceGradeMmS => write!(f, "runs at grade G {value:.2}"),
         }
     }
 }

@@ -12,7 +12,9 @@ use clap::{
 };
 
 use crate::{
-    goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
+    goal::{
+        self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
+    },
     job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
     units::Length,
     words::ChoiceError,
@@ -96,13 +98,19 @@ pub struct PrepareArgs {
     /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm [default: lowest]
     #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
     pub contact: Option<Contact>,
-    /// What a yo-yo spins about: center (of mass) or X,Y,Z in mm [default: center]
+    /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm [default: center]
     #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
     pub spin_point: Option<SpinPoint>,
     /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
-    /// lowest-center [default: the first]
+    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]
     #[arg(long, value_parser = words::<Objective>(Objective::WORDS), hide_possible_values = true, help_heading = "Goal")]
     pub objective: Option<Objective>,
+    /// How a rotor runs.
+    #[command(flatten)]
+    pub rotor: RotorArgs,
+    /// How it floats.
+    #[command(flatten)]
+    pub water: WaterArgs,
 
     /// The model's size.
     #[command(flatten)]
@@ -133,7 +141,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 15] = [
+const DECIDED_BY_JOB: [&str; 20] = [
     "printer",
     "material",
     "wall",
@@ -142,6 +150,11 @@ const DECIDED_BY_JOB: [&str; 15] = [
     "contact",
     "spin_point",
     "objective",
+    "speed",
+    "grade",
+    "bore",
+    "liquid",
+    "waterline",
     "size",
     "scale",
     "unit",
@@ -150,6 +163,58 @@ const DECIDED_BY_JOB: [&str; 15] = [
     "cut",
     "format",
 ];
+
+/// How a rotor runs, for the goal balance.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct RotorArgs {
+    /// The speed of a rotor to balance, in turns a minute [default: 3000]
+    #[arg(long, value_name = "RPM", value_parser = factor, allow_hyphen_values = true)]
+    pub speed: Option<f64>,
+    /// The balance quality grade G it must reach at that speed (ISO 21940-11), in mm/s [default: 2.5]
+    #[arg(long, value_name = "MM/S", value_parser = factor, allow_hyphen_values = true)]
+    pub grade: Option<f64>,
+    /// Keep a hub solid about a bore of this diameter on its axis [default: none; a bore of the model has its wall]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub bore: Option<Length>,
+}
+
+impl RotorArgs {
+    /// What was said of the rotor, over `default`; none where nothing was said and there is no default.
+    fn over(&self, default: Option<Rotor>) -> Option<Rotor> {
+        let is_said = self.speed.is_some() || self.grade.is_some() || self.bore.is_some();
+        let known = default.or(is_said.then(Rotor::default))?;
+        Some(Rotor {
+            speed_rpm: self.speed.unwrap_or(known.speed_rpm),
+            grade_mm_s: self.grade.unwrap_or(known.grade_mm_s),
+            bore: self.bore.or(known.bore),
+        })
+    }
+}
+
+/// How an object floats, for the goal float.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Goal")]
+pub struct WaterArgs {
+    /// What it floats in: water, seawater or a density in g/cm³ [default: water]
+    #[arg(long, value_name = "LIQUID", allow_hyphen_values = true)]
+    pub liquid: Option<Liquid>,
+    /// How deep it lies: a LENGTH above its lowest point, or auto, where it is most stable [default: auto]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub waterline: Option<Waterline>,
+}
+
+impl WaterArgs {
+    /// What was said of the water, over `default`; none where nothing was said and there is no default.
+    fn over(&self, default: Option<Water>) -> Option<Water> {
+        let is_said = self.liquid.is_some() || self.waterline.is_some();
+        let known = default.or(is_said.then(Water::default))?;
+        Some(Water {
+            liquid: self.liquid.unwrap_or(known.liquid),
+            waterline: self.waterline.unwrap_or(known.waterline),
+        })
+    }
+}
 
 /// How large the model is; one of them at most.
 #[derive(Debug, Clone, Args)]
@@ -275,6 +340,8 @@ impl PrepareArgs {
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),
+            rotor: self.rotor.over(default.rotor),
+            water: self.water.over(default.water),
             ..default
         };
         Ok(asked.checked()?)
@@ -438,7 +505,10 @@ mod tests {
             ("equipoise prepare m.stl --goal top", "--printer"),
             ("equipoise prepare m.stl --printer prusa-mk4", "--goal"),
             ("equipoise prepare --printer prusa-mk4 --goal top", "<MODEL>"),
-            ("equipoise prepare m.stl --printer prusa-mk4 --goal float", "possible values: top, yoyo, stand"),
+            (
+                "equipoise prepare m.stl --printer prusa-mk4 --goal swim",
+                "possible values: top, yoyo, stand, float, balance",
+            ),
             ("equipoise frobnicate", "unrecognized subcommand"),
         ] {
             let error = parse(line).expect_err(line);
@@ -452,7 +522,9 @@ mod tests {
         for (arguments, says) in [
             ("--goal stand --objective spin-it", "use toppling-angle or lowest-center"),
             ("--goal yoyo --contact lowest", "a contact point goes with the goal top, not with yoyo"),
-            ("--goal stand --spin-point center", "a spin point goes with the goal yoyo"),
+            ("--goal stand --spin-point center", "a spin point goes with the goal yoyo or balance"),
+            ("--goal stand --waterline 30mm", "a liquid or waterline goes with the goal float"),
+            ("--goal top --speed 3000", "a speed, grade or bore goes with the goal balance"),
         ] {
             let line = format!("equipoise prepare m.stl --printer prusa-mk4 {arguments}");
             let Command::Prepare(args) = parse(&line).unwrap().command else { panic!("{line}") };

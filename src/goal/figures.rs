@@ -3,15 +3,15 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Goal, GoalKind, Objective, support};
-use crate::geom::{Matrix, Vector};
+use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{Body, Moments};
 use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// The figures of a body with respect to a goal; density cancels in every one of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Top: the centre of mass from the spin axis; yo-yo: from the spin point; stand: from the middle of the support,
-    /// seen from above. mm.
+    /// Top, balance: the centre of mass from the spin axis; yo-yo: from the spin point; stand, float: from the middle of the
+    /// support or from the centre of buoyancy, seen from above. mm.
     pub off_axis_mm: f64,
     /// The height of the centre of mass above the origin, mm.
     pub center_height_mm: f64,
@@ -21,7 +21,7 @@ pub struct Figures {
     pub dominance_ratio: f64,
     /// Top: the least speed at which it spins upright (Spin-It eq. 1); none where no speed is enough, or no top.
     pub critical_speed_rpm: Option<f64>,
-    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none for standing objects.
+    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none but for tops and yo-yos.
     pub spin_it: Option<f64>,
     /// Stand: the tilt at which it topples, rad; negative where it does not stand; none for the others.
     pub toppling_angle_rad: Option<f64>,
@@ -37,7 +37,8 @@ pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
         off_axis_mm: if goal.kind == GoalKind::Yoyo {
             center.coords.norm()
         } else {
-            center.x.hypot(center.y)
+            let place = goal.afloat.map_or_else(Point::origin, |afloat| afloat.buoyancy);
+            (center.x - place.x).hypot(center.y - place.y)
         },
         center_height_mm: center.z,
         axis_tilt_rad: tilt_of_nearest_axis(&body),
@@ -85,7 +86,7 @@ fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
     let steiner = match goal.kind {
         GoalKind::Top => z * z / volume,
         GoalKind::Yoyo => 0.0,
-        GoalKind::Stand => return None,
+        GoalKind::Stand | GoalKind::Float | GoalKind::Balance => return None,
     };
     let gamma_c = if goal.kind == GoalKind::Top { gamma_c } else { 0.0 };
     let (i_xx, i_yy, i_zz) = (yy + zz - steiner, xx + zz - steiner, xx + yy);

@@ -4,7 +4,9 @@
 //! the contact, the spin point or the support plane; z along the spin axis or up). [`figures`] then says what a body
 //! of given moments does in that frame, and is the same for the solid, the hollowed result and the assembled parts.
 
+mod balance;
 mod figures;
+mod float;
 mod place;
 mod request;
 mod sites;
@@ -19,9 +21,11 @@ use crate::geom::Frame;
 use crate::mass::Moments;
 use crate::shell::Keep;
 
+pub use balance::{Rotor, Spindle};
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
-pub use place::{GoalError, place};
+pub use float::{Afloat, Hydrostatics, Liquid, Water, Waterline};
+pub use place::{GoalError, Stock, place, place_made_of};
 pub use request::{GoalKind, Objective, Request, RequestError};
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
@@ -37,6 +41,10 @@ pub struct Goal {
     pub objective: Objective,
     /// Stand: the convex support polygon, counterclockwise, goal frame, mm; empty for the others.
     pub support: Vec<[f64; 2]>,
+    /// Balance: how the rotor runs and where it ends; none for the others.
+    pub spindle: Option<Spindle>,
+    /// Float: what a body must be to float upright at the waterline; none for the others.
+    pub afloat: Option<Afloat>,
     /// The moments of the whole solid in the goal frame, mm.
     pub solid: Moments,
 }

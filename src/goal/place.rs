@@ -1,7 +1,8 @@
 //! Placing a goal: the request's words and the solid's geometry become a frame.
 
 use super::{
-    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, stand, top, yoyo,
+    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, balance, float,
+    stand, top, yoyo,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Body, Moments, moments_of_mesh};
@@ -67,14 +68,50 @@ pub enum GoalError {
         /// How many vertices lie at the support plane.
         vertices: usize,
     },
+    /// A waterline above the model.
+    #[error(
+        "a waterline of {waterline_mm:.3} mm leaves nothing of {height_mm:.3} mm above the water; give a lower one"
+    )]
+    UnderWater {
+        /// The waterline asked for, mm above the lowest point.
+        waterline_mm: f64,
+        /// The height of the model, mm.
+        height_mm: f64,
+    },
+    /// The density is zero, negative or not a number.
+    #[error("a density of {0} g/cm³ is none; give a positive one")]
+    NoDensity(f64),
 }
+
+/// What a model is made of, as far as the goal needs it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stock {
+    /// The least wall, mm.
+    pub wall_mm: f64,
+    /// The density, g/cm³; only what floats depends on it.
+    pub density_g_cm3: f64,
+}
+
+/// The density that [`place`] assumes, g/cm³.
+const PLAIN_DENSITY_G_CM3: f64 = 1.0;
 
 /// The goal that `request` asks for, placed in `solid`; walls of `wall_mm` decide how much stays solid at a contact.
 ///
-/// The moments of the goal are exact for the mesh. Costs a few passes over the triangles.
+/// The moments of the goal are exact for the mesh. Costs a few passes over the triangles. What floats is of 1 g/cm³;
+/// [`place_made_of`] takes any density.
 pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement, GoalError> {
+    place_made_of(solid, &Stock { wall_mm, density_g_cm3: PLAIN_DENSITY_G_CM3 }, request)
+}
+
+/// The same for a solid of any material. Where the waterline is free, half the height stands for it: to find the best one
+/// takes the solver.
+pub fn place_made_of(solid: &Solid, stock: &Stock, request: &Request) -> Result<Placement, GoalError> {
+    let Stock { wall_mm, density_g_cm3 } = *stock;
     if !(wall_mm > 0.0 && wall_mm.is_finite()) {
         return Err(GoalError::NoWall(wall_mm));
+    }
+    if !(density_g_cm3 > 0.0 && density_g_cm3.is_finite()) {
+        return Err(GoalError::NoDensity(density_g_cm3));
     }
     let request = request.checked()?;
     let site = Site::new(solid, &request)?;
@@ -82,6 +119,11 @@ pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement
         GoalKind::Top => top::place(&site, wall_mm, request.contact.unwrap_or(Contact::Lowest)),
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
         GoalKind::Stand => stand::place(&site),
+        GoalKind::Float => float::place(&site, density_g_cm3, request.water.unwrap_or_default()),
+        GoalKind::Balance => {
+            let point = request.spin_point.unwrap_or(SpinPoint::Center);
+            balance::place(&site, wall_mm, point, request.rotor.unwrap_or_default())
+        }
     }
 }
 
@@ -124,7 +166,15 @@ impl<'a> Site<'a> {
     pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
         let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
         let solid = self.moments.in_frame(&frame);
-        Goal { kind: self.kind, frame, objective: self.objective, support, solid }
+        Goal {
+            kind: self.kind,
+            frame,
+            objective: self.objective,
+            support,
+            spindle: None,
+            afloat: None,
+            solid,
+        }
     }
 
     /// The model's vertices in the upright frame.

@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, SpinPoint, Up};
+use super::{Contact, Rotor, SpinPoint, Up, Water};
 use crate::words::{ChoiceError, as_text, choice, numbers};
 
 choice! {
@@ -16,6 +16,10 @@ choice! {
         Yoyo = "yoyo",
         /// Stand on its lowest points.
         Stand = "stand",
+        /// Float upright.
+        Float = "float",
+        /// Turn about a given axis without shaking it.
+        Balance = "balance",
     }
 }
 
@@ -42,6 +46,12 @@ pub enum Objective {
     TopplingAngle,
     /// Stand: the lowest centre of mass above the middle of the support.
     LowestCenter,
+    /// Float: the greatest metacentric height GM, which is the lowest centre of mass (Wu et al. §3.3).
+    MetacentricHeight,
+    /// Balance: the least material removed for static and couple unbalance to vanish.
+    LeastRemoved,
+    /// Balance: the least unbalance in the two end planes per mass, where it cannot vanish.
+    LeastUnbalance,
 }
 
 impl Objective {
@@ -49,8 +59,16 @@ impl Objective {
     pub const SPIN_IT: Self = Self::SpinIt { gamma_c: 1.0, gamma_i: 1.0 };
 
     /// Every objective's word.
-    pub const WORDS: &'static [&'static str] =
-        &["critical-speed", "spin-it", "dominance", "toppling-angle", "lowest-center"];
+    pub const WORDS: &'static [&'static str] = &[
+        "critical-speed",
+        "spin-it",
+        "dominance",
+        "toppling-angle",
+        "lowest-center",
+        "metacentric-height",
+        "least-removed",
+        "least-unbalance",
+    ];
 
     /// The word for it, without weights.
     pub fn word(self) -> &'static str {
@@ -60,6 +78,9 @@ impl Objective {
             Self::Dominance => "dominance",
             Self::TopplingAngle => "toppling-angle",
             Self::LowestCenter => "lowest-center",
+            Self::MetacentricHeight => "metacentric-height",
+            Self::LeastRemoved => "least-removed",
+            Self::LeastUnbalance => "least-unbalance",
         }
     }
 
@@ -85,12 +106,19 @@ impl Objective {
 }
 
 impl GoalKind {
+    /// Whether the axis is told by a point it passes through.
+    pub fn has_spin_point(self) -> bool {
+        matches!(self, Self::Yoyo | Self::Balance)
+    }
+
     /// The objectives that make sense for the goal, the default first.
     pub fn objectives(self) -> &'static [Objective] {
         match self {
             Self::Top => &[Objective::CriticalSpeed, Objective::SPIN_IT],
             Self::Yoyo => &[Objective::SPIN_IT, Objective::Dominance],
             Self::Stand => &[Objective::TopplingAngle, Objective::LowestCenter],
+            Self::Float => &[Objective::MetacentricHeight],
+            Self::Balance => &[Objective::LeastRemoved, Objective::LeastUnbalance],
         }
     }
 }
@@ -107,6 +135,9 @@ impl FromStr for Objective {
             ("dominance", _) => Self::Dominance,
             ("toppling-angle", _) => Self::TopplingAngle,
             ("lowest-center", _) => Self::LowestCenter,
+            ("metacentric-height", _) => Self::MetacentricHeight,
+            ("least-removed", _) => Self::LeastRemoved,
+            ("least-unbalance", _) => Self::LeastUnbalance,
             _ => return Err(ChoiceError::unknown("known objective", text, Self::WORDS)),
         })
     }
@@ -135,10 +166,16 @@ pub struct Request {
     pub up: Up,
     /// Where a top touches the floor; none for the lowest point, and for other goals.
     pub contact: Option<Contact>,
-    /// Where a yo-yo's axis passes; none for the centre of mass, and for other goals.
+    /// Where the axis of a yo-yo or of a balanced rotor passes; none for the centre of mass, and for other goals.
     pub spin_point: Option<SpinPoint>,
     /// What "best" means.
     pub objective: Objective,
+    /// How a balanced rotor runs; none for the usual speed and grade, and for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotor: Option<Rotor>,
+    /// How it floats; none for fresh water and the most stable line, and for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub water: Option<Water>,
 }
 
 /// A request whose parts do not go together.
@@ -162,21 +199,39 @@ pub enum RequestError {
     /// A contact point for what is not a top.
     #[error("a contact point goes with the goal top, not with {0}; remedy: leave it out")]
     Contact(GoalKind),
-    /// A spin point for what is not a yo-yo.
-    #[error("a spin point goes with the goal yoyo, not with {0}; remedy: leave it out")]
+    /// A spin point for what has no axis through one.
+    #[error("a spin point goes with the goal yoyo or balance, not with {0}; remedy: leave it out")]
     SpinPoint(GoalKind),
+    /// A speed, grade or bore for what is not a rotor.
+    #[error("a speed, grade or bore goes with the goal balance, not with {0}; remedy: leave it out")]
+    NoRotor(GoalKind),
+    /// A liquid or waterline for what does not float.
+    #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
+    NoWater(GoalKind),
+    /// A speed or grade that is not positive and finite.
+    #[error(
+        "a grade of {grade_mm_s} mm/s at {speed_rpm} rpm is none; remedy: give a speed and a grade above zero"
+    )]
+    Rotor {
+        /// The speed asked for.
+        speed_rpm: f64,
+        /// The grade asked for.
+        grade_mm_s: f64,
+    },
 }
 
 impl Request {
-    /// The request with every choice left at its default: up z, a top on its lowest point, a yo-yo about its centre of
-    /// mass, the kind's first objective.
+    /// The request with every choice left at its default: up z, a top on its lowest point, a yo-yo or a rotor about its
+    /// centre of mass, the kind's first objective.
     pub fn new(kind: GoalKind) -> Self {
         Self {
             kind,
             up: Up::Z,
             contact: (kind == GoalKind::Top).then_some(Contact::Lowest),
-            spin_point: (kind == GoalKind::Yoyo).then_some(SpinPoint::Center),
+            spin_point: kind.has_spin_point().then_some(SpinPoint::Center),
             objective: Objective::default_of(kind),
+            rotor: (kind == GoalKind::Balance).then(Rotor::default),
+            water: (kind == GoalKind::Float).then(Water::default),
         }
     }
 
@@ -193,10 +248,25 @@ impl Request {
         if self.contact.is_some() && kind != GoalKind::Top {
             return Err(RequestError::Contact(kind));
         }
-        if self.spin_point.is_some() && kind != GoalKind::Yoyo {
+        if self.spin_point.is_some() && !kind.has_spin_point() {
             return Err(RequestError::SpinPoint(kind));
         }
+        self.check_rotor()?;
+        if self.water.is_some() && kind != GoalKind::Float {
+            return Err(RequestError::NoWater(kind));
+        }
         Ok(self)
+    }
+
+    fn check_rotor(&self) -> Result<(), RequestError> {
+        match self.rotor {
+            Some(_) if self.kind != GoalKind::Balance => Err(RequestError::NoRotor(self.kind)),
+            Some(rotor) if !rotor.is_sound() => {
+                let Rotor { speed_rpm, grade_mm_s, .. } = rotor;
+                Err(RequestError::Rotor { speed_rpm, grade_mm_s })
+            }
+            _ => Ok(()),
+        }
     }
 }
 
@@ -205,16 +275,21 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const KINDS: [GoalKind; 3] = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand];
-
     #[test]
     fn every_goal_has_its_default_objective_first_and_none_is_shared_but_spin_it() {
-        let defaults = [Objective::CriticalSpeed, Objective::SPIN_IT, Objective::TopplingAngle];
-        assert_eq!(KINDS.map(Objective::default_of), defaults);
+        let defaults = [
+            Objective::CriticalSpeed,
+            Objective::SPIN_IT,
+            Objective::TopplingAngle,
+            Objective::MetacentricHeight,
+            Objective::LeastRemoved,
+        ];
+        let found: Vec<Objective> = GoalKind::ALL.iter().copied().map(Objective::default_of).collect();
+        assert_eq!(found, defaults);
         for word in Objective::WORDS {
             let objective: Objective = word.parse().unwrap();
             assert_eq!((objective.word(), objective.to_string().as_str()), (*word, *word));
-            let uses = KINDS.iter().filter(|kind| objective.suits(**kind)).count();
+            let uses = GoalKind::ALL.iter().filter(|kind| objective.suits(**kind)).count();
             assert_eq!(uses, if *word == "spin-it" { 2 } else { 1 }, "{word}");
         }
     }
@@ -241,7 +316,7 @@ mod tests {
 
     #[test]
     fn the_parts_of_every_default_go_together() {
-        for kind in KINDS {
+        for &kind in GoalKind::ALL {
             assert_eq!(Request::new(kind).checked(), Ok(Request::new(kind)));
         }
     }

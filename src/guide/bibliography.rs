@@ -6,7 +6,15 @@
 //!   ray-reps", Computers & Graphics 58, 2016.
 //! * **Make It Stand**: R. Prévost, E. Whiting, S. Lefebvre, O. Sorkine-Hornung, "Make It Stand: Balancing Shapes for 3D
 //!   Fabrication", ACM Transactions on Graphics 32(4), 2013.
+//! * **Balance quality**: ISO 21940-11:2016, "Mechanical vibration: Rotor balancing. Part 11: Procedures and tolerances for
+//!   rotors with rigid behaviour".
 //! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science 13(7), 1967.
+//! * **Augmented Lagrangian** (the papers' methods): M. R. Hestenes, "Multiplier and gradient methods", Journal of
+//!   Optimization Theory and Applications 4, 1969.
+//! * **Projected quasi-Newton**: J. Nocedal, "Updating quasi-Newton matrices with limited storage", Mathematics of
+//!   Computation 35, 1980; D. P. Bertsekas, "Projected Newton methods for optimization problems with simple constraints",
+//!   SIAM Journal on Control and Optimization 20, 1982; R. H. Byrd, P. Lu, J. Nocedal, C. Zhu, "A limited memory algorithm
+//!   for bound constrained optimization", SIAM Journal on Scientific Computing 16, 1995.
 //! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
 //!   vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
 //! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen",

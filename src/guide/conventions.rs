@@ -8,7 +8,8 @@
 //! * The **model frame** has the axes of the input file, scaled to millimetres. `hollowed.stl` and everything in
 //!   `checklist.json` that is not said to be elsewhere is in this frame.
 //! * The **goal frame** ([`crate::geom::Frame`]) has its origin at the contact point of a top, at the spin point of a
-//!   yo-yo, or in the middle of the support polygon of a standing object, and its z axis along the spin axis or up.
+//!   yo-yo or on the axis of a rotor, in the middle of the support polygon of a standing object, or as low as the lowest
+//!   point of one that floats, and its z axis along the spin axis or up.
 //! * The **print pose** of a part is the model frame after `print_from_model`, a rigid 4×4 matrix of rows; the part
 //!   then rests on z = 0.
 //!

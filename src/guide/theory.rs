@@ -23,6 +23,14 @@
 //! A top is quasi-convex only at a fixed height ℓ of its centre; the search over the one number ℓ uses the multiplier of
 //! the row s_z − ℓ s₁ = 0 as derivative (envelope theorem).
 //!
+//! What floats has its mass, and the place of its centre seen from above, as equations, and the height of the centre as a
+//! linear function to make least; the metacentre c_b + I_w/V_b depends on the outside alone, so the lowest centre is the
+//! most stable. A free waterline is one more number to search ([`crate::pipeline`]).
+//!
+//! A rotor's axis is free when s_x = s_y = s_xz = s_yz = 0, and the least material is removed by a linear programme. Where
+//! the equations cannot be met, the unbalances U_A, U_B in two planes are linear in s, and ‖(U_A, U_B)‖/s₁ is again a norm
+//! over a positive linear function, whose bound limits the grade from below.
+//!
 //! # The certificate
 //! Any dual point gives a lower bound: no hollowing of this model with this wall can do better. The value, the bound and
 //! their gap are part of every solution. Where the dual grows without limit, its direction is a quadric that separates

@@ -1,12 +1,14 @@
 //! From the end of a search to a solution in mm, with its status and certificate.
 
 use super::ascent::{Climb, End};
+use super::balance;
+use super::method::figure_for;
 use super::programme::index;
 use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
 use super::status::{Obstacle, Status};
 use super::work::Work;
-use crate::goal::{GoalKind, Objective, to_rpm};
+use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
 use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
@@ -95,6 +97,14 @@ impl Answer {
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
+            Figure::MetacentricHeightMm => {
+                work.goal.afloat.unwrap_or_default().metacenter_mm - work.to_mm(ratio)
+            }
+            Figure::VolumeMm3 => -ratio * work.reach.scale.volume_mm3,
+            Figure::BalanceGradeMmS => {
+                let grade = |spindle: &Spindle| balance::grade_mm_s(spindle, work.to_mm(ratio));
+                work.goal.spindle.as_ref().map_or(f64::NAN, grade)
+            }
         }
     }
 }
@@ -110,15 +120,9 @@ pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
 }
 
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
-    match (verdict, objective) {
-        (Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }), _) => {
-            Figure::DominanceRatio
-        }
-        (_, Objective::CriticalSpeed) => Figure::CriticalSpeedRpm,
-        (_, Objective::SpinIt { .. }) => Figure::SpinIt,
-        (_, Objective::Dominance) => Figure::DominanceRatio,
-        (_, Objective::TopplingAngle) => Figure::TopplingAngleRad,
-        (_, Objective::LowestCenter) => Figure::CenterHeightMm,
+    match verdict {
+        Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => Figure::DominanceRatio,
+        _ => figure_for(objective),
     }
 }
 

@@ -10,7 +10,7 @@ use super::reach::{Heavy, Vector10};
 use super::settings::Settings;
 use super::work::Work;
 use crate::geom::Quadric;
-use crate::goal::{GoalKind, Objective};
+use crate::goal::{Afloat, GoalKind, Objective, Spindle};
 use crate::progress::Progress;
 
 /// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an ascent starts with; far
@@ -20,6 +20,10 @@ const PRICE: f64 = 0.1;
 const STABLE_RATIO: f64 = 0.99;
 /// The toppling angle that counts as standing, rad: half a degree.
 const STANDING_RAD: f64 = 0.0087;
+/// How far below the metacentre a floating body's centre of mass has to lie, mm.
+const RIGHTING_MM: f64 = 0.5;
+/// The share of the unbalance that a rotor's grade permits which may be left.
+const GRADE_SHARE: f64 = 0.9;
 /// Heights of a top's centre that are looked at before the best is refined.
 const HEIGHTS: usize = 9;
 /// Rounds of golden section about the best height, and the part of the range that each leaves, (√5 − 1)/2.
@@ -76,6 +80,8 @@ pub fn least_ballast(
         (GoalKind::Stand, _) => {
             shop.least(&|work| Programme::stand_toppling(&work.reach, problem.goal), -STANDING_RAD.tan())
         }
+        (GoalKind::Float, _) => shop.least_to_float(problem.goal.afloat?),
+        (GoalKind::Balance, _) => shop.least_to_balance(&problem.goal.spindle?),
     }?;
     shop.ballast(&bought)
 }
@@ -148,6 +154,20 @@ impl Shop<'_> {
         [best, left, right].into_iter().min_by(Look::by_cost)?.bought
     }
 
+    /// The least with which it has the right mass and its centre under the metacentre.
+    fn least_to_float(&self, afloat: Afloat) -> Option<Bought> {
+        let limit = (afloat.metacenter_mm - RIGHTING_MM) / self.free.to_mm(1.0);
+        self.least(&|work| Programme::float_lowest_center(&work.reach, &afloat), limit)
+    }
+
+    /// The least with which a rotor reaches its grade.
+    fn least_to_balance(&self, spindle: &Spindle) -> Option<Bought> {
+        let length_mm = self.free.to_mm(1.0);
+        let ends = spindle.ends_mm.map(|end| end / length_mm);
+        let limit = GRADE_SHARE * spindle.rotor.permissible_mm() / (std::f64::consts::SQRT_2 * length_mm);
+        self.least(&|work| Programme::balance_unbalance(&work.reach, ends), limit)
+    }
+
     /// The least ballast with which the rows of a programme are met and its ratio is at most `limit`.
     fn least(&self, programme: &dyn Fn(&Work) -> Programme, limit: f64) -> Option<Bought> {
         let wish = programme(&self.free);
@@ -198,7 +218,9 @@ impl Shop<'_> {
         let start = programme.cold_start(&self.priced.reach);
         let climb = self.priced.climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
         let is_met = climb.best.residual() <= ACCEPTED_RESIDUAL;
-        let (cost, bound) = (climb.best.extreme.cost, climb.best.bound);
+        // Without a ratio the limit is a constant, which the ascent knows nothing of.
+        let constant = if wish.is_ratio() || weight == 0.0 { 0.0 } else { weight * limit };
+        let (cost, bound) = (climb.best.extreme.cost, climb.best.bound - constant);
         (is_met && climb.end != End::Cancelled).then_some(Bought { climb, cost, bound })
     }
 }

@@ -44,6 +44,9 @@
 //! | top, functional | the same, and s₁ where γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
 //! | stand, tilt | none | max over the support's edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
 //! | stand, lowest centre | s_x, s_y | s_z / s₁ |
+//! | float | s_x − x_b s₁, s_y − y_b s₁, s₁ = ρ_w V_b | s_z (no ratio; Wu et al. eq. 3 to 5) |
+//! | balance, least removed | s_x, s_y, s_xz, s_yz | −s₁ (no ratio) |
+//! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the planes at the two ends |
 //!
 //! λ_max is of the 2 × 2 tensor across the axis. Y is the unit ball for the norms; for λ_max of a 2 × 2 matrix, half
 //! the trace plus the length of a 2-vector, it is the unit disc; for the largest over edges it is the simplex. A top's
@@ -67,14 +70,25 @@
 //!   meet within 1e-9 or so. A top's bound is also carried to every other height, by covering them with intervals.
 //! * **That the constraints cannot be met.** If D grows without bound along λ, the quadric (Aᵀλ)·m has a positive
 //!   integral over every interior, while it would be zero if one met the rows.
-//! * **That no interior is stable, or stands.** The bound itself is on the wrong side: I_b/I_c ≥ 1, an angle ≤ 0.
+//! * **That no interior is stable, stands, runs true or rights itself.** The bound itself is on the wrong side: I_b/I_c ≥ 1,
+//!   an angle ≤ 0, a grade above the one asked for, a metacentric height ≤ 0.
 //!
 //! Each is an answer, not an error: a [`Status`], with a sentence and remedies.
 //!
 //! # The files, in reading order
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
-//! climb · `yoyo`, `stand` one programme each · `top`, `heights`, `valley`, `mass` the search over heights · `cover` the
-//! proof over all of them · `answer` back to mm, with a status.
+//! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `mass` the search
+//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `method` one trait for this
+//! solver and the papers' own, which live in `papers`.
+//!
+//! # The papers' own methods
+//! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`], [`ByVoxels`]) run on the same
+//! [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One suite holds all four together. With q the optimal quadric,
+//! the regret of what a method empties, R = ∫|q| over where it differs from the best, is never negative, and the volume
+//! by which it differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it). Where
+//! cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels (measured: L/10 to L/3) and eight
+//! times L for the octree, which merges and rounds (measured: 1.5 L to 2 L); rays end at R < 1e-5 of the solid's volume, or
+//! 1e-4 more where λ_max is smoothed for them. `benches/README.md` has their times.
 //!
 //! # Use
 //! ```
@@ -100,10 +114,14 @@
 
 mod answer;
 mod ascent;
+mod balance;
 mod ballast;
 mod cover;
+mod float;
 mod heights;
 mod mass;
+mod method;
+mod papers;
 mod problem;
 mod programme;
 mod reach;
@@ -123,6 +141,8 @@ use crate::goal::GoalKind;
 use crate::progress::Progress;
 
 pub use ballast::{Ballast, least_ballast};
+pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
+pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;
 pub use settings::Settings;
 pub use solution::{Certificate, Figure, LogRow, Solution, Stage};
@@ -150,6 +170,8 @@ fn answer_of(problem: &Problem, work: Work) -> Solution {
         GoalKind::Top => top::solve(&work, objective),
         GoalKind::Yoyo => yoyo::solve(&work, objective, None),
         GoalKind::Stand => stand::solve(&work, objective, None),
+        GoalKind::Float => float::solve(&work, objective, None),
+        GoalKind::Balance => balance::solve(&work, objective, None),
     };
     answer.into_solution(work)
 }
@@ -168,6 +190,9 @@ pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, progress
         GoalKind::Top => top::refine(&work, objective, &known.warm),
         GoalKind::Yoyo => Some(yoyo::solve(&work, objective, start)),
         GoalKind::Stand => Some(stand::solve(&work, objective, start)),
+        GoalKind::Float => Some(float::solve(&work, objective, start)),
+        // What could not be balanced on coarser columns may be on these.
+        GoalKind::Balance => Some(balance::solve(&work, problem.goal.objective, start)),
     };
     answer.map_or_else(|| solve(problem, settings, progress), |answer| answer.into_solution(work))
 }

@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::reach::{Reach, Vector10};
 use super::set::DualSet;
 use super::solution::Stage;
-use crate::goal::{Goal, support_edges};
+use crate::goal::{Afloat, Goal, support_edges};
 
 /// Where the ten moments stand.
 pub(super) mod index {
@@ -225,6 +225,51 @@ impl Programme {
         Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
     }
 
+    /// Float: the height of the centre, for interiors as heavy as the water displaced, with their centre over that of
+    /// buoyancy; no ratio.
+    pub fn float_lowest_center(reach: &Reach, afloat: &Afloat) -> Self {
+        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
+        let [x, y] = over_buoyancy(reach, afloat);
+        let rows = stack(&[x, y, row(&[(ONE, 1.0)])]);
+        let height = row(&[(Z, 1.0 / mass)]);
+        let mut programme = Self::new(height, DMatrix::zeros(0, 10), Vector10::zeros(), rows);
+        programme.rhs[2] = mass;
+        programme
+    }
+
+    /// Float: how far the centre of an interior of the right mass is from its place; no ratio.
+    pub fn float_offset(reach: &Reach, afloat: &Afloat) -> Self {
+        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
+        let offset = stack(&over_buoyancy(reach, afloat)) / mass;
+        let mut programme =
+            Self::new(Vector10::zeros(), offset, Vector10::zeros(), stack(&[row(&[(ONE, 1.0)])]));
+        programme.rhs[0] = mass;
+        programme
+    }
+
+    /// The least (sense 1) or greatest (sense −1) mass of any interior; no ratio.
+    pub fn extreme_mass(sense: f64) -> Self {
+        let none = DMatrix::zeros(0, 10);
+        Self::new(row(&[(ONE, sense)]), none.clone(), Vector10::zeros(), none)
+    }
+
+    /// Balance: the least material removed, as the most that stays; no ratio.
+    pub fn balance_least_removed() -> Self {
+        let kept = row(&[(ONE, -1.0)]);
+        Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), stack(&axis_rows()))
+    }
+
+    /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the axis, which together
+    /// have the static unbalance and the couple of the body: U_A + U_B = s_xy, a U_A + b U_B = (s_xz, s_yz).
+    pub fn balance_unbalance(reach: &Reach, [a, b]: [f64; 2]) -> Self {
+        let span = b - a;
+        let at_a = |first, product| row(&[(first, b / span), (product, -1.0 / span)]);
+        let at_b = |first, product| row(&[(first, -a / span), (product, 1.0 / span)]);
+        let planes = [at_a(X, XZ), at_a(Y, YZ), at_b(X, XZ), at_b(Y, YZ)];
+        let none = DMatrix::zeros(0, 10);
+        Self::new(Vector10::zeros(), stack(&planes), row(&[(ONE, 1.0)]), none).bounded(reach)
+    }
+
     /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that none meets them.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);
@@ -292,6 +337,12 @@ impl Programme {
         let lambda = DVector::from_fn(self.rhs.len(), |i, _| multiplier(i));
         DualPoint { lambda, ..point.clone() }
     }
+}
+
+/// Mass times the offset of the centre from above that of buoyancy, along x and y.
+fn over_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
+    let place = afloat.buoyancy / reach.scale.length_mm;
+    [row(&[(X, 1.0), (ONE, -place.x)]), row(&[(Y, 1.0), (ONE, -place.y)])]
 }
 
 fn yoyo_rows() -> DMatrix<f64> {

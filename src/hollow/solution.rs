@@ -8,7 +8,7 @@ use crate::geom::Quadric;
 use crate::goal::Objective;
 use crate::mass::Moments;
 
-/// The quantity a certificate speaks of; smaller is better but for the toppling angle.
+/// The quantity a certificate speaks of; smaller is better but for the toppling angle, the metacentric height and the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Figure {
@@ -22,6 +22,12 @@ pub enum Figure {
     TopplingAngleRad,
     /// The height of the centre of mass, mm.
     CenterHeightMm,
+    /// The height of the metacentre over the centre of mass, mm; more is better.
+    MetacentricHeightMm,
+    /// The material that stays, mm³; more is better.
+    VolumeMm3,
+    /// A lower bound of a rotor's balance grade at its speed, mm/s: exact where both end planes are equally unbalanced.
+    BalanceGradeMmS,
 }
 
 /// What was reached, and the proof of how much better anything else could be.

@@ -37,6 +37,39 @@ pub enum Status {
         /// The greatest angle any interior reaches, rad; not positive; proved.
         greatest_angle_rad: f64,
     },
+    /// Float: even the lightest interior is too heavy for the water displaced at this waterline.
+    Sinks {
+        /// Its mass over that of the water displaced, above 1; proved.
+        least_ratio: f64,
+    },
+    /// Float: even the solid is too light to lie as deep as this waterline.
+    RidesHigh {
+        /// Its mass over that of the water displaced, below 1; proved.
+        greatest_ratio: f64,
+    },
+    /// Float: no interior of the right mass has its centre over the centre of buoyancy.
+    CannotTrim {
+        /// How far aside it is at least, mm; proved, positive.
+        least_offset_mm: f64,
+        /// The proof: its integral over every interior is more than `level_mm3`, and would be that at most for one of the
+        /// right mass and place.
+        separator: Quadric,
+        /// mm³.
+        level_mm3: f64,
+    },
+    /// Float: every interior of the right mass and place turns over.
+    Capsizes {
+        /// The greatest metacentric height, mm; not positive; proved.
+        greatest_gm_mm: f64,
+    },
+    /// Balance: every interior shakes more than the grade allows.
+    CannotBalance {
+        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked for; proved.
+        least_grade_mm_s: f64,
+        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass), whose integral over every
+        /// interior is positive.
+        separator: Quadric,
+    },
     /// The passes were used up before the limits were met.
     IterationLimit {
         /// The gap that is left, as a part of the value.
@@ -89,6 +122,25 @@ impl Status {
                  at least {:.3}°.",
                 -greatest_angle_rad.to_degrees()
             ),
+            Self::Sinks { least_ratio } => format!(
+                "Impossible: emptied of all it may lose, it weighs {least_ratio:.3} times the water it displaces at this waterline."
+            ),
+            Self::RidesHigh { greatest_ratio } => format!(
+                "Impossible: even solid it weighs only {greatest_ratio:.3} of the water it displaces at this waterline."
+            ),
+            Self::CannotTrim { least_offset_mm, .. } => format!(
+                "Impossible: at this waterline the centre of mass stays at least {least_offset_mm:.3} mm beside the centre of \
+                 buoyancy, whatever is hollowed out, so it would not float upright."
+            ),
+            Self::Capsizes { greatest_gm_mm } => format!(
+                "Impossible: at this waterline the centre of mass stays at least {:.3} mm above the metacentre, whatever is \
+                 hollowed out, so it would turn over.",
+                -greatest_gm_mm
+            ),
+            Self::CannotBalance { least_grade_mm_s, .. } => format!(
+                "Impossible: whatever is hollowed out, at its speed the rotor's balance grade stays at G {least_grade_mm_s:.1} \
+                 or above."
+            ),
             Self::IterationLimit { gap_ratio, residual } => format!(
                 "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
                  {residual:.1e}. Allow more passes."
@@ -123,7 +175,42 @@ impl Status {
                 "give it a larger foot, or ballast in it",
                 "make the model larger with the same wall, or the wall thinner",
             ],
+            (Self::Sinks { .. }, _) => &[
+                "let it lie deeper, or leave the waterline free (waterline auto)",
+                "make the model larger with the same wall, or the wall thinner",
+                "use a lighter material or a denser liquid",
+            ],
+            (Self::RidesHigh { .. }, _) => &[
+                "let it ride higher, or leave the waterline free (waterline auto)",
+                "use a denser material, or ballast in it",
+            ],
+            (Self::CannotTrim { .. }, _) => &[
+                "turn the model, or leave the waterline free (waterline auto)",
+                "make the model larger with the same wall, or the wall thinner",
+                "put ballast in it, on the side that rides high",
+            ],
+            (Self::Capsizes { .. }, _) => &[
+                "leave the waterline free (waterline auto), or turn the model",
+                "put ballast in it, as low as it goes",
+                "make the model larger with the same wall, or the wall thinner",
+            ],
+            (Self::CannotBalance { .. }, _) => &[
+                "put ballast on its light side, opposite to the unbalance",
+                "make the model larger with the same wall, or the wall thinner",
+                "ask for a coarser grade or a lower speed",
+            ],
             _ => &[],
+        }
+    }
+
+    /// The quadric whose integral over every interior proves that the goal cannot be met; none where the bound of the
+    /// solution's own quadric does.
+    pub fn separator(&self) -> Option<Quadric> {
+        match *self {
+            Self::ConstraintsInfeasible { separator, .. }
+            | Self::CannotTrim { separator, .. }
+            | Self::CannotBalance { separator, .. } => Some(separator),
+            _ => None,
         }
     }
 
@@ -135,6 +222,11 @@ impl Status {
                 | Self::NotDominant { .. }
                 | Self::UnstableForEveryInterior { .. }
                 | Self::CannotStand { .. }
+                | Self::Sinks { .. }
+                | Self::RidesHigh { .. }
+                | Self::CannotTrim { .. }
+                | Self::Capsizes { .. }
+                | Self::CannotBalance { .. }
         )
     }
 }
@@ -142,8 +234,11 @@ impl Status {
 impl Obstacle {
     fn task(self, kind: GoalKind) -> &'static str {
         match (self, kind) {
-            (Self::Center, GoalKind::Top) => "bring the centre of mass onto the spin axis",
+            (Self::Center, GoalKind::Top | GoalKind::Balance) => {
+                "bring the centre of mass onto the spin axis"
+            }
             (Self::Center, GoalKind::Yoyo) => "bring the centre of mass to the spin point",
+            (Self::Center, GoalKind::Float) => "bring the centre of mass over the centre of buoyancy",
             (Self::Center, GoalKind::Stand) => "bring the centre of mass over the middle of the support",
             (Self::PrincipalAxis, _) => "turn a principal axis of inertia onto the spin axis",
             (Self::Both, _) => "balance the centre of mass and the principal axis on the spin axis together",
@@ -164,6 +259,14 @@ mod tests {
             (Status::NotDominant { least_ratio: 1.0637 }, "1.064"),
             (Status::UnstableForEveryInterior { least_ratio: 1.389, proved: true }, "1.389"),
             (Status::CannotStand { greatest_angle_rad: -0.0239 }, "1.369°"),
+            (Status::Sinks { least_ratio: 1.0637 }, "1.064"),
+            (Status::RidesHigh { greatest_ratio: 0.6372 }, "0.637"),
+            (
+                Status::CannotTrim { least_offset_mm: 0.6372, separator: Quadric([0.0; 10]), level_mm3: 1.0 },
+                "0.637 mm",
+            ),
+            (Status::Capsizes { greatest_gm_mm: -1.5 }, "1.500 mm"),
+            (Status::CannotBalance { least_grade_mm_s: 17.08, separator: Quadric([0.0; 10]) }, "G 17.1"),
             (
                 Status::ConstraintsInfeasible {
                     obstacle: Obstacle::Center,

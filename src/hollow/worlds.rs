@@ -1,8 +1,8 @@
 //! Small worlds with closed forms or few enough choices to try them all, for the solver's tests.
 
 use super::Problem;
-use crate::geom::{Frame, Quadric};
-use crate::goal::{Goal, GoalKind, Objective};
+use crate::geom::{Frame, Point, Quadric};
+use crate::goal::{Afloat, Goal, GoalKind, Objective, Rotor, Spindle};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
@@ -15,15 +15,28 @@ pub(super) struct World {
 
 impl World {
     fn new(objective: Objective, fixed: Moments, columns: Columns) -> Self {
-        let kind =
-            [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand].into_iter().find(|kind| objective.suits(*kind));
+        let kind = GoalKind::ALL.iter().copied().find(|kind| objective.suits(*kind));
         let kind = kind.expect("every objective suits some goal");
-        let goal = Goal { kind, frame: Frame::identity(), objective, support: Vec::new(), solid: fixed };
+        let goal = Goal {
+            kind,
+            frame: Frame::identity(),
+            objective,
+            support: Vec::new(),
+            spindle: None,
+            afloat: None,
+            solid: fixed,
+        };
         Self { goal, fixed, columns }
     }
 
     fn of_kind(mut self, kind: GoalKind) -> Self {
         self.goal.kind = kind;
+        self
+    }
+
+    /// As a rotor with planes at ± this height.
+    pub fn turning(mut self, end_mm: f64) -> Self {
+        self.goal.spindle = Some(Spindle { rotor: Rotor::default(), ends_mm: [-end_mm, end_mm] });
         self
     }
 
@@ -79,7 +92,12 @@ fn shelled(objective: Objective, pitch: f64, center: [f64; 3], half: [f64; 3], l
 
 /// A leaning egg about its middle: its axis is not a principal one before hollowing.
 pub(super) fn egg(objective: Objective) -> World {
-    shelled(objective, 0.5, [0.0; 3], [14.0, 12.0, 6.0], 0.1).of_kind(GoalKind::Yoyo)
+    egg_at(objective, 0.5)
+}
+
+/// The same on columns of another pitch.
+pub(super) fn egg_at(objective: Objective, pitch: f64) -> World {
+    shelled(objective, pitch, [0.0; 3], [14.0, 12.0, 6.0], 0.1).of_kind(GoalKind::Yoyo)
 }
 
 /// The same egg standing on its tip, its middle above the contact and a little beside it.
@@ -112,6 +130,29 @@ pub(super) fn bottle() -> World {
     let columns = columns_of(0.5, 2.0, |_, _| vec![[0.0, 10.0]]);
     let glass = Moments([40.0, 0.0, 0.0, 360.0, 0.0, 0.0, 0.0, 100.0, 100.0, 3300.0]);
     World::new(Objective::LowestCenter, whole(&columns) + glass, columns)
+}
+
+/// A rotor 8 × 4 × 6 about its middle, all of which may be emptied, with this much more of s_xz beside it.
+pub(super) fn coupled_rotor(couple: f64) -> World {
+    let columns = columns_of(0.125, 4.0, |_, y| if y.abs() < 2.0 { vec![[-3.0, 3.0]] } else { Vec::new() });
+    let beside = Moments([0.0, 0.0, 0.0, 0.0, 0.0, 0.0, couple, 0.0, 0.0, 0.0]);
+    World::new(Objective::LeastRemoved, whole(&columns) + beside, columns).turning(3.0)
+}
+
+/// The sixteen blocks as a rotor about the axis they stand around, its planes at bottom and top.
+pub(super) fn blocks_on_an_axis() -> World {
+    let mut world = blocks_on_a_slope().of_kind(GoalKind::Balance).turning(8.0);
+    world.goal.objective = Objective::LeastUnbalance;
+    world
+}
+
+/// The bottle as a tank to float with this mass in all, its centre of buoyancy this far aside.
+pub(super) fn tank(mass: f64, [x, y]: [f64; 2]) -> World {
+    let mut world = bottle().of_kind(GoalKind::Float);
+    world.goal.objective = Objective::MetacentricHeight;
+    let buoyancy = Point::new(x, y, 3.0);
+    world.goal.afloat = Some(Afloat { waterline_mm: 6.0, buoyancy, material_mm3: mass, metacenter_mm: 7.0 });
+    world
 }
 
 /// Sixteen blocks, four columns of four, over a support that their middle is not over.
@@ -159,6 +200,24 @@ pub(super) fn rings(objective: Objective) -> World {
     let columns = columns_of(1.0, 6.0, |x, y| if x.hypot(y) < 5.9 { layers() } else { Vec::new() });
     let rest = Moments([60.0, 0.0, 0.0, 300.0, 0.0, 0.0, 0.0, 1800.0, 1800.0, 1900.0]);
     World::new(objective, whole(&columns) + rest, columns).of_kind(GoalKind::Top)
+}
+
+/// The least that the integral of `quadric` over any interior can be: that over all of it, less the positive part where it
+/// may be emptied, by midpoint sums of `steps` a column, which know nothing of roots.
+pub(super) fn least_integral(world: &World, quadric: &Quadric, steps: usize) -> f64 {
+    let columns = &world.columns;
+    let area = columns.pitch_mm[0] * columns.pitch_mm[1];
+    let positive = |[x, y]: [f64; 2], [low, high]: [f64; 2]| {
+        let step = (high - low) / steps as f64;
+        let at = |i: usize| Point::new(x, y, low + (i as f64 + 0.5) * step);
+        (0..steps).map(|i| quadric.value(&at(i)).max(0.0)).sum::<f64>() * step * area
+    };
+    let of_column = |i: usize| {
+        let range = columns.starts[i] as usize..columns.starts[i + 1] as usize;
+        columns.intervals[range].iter().map(|interval| positive(columns.centers[i], *interval)).sum::<f64>()
+    };
+    let whole: f64 = world.fixed.0.iter().zip(quadric.0).map(|(s, g)| s * g).sum();
+    whole - (0..columns.len()).map(of_column).sum::<f64>()
 }
 
 /// Groups of intervals that are emptied together: each by itself.

@@ -207,6 +207,20 @@ impl Row {
     }
 }
 
+/// q on a column as c₀ + c₁z + c₂z², by its cell's means in x and y.
+pub(super) fn mean_on_column(columns: &Columns, column: usize, quadric: &Quadric) -> [f64; 3] {
+    let [x, y] = columns.centers[column];
+    let row = Row::new(quadric, columns.pitch_mm, y);
+    [row.c0[0] + x * (row.c0[1] + x * row.c0[2]), row.c1[0] + x * row.c1[1], row.c2]
+}
+
+/// Where q changes sign on a column, and whether it is positive outside of the two or between them.
+pub(super) fn crossing_of_column(columns: &Columns, quadric: &Quadric, column: usize) -> ([f64; 2], bool) {
+    let [x, y] = columns.centers[column];
+    let crossing = Row::new(quadric, columns.pitch_mm, y).crossing(x);
+    ([crossing.lo, crossing.hi], crossing.empties_outside)
+}
+
 /// ∫1, ∫z and ∫z² from `lo` to `hi`.
 #[inline]
 fn powers_between(lo: f64, hi: f64) -> [f64; 3] {

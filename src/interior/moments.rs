@@ -5,9 +5,22 @@ use rayon::prelude::*;
 use super::Columns;
 use crate::mass::Moments;
 
-/// Columns summed one after the other before blocks are added up. The blocks make the result independent of the
+/// Terms summed one after the other before blocks are added up. The blocks make the result independent of the
 /// thread count; their size is what makes both sums short enough to lose no more than about 1e-13.
-const COLUMNS_PER_BLOCK: usize = 4096;
+pub(super) const BLOCK: usize = 4096;
+
+/// The sum of `count` terms, in blocks whose order does not depend on the thread count.
+pub(super) fn block_sums(count: usize, term: impl Fn(usize) -> Moments + Sync) -> Moments {
+    let sum = |first: usize| {
+        let block = first..(first + BLOCK).min(count);
+        block.fold(Moments::default(), |mut sum, i| {
+            sum += term(i);
+            sum
+        })
+    };
+    let sums: Vec<Moments> = (0..count).into_par_iter().step_by(BLOCK).map(sum).collect();
+    sums.into_iter().fold(Moments::default(), |sum, block| sum + block)
+}
 
 impl Columns {
     /// The moments of the region with every interval emptied, goal frame.
@@ -15,21 +28,19 @@ impl Columns {
     /// Exact in z; in x and y each column stands for the box of its pitch, whose second moments are those of its
     /// centre plus pitch²/12. So it is exact for boxes along the axes. The same bits for any number of threads.
     pub fn moments(&self) -> Moments {
-        let blocks = (0..self.len()).into_par_iter().step_by(COLUMNS_PER_BLOCK);
-        let sums: Vec<Moments> = blocks
-            .map(|first| {
-                let block = first..(first + COLUMNS_PER_BLOCK).min(self.len());
-                block.fold(Moments::default(), |sum, column| sum + self.moments_of_column(column))
-            })
-            .collect();
-        let area_mm2 = self.pitch_mm[0] * self.pitch_mm[1];
-        sums.into_iter().fold(Moments::default(), |sum, block| sum + block) * area_mm2
+        let of_column = |column: usize| self.moments_of(column, self.intervals_of(column));
+        block_sums(self.len(), of_column) * (self.pitch_mm[0] * self.pitch_mm[1])
     }
 
-    /// The moments of one column, per unit of its cross-section.
-    fn moments_of_column(&self, column: usize) -> Moments {
+    /// The moments of a stretch of a column, per unit of its cross-section.
+    pub(super) fn moments_between(&self, column: usize, ends_mm: [f64; 2]) -> Moments {
+        self.moments_of(column, &[ends_mm])
+    }
+
+    /// The moments of stretches of a column, per unit of its cross-section.
+    fn moments_of(&self, column: usize, stretches: &[[f64; 2]]) -> Moments {
         let [x, y] = self.centers[column];
-        let [length, z, zz] = self.intervals_of(column).iter().map(powers_of_z).fold([0.0; 3], add);
+        let [length, z, zz] = stretches.iter().map(powers_of_z).fold([0.0; 3], add);
         let xx = x * x + self.pitch_mm[0] * self.pitch_mm[0] / 12.0;
         let yy = y * y + self.pitch_mm[1] * self.pitch_mm[1] / 12.0;
         let x_y = [x * y * length, y * z, x * z];

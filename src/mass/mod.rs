@@ -3,9 +3,11 @@
 mod body;
 mod moments;
 mod of_mesh;
+mod submerged;
 #[cfg(test)]
 mod tests;
 
 pub use body::{Body, Principal};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;
+pub use submerged::{Section, Submerged, submerged};

@@ -15,14 +15,29 @@ pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
         return Moments::default();
     }
     let center = mesh.aabb().center();
-    let mut sums = [NeumaierSum::default(); Moments::COUNT];
+    let mut sum = MomentSum::default();
     for corners in mesh.iter_corners() {
-        let tetrahedron = tetrahedron_moments(corners.map(|corner| corner - center));
-        for (sum, term) in sums.iter_mut().zip(tetrahedron.0) {
+        sum.add_tetrahedron(corners.map(|corner| corner - center));
+    }
+    sum.total().translated(&center.coords)
+}
+
+/// The sum of the moments of tetrahedra, compensated.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct MomentSum([NeumaierSum; Moments::COUNT]);
+
+impl MomentSum {
+    /// Adds the signed moments of the tetrahedron spanned by the origin and three corners.
+    pub fn add_tetrahedron(&mut self, corners: [Vector; 3]) {
+        for (sum, term) in self.0.iter_mut().zip(tetrahedron_moments(corners).0) {
             sum.add(term);
         }
     }
-    Moments(sums.map(|sum| sum.total())).translated(&center.coords)
+
+    /// The sum so far.
+    pub fn total(&self) -> Moments {
+        Moments(self.0.map(|sum| sum.total()))
+    }
 }
 
 /// The signed moments of the tetrahedron spanned by the origin and three corners.

@@ -124,7 +124,9 @@ fn assembled(
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
         attempts += 1;
-        if attempts == MAX_ASSEMBLIES || is_tuned(goal, &written.in_frame(&goal.frame)) {
+        if attempts == MAX_ASSEMBLIES
+            || is_tuned(goal, &voids.solution.moments, &written.in_frame(&goal.frame))
+        {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
             let height_proof = tuner.height_proof();

@@ -31,10 +31,11 @@ pub fn prepared(
         hollowed: stl::decode(&hollowed)?,
         parts: assembly.evidence(),
     };
-    let (promise, judgement) = judged(setup, evidence.clone());
+    let ((promise, judgement), pictures) =
+        rayon::join(|| judged(setup, evidence.clone()), || pictures(assembly, &evidence));
+    let pictures = pictures?;
     watch.lap(phase::VERIFY);
     progress.report(phase::REPORT, 0.0);
-    let pictures = pictures(assembly, &evidence)?;
     let mut kit = Kit::default();
     kit.add(HOLLOWED, hollowed);
     for part in &assembly.parts {
@@ -87,7 +88,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
             build_volume_mm: setup.printer.build_volume_mm.as_ref().map(|volume| volume.value),
         },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
-        goal: rows::aim(&setup.placement.goal),
+        goal: rows::aim(setup),
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(promised_part).collect(),
@@ -122,5 +123,8 @@ pub fn figure_name(figure: crate::hollow::Figure) -> FigureName {
         Figure::DominanceRatio => FigureName::DominanceRatio,
         Figure::TopplingAngleRad => FigureName::TopplesDeg,
         Figure::CenterHeightMm => FigureName::CenterHeightMm,
+        Figure::MetacentricHeightMm => FigureName::MetacentricHeightMm,
+        Figure::VolumeMm3 => FigureName::MassG,
+        Figure::BalanceGradeMmS => FigureName::BalanceGradeMmS,
     }
 }

@@ -10,6 +10,7 @@ mod solving;
 mod stopwatch;
 mod tuner;
 mod tuning;
+mod waterline;
 mod written;
 
 pub use assembly::Assembly;
@@ -47,6 +48,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let mut watch = Stopwatch::start();
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
+    let setup = waterline::chosen(setup, &mut watch)?;
     let solved = match Solved::of(&setup, progress, &mut watch)? {
         Ok(solved) => solved,
         Err(impossible) => {

@@ -6,17 +6,20 @@ use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::cut::PinSite;
 use crate::geom::Vector;
-use crate::goal::{Goal, GoalKind, Objective, Warning};
+use crate::goal::{GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
 use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, PromisedFigure};
+use crate::verify::{Aim, FigureName, Judgement, PromisedFigure, RotorOrder, WaterOrder};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
+
+/// What must be minded of anything hollow in water.
+const SEAL: &str = "seal every joint: a void that fills with water sinks it or turns it over";
 
 /// Everything a checklist is filled from.
 pub struct Sheet<'a> {
@@ -69,12 +72,23 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
         (GoalKind::Yoyo, _) => FigureName::SpinItRatio,
         (GoalKind::Stand, Objective::LowestCenter) => FigureName::CenterHeightMm,
         (GoalKind::Stand, _) => FigureName::TopplesDeg,
+        (GoalKind::Float, _) => FigureName::MetacentricHeightMm,
+        (GoalKind::Balance, _) => FigureName::BalanceGradeMmS,
     }
 }
 
 /// The goal as the judge sees it.
-pub fn aim(goal: &Goal) -> Aim {
-    Aim { kind: goal.kind, origin_mm: goal.frame.origin.into(), axis: goal.frame.axis().into() }
+pub fn aim(setup: &Setup) -> Aim {
+    let goal = &setup.placement.goal;
+    let rotor = goal.spindle.map(|spindle| {
+        let Rotor { speed_rpm, grade_mm_s, .. } = spindle.rotor;
+        RotorOrder { speed_rpm, grade_mm_s }
+    });
+    let water = goal.afloat.map(|afloat| WaterOrder {
+        liquid_g_cm3: setup.job.goal.water.unwrap_or_default().liquid.density_g_cm3(),
+        waterline_mm: afloat.waterline_mm,
+    });
+    Aim { rotor, water, ..Aim::new(goal.kind, goal.frame.origin.into(), goal.frame.axis().into()) }
 }
 
 /// The density of the material, g/cm³.
@@ -145,12 +159,7 @@ fn goal_row(setup: &Setup) -> GoalRow {
         _ => None,
     });
     let objective = setup.request.objective.word().replace('-', "_");
-    GoalRow {
-        aim: aim(&setup.placement.goal),
-        objective,
-        contact_gap_mm: gap.unwrap_or(0.0),
-        choice: setup.choice.clone(),
-    }
+    GoalRow { aim: aim(setup), objective, contact_gap_mm: gap.unwrap_or(0.0), choice: setup.choice.clone() }
 }
 
 fn certificate(sheet: &Sheet) -> Certificate {
@@ -158,6 +167,7 @@ fn certificate(sheet: &Sheet) -> Certificate {
     let figure = figure_name(certificate.figure);
     let shown = |value: f64| match certificate.figure {
         hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        hollow::Figure::VolumeMm3 => value * sheet.setup.material.density_g_mm3(),
         _ => value,
     };
     Certificate {
@@ -271,7 +281,9 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let refused = sheet.assembly.refused_mm3;
     let small =
         (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
-    placement.chain(repairs).chain(small).collect()
+    let floats = setup.placement.goal.kind == GoalKind::Float;
+    let seal = floats.then(|| SEAL.to_owned());
+    placement.chain(repairs).chain(small).chain(seal).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {

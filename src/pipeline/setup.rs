@@ -3,7 +3,7 @@
 use super::Error;
 use super::advising::Means;
 use crate::digest::sha256_hex;
-use crate::goal::{Placement, Request, place};
+use crate::goal::{Placement, Request, Stock, place_made_of};
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
@@ -58,7 +58,8 @@ impl Setup {
         leaves_room(model.solid.mesh().longest_side_mm(), wall.wall_mm)?;
         let means = Means { model: &model, printer: &printer, material: &material, wall: &wall };
         let (request, choice) = means.settled(&job.goal);
-        let placement = place(&model.solid, wall.wall_mm, &request)?;
+        let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
+        let placement = place_made_of(&model.solid, &stock, &request)?;
         Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement })
     }
 

@@ -10,7 +10,7 @@ use crate::shell::Shell;
 
 /// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search over
 /// heights dearer.
-const COARSE_COLUMNS: usize = 100;
+pub(super) const COARSE_COLUMNS: usize = 100;
 /// Columns a side of the middle level, on which an impossible goal is proved.
 const MIDDLE_COLUMNS: usize = 400;
 
@@ -100,7 +100,7 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
         remedies: Vec::new(),
         hints: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
         choice: setup.choice.clone(),
-        proof_quadric: solution.quadric.0,
+        proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),
         warnings: setup.placement.warnings.iter().map(ToString::to_string).collect(),

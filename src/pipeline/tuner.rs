@@ -84,7 +84,7 @@ impl<'a> Tuner<'a> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
             let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + more).in_frame(&goal.frame);
-            if is_tuned(goal, &written) {
+            if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }
             voids = self.again(&voids, written)?;

@@ -62,8 +62,11 @@ pub fn part_picture_file(id: &str) -> String {
 pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let view = View::of(&outer, &sitting.aim.frame());
-    let stands = sitting.aim.kind == GoalKind::Stand;
-    let upright = if stands { "The model as it stands." } else { "The model, its spin axis upright." };
+    let upright = match sitting.aim.kind {
+        GoalKind::Stand => "The model as it stands.",
+        GoalKind::Float => "The model as it floats.",
+        _ => "The model, its spin axis upright.",
+    };
     let mut shots = vec![model_shot(&outer, &view, upright), cut_away_shot(&outer, &voids, &view)];
     let in_place = parts_in_model(sitting.parts);
     shots.push(exploded_shot(&in_place, &shifts(&in_place, sitting.cuts), &view));

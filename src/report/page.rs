@@ -172,13 +172,20 @@ fn proof(sheet: &Checklist) -> Markup {
 type Column = (&'static str, &'static str, fn(&Figures) -> Option<f64>);
 
 /// What is told of a body where it is known.
-const COLUMNS: [Column; 6] = [
+const COLUMNS: [Column; 13] = [
     ("Off the axis", "mm", |body| body.axis_offset_mm),
     ("Axis tilt", "°", |body| body.axis_tilt_deg),
     ("I_b/I_c", "", |body| body.dominance_ratio),
     ("Critical speed", "rpm", |body| body.critical_speed_rpm),
     ("Centre's height", "mm", |body| Some(body.center_height_mm)),
     ("Topples at", "°", |body| body.topples_deg),
+    ("Waterline", "mm", |body| body.afloat.map(|afloat| afloat.waterline_mm)),
+    ("Off buoyancy", "mm", |body| body.afloat.map(|afloat| afloat.offset_mm)),
+    ("GM", "mm", |body| body.afloat.map(|afloat| afloat.metacentric_height_mm)),
+    ("Rights from", "°", |body| body.afloat.map(|afloat| afloat.rights_from_deg)),
+    ("Static unbalance", "g·mm", |body| body.unbalance.map(|unbalance| unbalance.static_g_mm)),
+    ("Couple", "g·mm²", |body| body.unbalance.map(|unbalance| unbalance.couple_g_mm2)),
+    ("Grade G", "mm/s", |body| body.unbalance.map(|unbalance| unbalance.grade_mm_s)),
 ];
 
 fn bodies(sheet: &Checklist) -> Markup {

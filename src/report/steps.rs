@@ -107,6 +107,9 @@ fn glue(sheet: &Checklist) -> Markup {
                 }
                 @for joint in &sheet.joints { (glue_line(joint)) }
             }
+            @if sheet.goal.aim.kind == GoalKind::Float {
+                p { strong { "Seal every joint all around: " } "a void that fills with water sinks it or turns it over." }
+            }
             p class="small" { "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance." }
         }
     }
@@ -187,7 +190,35 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
             let height = format!("Its centre of mass lies {height} above the ground.");
             tilt.into_iter().chain([height]).collect()
         }
+        GoalKind::Float => floating_lines(sheet),
+        GoalKind::Balance => rotor_lines(sheet),
     }
+}
+
+/// How to try what floats.
+fn floating_lines(sheet: &Checklist) -> Vec<String> {
+    let depth = sheet.assembly.afloat.map(|afloat| {
+        format!(
+            "It lies {} deep; leaned by {} to any side and let go, it comes back.",
+            quantity(afloat.waterline_mm, "mm"),
+            quantity(afloat.rights_from_deg, "°")
+        )
+    });
+    let tight =
+        "Held under water for a minute no bubbles rise from the seams, and it weighs as much as before.";
+    [tight.to_owned()].into_iter().chain(depth).collect()
+}
+
+/// How to try a rotor.
+fn rotor_lines(sheet: &Checklist) -> Vec<String> {
+    let residual = sheet.assembly.unbalance.map(|unbalance| {
+        format!(
+            "On a balancing machine, planes at its two ends: no more than {} is left in either.",
+            quantity(unbalance.end_plane_g_mm, "g·mm")
+        )
+    });
+    let level = "Laid with its shaft on two level knife edges, it stays however it is turned.".to_owned();
+    [level].into_iter().chain(residual).collect()
 }
 
 /// What to add under a top whose contact point hangs in the air.

@@ -2,7 +2,7 @@
 
 use super::{Certificate, Checklist, GoalRow};
 use crate::goal::GoalKind;
-use crate::verify::FigureName;
+use crate::verify::Figures;
 
 /// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
 const SIGNIFICANT_DIGITS: i32 = 4;
@@ -62,6 +62,18 @@ pub fn goal(goal: &GoalRow) -> String {
         GoalKind::Stand => {
             format!("standing: {along} is up, the middle of its support {at}\u{a0}mm, with {best}")
         }
+        GoalKind::Float => format!(
+            "floating: {along} is up, {}with {best}",
+            goal.aim.water.map_or(String::new(), |order| format!(
+                "in a liquid of {} up to {} above its lowest point, ",
+                quantity(order.liquid_g_cm3, "g/cm³"),
+                quantity(order.waterline_mm, "mm")
+            ))
+        ),
+        GoalKind::Balance => format!(
+            "rotor: turns about the axis {along} through {at}\u{a0}mm{}, with {best}",
+            goal.aim.rotor.map_or(String::new(), |order| format!(" at {}", quantity(order.speed_rpm, "rpm")))
+        ),
     }
 }
 
@@ -73,6 +85,9 @@ fn best(objective: &str) -> String {
         "dominance" => "the most dominant axis".to_owned(),
         "toppling_angle" => "the largest tilt before it topples".to_owned(),
         "lowest_center" => "the lowest centre of mass".to_owned(),
+        "metacentric_height" => "the greatest metacentric height".to_owned(),
+        "least_removed" => "the least material removed that balances it".to_owned(),
+        "least_unbalance" => "the least unbalance".to_owned(),
         other => format!("the best {}", other.replace('_', " ")),
     }
 }
@@ -94,6 +109,33 @@ pub fn promise(sheet: &Checklist) -> String {
             format!("Stands until tilted by {}.", quantity(tilt, "°"))
         }
         (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
+        (GoalKind::Float, ..) => floats(sheet),
+        (GoalKind::Balance, ..) => runs_true(sheet),
+    }
+}
+
+/// How it floats.
+fn floats(sheet: &Checklist) -> String {
+    match sheet.assembly.afloat {
+        Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
+            "Floats upright, {} deep, with a metacentric height of {}.",
+            quantity(afloat.waterline_mm, "mm"),
+            quantity(afloat.metacentric_height_mm, "mm")
+        ),
+        Some(_) => "Floats, but not upright.".to_owned(),
+        None => "Sinks.".to_owned(),
+    }
+}
+
+/// How true a rotor runs, before and after.
+fn runs_true(sheet: &Checklist) -> String {
+    let grade = |body: &Figures| body.unbalance.map(|unbalance| number(unbalance.grade_mm_s));
+    match (sheet.goal.aim.rotor, grade(&sheet.solid), grade(&sheet.assembly)) {
+        (Some(order), Some(solid), Some(written)) => format!(
+            "Balanced to G\u{a0}{written} at {}; solid it is G\u{a0}{solid}.",
+            quantity(order.speed_rpm, "rpm")
+        ),
+        _ => "Not known to run true.".to_owned(),
     }
 }
 
@@ -101,7 +143,7 @@ pub fn promise(sheet: &Checklist) -> String {
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
     let is_top = sheet.goal.aim.kind == GoalKind::Top;
-    let better = if more_is_better(proof.figure) { "higher" } else { "lower" };
+    let better = if proof.figure.more_is_better() { "higher" } else { "lower" };
     let mut words = vec![
         format!(
             "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
@@ -159,11 +201,7 @@ fn gap(ratio: f64) -> String {
 
 /// The share of the best possible that was reached, 1 at the bound.
 fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
-    if more_is_better(proof.figure) { written / proof.bound } else { proof.bound / written }
-}
-
-fn more_is_better(figure: FigureName) -> bool {
-    figure == FigureName::TopplesDeg
+    if proof.figure.more_is_better() { written / proof.bound } else { proof.bound / written }
 }
 
 #[cfg(test)]

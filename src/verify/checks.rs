@@ -1,6 +1,9 @@
 //! The list of checks, and the limits they hold.
 
-use super::{Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise};
+use super::{
+    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder,
+    WaterOrder,
+};
 use crate::goal::GoalKind;
 
 /// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
@@ -12,6 +15,12 @@ pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
 pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
 /// A standing object must topple at more than this, degrees.
 pub const STANDING_LIMIT_DEG: f64 = 0.0;
+/// A floating object's waterline may be this far from the predicted one, mm: the surface of water hides far more.
+pub const WATERLINE_LIMIT_MM: f64 = 0.02;
+/// The metacentre must lie higher than this above the centre of mass, mm, for it to stay upright.
+pub const METACENTRIC_LIMIT_MM: f64 = 0.0;
+/// It must right itself from this heel, degrees: with less, a ripple turns it over.
+pub const RIGHTING_LIMIT_DEG: f64 = 5.0;
 /// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a printed wall
 /// loses a pixel.
 pub const WALL_TOLERANCE_MM: f64 = 0.01;
@@ -31,7 +40,7 @@ pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
 /// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there, can it be
 /// printed, do the parts make the whole.
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
-    let mut checks = goal_checks(promise.goal.kind, &found.assembly);
+    let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
     checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
     checks.extend(surface_checks(found));
@@ -43,7 +52,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 }
 
 /// Whether the assembly does what the goal asks of any body.
-fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
+fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
     let offset = |promise| {
         Check::new(
             "axis offset",
@@ -52,7 +61,7 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
             Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
         )
     };
-    match kind {
+    match aim.kind {
         GoalKind::Top => {
             [vec![offset("the centre of mass lies on the spin axis")], spinning_checks(assembly)].concat()
         }
@@ -65,7 +74,45 @@ fn goal_checks(kind: GoalKind, assembly: &Figures) -> Vec<Check> {
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
+        GoalKind::Float => aim.water.iter().flat_map(|order| floating_checks(order, assembly)).collect(),
+        GoalKind::Balance => aim.rotor.iter().map(|order| grade_check(order, assembly)).collect(),
     }
+}
+
+/// Whether it floats where it should, upright, and comes back when it is heeled; the outer surface is held to be tight.
+fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
+    let found = |value: fn(&Afloat) -> f64| assembly.afloat.as_ref().map(value);
+    let aside = found(|afloat| afloat.waterline_mm).map(|mm| (mm - order.waterline_mm).abs());
+    let depth = format!("it floats {:.2} mm deep, within", order.waterline_mm);
+    let check = |name, promise: &str, value, limit| Check::new(name, promise, value, limit);
+    vec![
+        check("waterline", &depth, aside, Limit::at_most(WATERLINE_LIMIT_MM, "mm")),
+        check(
+            "upright",
+            "its centre of mass is over its centre of buoyancy",
+            found(|afloat| afloat.offset_mm),
+            Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
+        ),
+        check(
+            "stability",
+            "its metacentre is above its centre of mass by",
+            found(|afloat| afloat.metacentric_height_mm),
+            Limit::above(METACENTRIC_LIMIT_MM, "mm"),
+        ),
+        check(
+            "righting",
+            "it rights itself whichever way it is heeled, at least from",
+            found(|afloat| afloat.rights_from_deg),
+            Limit::at_least(RIGHTING_LIMIT_DEG, "°"),
+        ),
+    ]
+}
+
+/// Whether a rotor runs as true as it was ordered to.
+fn grade_check(order: &RotorOrder, assembly: &Figures) -> Check {
+    let promise = format!("at {} rpm its balance quality grade (ISO 21940-11) is G", order.speed_rpm);
+    let grade = assembly.value_of(FigureName::BalanceGradeMmS);
+    Check::new("balance quality", &promise, grade, Limit::at_most(order.grade_mm_s, "mm/s"))
 }
 
 /// What tops and yo-yos share: the axis is principal, and the stable one.
@@ -87,7 +134,7 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
 fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check {
     let slack = promised.abs() * FIGURE_SLACK_RATIO;
     let limit = match figure {
-        FigureName::TopplesDeg => Limit::at_least(promised - slack, figure.unit()),
+        _ if figure.more_is_better() => Limit::at_least(promised - slack, figure.unit()),
         _ => Limit::at_most(promised + slack, figure.unit()),
     };
     Check::new(figure.name(), figure.promise(), assembly.value_of(figure), limit)

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Aim, FigureName, Support};
+use super::{Afloat, Aim, FigureName, Hull, Support, Unbalance, WaterOrder};
 use crate::geom::{Frame, Matrix};
 use crate::goal::GoalKind;
 use crate::mass::{Body, Moments};
@@ -22,6 +22,10 @@ pub struct Setting {
     pub aim: Aim,
     /// The support polygon of the outer surface, in the goal frame; only an object that stands has one.
     pub support: Option<Support>,
+    /// Where the outer surface begins and ends along the axis, goal frame, mm; only a rotor has its planes there.
+    pub ends_mm: Option<[f64; 2]>,
+    /// The outer surface in the goal frame; only what floats has water on it.
+    pub hull: Option<Hull>,
 }
 
 /// The mass properties of a body and its figures for the goal; a figure that the goal does not ask for, or that
@@ -52,6 +56,12 @@ pub struct Figures {
     pub critical_speed_rpm: Option<f64>,
     /// The tilt at which a standing object topples, degrees; negative if it does not stand.
     pub topples_deg: Option<f64>,
+    /// What is left of a rotor's unbalance.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub unbalance: Option<Unbalance>,
+    /// How it floats; none where it sinks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub afloat: Option<Afloat>,
 }
 
 impl Figures {
@@ -64,6 +74,8 @@ impl Figures {
             GoalKind::Top => plain.of_top(&body, &frame),
             GoalKind::Yoyo => plain.of_yoyo(&body, &frame),
             GoalKind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
+            GoalKind::Float => plain.of_floating(&body, setting),
+            GoalKind::Balance => plain.of_rotor(moments, setting),
         }
     }
 
@@ -75,6 +87,9 @@ impl Figures {
             FigureName::SpinItRatio => self.spin_it_ratio,
             FigureName::TopplesDeg => self.topples_deg,
             FigureName::CenterHeightMm => Some(self.center_height_mm),
+            FigureName::MetacentricHeightMm => self.afloat.map(|afloat| afloat.metacentric_height_mm),
+            FigureName::MassG => Some(self.mass_g),
+            FigureName::BalanceGradeMmS => self.unbalance.map(|unbalance| unbalance.grade_mm_s),
         }
     }
 
@@ -93,6 +108,8 @@ impl Figures {
             spin_it_ratio: None,
             critical_speed_rpm: None,
             topples_deg: None,
+            unbalance: None,
+            afloat: None,
         }
     }
 
@@ -115,6 +132,27 @@ impl Figures {
         Self {
             center_height_mm: center.z - ground_mm,
             topples_deg: support.map(|support| support.toppling_angle(&center).to_degrees()),
+            ..self
+        }
+    }
+
+    fn of_floating(self, body: &Body, setting: &Setting) -> Self {
+        let center = setting.aim.frame().to_local(&body.center);
+        let float = |(hull, order): (&Hull, WaterOrder)| {
+            hull.float(body.mass_g / (order.liquid_g_cm3 / MM3_PER_CM3), &center)
+        };
+        let afloat = setting.hull.as_ref().zip(setting.aim.water).and_then(float);
+        Self { center_height_mm: center.z, afloat, ..self }
+    }
+
+    fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
+        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_cm3 / MM3_PER_CM3);
+        let center = local.centroid();
+        let unbalance = setting.aim.rotor.zip(setting.ends_mm);
+        Self {
+            center_height_mm: center.z,
+            axis_offset_mm: Some(center.x.hypot(center.y)),
+            unbalance: unbalance.map(|(order, ends_mm)| Unbalance::new(&local, density, ends_mm, &order)),
             ..self
         }
     }
@@ -173,7 +211,13 @@ mod tests {
     }
 
     fn setting(kind: GoalKind, axis: [f64; 3]) -> Setting {
-        Setting { density_g_cm3: 2.0, aim: Aim { kind, origin_mm: [0.0; 3], axis }, support: None }
+        Setting {
+            density_g_cm3: 2.0,
+            aim: Aim::new(kind, [0.0; 3], axis),
+            support: None,
+            ends_mm: None,
+            hull: None,
+        }
     }
 
     fn plate() -> Moments {
@@ -234,9 +278,10 @@ mod tests {
         let corners_mm = vec![[-30.0, -20.0], [30.0, -20.0], [30.0, 20.0], [-30.0, 20.0]];
         let support = Some(Support { corners_mm, ground_mm: 10.0 });
         // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
-        let aim = Aim { kind: GoalKind::Stand, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] };
+        let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
         assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
-        let figures = Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support });
+        let figures =
+            Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support, ends_mm: None, hull: None });
         assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
         assert!((figures.center_height_mm - 2.0).abs() < 1e-12);
         assert_eq!(figures.axis_offset_mm, None);

@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::{
-    Check, Figures, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
-    assembly_moments, checks, smallest_wall_mm,
+    Check, Figures, Hull, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    assembly_moments, checks, rotor::ends_mm, smallest_wall_mm,
 };
 use crate::goal::GoalKind;
 use crate::mass::moments_of_mesh;
@@ -70,9 +70,11 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     judgement
 }
 
-/// How the bodies of a kit are looked at: its goal, and the support polygon of the outer surface.
+/// How the bodies of a kit are looked at: its goal, and what the goal needs of the outer surface.
 pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
     let aim = promise.goal;
     let support = (aim.kind == GoalKind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
-    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support }
+    let ends_mm = (aim.kind == GoalKind::Balance).then(|| ends_mm(outer, &aim.frame()));
+    let hull = (aim.kind == GoalKind::Float).then(|| Hull::new(outer, &aim.frame()));
+    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm, hull }
 }

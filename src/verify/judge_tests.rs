@@ -36,7 +36,7 @@ fn promise(poses: &[Pose]) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]) },
         material: Density { density_g_cm3: 1.2 },
-        goal: Aim { kind: GoalKind::Top, origin_mm: [0.0; 3], axis: [0.0, 0.0, 1.0] },
+        goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),
         promise: None,
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
@@ -159,7 +159,7 @@ fn a_checklist_that_states_another_mass_is_found() {
 #[test]
 fn a_body_turned_about_its_longest_axis_cannot_spin_and_says_so() {
     let mut evidence = sound();
-    evidence.promise.goal = Aim { kind: GoalKind::Yoyo, origin_mm: [0.0, 0.0, 16.0], axis: [1.0, 0.0, 0.0] };
+    evidence.promise.goal = Aim::new(GoalKind::Yoyo, [0.0, 0.0, 16.0], [1.0, 0.0, 0.0]);
     assert_eq!(failures(&evidence), ["dominance"]);
 }
 
@@ -178,4 +178,55 @@ fn the_judgement_is_the_same_on_one_thread_and_on_four() {
         rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| judge(&sound()))
     };
     assert_eq!(on(1), on(4));
+}
+
+/// The sound box as a rotor about its own middle, which is at z = 16.
+fn rotor(origin_mm: [f64; 3], speed_rpm: f64) -> Evidence {
+    let mut evidence = sound();
+    let rotor = Some(RotorOrder { speed_rpm, grade_mm_s: 2.5 });
+    evidence.promise.goal = Aim { rotor, ..Aim::new(GoalKind::Balance, origin_mm, [0.0, 0.0, 1.0]) };
+    evidence
+}
+
+#[test]
+fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
+    // G = e ω: 0.01 mm at 2000 rpm is 2.09 mm/s, at 3000 rpm 3.14.
+    assert_eq!(failures(&rotor([0.01, 0.0, 16.0], 2000.0)), Vec::<String>::new());
+    assert_eq!(failures(&rotor([0.01, 0.0, 16.0], 3000.0)), ["balance quality"]);
+    let unbalance = judge(&rotor([0.01, 0.0, 16.0], 3000.0)).assembly.unbalance.unwrap();
+    let mass_g = judge(&sound()).assembly.mass_g;
+    assert!((unbalance.static_g_mm - 0.01 * mass_g).abs() < 1e-9 && unbalance.couple_g_mm2 < 1e-9);
+}
+
+/// The sound box in a liquid in which it lies so deep.
+fn boat(waterline_mm: f64) -> Evidence {
+    let mut evidence = sound();
+    // Its mass over the water it displaces: 1.2 · (28 800 − 11 016)/(2400 · T) at T mm; at 6 mm a liquid of 1.482.
+    let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
+    let water = Some(WaterOrder { liquid_g_cm3, waterline_mm });
+    evidence.promise.goal = Aim { water, ..Aim::new(GoalKind::Float, [0.0, 0.0, 10.0], [0.0, 0.0, 1.0]) };
+    evidence
+}
+
+#[test]
+fn a_box_that_floats_as_deep_as_was_said_passes_and_one_said_to_be_higher_does_not() {
+    assert_eq!(failures(&boat(6.0)), Vec::<String>::new());
+    assert_eq!(failures(&boat(5.9)), ["waterline"]);
+    let afloat = judge(&boat(6.0)).assembly.afloat.unwrap();
+    // KB = 3, BM = B²/(12 T) = 1600/72, KG = 6.
+    assert!((afloat.metacentric_height_mm - (3.0 + 1600.0 / 72.0 - 6.0)).abs() < 1e-4);
+}
+
+#[test]
+fn a_box_heavier_than_the_water_it_displaces_sinks_and_fails_every_promise_of_floating() {
+    let mut evidence = boat(6.0);
+    evidence.promise.goal.water = Some(WaterOrder { liquid_g_cm3: 0.7, waterline_mm: 6.0 });
+    assert_eq!(failures(&evidence), ["waterline", "upright", "stability", "righting"]);
+}
+
+#[test]
+fn a_box_with_a_heavy_side_does_not_float_upright() {
+    let mut evidence = boat(6.0);
+    evidence.parts[0].pose.rows[0][3] -= 0.5;
+    assert!(failures(&evidence).contains(&"upright".to_owned()));
 }

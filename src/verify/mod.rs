@@ -12,17 +12,19 @@ mod kit_tests;
 mod measure;
 mod pose;
 mod promise;
+mod rotor;
 mod shells;
 mod support;
 #[cfg(test)]
 pub(crate) mod test_meshes;
 mod wall;
+mod water;
 
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, POSE_LIMIT_RATIO,
-    RESTING_LIMIT_MM, SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
-    checks,
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
+    METACENTRIC_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG, SHEET_LIMIT_RATIO,
+    STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
 };
 pub use figures::{Figures, Setting};
 pub use judge::{Evidence, Judgement, judge, setting};
@@ -32,6 +34,8 @@ pub use pose::Pose;
 pub use promise::{
     Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA, WallOrder,
 };
+pub use rotor::{RotorOrder, Unbalance};
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use wall::smallest_wall_mm;
+pub use water::{Afloat, Hull, WaterOrder};

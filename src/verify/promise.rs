@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Figures, Pose};
+use super::{Figures, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -62,9 +62,20 @@ pub struct Aim {
     pub origin_mm: [f64; 3],
     /// The spin axis or up, model frame; any length but zero.
     pub axis: [f64; 3],
+    /// How a rotor runs; none for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rotor: Option<RotorOrder>,
+    /// How it floats; none for other goals.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub water: Option<WaterOrder>,
 }
 
 impl Aim {
+    /// A goal that is told by its place alone.
+    pub fn new(kind: GoalKind, origin_mm: [f64; 3], axis: [f64; 3]) -> Self {
+        Self { kind, origin_mm, axis, rotor: None, water: None }
+    }
+
     /// The goal frame: its origin at the contact, its z along the axis.
     pub fn frame(&self) -> Frame {
         Frame::with_axis(Point::from(self.origin_mm), &Vector::from(self.axis))
@@ -85,6 +96,12 @@ pub enum FigureName {
     TopplesDeg,
     /// The height of the centre of mass over the support plane or contact, mm; less is better.
     CenterHeightMm,
+    /// The height of the metacentre over the centre of mass, mm; more is better.
+    MetacentricHeightMm,
+    /// What a rotor weighs, g; more is better: nothing was removed but what balances it.
+    MassG,
+    /// A rotor's balance quality grade at its speed, mm/s (ISO 21940-11); less is better.
+    BalanceGradeMmS,
 }
 
 impl FigureName {
@@ -96,6 +113,9 @@ impl FigureName {
             Self::SpinItRatio => "Spin-It ratio",
             Self::TopplesDeg => "toppling angle",
             Self::CenterHeightMm => "height of the centre",
+            Self::MetacentricHeightMm => "metacentric height",
+            Self::MassG => "balanced mass",
+            Self::BalanceGradeMmS => "balance grade",
         }
     }
 
@@ -107,7 +127,15 @@ impl FigureName {
             Self::SpinItRatio => "its squared ratio of transverse to axial inertia is",
             Self::TopplesDeg => "it stands until tilted by",
             Self::CenterHeightMm => "its centre of mass is no higher than",
+            Self::MetacentricHeightMm => "it floats upright with a metacentric height of",
+            Self::MassG => "it keeps, balanced, a mass of",
+            Self::BalanceGradeMmS => "it runs true to a balance grade of",
         }
+    }
+
+    /// Whether more of it is better.
+    pub fn more_is_better(self) -> bool {
+        matches!(self, Self::TopplesDeg | Self::MetacentricHeightMm | Self::MassG)
     }
 
     /// The unit of its values; empty for a ratio.
@@ -116,7 +144,9 @@ impl FigureName {
             Self::CriticalSpeedRpm => "rpm",
             Self::DominanceRatio | Self::SpinItRatio => "",
             Self::TopplesDeg => "°",
-            Self::CenterHeightMm => "mm",
+            Self::CenterHeightMm | Self::MetacentricHeightMm => "mm",
+            Self::MassG => "g",
+            Self::BalanceGradeMmS => "mm/s",
         }
     }
 }

@@ -6,10 +6,13 @@ use super::{Bvh, Node};
 use crate::geom::{Aabb, Point};
 
 /// Triangles a leaf may hold: below, box tests dominate; above, triangle tests do.
-const LEAF_SIZE: usize = 4;
+const LEAF_SIZE: usize = 8;
 
 /// Bins per axis: fewer make poorer trees, more only cost building time.
 const BINS: usize = 16;
+
+/// Halves of so many triangles or more are built at the same time; below, handing over costs more than it gains.
+const PARALLEL_ITEMS: usize = 4096;
 
 /// What the builder knows of a triangle.
 #[derive(Clone, Copy)]
@@ -21,10 +24,7 @@ struct Item {
 
 pub(super) fn build(triangles: Vec<[Point; 3]>) -> Bvh {
     let mut items: Vec<Item> = triangles.iter().enumerate().map(|(id, corners)| item(id, corners)).collect();
-    let mut nodes = Vec::with_capacity(items.len());
-    if !items.is_empty() {
-        subdivide(&mut items, 0, &mut nodes);
-    }
+    let nodes = if items.is_empty() { Vec::new() } else { subtree(&mut items, 0) };
     let ids: Vec<u32> = items.iter().map(|item| item.id).collect();
     let corners = ids.iter().map(|&id| triangles[id as usize]).collect();
     Bvh { nodes, corners, ids }
@@ -33,6 +33,30 @@ pub(super) fn build(triangles: Vec<[Point; 3]>) -> Bvh {
 fn item(id: usize, corners: &[Point; 3]) -> Item {
     let aabb = Aabb::of_points(corners);
     Item { aabb, center: aabb.center(), id: id as u32 }
+}
+
+/// The tree over `items`, whose first triangle is number `first` of the whole; large halves at the same time.
+fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
+    let mut nodes = Vec::with_capacity(items.len());
+    if items.len() < PARALLEL_ITEMS {
+        subdivide(items, first, &mut nodes);
+        return nodes;
+    }
+    let aabb = items.iter().fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
+    let middle = partition(items);
+    let (left, right) = items.split_at_mut(middle);
+    let (left, right) = rayon::join(|| subtree(left, first), || subtree(right, first + middle));
+    nodes.push(Node { aabb, first: 1 + left.len() as u32, count: 0 });
+    append_shifted(&mut nodes, &left);
+    append_shifted(&mut nodes, &right);
+    nodes
+}
+
+/// Appends a tree whose inner nodes name their right children from its own root on.
+fn append_shifted(nodes: &mut Vec<Node>, tree: &[Node]) {
+    let base = nodes.len() as u32;
+    let shift = |node: &Node| if node.count == 0 { node.first + base } else { node.first };
+    nodes.extend(tree.iter().map(|node| Node { first: shift(node), ..*node }));
 }
 
 /// Appends the tree over `items`, whose first triangle is number `first` of the whole.

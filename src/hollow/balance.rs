@@ -1,0 +1,160 @@
+//! The rotor: nothing removed but what balances it, or the least unbalance any interior leaves.
+
+use std::f64::consts::SQRT_2;
+
+use super::answer::Answer;
+use super::ascent::{Climb, End};
+use super::programme::{DualPoint, Programme};
+use super::status::Status;
+use super::work::Work;
+use crate::goal::{Objective, Spindle};
+
+/// The balanced interior with the most material, or, where none is balanced, the least unbalanced one; with the proof
+/// that none reaches the grade, where none does.
+pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+    if objective == Objective::LeastRemoved {
+        let programme = Programme::balance_least_removed();
+        let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+        if !matches!(climb.end, End::Infeasible(_)) {
+            return Answer::new(objective, climb);
+        }
+    }
+    let Some(spindle) = &work.goal.spindle else { return least_unbalanced(work, [-1.0, 1.0], start) };
+    let answer = least_unbalanced(work, spindle.ends_mm.map(|end| end / work.to_mm(1.0)), start);
+    match cannot_balance(work, spindle, &answer.climb) {
+        Some(proof) => answer.with_verdict(proof),
+        None => answer,
+    }
+}
+
+fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> Answer {
+    let programme = Programme::balance_unbalance(&work.reach, ends);
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    Answer::new(Objective::LeastUnbalance, climb)
+}
+
+/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the two planes'
+/// unbalances per mass, times ω; the larger of two vectors is at least their joint length over √2.
+pub(super) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
+    SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
+}
+
+/// The proof that no interior reaches the grade: with τ at what the grade allows, Jᵀy − τ e₁ is positive over all of K.
+fn cannot_balance(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Status> {
+    let least_grade_mm_s = grade_mm_s(spindle, work.to_mm(climb.best.bound));
+    if least_grade_mm_s <= spindle.rotor.grade_mm_s {
+        return None;
+    }
+    let allowed = spindle.rotor.permissible_mm() / (SQRT_2 * work.to_mm(1.0));
+    let mut quadric = climb.best.quadric;
+    quadric[0] += climb.best.point.tau - allowed;
+    let least = quadric.dot(&work.reach.least(&quadric));
+    let separator = work.reach.scale.quadric_to_mm(&quadric);
+    (least > 0.0).then_some(Status::CannotBalance { least_grade_mm_s, separator })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::worlds::{self, World};
+    use super::super::{Figure, Settings, Solution, refine, solve as solved};
+    use super::*;
+    use crate::mass::Moments;
+    use crate::progress::Progress;
+
+    fn solution(world: &World) -> Solution {
+        solved(&world.problem(), &Settings::default(), &Progress::silent())
+    }
+
+    /// ‖(U_A, U_B)‖/M in mm, from the definition.
+    fn unbalance_mm(moments: &Moments, [a, b]: [f64; 2]) -> f64 {
+        let [mass, x, y, _, _, yz, xz, ..] = moments.0;
+        let planes = [x * b - xz, y * b - yz, xz - x * a, yz - y * a].map(|u| u / (b - a));
+        planes.iter().map(|u| u * u).sum::<f64>().sqrt() / mass
+    }
+
+    #[test]
+    fn a_pure_couple_is_taken_away_by_the_two_corners_that_lie_farthest() {
+        // The void is { xz > k } in a box of half sizes A = 4, B = 2, H = 3: its s_xz is 4B ((A²H² − k²)/4 − k²/2 ln(AH/k)),
+        // its volume 4B (AH − k − k ln(AH/k)). A column an eighth wide sees x at its middle: errors of p²/x² ≈ 1e-3.
+        let (k, edge) = (4.0_f64, 12.0_f64);
+        let couple = 8.0 * ((edge * edge - k * k) / 4.0 - 0.5 * k * k * (edge / k).ln());
+        let removed = 8.0 * (edge - k - k * (edge / k).ln());
+        let world = worlds::coupled_rotor(couple);
+        let got = solution(&world);
+        assert_eq!((got.status, got.certificate.figure), (Status::Solved, Figure::VolumeMm3));
+        assert!(got.certificate.gap_ratio.abs() <= 1e-6 && got.certificate.residual <= 1e-7);
+        let found = world.fixed.volume() - got.certificate.value;
+        assert!((found / removed - 1.0).abs() < 2e-3, "{found} {removed}");
+        assert!(unbalance_mm(&got.moments, [-3.0, 3.0]) < 1e-6);
+    }
+
+    #[test]
+    fn what_is_balanced_already_keeps_everything() {
+        let world = worlds::coupled_rotor(0.0);
+        let got = solution(&world);
+        assert_eq!(got.status, Status::Solved);
+        assert!((got.moments.volume() / world.fixed.volume() - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn of_all_65536_ways_to_empty_sixteen_blocks_none_is_less_unbalanced_than_the_bound() {
+        let world = worlds::blocks_on_an_axis();
+        let spindle = world.goal.spindle.unwrap();
+        let got = solution(&world);
+        let mut best = f64::INFINITY;
+        worlds::each_choice(&world, &worlds::single_blocks(16), |moments| {
+            best = best.min(unbalance_mm(moments, spindle.ends_mm));
+        });
+        let solid = unbalance_mm(&world.fixed, spindle.ends_mm);
+        let bound_mm = got.certificate.bound / (SQRT_2 * spindle.rotor.omega_rad_s());
+        assert!(best >= bound_mm - 1e-12, "{best} {bound_mm}");
+        assert!(best < solid, "the blocks can improve on {solid}");
+    }
+
+    /// The leaning egg as a rotor whose axis lies this far beside its middle.
+    fn egg_aside(aside_mm: f64) -> World {
+        let mut world = worlds::egg(Objective::Dominance).turning(6.0);
+        let shift = crate::geom::Vector::new(-aside_mm, 0.0, 0.0);
+        world.fixed = world.fixed.translated(&shift);
+        world.columns.centers.iter_mut().for_each(|center| center[0] += shift.x);
+        world.goal = crate::goal::Goal {
+            kind: crate::goal::GoalKind::Balance,
+            objective: Objective::LeastRemoved,
+            solid: world.fixed,
+            ..world.goal
+        };
+        world
+    }
+
+    #[test]
+    fn an_axis_out_of_reach_is_refused_with_a_quadric_that_separates() {
+        let world = egg_aside(6.0);
+        let got = solution(&world);
+        let Status::CannotBalance { least_grade_mm_s, separator } = got.status else {
+            panic!("{:?}", got.status)
+        };
+        assert!(least_grade_mm_s > 2.5 && got.status.is_impossible());
+        // Midpoint sums of a kinked function: 200 steps of a column leave 1e-4 of it.
+        let least = worlds::least_integral(&world, &separator, 200);
+        assert!(least > 0.0, "{least}");
+        let spindle = world.goal.spindle.unwrap();
+        for seed in 0..200 {
+            let emptied =
+                crate::interior::moments_where_positive(&world.columns, &worlds::some_quadric(seed, 12.0));
+            let reached_mm = unbalance_mm(&(world.fixed - emptied), spindle.ends_mm);
+            assert!(grade_mm_s(&spindle, reached_mm) >= least_grade_mm_s * (1.0 - 1e-9), "{seed}");
+        }
+    }
+
+    #[test]
+    fn a_leaning_egg_is_balanced_by_what_it_loses_and_again_in_few_passes() {
+        let mut world = egg_aside(0.5);
+        let known = solution(&world);
+        assert_eq!(known.status, Status::Solved);
+        assert!(unbalance_mm(&world.fixed, [-6.0, 6.0]) > 0.3, "it has something to lose");
+        assert!(unbalance_mm(&known.moments, [-6.0, 6.0]) < 1e-6);
+        world.fixed += Moments(Moments::monomials(5.0, 4.0, 3.0)) * (1e-4 * world.fixed.volume());
+        let again = refine(&world.problem(), &Settings::default(), &known, &Progress::silent());
+        assert!(again.status == Status::Solved && again.passes <= 8, "{}", again.passes);
+    }
+}

@@ -1,0 +1,169 @@
+//! One trait for every way to find what to empty, so that they can be compared: the quadric, and the papers' own.
+
+use super::problem::Problem;
+use super::settings::Settings;
+use super::solution::{Figure, Solution};
+use super::status::Status;
+use crate::goal::{GoalKind, Objective};
+use crate::interior::Emptied;
+use crate::mass::Moments;
+use crate::progress::Progress;
+
+/// A way to find what to empty.
+pub trait Method: Sync {
+    /// A word for it.
+    fn name(&self) -> &'static str;
+
+    /// What it finds for a problem. Cancelling `progress` ends it after the step at hand.
+    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError>;
+}
+
+/// What a method found.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Found {
+    /// How far to trust it.
+    pub outcome: Outcome,
+    /// What `value` is.
+    pub figure: Figure,
+    /// The figure of the chosen interior; not a number where it has none (an unstable top's critical speed).
+    pub value: f64,
+    /// The moments of the material that is left, goal frame, mm; exact for what is emptied.
+    pub moments: Moments,
+    /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
+    pub residual: f64,
+    /// How many numbers the method chose.
+    pub variables: usize,
+    /// How often it evaluated the moments with their derivative (the quadric: passes over the columns).
+    pub iterations: usize,
+    /// What is emptied, on the problem's columns.
+    pub emptied: Emptied,
+    /// What rounding cost, where the method rounds.
+    pub rounding: Option<Rounding>,
+}
+
+/// An answer before its shares were rounded to 0 and 1, which cannot be printed in between.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rounding {
+    /// The figure with the shares as they were.
+    pub value_before: f64,
+    /// The residual with them.
+    pub residual_before: f64,
+    /// The share of the region whose share was neither 0 nor 1, to a thousandth.
+    pub fractional_ratio: f64,
+}
+
+/// How a method ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Outcome {
+    /// No interior is better, which is proved.
+    Optimal,
+    /// The constraints are met, and no small change is better to first order, within the method's tolerance, or thirty
+    /// steps together gain less than 1e-8 of the value. It proves nothing about interiors further off.
+    Converged,
+    /// The evaluations were used up, or no step gained any more, before that; the constraints are met to a thousandth.
+    Unfinished,
+    /// The constraints are missed by more than a thousandth. Only the quadric can prove that they must be.
+    ConstraintsMissed,
+    /// It is proved that no interior does what is asked for.
+    Impossible,
+    /// The caller stopped the run.
+    Cancelled,
+}
+
+/// Why a method was not begun.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum MethodError {
+    /// The method needs a gradient that the objective does not have.
+    #[error(
+        "{method} cannot optimise `{objective}`: the largest of several functions has no gradient where two of them \
+         are equal, which is where the best is found; use the quadric solver, or the objective `lowest-center`"
+    )]
+    NotSmooth {
+        /// The method's word.
+        method: &'static str,
+        /// What was asked for.
+        objective: Objective,
+    },
+    /// There is nothing to choose.
+    #[error(
+        "nothing may be emptied, so {method} has nothing to choose; make the model larger or the wall thinner"
+    )]
+    NothingToEmpty {
+        /// The method's word.
+        method: &'static str,
+    },
+    /// The method was not made for the goal.
+    #[error("{method} knows tops, yo-yos and what stands, but not the goal `{kind}`; use the quadric solver")]
+    NotItsGoal {
+        /// The method's word.
+        method: &'static str,
+        /// What was asked for.
+        kind: GoalKind,
+    },
+}
+
+/// The default: one quadric, with a certificate ([`super::solve`]).
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ByQuadric {
+    /// How exact, at what cost.
+    pub settings: Settings,
+}
+
+impl Method for ByQuadric {
+    fn name(&self) -> &'static str {
+        "quadric"
+    }
+
+    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
+        let solution = super::solve(problem, &self.settings, progress);
+        Ok(Found {
+            outcome: outcome_of(&solution),
+            figure: solution.certificate.figure,
+            value: solution.certificate.value,
+            moments: solution.moments,
+            residual: solution.certificate.residual,
+            variables: solution.quadric.0.len(),
+            iterations: solution.passes,
+            emptied: Emptied::where_positive(problem.columns, &solution.quadric),
+            rounding: None,
+        })
+    }
+}
+
+fn outcome_of(solution: &Solution) -> Outcome {
+    match solution.status {
+        Status::Solved => Outcome::Optimal,
+        Status::AlmostSolved | Status::IterationLimit { .. } => Outcome::Unfinished,
+        Status::Cancelled => Outcome::Cancelled,
+        _ => Outcome::Impossible,
+    }
+}
+
+/// The figure that tells how good an interior is for an objective.
+pub(super) fn figure_for(objective: Objective) -> Figure {
+    match objective {
+        Objective::CriticalSpeed => Figure::CriticalSpeedRpm,
+        Objective::SpinIt { .. } => Figure::SpinIt,
+        Objective::Dominance => Figure::DominanceRatio,
+        Objective::TopplingAngle => Figure::TopplingAngleRad,
+        Objective::LowestCenter => Figure::CenterHeightMm,
+        Objective::MetacentricHeight => Figure::MetacentricHeightMm,
+        Objective::LeastRemoved => Figure::VolumeMm3,
+        Objective::LeastUnbalance => Figure::BalanceGradeMmS,
+    }
+}
+
+/// That figure of a body of these moments, by the goal's own formulas; not a number where it has none, or where the goal is
+/// one that the papers' methods refuse: only they ask.
+pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
+    let figures = crate::goal::figures(problem.goal, moments);
+    let value = match problem.goal.objective {
+        Objective::CriticalSpeed => figures.critical_speed_rpm,
+        Objective::SpinIt { .. } => figures.spin_it,
+        Objective::Dominance => Some(figures.dominance_ratio),
+        Objective::TopplingAngle => figures.toppling_angle_rad,
+        Objective::LowestCenter => Some(figures.center_height_mm),
+        Objective::MetacentricHeight | Objective::LeastRemoved | Objective::LeastUnbalance => None,
+    };
+    value.unwrap_or(f64::NAN)
+}

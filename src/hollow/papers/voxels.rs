@@ -1,0 +1,31 @@
+//! The voxel form that Wu, Kramer and Westermann compare with: a share of every voxel.
+
+use super::super::method::{Found, Method, MethodError};
+use super::super::problem::Problem;
+use super::lagrangian::{Start, minimise};
+use super::target::Target;
+use super::{Accuracy, found};
+use crate::interior::{Choice, Voxels};
+use crate::progress::Progress;
+
+/// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing is rounded: the voxels
+/// that the surface of the void cuts keep their shares.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ByVoxels {
+    /// How exact, at what cost.
+    pub accuracy: Accuracy,
+}
+
+impl Method for ByVoxels {
+    fn name(&self) -> &'static str {
+        "voxels"
+    }
+
+    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
+        let height_mm = problem.columns.pitch_mm[0].max(problem.columns.pitch_mm[1]);
+        let (target, voxels) = (Target::new(self.name(), problem)?, Voxels::of(problem.columns, height_mm));
+        let start = Start::from(voxels.nothing());
+        let optimum = minimise(&target, &voxels, start, (&self.accuracy, progress));
+        Ok(found(problem, &target, &voxels, &optimum))
+    }
+}

@@ -1,0 +1,44 @@
+//! The moments of cells of which shares are emptied: linear in the shares.
+
+use rayon::prelude::*;
+
+use super::{BLOCK, block_sums};
+use crate::geom::Quadric;
+use crate::mass::Moments;
+
+/// The moments of each cell, as those of its mean point times its share of all.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Cells {
+    /// Moments over weight.
+    means: Vec<Moments>,
+    weights: Vec<f64>,
+}
+
+impl Cells {
+    /// From the moments of cells of positive volume.
+    pub fn new(moments: Vec<Moments>) -> Self {
+        let volume: f64 = moments.iter().map(Moments::volume).sum();
+        let weights: Vec<f64> = moments.iter().map(|cell| cell.volume() / volume).collect();
+        let means = moments.iter().zip(&weights).map(|(cell, weight)| *cell * weight.recip()).collect();
+        Self { means, weights }
+    }
+
+    pub fn weights(&self) -> &[f64] {
+        &self.weights
+    }
+
+    /// The moments with these shares emptied.
+    pub fn moments(&self, x: &[f64]) -> Moments {
+        block_sums(x.len(), |i| self.means[i] * (x[i] * self.weights[i]))
+    }
+
+    /// The derivative of ∫q by each share, over its weight.
+    pub fn derivative(&self, quadric: &Quadric, out: &mut [f64]) {
+        let blocks = out.par_chunks_mut(BLOCK).zip(self.means.par_chunks(BLOCK));
+        blocks.for_each(|(out, means)| {
+            for (out, mean) in out.iter_mut().zip(means) {
+                *out = quadric.0.iter().zip(mean.0).map(|(q, s)| q * s).sum();
+            }
+        });
+    }
+}
