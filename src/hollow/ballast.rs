@@ -143,11 +143,11 @@ impl Shop<'_> {
         for _ in 0..GOLDEN_ROUNDS {
             if Look::by_cost(&left, &right).is_lt() {
                 b = right.height;
-                right = std::mem::replace(&mut left, Look::default());
+                right = std::mem::take(&mut left);
                 left = golden(b, a);
             } else {
                 a = left.height;
-                left = std::mem::replace(&mut right, Look::default());
+                left = std::mem::take(&mut right);
                 right = golden(a, b);
             }
         }

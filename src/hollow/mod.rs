@@ -78,7 +78,8 @@
 //! # The files, in reading order
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
 //! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `mass` the search
-//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `method` one trait for this
+//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `ballast` the least of a
+//! denser material where hollowing is not enough · `method` one trait for this
 //! solver and the papers' own, which live in `papers`.
 //!
 //! # The papers' own methods

@@ -263,7 +263,7 @@ pub(super) fn each_mixture(world: &World, density_ratio: f64, mut visit: impl Fn
         let (mut moments, mut filled, mut rest) = (world.fixed, 0, choice);
         for part in &single {
             match rest % 3 {
-                0 => moments = moments - *part,
+                0 => moments -= *part,
                 1 => (moments, filled) = (moments + *part * (density_ratio - 1.0), filled + 1),
                 _ => {}
             }
