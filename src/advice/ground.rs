@@ -2,9 +2,10 @@
 
 use super::Case;
 use super::reached::Reached;
-use crate::goal::{Hydrostatics, Placement, Request, Stock, Warning, Waterline, place_made_of};
+use crate::goal::{Hydrostatics, Placement, Request, Stock, Warning, Waterline, Weighed, place_weighed};
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
+use crate::mass::moments_of_mesh;
 use crate::progress::Progress;
 use crate::shell::Shell;
 
@@ -23,6 +24,7 @@ const WATERLINES: usize = 12;
 /// A model whose depths are known.
 pub(super) struct Ground<'a> {
     pub case: Case<'a>,
+    weighed: Weighed<'a>,
     depths: Depths,
 }
 
@@ -49,7 +51,8 @@ impl Trial {
 
 impl<'a> Ground<'a> {
     pub fn new(case: Case<'a>, samples: usize) -> Self {
-        Self { depths: Depths::of_solid(case.solid, samples), case }
+        let weighed = Weighed { solid: case.solid, moments: moments_of_mesh(case.solid.mesh()) };
+        Self { depths: Depths::of_solid(case.solid, samples), weighed, case }
     }
 
     /// What the solver says on the sampled depths; none where the request cannot be placed.
@@ -87,7 +90,7 @@ impl<'a> Ground<'a> {
     /// The placement of a request; none where it has none.
     pub fn placed(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
         let stock = Stock { wall_mm, density_g_cm3: self.case.density_g_cm3 };
-        place_made_of(self.case.solid, &stock, request).ok()
+        place_weighed(&self.weighed, &stock, request).ok()
     }
 
     /// The placement as it is, or, for what floats at a line that is left free, at several lines over its height.

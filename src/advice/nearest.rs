@@ -46,9 +46,9 @@ pub(super) struct Nearest {
 /// The shortest step |u| with φ(u) ≤ 0, where φ is what the proof of impossibility amounts to, points along −∇φ at its
 /// end (Karush, Kuhn and Tucker). The proof is the integral of a quadric over the interior it is least for; by the
 /// envelope theorem that interior may be held fast while the frame moves, so ∇φ costs no solve: the same moments are
-/// seen from frames moved a little. From the first rays (down the slope, towards where the solid itself is best, towards the
-/// nearest possible one of many places) the border is bisected, and then each tangent of the border gives the ray to its foot, until the step no longer shortens.
-/// What is found is shortest among its neighbours.
+/// seen from frames moved a little. On the first rays (down the slope, towards where the solid itself is best, towards the
+/// nearest possible one of many places) the border is bisected; then each tangent of the border gives the ray to its foot,
+/// until the step no longer shortens. What is found is shortest among its neighbours, not proved so among all.
 pub(super) fn nearest(ground: &Ground, moves: &Moves) -> Option<Nearest> {
     let search = Search { ground, moves };
     let near = search.nearest_border();

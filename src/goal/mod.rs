@@ -25,7 +25,7 @@ pub use balance::{Rotor, Spindle};
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
 pub use float::{Afloat, Hydrostatics, Liquid, Water, Waterline};
-pub use place::{GoalError, Stock, place, place_made_of};
+pub use place::{GoalError, Stock, Weighed, place, place_made_of, place_weighed};
 pub use request::{GoalKind, Objective, Request, RequestError};
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;

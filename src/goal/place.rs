@@ -106,6 +106,20 @@ pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement
 /// The same for a solid of any material. Where the waterline is free, half the height stands for it: to find the best one
 /// takes the solver.
 pub fn place_made_of(solid: &Solid, stock: &Stock, request: &Request) -> Result<Placement, GoalError> {
+    place_weighed(&Weighed { solid, moments: moments_of_mesh(solid.mesh()) }, stock, request)
+}
+
+/// A solid whose moments are known already.
+#[derive(Debug, Clone, Copy)]
+pub struct Weighed<'a> {
+    /// The solid.
+    pub solid: &'a Solid,
+    /// Its moments, model frame, mm: those of [`moments_of_mesh`].
+    pub moments: Moments,
+}
+
+/// The same for a solid that is placed many times.
+pub fn place_weighed(weighed: &Weighed, stock: &Stock, request: &Request) -> Result<Placement, GoalError> {
     let Stock { wall_mm, density_g_cm3 } = *stock;
     if !(wall_mm > 0.0 && wall_mm.is_finite()) {
         return Err(GoalError::NoWall(wall_mm));
@@ -114,7 +128,7 @@ pub fn place_made_of(solid: &Solid, stock: &Stock, request: &Request) -> Result<
         return Err(GoalError::NoDensity(density_g_cm3));
     }
     let request = request.checked()?;
-    let site = Site::new(solid, &request)?;
+    let site = Site::new(weighed, &request)?;
     match request.kind {
         GoalKind::Top => top::place(&site, wall_mm, request.contact.unwrap_or(Contact::Lowest)),
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
@@ -144,8 +158,7 @@ pub(super) struct Site<'a> {
 }
 
 impl<'a> Site<'a> {
-    fn new(solid: &'a Solid, request: &Request) -> Result<Self, GoalError> {
-        let moments = moments_of_mesh(solid.mesh());
+    fn new(&Weighed { solid, moments }: &Weighed<'a>, request: &Request) -> Result<Self, GoalError> {
         let body = Body::new(&moments, 1.0);
         let up = up_direction(request.up, solid, &body)?;
         let (lowest_mm, highest_mm) = extent_along(solid, &up);
