@@ -7,8 +7,8 @@
 //!
 //! # The way through
 //! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall, pitch and material, [`shell`] keeps
-//! the wall, [`interior`] holds what may be emptied as exact columns, [`hollow`] solves, [`voids`] draws the surfaces,
-//! [`cut`] opens and pins the parts, [`verify`] judges what is written without knowing how it was made, [`report`] puts
+//! the wall, [`interior`] holds what may be emptied as exact columns, [`hollow`] solves, [`advice`] says
+//! what helps where that is impossible, [`voids`] draws the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without knowing how it was made, [`report`] puts
 //! the kit together; [`pipeline::run`] is that line.
 //!
 //! # Example
@@ -35,6 +35,7 @@
 
 #![forbid(unsafe_code)]
 
+pub mod advice;
 pub mod cli;
 pub mod cut;
 pub mod digest;

@@ -25,6 +25,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("printer", &["digest", "toml_text", "units"]),
     ("interior", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("hollow", &["geom", "goal", "interior", "mass", "mesh", "progress", "shell", "units"]),
+    ("advice", &["geom", "goal", "hollow", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("voids", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("cut", &["geom", "mass", "mesh", "printer", "progress", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),
@@ -40,15 +41,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "pipeline",
         &[
-            "cut", "digest", "error", "geom", "goal", "hollow", "interior", "io", "job", "mass", "mesh",
-            "printer", "progress", "report", "shell", "units", "verify", "voids",
+            "advice", "cut", "digest", "error", "geom", "goal", "hollow", "interior", "io", "job", "mass",
+            "mesh", "printer", "progress", "report", "shell", "units", "verify", "voids",
         ],
     ),
     (
         "cli",
         &[
-            "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer", "progress",
-            "report", "units", "verify", "words",
+            "advice", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
+            "progress", "report", "units", "verify", "words",
         ],
     ),
     ("guide", &[]),

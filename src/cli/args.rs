@@ -91,7 +91,8 @@ pub struct PrepareArgs {
     /// What the object is to do
     #[arg(long, value_parser = words::<GoalKind>(GoalKind::WORDS), required_unless_present = "job", help_heading = "Goal")]
     pub goal: Option<GoalKind>,
-    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, or principal, the axis easiest to spin about [default: z]
+    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to spin about) or
+    /// auto (the best of all) [default: z]
     #[arg(long, value_name = "AXIS", allow_hyphen_values = true, help_heading = "Goal")]
     pub up: Option<Up>,
     /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm [default: lowest]
@@ -236,6 +237,12 @@ pub struct ScalingArgs {
 pub struct InspectArgs {
     /// The model: an STL or OBJ file
     pub model: PathBuf,
+    /// Tell what it could become on this printer: a known printer's id, or a profile file
+    #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
+    pub printer: Option<String>,
+    /// Tell what it could become with this wall [default: the printer's least; a hundredth of the size without a printer]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Printer")]
+    pub wall: Option<Length>,
     /// The model's size.
     #[command(flatten)]
     pub scaling: ScalingArgs,

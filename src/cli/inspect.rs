@@ -7,11 +7,15 @@ use serde::Serialize;
 use super::Exit;
 use super::args::InspectArgs;
 use super::prepare::Voice;
+use super::show::table;
+use crate::advice::{Case, Prospect, prospects};
 use crate::geom::Vector;
+use crate::goal::{GoalKind, Request};
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, one_body, repair, scaled};
-use crate::units::counted;
+use crate::printer::{Printer, ProfileError, WallError};
+use crate::units::{counted, show_mm};
 
 /// Why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -19,6 +23,12 @@ pub enum InspectError {
     /// The model cannot be read.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// The printer's profile cannot be used.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The wall cannot be printed.
+    #[error(transparent)]
+    Wall(#[from] WallError),
     /// Standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
@@ -44,7 +54,21 @@ struct Findings {
     defects: Option<String>,
     not_one_body: Option<String>,
     solid: Option<Mass>,
+    /// What it could become with a wall; none where it is no solid of one body.
+    could_become: Option<Becoming>,
 }
+
+/// What a model could become.
+#[derive(Debug, Serialize)]
+struct Becoming {
+    wall_mm: f64,
+    prospects: Vec<Prospect>,
+}
+
+/// The density where no material is given, g/cm³; no goal that is listed depends on it.
+const PLAIN_DENSITY_G_CM3: f64 = 1.0;
+/// The wall of a model where neither a wall nor a printer is given, as a part of its longest side.
+const PLAIN_WALL_RATIO: f64 = 0.01;
 
 /// The mass properties of a solid of density 1 g/cm³, model axes.
 #[derive(Debug, Serialize)]
@@ -62,7 +86,10 @@ pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<
     let mesh = scaled(&mesh, args.scaling.scaling().factor(mesh.longest_side_mm()));
     let facts = MeshFacts::of(&mesh);
     let solid = Solid::new(mesh);
-    let findings = findings(&facts, repairs.to_string(), &solid);
+    let mut findings = findings(&facts, repairs.to_string(), &solid);
+    if let (Ok(solid), None) = (&solid, &findings.not_one_body) {
+        findings.could_become = Some(becoming(args, solid)?);
+    }
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&findings)?)?;
     } else if !voice.manner.quiet {
@@ -88,7 +115,27 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         defects: solid.as_ref().err().map(ToString::to_string),
         not_one_body: solid.as_ref().ok().and_then(|solid| Some(one_body(solid).err()?.to_string())),
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
+        could_become: None,
     }
+}
+
+/// What the solid could become with the wall that was asked for, or the printer's least.
+fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError> {
+    let asked_mm = args.wall.map(|wall| wall.mm());
+    let wall_mm = match &args.printer {
+        Some(id) => Printer::find(id)?.quantised_wall(asked_mm)?.wall_mm,
+        None => asked_mm.unwrap_or(PLAIN_WALL_RATIO * solid.mesh().longest_side_mm()),
+    };
+    let case = Case {
+        solid,
+        request: Request::new(GoalKind::Top),
+        wall_mm,
+        least_wall_mm: wall_mm,
+        wall_step_mm: wall_mm,
+        density_g_cm3: PLAIN_DENSITY_G_CM3,
+        greatest_size_mm: f64::INFINITY,
+    };
+    Ok(Becoming { wall_mm, prospects: prospects(&case) })
 }
 
 fn mass(mesh: &TriMesh) -> Mass {
@@ -140,10 +187,22 @@ fn text(findings: &Findings) -> String {
         text += &format!("prepare needs one body: {reason}\n");
     }
     match (&findings.solid, &findings.defects) {
-        (Some(mass), _) => text + &mass_text(mass),
-        (_, Some(defects)) => text + defects + "\n",
-        _ => text,
+        (Some(mass), _) => text += &mass_text(mass),
+        (_, Some(defects)) => text += &format!("{defects}\n"),
+        _ => {}
     }
+    text + &findings.could_become.as_ref().map_or(String::new(), becoming_text)
+}
+
+/// A line for each goal and axis.
+fn becoming_text(becoming: &Becoming) -> String {
+    let line = |prospect: &Prospect| {
+        let reached = prospect.reached.map(|reached| format!("it {reached}"));
+        let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
+        [prospect.kind.to_string(), format!("--up={}", prospect.up), verdict]
+    };
+    let rows: Vec<[String; 3]> = becoming.prospects.iter().map(line).collect();
+    format!("hollowed with a wall of {}, as\n{}", show_mm(becoming.wall_mm), table(&rows))
 }
 
 fn mass_text(mass: &Mass) -> String {

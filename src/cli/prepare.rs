@@ -5,6 +5,7 @@ use std::io::Write;
 use super::Exit;
 use super::args::{ArgsError, PrepareArgs, Request};
 use super::show::{Bars, Manner, table, verdict};
+use crate::advice::Remedy;
 use crate::error::Error;
 use crate::pipeline::{Impossible, Outcome, Prepared, run};
 use crate::progress::Progress;
@@ -72,6 +73,9 @@ fn tell_prepared(
     }
     if voice.manner.quiet {
         return Ok(());
+    }
+    if let Some(choice) = &checklist.goal.choice {
+        writeln!(out, "{choice}")?;
     }
     write!(out, "{}", checks_table(&checklist.checks, voice.manner))?;
     for warning in &checklist.warnings {
@@ -171,15 +175,25 @@ fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -
     }
     writeln!(out, "{}", impossible.reason)?;
     if !voice.manner.quiet {
-        for warning in &impossible.warnings {
-            writeln!(out, "warning: {warning}")?;
-        }
-        for remedy in &impossible.remedies {
-            writeln!(out, "  remedy: {remedy}")?;
-        }
+        write!(out, "{}", advice(impossible))?;
     }
     if voice.manner.verbose > 0 {
         writeln!(out, "  proof: the quadric {:?} (goal frame, mm)", impossible.proof_quadric)?;
     }
     Ok(())
+}
+
+/// What was chosen and warned of, what helps, with what to type, and what does not.
+fn advice(impossible: &Impossible) -> String {
+    let choice = impossible.choice.iter().map(|choice| format!("{choice}\n"));
+    let warnings = impossible.warnings.iter().map(|warning| format!("warning: {warning}\n"));
+    let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
+        impossible.remedies.iter().partition(|remedy| remedy.helps());
+    let typed = |remedy: &Remedy| {
+        if remedy.flags.is_empty() { String::new() } else { format!("{}: ", remedy.flags) }
+    };
+    let helpful = helpful.into_iter().map(|remedy| format!("  remedy: {}{}\n", typed(remedy), remedy.words));
+    let hints = impossible.hints.iter().map(|hint| format!("  perhaps: {hint}\n"));
+    let useless = useless.into_iter().map(|remedy| format!("  no remedy: {}\n", remedy.words));
+    choice.chain(warnings).chain(helpful).chain(hints).chain(useless).collect()
 }

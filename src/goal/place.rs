@@ -5,7 +5,7 @@ use super::{
     stand, top, yoyo,
 };
 use crate::geom::{Frame, Point, Vector};
-use crate::mass::{Body, moments_of_mesh};
+use crate::mass::{Body, Moments, moments_of_mesh};
 use crate::mesh::Solid;
 
 /// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides between the two
@@ -22,6 +22,9 @@ pub enum GoalError {
     /// A direction without direction.
     #[error("up = {0} is not a direction; give three finite numbers that are not all zero")]
     NoDirection(Up),
+    /// A direction that is still to be chosen.
+    #[error("up = auto is no direction yet; have one chosen first (advice::best_orientation)")]
+    NotChosen,
     /// A point with a coordinate that is not a number.
     #[error("{name} = ({x}, {y}, {z}) is not a point; give three finite numbers in mm")]
     NotAPoint {
@@ -129,6 +132,8 @@ pub(super) struct Site<'a> {
     pub solid: &'a Solid,
     pub kind: GoalKind,
     pub objective: Objective,
+    /// The solid's moments, model frame.
+    pub moments: Moments,
     /// Mass properties for unit density, model frame.
     pub body: Body,
     /// The model turned so that z is up, its origin at the model's own.
@@ -140,7 +145,8 @@ pub(super) struct Site<'a> {
 
 impl<'a> Site<'a> {
     fn new(solid: &'a Solid, request: &Request) -> Result<Self, GoalError> {
-        let body = Body::new(&moments_of_mesh(solid.mesh()), 1.0);
+        let moments = moments_of_mesh(solid.mesh());
+        let body = Body::new(&moments, 1.0);
         let up = up_direction(request.up, solid, &body)?;
         let (lowest_mm, highest_mm) = extent_along(solid, &up);
         let upright = Frame::with_axis(Point::origin(), &up);
@@ -148,6 +154,7 @@ impl<'a> Site<'a> {
             solid,
             kind: request.kind,
             objective: request.objective,
+            moments,
             body,
             upright,
             lowest_mm,
@@ -158,7 +165,7 @@ impl<'a> Site<'a> {
     /// The goal whose frame has this origin, given in the upright frame.
     pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
         let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
-        let solid = moments_of_mesh(self.solid.mesh()).in_frame(&frame);
+        let solid = self.moments.in_frame(&frame);
         Goal {
             kind: self.kind,
             frame,
@@ -202,6 +209,7 @@ impl<'a> Site<'a> {
 fn up_direction(up: Up, solid: &Solid, body: &Body) -> Result<Vector, GoalError> {
     match up {
         Up::Principal => Ok(principal_direction(solid, body)),
+        Up::Auto => Err(GoalError::NotChosen),
         _ => up.direction().ok_or(GoalError::NoDirection(up)),
     }
 }

@@ -28,10 +28,12 @@ pub enum Up {
     /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two senses the one
     /// in which the centre of mass stands lower above the lowest point.
     Principal,
+    /// The best of all directions; a run chooses one before anything is placed.
+    Auto,
 }
 
 /// The words for the axes, in the order of [`Up`]'s values.
-const AXES: [(&str, Up); 7] = [
+const AXES: [(&str, Up); 8] = [
     ("x", Up::X),
     ("y", Up::Y),
     ("z", Up::Z),
@@ -39,10 +41,12 @@ const AXES: [(&str, Up); 7] = [
     ("-y", Up::NegY),
     ("-z", Up::NegZ),
     ("principal", Up::Principal),
+    ("auto", Up::Auto),
 ];
 
 impl Up {
-    /// The unit vector; none for the principal axis, which depends on the solid, and for a vector without direction.
+    /// The unit vector; none for the principal and the best axis, which depend on the solid, and for a vector without
+    /// direction.
     pub fn direction(self) -> Option<Vector> {
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
         match self {
@@ -53,7 +57,7 @@ impl Up {
             Self::NegY => Some(-y),
             Self::NegZ => Some(-z),
             Self::Along(along) => unit(along),
-            Self::Principal => None,
+            Self::Principal | Self::Auto => None,
         }
     }
 }
@@ -76,7 +80,11 @@ impl FromStr for Up {
             return Ok(up);
         }
         let along = numbers(&lower).ok_or_else(|| {
-            ChoiceError::unknown("direction", text, &["x", "y", "z", "-x", "-y", "-z", "X,Y,Z", "principal"])
+            ChoiceError::unknown(
+                "direction",
+                text,
+                &["x", "y", "z", "-x", "-y", "-z", "X,Y,Z", "principal", "auto"],
+            )
         })?;
         checked_direction(along, text)
     }

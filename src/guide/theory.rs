@@ -36,6 +36,14 @@
 //! their gap are part of every solution. Where the dual grows without limit, its direction is a quadric that separates
 //! the goal from everything reachable: a proof that no hollowing meets the goal.
 //!
+//! # When it is impossible
+//! Three facts make it cheap to say what would help ([`crate::advice`]). Only the wall over the size counts, and a thinner
+//! wall only adds to Ω, so possible and impossible sizes are parted by one number. The proof of impossibility is the
+//! integral of a quadric, and by the envelope theorem its slope, as contact or axis move, is that of the same moments seen
+//! from a moved frame; so the way to the nearest possible place is known without solving. And with a denser material at
+//! hand the reachable set is still convex: a grain at x is emptied where g·m > 0 and replaced where g·m is so far below
+//! zero that it is worth the price, two level sets of one quadric ([`crate::hollow::least_ballast`]).
+//!
 //! # From the solution to the print
 //! What is printed is a triangle mesh with pins, sockets and clearances, not the solver's columns. It is measured exactly,
 //! δ = s(mesh) − s(columns), and the problem is solved again with δ added to the material that stays. δ hardly

@@ -56,11 +56,11 @@ impl Visit {
     fn new(reach: &Reach, programme: &Programme, point: DualPoint) -> Self {
         let quadric = programme.quadric(&point);
         let extreme = reach.extreme(&quadric);
-        let dual = quadric.dot(&extreme.s) - programme.rhs.dot(&point.lambda);
+        let dual = quadric.dot(&extreme.s) + extreme.cost - programme.rhs.dot(&point.lambda);
         let denominator = programme.denominator_at(&extreme.s);
         Self {
             misses: &programme.rows * extreme.s - &programme.rhs,
-            value: programme.numerator_at(&extreme.s) / denominator,
+            value: (programme.numerator_at(&extreme.s) + extreme.cost) / denominator,
             bound: programme.bound(point.tau, dual),
             quadric,
             extreme,
@@ -160,7 +160,8 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         let there = Visit::new(reach, programme, step.to.clone());
         if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
-            if is_suspicious(&here, programme)
+            if reach.is_free()
+                && is_suspicious(&here, programme)
                 && let Some(proof) = separation(reach, programme, &here, budget)
             {
                 return proof;

@@ -34,7 +34,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
 /// The proof that the lightest interior is too heavy for the water it displaces, or the solid too light.
 fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
     let mass = afloat.material_mm3 / work.reach.scale.volume_mm3;
-    let [lightest, heaviest] = [work.reach.shell, work.reach.solid].map(|s| s[index::ONE]);
+    let [lightest, heaviest] = [work.reach.shell, work.reach.fullest].map(|s| s[index::ONE]);
     let (sense, verdict) = match mass {
         mass if mass < lightest => (1.0, Status::Sinks { least_ratio: lightest / mass }),
         mass if mass > heaviest => (-1.0, Status::RidesHigh { greatest_ratio: heaviest / mass }),

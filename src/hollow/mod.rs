@@ -78,7 +78,8 @@
 //! # The files, in reading order
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
 //! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `mass` the search
-//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `method` one trait for this
+//! over heights · `cover` the proof over all of them · `answer` back to mm, with a status · `ballast` the least of a
+//! denser material where hollowing is not enough · `method` one trait for this
 //! solver and the papers' own, which live in `papers`.
 //!
 //! # The papers' own methods
@@ -115,6 +116,7 @@
 mod answer;
 mod ascent;
 mod balance;
+mod ballast;
 mod cover;
 mod float;
 mod heights;
@@ -139,6 +141,7 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
+pub use ballast::{Ballast, least_ballast};
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;
@@ -153,7 +156,16 @@ use work::Work;
 /// For coarse columns: a top takes 150 to 250 passes over them, the others about ten. Cancelling `progress` ends it after
 /// the pass at hand, with [`Status::Cancelled`].
 pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
-    let work = Work::new(problem, settings, progress);
+    answer_of(problem, Work::new(problem, settings, progress))
+}
+
+/// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
+/// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
+pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
+    answer_of(problem, Work::new(problem, settings, progress).on_model_columns())
+}
+
+fn answer_of(problem: &Problem, work: Work) -> Solution {
     let objective = problem.goal.objective;
     let answer = match problem.goal.kind {
         GoalKind::Top => top::solve(&work, objective),
@@ -379,6 +391,35 @@ mod tests {
         let solution = solved(&world);
         let solid = figures(&world.goal, &world.fixed).critical_speed_rpm.unwrap();
         assert!((solution.certificate.value / solid - 1.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn columns_of_the_model_and_of_the_goal_give_the_same_answer() {
+        // The same points seen from a frame that is moved and turned by a quarter, so that cells stay cells.
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let quarter = crate::geom::Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+        let frame = crate::geom::Frame { origin: crate::geom::Point::new(3.0, -7.0, 11.0), axes: quarter };
+        let mut goal = world.goal.clone();
+        goal.frame = frame;
+        let mut columns = world.columns.clone();
+        for center in &mut columns.centers {
+            let placed = frame.to_model(&crate::geom::Point::new(center[0], center[1], 0.0));
+            *center = [placed.x, placed.y];
+        }
+        columns.intervals.iter_mut().flatten().for_each(|end| *end += frame.origin.z);
+        let problem = Problem { goal: &goal, columns: &columns, ..world.problem() };
+        let turned = solve_on_model_columns(&problem, &Settings::default(), &Progress::silent());
+        let straight = solved(&world);
+        assert_eq!(turned.status, Status::Solved);
+        assert!((turned.certificate.value / straight.certificate.value - 1.0).abs() < 1e-7);
+        assert!(
+            turned
+                .moments
+                .0
+                .iter()
+                .zip(straight.moments.0)
+                .all(|(a, b)| (a - b).abs() < 1e-5 * b.abs().max(1.0))
+        );
     }
 
     #[test]

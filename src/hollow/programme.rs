@@ -126,10 +126,10 @@ impl Programme {
         }
     }
 
-    /// For a denominator that grows with every bit of material: bounded by the shell and by the solid.
+    /// For a denominator that grows with every bit of material: bounded by the shell and by the fullest interior.
     fn bounded(mut self, reach: &Reach) -> Self {
         self.denominator_floor = self.denominator.dot(&reach.shell);
-        self.denominator_ceiling = self.denominator.dot(&reach.solid);
+        self.denominator_ceiling = self.denominator.dot(&reach.fullest);
         self
     }
 
@@ -162,7 +162,7 @@ impl Programme {
         let numerator = mean_across(height) - row(&I_ZZ);
         let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), top_rows(height));
         programme.denominator_floor = height * reach.shell[ONE];
-        programme.denominator_ceiling = height * reach.solid[ONE];
+        programme.denominator_ceiling = height * reach.fullest[ONE];
         programme.at_height(reach, height)
     }
 

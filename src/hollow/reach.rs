@@ -4,7 +4,8 @@ use std::cell::Cell;
 
 use nalgebra::SVector;
 
-use crate::geom::Quadric;
+use super::programme::index;
+use crate::geom::{Frame, Quadric};
 use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_positive};
 use crate::mass::Moments;
 
@@ -47,14 +48,29 @@ impl Scale {
     }
 }
 
-/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the passes made over it.
+/// A denser material that may take the place of the printed one, at a price.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Heavy {
+    /// Its density over that of the printed material; above 1.
+    pub density_ratio: f64,
+    /// What as much of it as the solid's volume costs, in the units of the programme's value.
+    pub price: f64,
+}
+
+/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the passes made over it; with a
+/// heavy material, β may also be as far below zero as its density allows.
 pub(super) struct Reach<'a> {
     columns: &'a Columns,
+    /// From moments in the columns' coordinates to moments in the goal's; none where they are the same.
+    turn: Option<Matrix10>,
+    heavy: Option<Heavy>,
     pub scale: Scale,
-    /// The moments with nothing emptied: the component-wise greatest of all squares and of the volume.
+    /// The moments with nothing emptied.
     pub solid: Vector10,
-    /// The moments with everything emptied: the least of them.
+    /// The moments with everything emptied: the least of all squares and of the volume.
     pub shell: Vector10,
+    /// The moments with everything as heavy as may be: the greatest of them.
+    pub fullest: Vector10,
     passes: Cell<usize>,
 }
 
@@ -65,30 +81,107 @@ pub(super) struct Extreme {
     pub s: Vector10,
     /// −∂s/∂g, positive semidefinite.
     pub w: Matrix10,
+    /// What its heavy material costs.
+    pub cost: f64,
 }
 
 impl<'a> Reach<'a> {
     pub fn new(columns: &'a Columns, fixed: &Moments, scale: Scale) -> Self {
         let solid = scale.moments_to_units(fixed);
-        let mut reach = Self { columns, scale, solid, shell: solid, passes: Cell::new(0) };
-        reach.shell = reach.least(&Vector10::ith(0, 1.0));
-        reach
+        let (turn, heavy, passes) = (None, None, Cell::new(0));
+        Self { columns, turn, heavy, scale, solid, shell: solid, fullest: solid, passes }.bounded()
     }
 
-    /// The extreme point along g and its derivative; one pass.
+    /// The same for columns given in model coordinates, while everything else is in the coordinates of `frame`.
+    ///
+    /// Moments turn linearly with the frame, s = T s_columns, so the quadric turns with Tᵀ and its derivative with both.
+    pub fn of_model_columns(self, frame: &Frame) -> Self {
+        let seen = |i: usize| Vector10::from(Moments(Vector10::ith(i, 1.0).into()).in_frame(frame).0);
+        let turn = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(seen));
+        Self { turn: Some(turn), ..self }.bounded()
+    }
+
+    /// The same with a heavy material to be had.
+    pub fn with(self, heavy: Heavy) -> Self {
+        Self { heavy: Some(heavy), ..self }.bounded()
+    }
+
+    /// The same with its outermost moments.
+    fn bounded(mut self) -> Self {
+        let interior = self.moments_of(&self.scale.quadric_to_mm(&Vector10::ith(index::ONE, 1.0)));
+        self.shell = self.solid - interior;
+        self.fullest = self.solid + interior * self.heavy.map_or(0.0, |heavy| heavy.density_ratio - 1.0);
+        self
+    }
+
+    /// The extreme point along g and its derivative; one pass, two where there is a heavy material.
     pub fn extreme(&self, g: &Vector10) -> Extreme {
+        let quadric = self.scale.quadric_to_mm(g);
+        let (emptied, w) = self.region(&quadric);
+        let lightest = Extreme { s: self.solid - emptied, w, cost: 0.0 };
+        let Some(heavy) = self.heavy else { return lightest };
+        let (filled, turning) = self.region(&self.filled(&quadric, heavy));
+        let excess = heavy.density_ratio - 1.0;
+        Extreme {
+            s: lightest.s + filled * excess,
+            w: lightest.w + turning * excess,
+            cost: heavy.price * filled[index::ONE],
+        }
+    }
+
+    /// The extreme point along g alone; cheaper passes.
+    pub fn least(&self, g: &Vector10) -> Vector10 {
+        let quadric = self.scale.quadric_to_mm(g);
+        let emptied = self.solid - self.moments_of(&quadric);
+        let filled =
+            |heavy: Heavy| self.moments_of(&self.filled(&quadric, heavy)) * (heavy.density_ratio - 1.0);
+        self.heavy.map_or(emptied, |heavy| emptied + filled(heavy))
+    }
+
+    /// Where the heavy material is worth its price: the quadric of g must be so far below zero that what it gains more than
+    /// the printed one pays for it.
+    fn filled(&self, quadric: &Quadric, heavy: Heavy) -> Quadric {
+        let mut filled = quadric.0.map(|coefficient| -coefficient);
+        filled[index::ONE] -= heavy.price / (self.scale.volume_mm3 * (heavy.density_ratio - 1.0));
+        Quadric(filled)
+    }
+
+    /// The quadric, mm, that is positive where the extreme interior of g has the heavy material; none without one.
+    pub fn filled_by(&self, g: &Vector10) -> Option<Quadric> {
+        self.heavy.map(|heavy| self.filled(&self.scale.quadric_to_mm(g), heavy))
+    }
+
+    /// Whether nothing has to be paid for, so that a dual value that grows without bound is a proof.
+    pub fn is_free(&self) -> bool {
+        self.heavy.is_none_or(|heavy| heavy.price == 0.0)
+    }
+
+    /// The moments of the columns where a quadric of the goal's coordinates is positive, and their derivative by it; one
+    /// pass.
+    fn region(&self, quadric: &Quadric) -> (Vector10, Matrix10) {
         self.passes.set(self.passes.get() + 1);
-        let (emptied, derivative) = moments_and_derivative(self.columns, &self.scale.quadric_to_mm(g));
+        let (moments, derivative) = moments_and_derivative(self.columns, &self.over_columns(quadric));
+        let derivative = self.turn.map_or(derivative, |turn| turn * derivative * turn.transpose());
         let unit = self.scale.units().map(f64::recip);
         let w = derivative.zip_map(&(unit * unit.transpose()), |entry, factor| entry * factor);
-        Extreme { s: self.solid - self.scale.moments_to_units(&emptied), w }
+        (self.seen(moments), w)
     }
 
-    /// The extreme point along g alone; one cheaper pass.
-    pub fn least(&self, g: &Vector10) -> Vector10 {
+    /// The moments alone; one cheaper pass.
+    fn moments_of(&self, quadric: &Quadric) -> Vector10 {
         self.passes.set(self.passes.get() + 1);
-        let emptied = moments_where_positive(self.columns, &self.scale.quadric_to_mm(g));
-        self.solid - self.scale.moments_to_units(&emptied)
+        self.seen(moments_where_positive(self.columns, &self.over_columns(quadric)))
+    }
+
+    /// A quadric of the goal's coordinates over the columns' own.
+    fn over_columns(&self, quadric: &Quadric) -> Quadric {
+        self.turn.map_or(*quadric, |turn| Quadric((turn.transpose() * Vector10::from(quadric.0)).into()))
+    }
+
+    /// Moments in the columns' coordinates as the solver's.
+    fn seen(&self, moments: Moments) -> Vector10 {
+        let turned = self.turn.map_or(moments, |turn| Moments((turn * Vector10::from(moments.0)).into()));
+        self.scale.moments_to_units(&turned)
     }
 
     /// How many passes over the columns have been made.

@@ -5,7 +5,7 @@ use std::cell::RefCell;
 use super::ascent::{Budget, COLD_DAMPING, Climb, End, WARM_DAMPING, climb};
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
-use super::reach::{Reach, Scale};
+use super::reach::{Heavy, Reach, Scale};
 use super::settings::Settings;
 use super::solution::LogRow;
 use crate::goal::Goal;
@@ -28,6 +28,18 @@ impl<'a> Work<'a> {
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
         let first_damping = COLD_DAMPING;
         Self { goal: problem.goal, reach, settings, progress, first_damping, log: RefCell::default() }
+    }
+
+    /// The same bench, its columns given in model coordinates.
+    pub fn on_model_columns(self) -> Self {
+        let reach = self.reach.of_model_columns(&self.goal.frame);
+        Self { reach, ..self }
+    }
+
+    /// The same bench with a heavy material to be had.
+    pub fn with(self, heavy: Heavy) -> Self {
+        let reach = self.reach.with(heavy);
+        Self { reach, ..self }
     }
 
     /// The same bench for a search that starts near its answer.

@@ -120,6 +120,11 @@ pub(super) fn tower() -> World {
     shelled(Objective::CriticalSpeed, 0.5, [0.0, 0.0, 15.0], [6.0, 6.0, 15.0], 0.0)
 }
 
+/// A round ellipsoid on its tip, of radius 10 and this half height.
+pub(super) fn stump(half_height: f64) -> World {
+    shelled(Objective::CriticalSpeed, 0.5, [0.0, 0.0, half_height], [10.0, 10.0, half_height], 0.0)
+}
+
 /// A box of inner area 16 and height 10 that may be filled, on which 40 of other mass is centred at height 9.
 pub(super) fn bottle() -> World {
     let columns = columns_of(0.5, 2.0, |_, _| vec![[0.0, 10.0]]);
@@ -157,6 +162,28 @@ pub(super) fn blocks_on_a_slope() -> World {
     let rest = Moments(Moments::monomials(0.3, -0.2, 2.0)) * 30.0;
     let mut world = World::new(Objective::TopplingAngle, whole(&columns) + rest, columns);
     world.goal.support = vec![[-0.6, -1.4], [2.4, -1.4], [2.4, 1.6], [-0.6, 1.6]];
+    world
+}
+
+/// A beam of cross-section 4 from x = −8 to 8, all of which may be emptied, beside a mass that is `first` out of balance.
+pub(super) fn beam(first: f64) -> World {
+    let columns = columns_of(0.25, 8.0, |_, y| if y.abs() < 1.0 { vec![[4.0, 6.0]] } else { Vec::new() });
+    let beside = Moments([90.0, first, 0.0, 400.0, 0.0, 0.0, 0.0, 9e3, 9e2, 2e3]);
+    World::new(Objective::LowestCenter, whole(&columns) + beside, columns)
+}
+
+/// Eight blocks in two columns over a support that lies too far aside for any of them to be emptied to help enough.
+pub(super) fn blocks_far_aside() -> World {
+    let columns = columns_of(2.0, 2.0, |_, y| {
+        if y < 0.0 {
+            Vec::new()
+        } else {
+            (0..4).map(|i| [f64::from(i) * 2.0, f64::from(i) * 2.0 + 2.0]).collect()
+        }
+    });
+    let rest = Moments(Moments::monomials(3.0, 0.0, 2.0)) * 60.0;
+    let mut world = World::new(Objective::TopplingAngle, whole(&columns) + rest, columns);
+    world.goal.support = vec![[-1.6, -1.4], [1.4, -1.4], [1.4, 1.6], [-1.6, 1.6]];
     world
 }
 
@@ -225,6 +252,24 @@ pub(super) fn each_choice(world: &World, groups: &[Vec<usize>], mut visit: impl 
     for choice in 0..1usize << groups.len() {
         let chosen = (0..groups.len()).filter(|group| choice >> group & 1 == 1);
         visit(&chosen.fold(world.fixed, |moments, group| moments - emptied[group]));
+    }
+}
+
+/// Visits the moments of every way to empty, keep or fill each interval with what is so much denser, and how many are filled.
+pub(super) fn each_mixture(world: &World, density_ratio: f64, mut visit: impl FnMut(&Moments, u32)) {
+    let count = world.columns.intervals.len();
+    let single: Vec<Moments> = (0..count).map(|i| moments_of_intervals(&world.columns, &[i])).collect();
+    for choice in 0..3u32.pow(count as u32) {
+        let (mut moments, mut filled, mut rest) = (world.fixed, 0, choice);
+        for part in &single {
+            match rest % 3 {
+                0 => moments -= *part,
+                1 => (moments, filled) = (moments + *part * (density_ratio - 1.0), filled + 1),
+                _ => {}
+            }
+            rest /= 3;
+        }
+        visit(&moments, filled);
     }
 }
 

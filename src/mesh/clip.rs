@@ -66,6 +66,12 @@ impl Csg {
         Self::of_mesh(solid.mesh())
     }
 
+    /// The convex hull of these points; empty where they lie in a plane.
+    pub fn convex_hull(points: &[Point]) -> Result<Self, ClipError> {
+        let points: Vec<Vec3> = points.iter().map(|p| Vec3::new(p.x, p.y, p.z)).collect();
+        checked(Manifold::hull(&points), "taking the convex hull")
+    }
+
     /// The triangles, in an order that depends on the geometry alone.
     pub fn to_mesh(&self) -> Result<TriMesh, ClipError> {
         let gl = self.0.get_mesh_gl64(-1);

@@ -1,5 +1,6 @@
 //! The line: load, check, place, wall, columns, solve, voids, cuts, pins, parts, measure, correct, kit.
 
+mod advising;
 mod assembly;
 mod kit;
 mod outcome;
@@ -28,6 +29,8 @@ pub mod phase {
     pub const LOAD: &str = "load";
     /// The columns of what may be emptied, and the solve.
     pub const SOLVE: &str = "solve";
+    /// What would make an impossible goal possible.
+    pub const ADVISE: &str = "advise";
     /// The surface of what may be emptied.
     pub const SHELL: &str = "shell";
     /// The voids of a solution and the parts they are cut into.
@@ -48,7 +51,10 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let setup = waterline::chosen(setup, &mut watch)?;
     let solved = match Solved::of(&setup, progress, &mut watch)? {
         Ok(solved) => solved,
-        Err(impossible) => return Ok(Outcome::Impossible(Box::new(impossible))),
+        Err(impossible) => {
+            let advised = advising::advised(&setup, impossible, progress);
+            return Ok(Outcome::Impossible(Box::new(advised)));
+        }
     };
     let assembly = Assembly::corrected(&setup, solved, progress, &mut watch)?;
     Ok(Outcome::Prepared(Box::new(kit::prepared(&setup, &assembly, progress, watch)?)))

@@ -2,6 +2,7 @@
 
 use serde::Serialize;
 
+use crate::advice::Remedy;
 use crate::report::{Checklist, Kit, Verdict};
 
 /// How a run ended.
@@ -36,8 +37,13 @@ pub struct Impossible {
     pub verdict: &'static str,
     /// The reason in a sentence, with its number.
     pub reason: String,
-    /// What would help, in words.
-    pub remedies: Vec<String>,
+    /// What was tried to make it possible, and what of it helps, each confirmed by a solve.
+    pub remedies: Vec<Remedy>,
+    /// What might help besides, where none of them does.
+    pub hints: Vec<String>,
+    /// How the axis was chosen, where it was left open.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
     /// The quadric of the proof: ten coefficients over (1, x, y, z, xy, yz, xz, x², y², z²) in the goal frame, mm.
     pub proof_quadric: [f64; 10],
     /// The origin of the goal frame in the model frame, mm.

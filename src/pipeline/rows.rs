@@ -158,8 +158,8 @@ fn goal_row(setup: &Setup) -> GoalRow {
         Warning::ContactInAir { missing_mm } => Some(*missing_mm),
         _ => None,
     });
-    let objective = setup.job.goal.objective.word().replace('-', "_");
-    GoalRow { aim: aim(setup), objective, contact_gap_mm: gap.unwrap_or(0.0) }
+    let objective = setup.request.objective.word().replace('-', "_");
+    GoalRow { aim: aim(setup), objective, contact_gap_mm: gap.unwrap_or(0.0), choice: setup.choice.clone() }
 }
 
 fn certificate(sheet: &Sheet) -> Certificate {

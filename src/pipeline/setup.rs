@@ -1,8 +1,9 @@
 //! Everything a run rests on before it solves: the solid, the printer, the wall and the placed goal.
 
 use super::Error;
+use super::advising::Means;
 use crate::digest::sha256_hex;
-use crate::goal::{Placement, Stock, place_made_of};
+use crate::goal::{Placement, Request, Stock, place_made_of};
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
@@ -37,6 +38,10 @@ pub struct Setup {
     pub wall: WallChoice,
     /// The pitch of the finest columns, mm.
     pub pitch_mm: [f64; 2],
+    /// What is asked for: the job's goal with its axis settled.
+    pub request: Request,
+    /// How the axis was chosen, where the job left it open.
+    pub choice: Option<String>,
     /// The goal in the model.
     pub placement: Placement,
 }
@@ -51,9 +56,11 @@ impl Setup {
         let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
         let (job, model) = load(job, &printer)?;
         leaves_room(model.solid.mesh().longest_side_mm(), wall.wall_mm)?;
+        let means = Means { model: &model, printer: &printer, material: &material, wall: &wall };
+        let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
-        let placement = place_made_of(&model.solid, &stock, &job.goal)?;
-        Ok(Self { job, model, printer, material, wall, pitch_mm, placement })
+        let placement = place_made_of(&model.solid, &stock, &request)?;
+        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement })
     }
 
     /// The name of the job in file names: the model's file name without its ending.

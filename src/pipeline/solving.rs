@@ -97,7 +97,9 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
     Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
-        remedies: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
+        remedies: Vec::new(),
+        hints: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
+        choice: setup.choice.clone(),
         proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),

@@ -52,10 +52,15 @@ fn shown(mm: f64) -> String {
 }
 
 impl Printer {
+    /// The longest model that is tried, mm: some build lengths, or a fixed length where the build volume is not known.
+    pub fn greatest_length_mm(&self) -> f64 {
+        let longest = |volume: [f64; 3]| MAX_BUILD_LENGTHS * volume.into_iter().fold(0.0, f64::max);
+        self.build_volume_mm.as_ref().map_or(MAX_SIZE_MM, |volume| longest(volume.value))
+    }
+
     /// Refuses a model whose longest side is beyond what could be cut into parts for this printer.
     pub fn allows_length(&self, size_mm: f64) -> Result<(), SizeError> {
-        let longest = |volume: [f64; 3]| MAX_BUILD_LENGTHS * volume.into_iter().fold(0.0, f64::max);
-        let most_mm = self.build_volume_mm.as_ref().map_or(MAX_SIZE_MM, |volume| longest(volume.value));
+        let most_mm = self.greatest_length_mm();
         if size_mm <= most_mm {
             return Ok(());
         }

@@ -145,6 +145,9 @@ pub struct GoalRow {
     /// How far the contact point hangs below the surface, mm; zero when the surface is touched. A tip piece of this
     /// length is needed.
     pub contact_gap_mm: f64,
+    /// How the axis was chosen, where the job left it open.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
 }
 
 /// How near to the best possible the result is.

@@ -42,6 +42,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             aim: evidence.promise.goal,
             objective: "critical_speed".into(),
             contact_gap_mm: 10.0,
+            choice: None,
         },
         promise: Some(PromisedFigure { figure: FigureName::CriticalSpeedRpm, value: speed }),
         solid: found.solid.clone(),

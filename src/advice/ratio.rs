@@ -1,0 +1,163 @@
+//! The greatest wall at this size, and with it the least size at this wall.
+
+use super::Case;
+use super::confirm::least_excess;
+use super::directions::rounded;
+use super::ground::{Ground, Trial};
+use super::remedy::{Kind, Remedy};
+use crate::goal::{Contact, Request, SpinPoint, Waterline};
+use crate::units::show_mm;
+
+/// How much thinner the wall may become, or the model larger, before nothing is advised: nobody prints an object twenty
+/// times as large as planned.
+const MOST_TIMES: f64 = 20.0;
+/// How nearly the greatest wall is found.
+const PRECISION_RATIO: f64 = 0.01;
+/// Walls are printed to a thousandth of a millimetre, far below any printer's step.
+const WALLS_PER_MM: f64 = 1e3;
+
+/// The least size at this wall and the greatest wall at this size.
+///
+/// The wall that was found is confirmed by a solve; the size is rounded up and the wall down to what can be typed and
+/// printed, which lets still more be emptied.
+pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
+    let case = &ground.case;
+    let Some(thickest_mm) = greatest_wall(ground) else {
+        let words = format!("no size and no wall help: even {MOST_TIMES} times as large it stays impossible");
+        return vec![Remedy::nothing(Kind::LeastSize, words)];
+    };
+    match confirmed(ground, thickest_mm) {
+        Some((wall_mm, trial)) => vec![larger(case, wall_mm, &trial), thinner(case, wall_mm, &trial)],
+        None => {
+            let words = "no size was found that surely helps: it stays at the very border of the possible";
+            vec![Remedy::nothing(Kind::LeastSize, words.to_owned())]
+        }
+    }
+}
+
+/// The thickest wall, mm, at the present size that makes the goal possible, on samples; none if even a wall [`MOST_TIMES`]
+/// thinner does not.
+///
+/// A thinner wall lets more be emptied, and more choice never makes a goal impossible: possible and impossible walls are
+/// parted by one number, so bisection finds it. Goals do not know how large a millimetre is (with the wall and the contact
+/// scaled alike), so the same number is also by how much a larger model would do: only wall/size counts. The precision
+/// is one per cent.
+fn greatest_wall(ground: &Ground) -> Option<f64> {
+    let (request, wall_mm) = (&ground.case.request, ground.case.wall_mm);
+    let halves = std::iter::successors(Some(0.5 * wall_mm), |wall| Some(0.5 * wall));
+    let tried = halves.take_while(|&wall| wall > wall_mm / MOST_TIMES).chain([wall_mm / MOST_TIMES]);
+    let mut thickest_mm = tried.into_iter().find(|&wall| ground.allows(request, wall))?;
+    let mut too_thick_mm = (2.0 * thickest_mm).min(wall_mm);
+    while too_thick_mm > thickest_mm * (1.0 + PRECISION_RATIO) {
+        let middle_mm = (too_thick_mm * thickest_mm).sqrt();
+        if ground.allows(request, middle_mm) {
+            thickest_mm = middle_mm;
+        } else {
+            too_thick_mm = middle_mm;
+        }
+    }
+    Some(thickest_mm)
+}
+
+/// That wall, or a thinner one, confirmed.
+fn confirmed(ground: &Ground, thickest_mm: f64) -> Option<(f64, Trial)> {
+    least_excess(|excess| {
+        let wall_mm = thickest_mm / (1.0 + excess);
+        Some((wall_mm, ground.confirmed(&ground.case.request, wall_mm)?))
+    })
+}
+
+fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
+    let size_mm = size_for(case, greatest_mm, case.wall_mm);
+    if size_mm > case.greatest_size_mm {
+        let words = format!(
+            "with the wall of {} only {} or larger would do, and a kit for this printer may be {} at most",
+            show_mm(case.wall_mm),
+            show_mm(size_mm),
+            show_mm(case.greatest_size_mm)
+        );
+        return Remedy::nothing(Kind::LeastSize, words);
+    }
+    let thinner = (case.least_wall_mm < case.wall_mm).then(|| {
+        let least_mm = case.least_wall_mm;
+        let size_mm = size_for(case, greatest_mm, least_mm);
+        format!(" ({} with the thinnest wall this printer makes, {})", show_mm(size_mm), show_mm(least_mm))
+    });
+    let words = format!(
+        "make it {} or larger with the wall of {}{}",
+        show_mm(size_mm),
+        show_mm(case.wall_mm),
+        thinner.unwrap_or_default()
+    );
+    let times = size_mm / case.solid.mesh().longest_side_mm();
+    let flags = format!("--size={size_mm}mm{}", scaled_places(&case.request, times));
+    Remedy::found(Kind::LeastSize, size_mm, [flags, words], trial)
+}
+
+/// What has to be typed besides so that places given in mm stay where they are on a model this many times as large.
+fn scaled_places(request: &Request, times: f64) -> String {
+    let point = |at: [f64; 3]| rounded(at.map(|coordinate| coordinate * times), 4);
+    let contact = match request.contact {
+        Some(Contact::At(at)) => format!(" --contact={}", Contact::At(point(at))),
+        _ => String::new(),
+    };
+    let spin_point = match request.spin_point {
+        Some(SpinPoint::At(at)) => format!(" --spin-point={}", SpinPoint::At(point(at))),
+        _ => String::new(),
+    };
+    let waterline = match request.water.map(|water| water.waterline) {
+        Some(Waterline::At(line)) => format!(" --waterline={:.3}mm", line.mm() * times),
+        _ => String::new(),
+    };
+    let bore = request.rotor.and_then(|rotor| rotor.bore);
+    let bore = bore.map_or(String::new(), |bore| format!(" --bore={:.3}mm", bore.mm() * times));
+    contact + &spin_point + &waterline + &bore
+}
+
+/// The size, mm, at which a wall is as thick for the model as `greatest_mm` is at the present size.
+fn size_for(case: &Case, greatest_mm: f64, wall_mm: f64) -> f64 {
+    rounded_up(case.solid.mesh().longest_side_mm() * wall_mm / greatest_mm)
+}
+
+fn thinner(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
+    let steps = (greatest_mm / case.wall_step_mm).floor();
+    let wall_mm = (steps * case.wall_step_mm * WALLS_PER_MM).floor() / WALLS_PER_MM;
+    if wall_mm < case.least_wall_mm {
+        let words = format!(
+            "at this size only a wall of {} or thinner would do, and this printer makes none below {}",
+            show_mm(greatest_mm),
+            show_mm(case.least_wall_mm)
+        );
+        return Remedy::nothing(Kind::GreatestWall, words);
+    }
+    let words = format!("make the wall {} or thinner at this size", show_mm(wall_mm));
+    Remedy::found(Kind::GreatestWall, wall_mm, [format!("--wall={wall_mm}mm"), words], trial)
+}
+
+/// To three significant digits, never less than the number.
+fn rounded_up(number: f64) -> f64 {
+    let decimals = 2 - number.log10().floor() as i32;
+    let unit = 10f64.powi(decimals);
+    (number * unit).ceil() / unit
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::goal::GoalKind;
+
+    #[test]
+    fn places_in_mm_grow_with_the_model() {
+        let top = Request { contact: Some(Contact::At([1.0, -2.0, 0.5])), ..Request::new(GoalKind::Top) };
+        assert_eq!(scaled_places(&top, 1.5), " --contact=1.5,-3,0.75");
+        assert_eq!(scaled_places(&Request::new(GoalKind::Yoyo), 1.5), "");
+    }
+
+    #[test]
+    fn a_size_is_rounded_up_to_three_digits() {
+        for (number, rounded) in [(100.0, 100.0), (100.2, 101.0), (1234.0, 1240.0), (9.871, 9.88), (0.5, 0.5)]
+        {
+            assert_eq!(rounded_up(number), rounded);
+        }
+    }
+}

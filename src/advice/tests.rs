@@ -1,0 +1,260 @@
+//! What is advised helps, and a little less would not: every remedy is put to a fresh solve on exact columns.
+
+use super::ground::{CONFIRMING_COLUMNS, Ground};
+use super::*;
+use crate::geom::{Frame, Matrix, Point, Vector};
+use crate::goal::{Contact, Objective, SpinPoint, Up, place};
+use crate::hollow::Figure;
+use crate::mesh::primitives::{cuboid, ellipsoid};
+use crate::mesh::{Csg, TriMesh};
+
+/// Samples of the grounds that tests ask for exact answers only.
+const FEW: usize = 100;
+/// How much less than what is advised must be too little: the border is found to a per cent, and two are given to spare.
+const SHORT: f64 = 0.95;
+
+fn solid(mesh: TriMesh) -> Solid {
+    Solid::new(mesh).unwrap()
+}
+
+/// A tower of 20 × 20 × 60 mm that leans over its foot.
+fn leaning_tower() -> Solid {
+    let tower = cuboid(&Point::new(-10.0, -10.0, 0.0), &Point::new(10.0, 10.0, 60.0));
+    solid(tower.map_vertices(|p| Point::new(p.x + 0.45 * p.z, p.y, p.z)))
+}
+
+/// A lens with a belly on one side, so that its centre of mass is not above its lowest point.
+fn bulging_lens() -> Solid {
+    let lens = ellipsoid(&Point::origin(), &Vector::new(30.0, 26.0, 12.0), 4);
+    solid(lens.map_vertices(|p| Point::new(p.x + 0.004 * p.x * p.x, p.y, p.z)))
+}
+
+fn case(solid: &Solid, request: Request, wall_mm: f64) -> Case<'_> {
+    Case {
+        solid,
+        request,
+        wall_mm,
+        least_wall_mm: 0.2,
+        wall_step_mm: 0.1,
+        density_g_cm3: 1.2,
+        greatest_size_mm: 1e4,
+    }
+}
+
+fn is_possible(case: &Case, request: &Request, wall_mm: f64) -> bool {
+    Ground::new(*case, FEW).confirmed(request, wall_mm).is_some()
+}
+
+fn of_kind(remedies: &[Remedy], kind: Kind) -> &Remedy {
+    remedies.iter().find(|remedy| remedy.kind == kind).unwrap()
+}
+
+/// A yo-yo whose axis leans away from the lens's own.
+fn askew_yoyo() -> Request {
+    let up = Up::Along([0.5, 0.1, 0.8]);
+    Request { up, objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) }
+}
+
+/// A top on a lens, its contact too far aside.
+fn top_aside(lens: &Solid) -> Request {
+    let lowest = place(lens, 1.0, &Request::new(GoalKind::Top)).unwrap().goal.frame.origin;
+    let aside = [lowest.x - 12.0, lowest.y + 5.0, lowest.z];
+    Request { contact: Some(Contact::At(aside)), ..Request::new(GoalKind::Top) }
+}
+
+#[test]
+fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them() {
+    let tower = leaning_tower();
+    let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
+    assert!(!is_possible(&case, &case.request, case.wall_mm));
+    let found = remedies(&case);
+    let size_mm = of_kind(&found, Kind::LeastSize).amount.unwrap();
+    let wall_at = |size_mm: f64| case.wall_mm * tower.mesh().longest_side_mm() / size_mm;
+    assert!(is_possible(&case, &case.request, wall_at(size_mm)));
+    assert!(!is_possible(&case, &case.request, wall_at(SHORT * size_mm)));
+    let wall = of_kind(&found, Kind::GreatestWall);
+    assert!(is_possible(&case, &case.request, wall.amount.unwrap()));
+    // The wall is also rounded down to a tenth of a millimetre.
+    assert!(!is_possible(&case, &case.request, wall.amount.unwrap() / SHORT + 0.1));
+    assert_eq!(wall.flags, format!("--wall={}mm", wall.amount.unwrap()));
+    let reached = wall.confirmed.unwrap().reached;
+    assert!(reached.figure == Figure::TopplingAngleRad && reached.value > 0.0);
+}
+
+#[test]
+fn possible_walls_are_below_one_number_and_impossible_ones_above() {
+    let tower = leaning_tower();
+    let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
+    let ground = Ground::new(case, 20_000);
+    let possible: Vec<bool> = (1..=30).map(|i| ground.allows(&case.request, 0.1 * f64::from(i))).collect();
+    assert!(possible[0] && !possible[29]);
+    assert!(possible.windows(2).all(|pair| pair[0] || !pair[1]), "{possible:?}");
+}
+
+#[test]
+fn a_wall_that_cannot_be_printed_is_not_advised_and_a_size_that_does_not_fit_neither() {
+    let tower = leaning_tower();
+    let case = Case {
+        least_wall_mm: 2.9,
+        greatest_size_mm: 61.0,
+        ..case(&tower, Request::new(GoalKind::Stand), 3.0)
+    };
+    let found = remedies(&case);
+    for (kind, says) in
+        [(Kind::GreatestWall, "makes none below 2.900 mm"), (Kind::LeastSize, "61.00 mm at most")]
+    {
+        let remedy = of_kind(&found, kind);
+        assert!(!remedy.helps() && remedy.amount.is_none() && remedy.flags.is_empty());
+        assert!(remedy.words.contains(says), "{}", remedy.words);
+    }
+}
+
+#[test]
+fn a_top_spins_on_the_advised_contact_and_on_none_that_is_nearer() {
+    let lens = bulging_lens();
+    let case = case(&lens, top_aside(&lens), 1.5);
+    let found = remedies(&case);
+    let remedy = of_kind(&found, Kind::NearestContact);
+    let contact: Contact = remedy.flags.strip_prefix("--contact=").unwrap().parse().unwrap();
+    assert!(is_possible(&case, &Request { contact: Some(contact), ..case.request }, 1.5));
+    let Some(Contact::At(asked)) = case.request.contact else { panic!("no contact") };
+    let (asked, radius) = (Point::from(asked), SHORT * remedy.amount.unwrap());
+    for i in 0..36 {
+        let (sin, cos) = (f64::from(i) * 10.0).to_radians().sin_cos();
+        let at = asked + Vector::new(cos, sin, 0.0) * radius;
+        let request = Request { contact: Some(Contact::At(at.into())), ..case.request };
+        assert!(!is_possible(&case, &request, 1.5), "{i}");
+    }
+}
+
+#[test]
+fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
+    let lens = bulging_lens();
+    let case = case(&lens, askew_yoyo(), 1.5);
+    let found = remedies(&case);
+    let remedy = of_kind(&found, Kind::NearestAxis);
+    let up: Up = remedy.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    assert!(is_possible(&case, &Request { up, ..case.request }, 1.5));
+    let asked = case.request.up.direction().unwrap();
+    let tilt = up.direction().unwrap().angle(&asked);
+    assert!((tilt.to_degrees() - remedy.amount.unwrap()).abs() < 0.02);
+    let frame = Frame::with_axis(Point::origin(), &asked);
+    for i in 0..24 {
+        let (sin, cos) = (f64::from(i) * 15.0).to_radians().sin_cos();
+        let aside = (SHORT * tilt).sin();
+        let nearer = frame.direction_to_model(&Vector::new(aside * cos, aside * sin, (SHORT * tilt).cos()));
+        let request = Request { up: Up::Along(nearer.into()), ..case.request };
+        assert!(!is_possible(&case, &request, 1.5), "{i}");
+    }
+}
+
+#[test]
+fn a_yoyo_about_a_point_out_of_reach_is_told_one_within() {
+    let lens = bulging_lens();
+    let away = Request { spin_point: Some(SpinPoint::At([-14.0, 0.0, 1.0])), ..Request::new(GoalKind::Yoyo) };
+    let case = case(&lens, away, 1.5);
+    let found = remedies(&case);
+    let remedy = of_kind(&found, Kind::NearestSpinPoint);
+    let point: SpinPoint = remedy.flags.strip_prefix("--spin-point=").unwrap().parse().unwrap();
+    assert!(is_possible(&case, &Request { spin_point: Some(point), ..away }, 1.5));
+    let Some(SpinPoint::At(asked)) = away.spin_point else { panic!("no point") };
+    for direction in directions::lattice(40) {
+        let at = Point::from(asked) + direction * SHORT * remedy.amount.unwrap();
+        let request = Request { spin_point: Some(SpinPoint::At(at.into())), ..away };
+        assert!(!is_possible(&case, &request, 1.5), "{direction}");
+    }
+}
+
+#[test]
+fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
+    let tower = leaning_tower();
+    let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
+    let found = remedies(&case);
+    let face = of_kind(&found, Kind::NearestFace);
+    let up: Up = face.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    assert!(is_possible(&case, &Request { up, ..case.request }, 3.0));
+    let steel = of_kind(&found, Kind::LeastBallast);
+    // With its lower 15 mm filled the tower of 19.6 g has its centre 1.9 mm outside the edge, and steel acts on an arm of at
+    // most 17 mm, about half of that on the average: some grams.
+    let mass_g = steel.amount.unwrap();
+    assert!(steel.helps() && (1.0..8.0).contains(&mass_g), "{mass_g}");
+    assert!(steel.flags.is_empty() && steel.words.contains("g of steel"));
+}
+
+#[test]
+fn a_possible_goal_is_also_possible_without_advice() {
+    // Advice is asked for only where a run has ended; asked all the same, the wall at hand is the border's inner side.
+    let lens = bulging_lens();
+    let case = case(&lens, Request::new(GoalKind::Yoyo), 1.5);
+    assert!(is_possible(&case, &case.request, case.wall_mm));
+    assert!(Ground::new(case, 20_000).allows(&case.request, case.wall_mm));
+}
+
+#[test]
+fn remedies_are_the_same_on_one_thread_and_on_three() {
+    let lens = bulging_lens();
+    let case = case(&lens, askew_yoyo(), 1.5);
+    let with = |threads| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| serde_json::to_string(&remedies(&case)).unwrap())
+    };
+    assert_eq!(with(1), with(3));
+}
+
+#[test]
+fn of_all_axes_a_lens_spins_best_about_its_own() {
+    let turn = Frame::with_axis(Point::origin(), &Vector::new(0.3, -0.5, 0.7)).axes;
+    let lens = solid(bulging_lens().mesh().map_vertices(|p| Point::from(turn * p.coords)));
+    let request = Request { up: Up::Auto, ..Request::new(GoalKind::Yoyo) };
+    let case = case(&lens, request, 1.5);
+    let best = best_orientation(&case).unwrap();
+    let own: Vector = Matrix::column(&turn, 2).into();
+    let angle = best.request.up.direction().unwrap().angle(&own);
+    assert!(angle.min(std::f64::consts::PI - angle) < 3f64.to_radians(), "{}", angle.to_degrees());
+    for axis in [Vector::x(), Vector::y(), Vector::new(0.3, -0.4, 0.7)] {
+        let request = Request { up: Up::Along(axis.into()), ..request };
+        let other = Ground::new(case, 20_000).trial(&request, 1.5).unwrap();
+        let is_worse = !other.is_possible() || other.solution.certificate.value > best.reached.value;
+        assert!(is_worse, "{axis}");
+    }
+}
+
+#[test]
+fn a_standing_object_is_set_on_the_face_on_which_it_topples_last() {
+    let slab = solid(cuboid(&Point::origin(), &Point::new(30.0, 24.0, 8.0)));
+    let request = Request { up: Up::Auto, ..Request::new(GoalKind::Stand) };
+    let best = best_orientation(&case(&slab, request, 1.0)).unwrap();
+    assert_eq!((best.tried, best.possible), (6, 6));
+    assert_eq!(best.request.up.direction().unwrap().z.abs(), 1.0);
+}
+
+#[test]
+fn what_a_lens_could_become_is_told_for_every_axis() {
+    let lens = bulging_lens();
+    let found = prospects(&case(&lens, Request::new(GoalKind::Top), 1.5));
+    let prospect =
+        |kind, up| found.iter().find(|prospect| prospect.kind == kind && prospect.up == up).unwrap();
+    assert!(prospect(GoalKind::Yoyo, Up::Z).possible);
+    let upright = prospect(GoalKind::Yoyo, Up::X);
+    assert!(!upright.possible && upright.reached.is_none() && upright.reason.contains("I_b/I_c"));
+    assert!(prospect(GoalKind::Top, Up::Z).up == Up::Z);
+}
+
+#[test]
+fn the_hull_of_a_cross_has_the_cross_within() {
+    let bar = |x: f64, y: f64, z: f64| cuboid(&Point::new(-x, -y, -z), &Point::new(x, y, z));
+    let cross = bar(4.0, 1.0, 1.0).joined(&bar(1.0, 3.0, 1.0));
+    let hull = Csg::convex_hull(cross.vertices()).unwrap().to_mesh().unwrap();
+    // An octagon of 8 × 6 less four corners of 3 × 2/2, two high.
+    assert!((hull.signed_volume_mm3() - 2.0 * (48.0 - 12.0)).abs() < 1e-9);
+}
+
+#[test]
+fn the_confirming_solve_is_finer_than_the_search() {
+    let lens = bulging_lens();
+    let ground = Ground::new(case(&lens, askew_yoyo(), 1.5), FINE_SAMPLES);
+    let request = Request::new(GoalKind::Yoyo);
+    let (_, exact) = ground.exact(&request, 1.5, CONFIRMING_COLUMNS).unwrap();
+    let trial = ground.trial(&request, 1.5).unwrap();
+    assert!(exact.len() > 4 * trial.columns, "{} {}", exact.len(), trial.columns);
+}
