@@ -182,12 +182,15 @@ fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
 }
 
 #[test]
-fn a_possible_goal_is_also_possible_without_advice() {
-    // Advice is asked for only where a run has ended; asked all the same, the wall at hand is the border's inner side.
+fn sampled_depths_and_exact_columns_agree_on_what_is_clearly_possible_and_what_is_not() {
     let lens = bulging_lens();
     let case = case(&lens, Request::new(GoalKind::Yoyo), 1.5);
-    assert!(is_possible(&case, &case.request, case.wall_mm));
-    assert!(Ground::new(case, 20_000).allows(&case.request, case.wall_mm));
+    let ground = Ground::new(case, 20_000);
+    let on_edge = Request { up: Up::X, ..case.request };
+    for (request, expected) in [(case.request, true), (on_edge, false)] {
+        assert_eq!(is_possible(&case, &request, case.wall_mm), expected);
+        assert_eq!(ground.allows(&request, case.wall_mm), expected);
+    }
 }
 
 #[test]
@@ -237,7 +240,8 @@ fn what_a_lens_could_become_is_told_for_every_axis() {
     assert!(prospect(GoalKind::Yoyo, Up::Z).possible);
     let upright = prospect(GoalKind::Yoyo, Up::X);
     assert!(!upright.possible && upright.reached.is_none() && upright.reason.contains("I_b/I_c"));
-    assert!(prospect(GoalKind::Top, Up::Z).up == Up::Z);
+    let (flat, on_edge) = (prospect(GoalKind::Top, Up::Z), prospect(GoalKind::Top, Up::X));
+    assert!(flat.possible && flat.reached.is_some() && !on_edge.possible, "{flat:?} {on_edge:?}");
 }
 
 #[test]

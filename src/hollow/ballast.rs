@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::ascent::{Climb, End};
+use super::golden::golden_section;
 use super::heights::Heights;
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
@@ -26,9 +27,8 @@ const RIGHTING_MM: f64 = 0.5;
 const GRADE_SHARE: f64 = 0.9;
 /// Heights of a top's centre that are looked at before the best is refined.
 const HEIGHTS: usize = 9;
-/// Rounds of golden section about the best height, and the part of the range that each leaves, (√5 − 1)/2.
+/// Rounds of golden section about the best height: six leave a ninth of the two looks around it.
 const GOLDEN_ROUNDS: usize = 6;
-const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 /// Growth of the weight of a limit until it is kept, and how often it may grow.
 const WEIGHT_GROWTH: f64 = 4.0;
 const MOST_GROWTHS: usize = 14;
@@ -96,7 +96,6 @@ struct Bought {
 }
 
 /// What a height of a top's centre costs.
-#[derive(Default)]
 struct Look {
     height: f64,
     bought: Option<Bought>,
@@ -137,20 +136,9 @@ impl Shop<'_> {
         let width = (high - low) / HEIGHTS as f64;
         let looks = (0..HEIGHTS).map(|i| at(low + (i as f64 + 0.5) * width));
         let best = looks.min_by(Look::by_cost)?;
-        let (mut a, mut b) = (best.height - width, best.height + width);
-        let golden = |from: f64, to: f64| at(from + GOLDEN_RATIO * (to - from));
-        let (mut left, mut right) = (golden(b, a), golden(a, b));
-        for _ in 0..GOLDEN_ROUNDS {
-            if Look::by_cost(&left, &right).is_lt() {
-                b = right.height;
-                right = std::mem::take(&mut left);
-                left = golden(b, a);
-            } else {
-                a = left.height;
-                left = std::mem::take(&mut right);
-                right = golden(a, b);
-            }
-        }
+        let range = [best.height - width, best.height + width];
+        let is_better = |left: &Look, right: &Look| Look::by_cost(left, right).is_lt();
+        let [left, right] = golden_section(range, GOLDEN_ROUNDS, at, (|look: &Look| look.height, is_better));
         [best, left, right].into_iter().min_by(Look::by_cost)?.bought
     }
 

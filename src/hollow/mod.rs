@@ -119,6 +119,7 @@ mod balance;
 mod ballast;
 mod cover;
 mod float;
+mod golden;
 mod heights;
 mod mass;
 mod method;
@@ -142,6 +143,7 @@ use crate::goal::GoalKind;
 use crate::progress::Progress;
 
 pub use ballast::{Ballast, least_ballast};
+pub use golden::golden_section;
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;

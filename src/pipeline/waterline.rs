@@ -2,7 +2,7 @@
 
 use super::{Error, Setup, solving::COARSE_COLUMNS, stopwatch::Stopwatch};
 use crate::goal::{Afloat, Hydrostatics, Waterline};
-use crate::hollow::{Problem, Settings, Status, solve};
+use crate::hollow::{Problem, Settings, Status, golden_section, solve};
 use crate::interior::Columns;
 use crate::progress::Progress;
 use crate::shell::Shell;
@@ -11,8 +11,6 @@ use crate::shell::Shell;
 const LOOKS: usize = 40;
 /// Rounds of the golden section about the best of them: each leaves 0.618 of the range, so 14 leave a thousandth of a look.
 const ROUNDS: usize = 14;
-/// 1/φ, the share of an interval a golden section keeps.
-const GOLDEN_RATIO: f64 = 0.618_033_988_749_894_9;
 
 /// The setup with the waterline at which the metacentric height is greatest, where the job leaves it free: the heights are
 /// looked over evenly on coarse columns, then refined about the best one. Where no height will do, the one that misses least.
@@ -54,18 +52,9 @@ impl Search<'_> {
         let step = self.hydrostatics.height_mm() / (LOOKS + 1) as f64;
         let looks = (1..=LOOKS).map(|i| self.rated(step * i as f64));
         let best = looks.fold(self.rated(0.5 * step), better);
-        let (mut low, mut high) = (best.0.waterline_mm - step, best.0.waterline_mm + step);
-        let mut inner = [high - GOLDEN_RATIO * (high - low), low + GOLDEN_RATIO * (high - low)]
-            .map(|waterline_mm| self.rated(waterline_mm));
-        for _ in 0..ROUNDS {
-            if is_better(&inner[0], &inner[1]) {
-                high = inner[1].0.waterline_mm;
-                inner = [self.rated(high - GOLDEN_RATIO * (high - low)), inner[0]];
-            } else {
-                low = inner[0].0.waterline_mm;
-                inner = [inner[1], self.rated(low + GOLDEN_RATIO * (high - low))];
-            }
-        }
+        let range = [best.0.waterline_mm - step, best.0.waterline_mm + step];
+        let look = |waterline_mm| self.rated(waterline_mm);
+        let inner = golden_section(range, ROUNDS, look, (|rated: &Rated| rated.0.waterline_mm, is_better));
         inner.into_iter().fold(best, better).0
     }
 

@@ -30,6 +30,9 @@ SUPPORT_BAND_RATIO = 0.002
 AGREEMENT_RATIO = 1e-7
 # Critical speeds divide by a difference of moments, which costs up to two digits.
 SPEED_AGREEMENT_RATIO = 1e-5
+# The metacentric height by the waterplane's second moment, against the program's by righting arms at a small heel.
+METACENTRE_AGREEMENT_RATIO = 1e-3
+WATERLINE_TOLERANCE_MM = 0.02
 # Triangles this many times longer than most are cut into pieces before near ones are looked for.
 LONG = 4
 # Pairs of triangles held in memory at once.
@@ -132,6 +135,10 @@ def figures(goal, mass, center, inertia, outer):
         found["center_height_mm"] = local[2] - ground
         found["topples_deg"] = math.degrees(math.atan2(inside_distance(feet, local[:2]), local[2] - ground))
         return found
+    if goal["kind"] == "float":
+        return found | afloat(goal["water"], (outer - origin) @ axes.T, mass, local)
+    if goal["kind"] == "balance":
+        return found | unbalance(goal["rotor"], (outer - origin) @ axes[2], mass, local, tensor)
     _, directions = np.linalg.eigh(inertia)
     leaning = [math.atan2(np.linalg.norm(np.cross(d, axes[2])), abs(d @ axes[2])) for d in directions.T]
     found["axis_tilt_deg"] = math.degrees(min(leaning))
@@ -143,6 +150,54 @@ def figures(goal, mass, center, inertia, outer):
         omega2 = GRAVITY_MM_S2 * mass * max(local[2], 0.0) / (axial - transverse)
         found["critical_speed_rpm"] = math.sqrt(omega2) * 30 / math.pi if axial > transverse else None
     return found
+
+
+def afloat(water, outer, mass, center):
+    """How a body floats upright: its level by bisection, its metacentre by the waterplane's second moment."""
+    from scipy.optimize import brentq
+    triangles = outer.reshape(-1, 3, 3)
+    mesh = trimesh.Trimesh(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3), process=False)
+    low, high = outer[:, 2].min(), outer[:, 2].max()
+    displaced = mass / (water["liquid_g_cm3"] / 1000)
+
+    def wet(level):
+        # With the origin in the level, the plane that closes the wet part adds nothing to volume and first moments.
+        sliced = trimesh.intersections.slice_mesh_plane(mesh, [0, 0, -1], [0, 0, level])
+        return sliced.triangles - [0, 0, level]
+
+    def volume(corners):
+        return math.fsum(np.einsum("ij,ij->i", corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))) / 6
+
+    margin = 1e-6 * (high - low)
+    if volume(triangles) <= displaced:
+        return {"waterline_mm": None, "metacentric_height_mm": None}
+    level = brentq(lambda z: volume(wet(z)) - displaced, low + margin, high - margin, xtol=1e-10)
+    a, b, c = (wet(level)[:, i] for i in range(3))
+    sixfold = np.einsum("ij,ij->i", a, np.cross(b, c))
+    buoyancy = (sixfold[:, None] * (a + b + c)).sum(axis=0) / 24 / (sixfold.sum() / 6) + [0, 0, level]
+    # ∬ f n_z over the wet surface is −∬ f over the waterplane, f any function of x and y.
+    upward = np.cross(b - a, c - a)[:, 2] / 2
+    middles = [(a + b)[:, :2] / 2, (b + c)[:, :2] / 2, (c + a)[:, :2] / 2]
+    area = -upward.sum()
+    first = -sum(upward @ m for m in middles) / 3
+    second = -sum(np.einsum("n,ni,nj->ij", upward, m, m) for m in middles) / 3
+    least = np.linalg.eigvalsh(second - np.outer(first, first) / area)[0]
+    return {
+        "waterline_mm": level - low,
+        "trim_mm": np.linalg.norm((buoyancy - center)[:2]),
+        "metacentric_height_mm": buoyancy[2] + least / displaced - center[2],
+    }
+
+
+def unbalance(rotor, along, mass, center, tensor):
+    """The unbalance in the two planes at the ends, and the ISO 21940-11 grade that it is at the rotor's speed."""
+    first = mass * center[:2]
+    product = -tensor[:2, 2] + first * center[2]
+    low, high = along.min(), along.max()
+    planes = (first * high - product) / (high - low), (product - first * low) / (high - low)
+    worst = max(np.linalg.norm(plane) for plane in planes)
+    omega = rotor["speed_rpm"] * math.pi / 30
+    return {"balance_grade_mm_s": 2 * worst / mass * omega, "reach_mm_s": (high - low) * omega}
 
 
 def inside_distance(points, p):
@@ -320,7 +375,7 @@ def judge(kit):
     volume, mass, center, inertia = body(parts, density)
     found = figures(goal, mass, center, inertia, np.concatenate(outer).reshape(-1, 3))
     judge_body(table, promised, (volume, mass, center, inertia), found)
-    judge_goal(table, goal["kind"], sheet.get("promise"), found)
+    judge_goal(table, goal, sheet.get("promise"), found)
     judge_whole(table, sheet, volume, moments(hollowed)[0])
     if voids:
         wall = smallest_wall(outer, voids)
@@ -346,18 +401,34 @@ def judge_body(table, promised, body, found):
     for name in ("critical_speed_rpm", "topples_deg", "dominance_ratio", "spin_it_ratio", "center_height_mm"):
         if name in found:
             table.same(name, promised[name], found[name], SPEED_AGREEMENT_RATIO)
+    if "metacentric_height_mm" in found:
+        stated = promised["afloat"]
+        table.same("waterline_mm", stated["waterline_mm"], found["waterline_mm"])
+        height = "metacentric_height_mm"
+        table.same(height, stated[height], found[height], METACENTRE_AGREEMENT_RATIO)
+    if "balance_grade_mm_s" in found:
+        # What is left is a difference of large moments: it is compared with the part's own length turning about.
+        stated = promised["unbalance"]["grade_mm_s"]
+        table.same("balance_grade_mm_s", stated, found["balance_grade_mm_s"], scale=found["reach_mm_s"])
 
 
-def judge_goal(table, kind, promise, found):
-    if kind == "stand":
+def judge_goal(table, goal, promise, found):
+    if goal["kind"] == "stand":
         table.at_least("stands, °", 0.0, found["topples_deg"])
+    elif goal["kind"] == "float":
+        ordered = abs(found["waterline_mm"] - goal["water"]["waterline_mm"])
+        table.at_most("waterline, off by mm", WATERLINE_TOLERANCE_MM, ordered)
+        table.at_most("centre beside buoyancy, mm", AXIS_OFFSET_LIMIT_MM, found["trim_mm"])
+        table.at_least("metacentric height, mm", 0.0, found["metacentric_height_mm"])
+    elif goal["kind"] == "balance":
+        table.at_most("balance grade, mm/s", goal["rotor"]["grade_mm_s"], found["balance_grade_mm_s"])
     else:
         table.at_most("axis offset, mm", AXIS_OFFSET_LIMIT_MM, found["axis_offset_mm"])
         table.at_most("axis tilt, °", AXIS_TILT_LIMIT_DEG, found["axis_tilt_deg"])
         table.at_most("dominance I_b/I_c", 1.0, found["dominance_ratio"])
     if promise:
         value = found[promise["figure"]]
-        if promise["figure"] == "topples_deg":
+        if promise["figure"] in ("topples_deg", "metacentric_height_mm"):
             table.at_least("promised figure, " + promise["figure"], promise["value"] * 0.999, value)
         else:
             table.at_most("promised figure, " + promise["figure"], promise["value"] * 1.001, value)
