@@ -14,7 +14,7 @@ const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.
 /// The Python to judge with: `EQUIPOISE_JUDGE_PYTHON`, or `python3`; none where it lacks the judge's packages.
 fn python() -> Option<OsString> {
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
-    let imports = Command::new(&python).args(["-c", "import numpy, scipy, trimesh, rtree"]).output();
+    let imports = Command::new(&python).args(["-c", "import numpy, rtree, scipy, shapely, trimesh"]).output();
     imports.is_ok_and(|output| output.status.success()).then_some(python)
 }
 
@@ -27,7 +27,7 @@ fn judged(python: &OsString, kit: &Path) -> (Option<i32>, String) {
 #[test]
 fn an_independent_judge_agrees_with_the_checklist_and_finds_a_lie_in_it() {
     let Some(python) = python() else {
-        eprintln!("SKIPPED: no Python with numpy, scipy, trimesh and rtree here");
+        eprintln!("SKIPPED: no Python with numpy, rtree, scipy, shapely and trimesh here");
         return;
     };
     let folder = tempfile::tempdir().unwrap();

@@ -11,12 +11,16 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point},
-    mesh::{Csg, Hollowed, TriMesh, union_find::UnionFind},
+    mesh::{Csg, Hollowed, Solid, TriMesh, sewn, union_find::UnionFind},
 };
 
 /// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same points but for
 /// rounding, and a wall lies between different mouths.
 const MOUTH_TOLERANCE_MM: f64 = 1e-6;
+
+/// Corners of two faces that meet lie this near to each other, mm: both are made by the same cut, with a rounding of
+/// 1e-13; a model's own corners are farther apart.
+const SEAM_TOLERANCE_MM: f64 = 1e-9;
 
 /// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer pieces.
 const SHADOW_CELLS: usize = 96;
@@ -90,7 +94,7 @@ pub(crate) fn rejoined(
         groups[sets.root(index as u32) as usize].push(piece);
     }
     groups.retain(|group| !group.is_empty());
-    let united = groups.into_par_iter().map(|group| united(group, planes));
+    let united = groups.into_par_iter().map(|group| united(group, planes, bridges));
     Ok(in_order(united.collect::<Result<_, _>>()?))
 }
 
@@ -129,18 +133,44 @@ fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     laid(&both, &sides_down(b, cutting.planes, &[], cutting.request), cutting.request).fits
 }
 
-/// One piece of several that touch; the smaller are united first, which is cheap.
-fn united(mut members: Vec<Piece>, planes: &[Plane]) -> Result<Piece, CutError> {
-    members.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
-    let Some(smallest) = members.pop() else { return Ok(piece(TriMesh::default(), planes)) };
-    if members.is_empty() {
-        return Ok(smallest);
+/// One piece of several that touch at bridges.
+fn united(mut members: Vec<Piece>, planes: &[Plane], bridges: &[Bridge]) -> Result<Piece, CutError> {
+    if members.len() == 1 {
+        return Ok(members.remove(0));
     }
-    let mut body = Csg::of_mesh(&smallest.mesh)?;
-    for member in members.iter().rev() {
+    let mesh = match stitched(&members, bridges) {
+        Some(mesh) => mesh,
+        None => unioned(members)?,
+    };
+    Ok(piece(mesh, planes))
+}
+
+/// The members without the faces in which they meet, sewn together along the rims of those; none where the rims have
+/// not the same corners.
+///
+/// A union would find the faces' planes 1e-14 mm apart, and at times leaves a sheet between them.
+fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
+    let is_bridge = |cap: &Cap| bridges.iter().any(|bridge| bridge.cut == cap.cut && cap.holds(&bridge.at));
+    let open = |member: &Piece| {
+        let mut stays = vec![true; member.mesh.triangles().len()];
+        for cap in member.caps.iter().filter(|cap| is_bridge(cap)) {
+            cap.faces.iter().for_each(|&face| stays[face] = false);
+        }
+        let left = member.mesh.triangles().iter().zip(stays).filter_map(|(t, stays)| stays.then_some(*t));
+        TriMesh::new(member.mesh.vertices().to_vec(), left.collect()).ok()
+    };
+    let all = members.iter().try_fold(TriMesh::default(), |all, member| Some(all.joined(&open(member)?)))?;
+    Some(Solid::new(sewn(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
+}
+
+/// The union of the members; the smaller are united first, which is cheap.
+fn unioned(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
+    members.sort_by(|a, b| a.volume_mm3.total_cmp(&b.volume_mm3));
+    let mut body = Csg::of_mesh(&TriMesh::default())?;
+    for member in &members {
         body = body.union(&Csg::of_mesh(&member.mesh)?)?;
     }
-    Ok(piece(body.to_mesh()?, planes))
+    Ok(body.to_mesh()?)
 }
 
 /// The height of a piece over a grid on the plane, to tell whether another can be drawn out past it.
@@ -208,7 +238,7 @@ mod tests {
         scenes::{cuboid, request},
         split::split,
     };
-    use crate::{geom::Vector, mesh::Solid};
+    use crate::geom::Vector;
 
     fn union(boxes: &[([f64; 3], [f64; 3])]) -> Solid {
         let bodies = boxes.iter().map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());

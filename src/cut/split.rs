@@ -35,6 +35,8 @@ pub(crate) struct Cap {
     pub(crate) is_above: bool,
     pub(crate) outline: Outline,
     pub(crate) area_mm2: f64,
+    /// Its triangles in the piece's mesh, as indices into them, ascending.
+    pub(crate) faces: Vec<usize>,
     triangles: Vec<[Point2; 3]>,
 }
 
@@ -120,31 +122,34 @@ pub(crate) fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
 fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
     let on_plane: Vec<bool> =
         mesh.vertices().iter().map(|p| plane.distance(p).abs() <= ON_PLANE_MM).collect();
-    let flat: Vec<[u32; 3]> =
-        mesh.triangles().iter().filter(|t| t.iter().all(|&v| on_plane[v as usize])).copied().collect();
+    let is_flat = |&face: &usize| mesh.triangles()[face].iter().all(|&v| on_plane[v as usize]);
+    let flat: Vec<usize> = (0..mesh.triangles().len()).filter(is_flat).collect();
     let mut sets = UnionFind::new(mesh.vertices().len());
-    for &[a, b, c] in &flat {
+    for &face in &flat {
+        let [a, b, c] = mesh.triangles()[face];
         sets.merge(a, b);
         sets.merge(b, c);
     }
-    let mut faces: Vec<(u32, Vec<[u32; 3]>)> = Vec::new();
-    for triangle in flat {
-        let name = sets.root(triangle[0]);
-        match faces.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, triangles)) => triangles.push(triangle),
-            None => faces.push((name, vec![triangle])),
+    let mut groups: Vec<(u32, Vec<usize>)> = Vec::new();
+    for face in flat {
+        let name = sets.root(mesh.triangles()[face][0]);
+        match groups.iter_mut().find(|(known, _)| *known == name) {
+            Some((_, faces)) => faces.push(face),
+            None => groups.push((name, vec![face])),
         }
     }
     let chart = Chart::of_plane(plane);
-    faces.iter().map(|(_, triangles)| cap(mesh, triangles, &chart, cut)).filter(Cap::has_area).collect()
+    groups.into_iter().map(|(_, faces)| cap(mesh, faces, &chart, cut)).filter(Cap::has_area).collect()
 }
 
-fn cap(mesh: &TriMesh, triangles: &[[u32; 3]], chart: &Chart, cut: usize) -> Cap {
+fn cap(mesh: &TriMesh, faces: Vec<usize>, chart: &Chart, cut: usize) -> Cap {
     let flat = |v: u32| chart.flat(&mesh.vertices()[v as usize]);
-    let boundary = boundary_edges(triangles).into_iter().map(|(a, b)| [flat(a), flat(b)]).collect();
-    let triangles: Vec<[Point2; 3]> = triangles.iter().map(|t| t.map(flat)).collect();
+    let corners: Vec<[u32; 3]> = faces.iter().map(|&face| mesh.triangles()[face]).collect();
+    let boundary = boundary_edges(&corners).into_iter().map(|(a, b)| [flat(a), flat(b)]).collect();
+    let triangles: Vec<[Point2; 3]> = corners.iter().map(|t| t.map(flat)).collect();
     let signed: f64 = triangles.iter().map(|[a, b, c]| (b - a).perp(&(c - a)) / 2.0).sum();
-    Cap { cut, is_above: signed < 0.0, outline: Outline::new(boundary), area_mm2: signed.abs(), triangles }
+    let (is_above, area_mm2) = (signed < 0.0, signed.abs());
+    Cap { cut, is_above, outline: Outline::new(boundary), area_mm2, faces, triangles }
 }
 
 /// The directed edges without an opposite among the triangles, sorted.
