@@ -260,7 +260,11 @@ pub struct PrintersArgs {
 #[derive(Debug, Clone, PartialEq, Eq, Subcommand)]
 pub enum PrintersAction {
     /// List the known printers
-    List,
+    List {
+        /// Print the table of README
+        #[arg(long)]
+        markdown: bool,
+    },
     /// Show every number of a printer with its source
     Show {
         /// A known printer's id, or a profile file
@@ -564,7 +568,7 @@ mod tests {
             other => panic!("{other:?}"),
         };
         assert_eq!(action("equipoise printers"), None);
-        assert_eq!(action("equipoise printers list"), Some(PrintersAction::List));
+        assert_eq!(action("equipoise printers list"), Some(PrintersAction::List { markdown: false }));
         let show = PrintersAction::Show { id: "prusa-mk4".into() };
         assert_eq!(action("equipoise printers show prusa-mk4"), Some(show));
         assert_eq!(

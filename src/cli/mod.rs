@@ -4,6 +4,7 @@ pub mod args;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;
+pub mod printers_markdown;
 pub mod show;
 pub mod verify;
 

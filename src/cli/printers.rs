@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{args::PrintersAction, show::table};
+use super::{args::PrintersAction, printers_markdown::markdown, show::table};
 use crate::{
     printer::{Printer, ProfileError, Quantity, Sourced, Sure},
     units::{show_mm, show_percent},
@@ -26,8 +26,9 @@ pub enum PrintersError {
 
 /// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as JSON.
 pub fn run(action: Option<PrintersAction>, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
-    match action.unwrap_or(PrintersAction::List) {
-        PrintersAction::List => list(&Printer::all()?, json, out),
+    match action.unwrap_or(PrintersAction::List { markdown: false }) {
+        PrintersAction::List { markdown: true } => Ok(out.write_all(markdown(&Printer::all()?).as_bytes())?),
+        PrintersAction::List { markdown: false } => list(&Printer::all()?, json, out),
         PrintersAction::Show { id } => show(&Printer::find(&id)?, json, out),
         PrintersAction::Check { file } => check(&Printer::read(&file)?, json, out),
     }
@@ -44,19 +45,23 @@ fn list(printers: &[Printer], json: bool, out: &mut dyn Write) -> Result<(), Pri
 }
 
 fn list_row(printer: &Printer) -> [String; 7] {
-    let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
-    let pixel = if x == y { show_step(x) } else { format!("{} × {}", show_step(x), show_step(y)) };
     let volume =
         printer.build_volume_mm.as_ref().map_or_else(|| "not known".to_owned(), |v| show_box(v.value));
     [
         printer.id.clone(),
         printer.name.clone(),
         printer.process.clone().unwrap_or_default(),
-        pixel,
+        show_pixel(printer),
         show_step(printer.layer_mm.value),
         volume,
         show_mm(printer.min_wall_mm.value),
     ]
+}
+
+/// The steps along x and y, told once where they are equal.
+pub(super) fn show_pixel(printer: &Printer) -> String {
+    let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
+    if x == y { show_step(x) } else { format!("{} × {}", show_step(x), show_step(y)) }
 }
 
 fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
@@ -74,13 +79,14 @@ fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Printe
 
 /// What the words for how sure a number is mean.
 const SURE: &str = "\
-sure: read = seen in the source; paper = from a paper the method rests on; computed = from the source's numbers;
+sure: measured = by the shop, on its own prints; read = seen in the source; paper = from a paper the method rests on; computed = from the source's numbers;
 third party = not from the maker; recalled = remembered, not read again; own choice = for the reason given";
 
 fn words(printer: &Printer) -> Vec<[String; 2]> {
     let word = |name: &str, value: String| [name.to_owned(), value];
     vec![
         word("process", printer.process.clone().unwrap_or_else(|| "its own".to_owned())),
+        word("inherits", printer.inherits.join(" → ")),
         word("grid", kebab(&printer.grid)),
         word("support", kebab(&printer.support)),
         word("print pose", kebab(&printer.print_pose)),
@@ -96,28 +102,56 @@ fn kebab(value: &impl Serialize) -> String {
 
 fn numbers(printer: &Printer) -> Vec<[String; 4]> {
     let mut rows = vec![["number", "value", "sure", "source"].map(str::to_owned)];
-    if let Some(volume) = &printer.build_volume_mm {
-        rows.push(number_row("build_volume_mm", show_box(volume.value), volume));
-    } else {
-        rows.push(["build_volume_mm", "not known", "", "the fit of parts is not checked"].map(str::to_owned));
+    rows.extend(plate(printer));
+    for wall in &printer.walls_by_part_size {
+        let value = format!("{} for parts up to {}", show_mm(wall.wall_mm.value), show_mm(wall.up_to_mm));
+        rows.push(number_row("walls_by_part_size", value, &wall.wall_mm));
     }
     for (quantity, number) in printer.numbers() {
         let value = show_number(quantity, number.value);
         rows.push(number_row(quantity.key(), value, number));
     }
+    let unknown = printer.unknown().into_iter();
+    rows.extend(unknown.map(|key| [key, "not known", "", unknown_words(key)].map(str::to_owned)));
     rows
+}
+
+/// What is known of the plate and the room over it, and of shrinkage.
+fn plate(printer: &Printer) -> Vec<[String; 4]> {
+    let boxes =
+        [("build_volume_mm", &printer.build_volume_mm), ("largest_part_mm", &printer.largest_part_mm)];
+    let boxes = boxes.into_iter().filter_map(|(key, volume)| Some((key, volume.as_ref()?)));
+    let mut rows: Vec<_> =
+        boxes.map(|(key, volume)| number_row(key, show_box(volume.value), volume)).collect();
+    for corner in &printer.excluded_corners {
+        let [x, y] = corner.size_mm.value;
+        let value = format!("{} {x} × {y} mm", kebab(&corner.corner));
+        rows.push(number_row("excluded_corners", value, &corner.size_mm));
+    }
+    let flag = printer.compensates_shrinkage.iter();
+    rows.extend(flag.map(|flag| number_row("compensates_shrinkage", flag.value.to_string(), flag)));
+    rows
+}
+
+/// What it means that a key is not known.
+fn unknown_words(key: &str) -> &'static str {
+    match key {
+        "build_volume_mm" => "the fit of parts is not checked",
+        "compensates_shrinkage" => "parts are written at nominal size",
+        _ => "",
+    }
 }
 
 fn show_number(quantity: Quantity, value: f64) -> String {
     match quantity {
         _ if quantity.is_grid_step() => show_step(value),
-        Quantity::PinLengthRatio | Quantity::ToleranceRatio => value.to_string(),
+        _ if quantity.is_ratio() => value.to_string(),
         _ => show_mm(value),
     }
 }
 
 /// A step of a grid, to a tenth of a micrometre.
-fn show_step(step_mm: f64) -> String {
+pub(super) fn show_step(step_mm: f64) -> String {
     format!("{step_mm:.4} mm")
 }
 
@@ -134,7 +168,10 @@ fn materials(printer: &Printer) -> Vec<[String; 6]> {
             material.id.clone(),
             material.name.clone(),
             format!("{} g/cm³", material.density_g_cm3.value),
-            show_percent(material.density_spread_ratio.value),
+            material
+                .density_spread_ratio
+                .as_ref()
+                .map_or_else(|| "not known".to_owned(), |spread| show_percent(spread.value)),
             material.density_g_cm3.sure.to_string(),
             material.density_g_cm3.source.clone(),
         ]
@@ -224,7 +261,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 13 numbers, 10 of them process defaults, 5 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 19 numbers, 13 of them process defaults, 5 recalled or own choices\n"
         );
         let mut out = Vec::new();
         let error =

@@ -160,7 +160,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
-        build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
+        build_volume_mm: printer.usable_volume_mm(),
         wall_mm: printer.min_wall_mm.value,
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,

@@ -84,9 +84,7 @@ fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
 fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
     Promise {
         schema: SCHEMA,
-        printer: PrinterLimits {
-            build_volume_mm: setup.printer.build_volume_mm.as_ref().map(|volume| volume.value),
-        },
+        printer: PrinterLimits { build_volume_mm: setup.printer.usable_volume_mm() },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
         goal: rows::aim(setup),
         promise: None,

@@ -117,7 +117,7 @@ fn printer_row(setup: &Setup) -> PrinterRow {
         process: printer.process.clone().unwrap_or_default(),
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
-        build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
+        build_volume_mm: printer.usable_volume_mm(),
         support: support_word(printer.support).to_owned(),
         minimum_opening_mm: printer.min_opening_mm.value,
         sources: sources(setup),
@@ -149,7 +149,7 @@ fn material_row(setup: &Setup) -> MaterialRow {
         density_g_cm3: material.density_g_cm3.value,
         density_source: material.density_g_cm3.source.clone(),
         density_sure: material.density_g_cm3.sure.to_string(),
-        density_spread_ratio: Some(material.density_spread_ratio.value),
+        density_spread_ratio: material.measured_spread_ratio(),
     }
 }
 

@@ -65,7 +65,7 @@ pub enum Problem {
     },
     /// A number whose certainty is not said.
     #[error(
-        "`{key}` does not say how sure it is; remedy: add sure = \"read\", \"paper\", \"computed\", \"third-party\", \"recalled\" or \"own-choice\""
+        "`{key}` does not say how sure it is; remedy: add sure = \"measured\", \"read\", \"paper\", \"computed\", \"third-party\", \"recalled\" or \"own-choice\""
     )]
     NotSure {
         /// The number.
@@ -90,7 +90,7 @@ pub enum Problem {
         key: String,
     },
     /// Not a number, infinite, zero or negative.
-    #[error("`{key}` is {value}, but must be positive and finite")]
+    #[error("`{key}` is {}, but must be positive and finite", shown(*value))]
     NotPositive {
         /// The number.
         key: String,
@@ -98,7 +98,7 @@ pub enum Problem {
         value: f64,
     },
     /// So large or small that another unit was meant.
-    #[error("`{key}` is {value}, outside {least} to {most}; remedy: check the unit in its name")]
+    #[error("`{key}` is {}, outside {least} to {most}; remedy: check the unit in its name", shown(*value))]
     Implausible {
         /// The number.
         key: String,
@@ -129,23 +129,45 @@ pub enum Problem {
         /// The id.
         id: String,
     },
-    /// A profile that inherits from itself.
-    #[error("`{id}` inherits from itself; remedy: inherit from one of the processes {known}")]
+    /// A profile that inherits from itself, or from one that inherits from it.
+    #[error("`{id}` inherits from itself ({way}); remedy: inherit from one of the processes {known}")]
     Cycle {
         /// The profile.
         id: String,
+        /// The way round: `a → b → a`.
+        way: String,
         /// The processes there are.
         known: String,
     },
-    /// A printer given as the parent.
-    #[error(
-        "`{parent}` is a printer, and a profile has one parent at most; remedy: inherit from one of the processes {known}"
-    )]
-    ParentIsPrinter {
-        /// The parent.
+    /// A parent's file that cannot be read.
+    #[error("cannot read the parent {parent}; remedy: check its path, taken from this profile's folder")]
+    UnreadableParent {
+        /// Its path.
         parent: String,
-        /// The processes there are.
-        known: String,
+    },
+    /// Numbers of one profile that cannot both be right.
+    #[error("`{key}` is {value}, but {against}; remedy: correct the one or the other")]
+    Contradiction {
+        /// The number.
+        key: String,
+        /// Its value.
+        value: f64,
+        /// What speaks against it.
+        against: String,
+    },
+    /// A measured density without its day or its lot.
+    #[error("`{id}` has a measured density, but no {missing}; remedy: add {missing} = …")]
+    NotDated {
+        /// The material.
+        id: String,
+        /// `measured_on` or `lot`.
+        missing: &'static str,
+    },
+    /// Something that is not a day.
+    #[error("`measured_on` is {value}, but must be a day such as 2026-11-21")]
+    NotADay {
+        /// What it says.
+        value: String,
     },
     /// A process that has a parent itself.
     #[error(
@@ -158,7 +180,7 @@ pub enum Problem {
         parent: String,
     },
     /// A parent that does not exist.
-    #[error("there is no process `{parent}`; remedy: {remedy}")]
+    #[error("there is no process or printer `{parent}`; remedy: {remedy}")]
     UnknownParent {
         /// The parent.
         parent: String,
@@ -192,6 +214,12 @@ pub enum Problem {
         /// The printer's materials.
         known: String,
     },
+}
+
+/// A number for people: with a power of ten where it would have many digits.
+fn shown(value: f64) -> String {
+    let is_plain = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
+    if is_plain { value.to_string() } else { format!("{value:e}") }
 }
 
 /// "did you mean `x`?", or the whole list when nothing is near.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use toml::Spanned;
 
 use super::{
-    Grid, Material, PrintPose, Quantity, Sourced, Support,
+    ExcludedCorner, Grid, Material, PrintPose, Quantity, SizedWall, Sourced, Support,
     profile::{ProfileText, Reader},
 };
 
@@ -17,12 +17,17 @@ pub(super) type Reference = (String, usize);
 pub(super) struct Layer {
     pub id: String,
     pub name: String,
+    pub inherits: Vec<String>,
     pub process: Option<String>,
     pub grid: Option<Grid>,
     pub support: Option<Support>,
     pub print_pose: Option<PrintPose>,
     pub cleaning: Option<String>,
     pub build_volume_mm: Option<Sourced<[f64; 3]>>,
+    pub largest_part_mm: Option<Sourced<[f64; 3]>>,
+    pub excluded_corners: Vec<ExcludedCorner>,
+    pub walls_by_part_size: Vec<SizedWall>,
+    pub compensates_shrinkage: Option<Sourced<bool>>,
     pub numbers: BTreeMap<Quantity, Sourced<f64>>,
     pub materials: Option<Vec<Reference>>,
     pub default_material: Option<Reference>,
@@ -36,12 +41,30 @@ impl Layer {
         Self {
             id: reader.id(&text.id),
             name: reader.words("name", &text.name),
+            inherits: Vec::new(),
             process: None,
             grid: text.grid,
             support: text.support,
             print_pose: text.print_pose,
             cleaning: text.cleaning.as_ref().map(|cleaning| reader.words("cleaning", cleaning)),
-            build_volume_mm: text.build_volume_mm.as_ref().and_then(|volume| reader.build_volume(volume)),
+            build_volume_mm: text
+                .build_volume_mm
+                .as_ref()
+                .and_then(|volume| reader.volume("build_volume_mm", volume)),
+            largest_part_mm: text
+                .largest_part_mm
+                .as_ref()
+                .and_then(|volume| reader.volume("largest_part_mm", volume)),
+            excluded_corners: text.excluded_corners.iter().filter_map(|at| reader.corner(at)).collect(),
+            walls_by_part_size: text
+                .walls_by_part_size
+                .iter()
+                .filter_map(|wall| reader.sized_wall(wall))
+                .collect(),
+            compensates_shrinkage: text
+                .compensates_shrinkage
+                .as_ref()
+                .and_then(|flag| reader.flag("compensates_shrinkage", flag)),
             numbers: numbers.filter_map(|(&key, quoted)| Some((key, reader.number(key, quoted)?))).collect(),
             materials: text.materials.as_ref().map(|list| list.get_ref().iter().map(reference).collect()),
             default_material: text.default_material.as_ref().map(reference),
@@ -49,28 +72,60 @@ impl Layer {
         }
     }
 
-    /// This layer, with what it leaves unsaid taken from a process.
-    pub fn over(mut self, process: Self) -> Self {
-        let default_of = Some(process.id.clone());
-        for (key, number) in process.numbers {
-            let inherited = Sourced { process_default_of: default_of.clone(), ..number };
-            self.numbers.entry(key).or_insert(inherited);
+    /// This layer of a process, whose numbers are defaults from now on.
+    pub fn as_process(mut self) -> Self {
+        let id = self.id.clone();
+        let walls = self.walls_by_part_size.iter_mut().map(|wall| &mut wall.wall_mm);
+        for number in self.numbers.values_mut().chain(walls) {
+            number.process_default_of = Some(id.clone());
         }
+        if let Some(flag) = &mut self.compensates_shrinkage {
+            flag.process_default_of = Some(id.clone());
+        }
+        self.process = Some(id);
+        self
+    }
+
+    /// This layer, with what it leaves unsaid taken from its parent.
+    pub fn over(mut self, parent: Self) -> Self {
+        // A machine's own wall is not to be overruled by its process's table of walls.
+        let has_wall = self.numbers.contains_key(&Quantity::MinWallMm) || !self.walls_by_part_size.is_empty();
+        for (key, number) in parent.numbers {
+            self.numbers.entry(key).or_insert(number);
+        }
+        let has_own = |id: &String, own: &[Material]| own.iter().any(|material| material.id == *id);
+        let inherited: Vec<Material> = parent
+            .own_materials
+            .into_iter()
+            .filter(|material| !has_own(&material.id, &self.own_materials))
+            .collect();
         Self {
-            process: default_of,
-            grid: self.grid.or(process.grid),
-            support: self.support.or(process.support),
-            print_pose: self.print_pose.or(process.print_pose),
-            cleaning: self.cleaning.or(process.cleaning),
+            inherits: std::iter::once(parent.id).chain(parent.inherits).collect(),
+            process: parent.process,
+            grid: self.grid.or(parent.grid),
+            support: self.support.or(parent.support),
+            print_pose: self.print_pose.or(parent.print_pose),
+            cleaning: self.cleaning.or(parent.cleaning),
+            build_volume_mm: self.build_volume_mm.or(parent.build_volume_mm),
+            largest_part_mm: self.largest_part_mm.or(parent.largest_part_mm),
+            excluded_corners: first_of(self.excluded_corners, parent.excluded_corners),
+            walls_by_part_size: if has_wall { self.walls_by_part_size } else { parent.walls_by_part_size },
+            compensates_shrinkage: self.compensates_shrinkage.or(parent.compensates_shrinkage),
             default_material: self.default_material.or(self
                 .materials
                 .is_none()
-                .then_some(process.default_material)
+                .then_some(parent.default_material)
                 .flatten()),
-            materials: self.materials.or(process.materials),
+            materials: self.materials.or(parent.materials),
+            own_materials: self.own_materials.into_iter().chain(inherited).collect(),
             ..self
         }
     }
+}
+
+/// The first list, or the second where the first is empty.
+fn first_of<T>(first: Vec<T>, second: Vec<T>) -> Vec<T> {
+    if first.is_empty() { second } else { first }
 }
 
 fn reference(id: &Spanned<String>) -> Reference {

@@ -32,13 +32,18 @@ macro_rules! built_in {
 
 /// The profiles that come with the program.
 pub(super) const BUILT_IN: Library<'static> = Library {
-    printers: built_in!("printers": "formlabs-form4" "objet-connex350" "prusa-mk4"),
-    processes: built_in!("processes": "fdm" "polyjet" "sla"),
-    materials: built_in!("materials": "abs" "asa" "formlabs-standard" "pc" "petg" "pla" "vero-white"),
+    printers: built_in!("printers":
+        "bambu-x1c" "elegoo-mars-5-ultra" "elegoo-saturn-4-ultra" "eos-p396" "formlabs-form3" "formlabs-form4"
+        "formlabs-fuse1" "hp-mjf-5200" "objet-connex350" "projet-mjp-2500" "prusa-mk3s" "prusa-mk4" "prusa-sl1s"
+        "ultimaker-s5"),
+    processes: built_in!("processes": "fdm" "mjf" "mjp" "polyjet" "sla" "sls"),
+    materials: built_in!("materials":
+        "abs" "abs-ultimaker" "asa" "formlabs-nylon-12" "formlabs-standard" "hp-pa12" "pa2200" "pc"
+        "petg" "pla" "resin" "vero-white" "visijet-m2r"),
 };
 
 /// How the name of a profile's file ends.
-const PROFILE_ENDING: &str = ".toml";
+pub(super) const PROFILE_ENDING: &str = ".toml";
 
 impl Library<'_> {
     /// The printer of that id, or the one in that file.
@@ -128,7 +133,7 @@ mod tests {
     #[test]
     fn an_unknown_printer_is_told_with_the_known_ones_and_the_nearest() {
         let error = Printer::find("objet-conex350").unwrap_err().to_string();
-        assert!(error.contains("formlabs-form4, objet-connex350, prusa-mk4"), "{error}");
+        assert!(error.contains("hp-mjf-5200, objet-connex350, projet-mjp-2500"), "{error}");
         assert!(error.contains("did you mean `objet-connex350`?"), "{error}");
         let error = Printer::find("makerbot").unwrap_err().to_string();
         assert!(error.contains("or the path of a profile"), "{error}");
@@ -138,7 +143,7 @@ mod tests {
     fn a_file_of_ones_own_inherits_a_process_and_a_missing_one_is_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("shop.toml");
-        let text = BUILT_IN.printers[1].text.replace("objet-connex350", "shop-jet");
+        let text = by_id(BUILT_IN.printers, "objet-connex350").unwrap().text.replace("objet-connex350", "shop-jet");
         std::fs::write(&path, text).unwrap();
         let printer = Printer::find(path.to_str().unwrap()).unwrap();
         assert_eq!((printer.id.as_str(), printer.process.as_deref()), ("shop-jet", Some("polyjet")));

@@ -1,10 +1,13 @@
 //! A printer with all its numbers settled.
 
-use std::path::Path;
+use std::{collections::BTreeMap, path::Path};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Material, MaterialError, ProfileError, Quantity, Sourced, error::suggestion, library};
+use super::{
+    ExcludedCorner, Material, MaterialError, ProfileError, Quantity, SizedWall, Sourced, error::suggestion,
+    library,
+};
 
 /// What the steps of a printer's grid in x and y are.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -52,14 +55,18 @@ pub enum PrintPose {
 pub struct Tolerance {
     /// The tolerance of a short dimension, mm.
     pub least_mm: Sourced<f64>,
+    /// What of a long dimension's tolerance does not grow with it, mm; zero where it is not given.
+    pub base_mm: Option<Sourced<f64>>,
     /// The tolerance of a long dimension over its length; none where it does not grow.
     pub ratio: Option<Sourced<f64>>,
 }
 
 impl Tolerance {
-    /// The tolerance of a dimension of `length_mm`, ± mm: the larger of the two, as makers state it ("±0.3 %, at least 0.3 mm").
+    /// The tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, and not below the least. Both of the
+    /// makers' forms are that: "±0.3 %, at least 0.3 mm" has no base, "±0.3 mm + 0.002 mm/mm" has the least as its base.
     pub fn at_mm(&self, length_mm: f64) -> f64 {
-        let growing_mm = self.ratio.as_ref().map_or(0.0, |ratio| ratio.value * length_mm);
+        let number = |number: &Option<Sourced<f64>>| number.as_ref().map_or(0.0, |number| number.value);
+        let growing_mm = number(&self.base_mm) + number(&self.ratio) * length_mm;
         self.least_mm.value.max(growing_mm)
     }
 }
@@ -75,7 +82,9 @@ pub struct Printer {
     pub name: String,
     /// The process it inherits from, if any.
     pub process: Option<String>,
-    /// SHA-256 of the profile's text followed by its process's, in hexadecimal.
+    /// The profiles it inherits from, the nearest first; the process is the last.
+    pub inherits: Vec<String>,
+    /// SHA-256 of the profile's text followed by those of what it inherits from, in hexadecimal.
     pub profile_sha256: String,
     /// What the steps of its grid are.
     pub grid: Grid,
@@ -87,6 +96,14 @@ pub struct Printer {
     pub layer_mm: Sourced<f64>,
     /// Width, depth and height of what fits; none where no source was found.
     pub build_volume_mm: Option<Sourced<[f64; 3]>>,
+    /// The sides of the largest part that should be printed; none where it is the build volume.
+    pub largest_part_mm: Option<Sourced<[f64; 3]>>,
+    /// Corners of the plate where nothing may be printed.
+    pub excluded_corners: Vec<ExcludedCorner>,
+    /// The thinnest wall of parts up to a size, the smallest first; beyond the last it is `min_wall_mm`.
+    pub walls_by_part_size: Vec<SizedWall>,
+    /// Whether the machine or its software makes up for shrinkage; none where that is not known, and it is taken to.
+    pub compensates_shrinkage: Option<Sourced<bool>>,
     /// The thinnest wall that prints and survives cleaning.
     pub min_wall_mm: Sourced<f64>,
     /// The smallest detail that prints.
@@ -113,6 +130,9 @@ pub struct Printer {
     pub cleaning: String,
     /// What it prints, never empty; the default is first.
     pub materials: Vec<Material>,
+    /// What is known besides, of the quantities that no printer needs ([`Quantity::is_needed`]).
+    #[serde(flatten)]
+    pub besides: BTreeMap<Quantity, Sourced<f64>>,
 }
 
 impl Printer {
@@ -133,22 +153,36 @@ impl Printer {
 
     /// Every number of the profile's `[numbers]`, in the order of [`Quantity`].
     pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
-        let mut numbers = vec![
-            (Quantity::PixelXMm, &self.pixel_x_mm),
-            (Quantity::PixelYMm, &self.pixel_y_mm),
-            (Quantity::LayerMm, &self.layer_mm),
-            (Quantity::MinWallMm, &self.min_wall_mm),
-            (Quantity::MinFeatureMm, &self.min_feature_mm),
-            (Quantity::MinOpeningMm, &self.min_opening_mm),
-            (Quantity::PinMinDiameterMm, &self.pin_min_diameter_mm),
-            (Quantity::PinLengthRatio, &self.pin_length_ratio),
-            (Quantity::ClearancePerSideMm, &self.clearance_per_side_mm),
-            (Quantity::SocketExtraDepthMm, &self.socket_extra_depth_mm),
-            (Quantity::ChamferMm, &self.chamfer_mm),
-            (Quantity::ToleranceLeastMm, &self.tolerance.least_mm),
-        ];
-        numbers.extend(self.tolerance.ratio.as_ref().map(|ratio| (Quantity::ToleranceRatio, ratio)));
-        numbers
+        Quantity::ALL.iter().filter_map(|&quantity| Some((quantity, self.number(quantity)?))).collect()
+    }
+
+    /// A number of the profile's `[numbers]`; none where it is not known.
+    pub fn number(&self, quantity: Quantity) -> Option<&Sourced<f64>> {
+        Some(match quantity {
+            Quantity::PixelXMm => &self.pixel_x_mm,
+            Quantity::PixelYMm => &self.pixel_y_mm,
+            Quantity::LayerMm => &self.layer_mm,
+            Quantity::MinWallMm => &self.min_wall_mm,
+            Quantity::MinFeatureMm => &self.min_feature_mm,
+            Quantity::MinOpeningMm => &self.min_opening_mm,
+            Quantity::PinMinDiameterMm => &self.pin_min_diameter_mm,
+            Quantity::PinLengthRatio => &self.pin_length_ratio,
+            Quantity::ClearancePerSideMm => &self.clearance_per_side_mm,
+            Quantity::SocketExtraDepthMm => &self.socket_extra_depth_mm,
+            Quantity::ChamferMm => &self.chamfer_mm,
+            Quantity::ToleranceLeastMm => &self.tolerance.least_mm,
+            Quantity::ToleranceBaseMm => self.tolerance.base_mm.as_ref()?,
+            Quantity::ToleranceRatio => self.tolerance.ratio.as_ref()?,
+            other => self.besides.get(&other)?,
+        })
+    }
+
+    /// What is not known of the printer, by key, in the order of [`Quantity`].
+    pub fn unknown(&self) -> Vec<&'static str> {
+        let numbers = Quantity::ALL.iter().filter(|&&quantity| self.number(quantity).is_none());
+        let volume = self.build_volume_mm.is_none().then_some("build_volume_mm");
+        let shrinkage = self.compensates_shrinkage.is_none().then_some("compensates_shrinkage");
+        volume.into_iter().chain(shrinkage).chain(numbers.map(|quantity| quantity.key())).collect()
     }
 
     /// The material of that id; the printer's default where none is asked for.
@@ -160,19 +194,12 @@ impl Printer {
             MaterialError { printer: self.id.clone(), id: id.to_owned(), remedy: suggestion(id, &known) }
         })
     }
-
-    /// Whether a part of that size fits the build volume as it lies or turned by a right angle on the plate;
-    /// none where the build volume is not known.
-    pub fn fits(&self, size_mm: [f64; 3]) -> Option<bool> {
-        let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
-        let lies = |x: f64, y: f64| x <= width && y <= depth && size_mm[2] <= height;
-        Some(lies(size_mm[0], size_mm[1]) || lies(size_mm[1], size_mm[0]))
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::printer::Sure;
 
     fn printer(id: &str) -> Printer {
         Printer::find(id).unwrap()
@@ -197,8 +224,13 @@ mod tests {
     }
 
     #[test]
-    fn a_weighing_window_lies_evenly_about_the_mass() {
-        let window = printer("prusa-mk4").material(None).unwrap().weighing_window_g(100.0);
+    fn a_weighing_window_lies_evenly_about_the_mass_and_only_a_measured_density_has_one() {
+        let mut pla = printer("prusa-mk4").material(None).unwrap().clone();
+        assert_eq!(pla.weighing_window_g(100.0), None);
+        pla.density_g_cm3.sure = Sure::Measured;
+        let spread = Sourced { value: 0.02, sure: Sure::Measured, ..pla.density_g_cm3.clone() };
+        pla.density_spread_ratio = Some(spread);
+        let window = pla.weighing_window_g(100.0).unwrap();
         assert!((window[0] - 98.0).abs() < 1e-12 && (window[1] - 102.0).abs() < 1e-12);
     }
 
@@ -208,14 +240,7 @@ mod tests {
         assert_eq!(mk4.at_mm(10.0), 0.3);
         assert!((mk4.at_mm(200.0) - 0.6).abs() < 1e-12);
         assert_eq!(printer("objet-connex350").tolerance.at_mm(1000.0), 0.1);
-    }
-
-    #[test]
-    fn a_part_may_be_turned_on_the_plate_but_not_stood_up() {
-        let form4 = printer("formlabs-form4");
-        assert_eq!(form4.fits([120.0, 199.0, 210.0]), Some(true));
-        assert_eq!(form4.fits([126.0, 126.0, 1.0]), Some(false));
-        assert_eq!(form4.fits([10.0, 10.0, 211.0]), Some(false));
-        assert_eq!(printer("objet-connex350").fits([1.0, 1.0, 1.0]), None);
+        let mjf = printer("hp-mjf-5200").tolerance;
+        assert!((mjf.at_mm(100.0) - 0.5).abs() < 1e-12, "0.30 + 0.002 × 100");
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::Sourced;
+use super::{Sourced, Sure};
 
 /// Cubic millimetres in a cubic centimetre.
 const MM3_PER_CM3: f64 = 1000.0;
@@ -16,8 +16,14 @@ pub struct Material {
     pub name: String,
     /// Density as printed and cured, g/cm³.
     pub density_g_cm3: Sourced<f64>,
-    /// How far the mass of a sound print may be from volume × density, as a share of it.
-    pub density_spread_ratio: Sourced<f64>,
+    /// How far the mass of a sound print may be from volume × density, as a share of it; none where nothing is known.
+    pub density_spread_ratio: Option<Sourced<f64>>,
+    /// The lot that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lot: Option<String>,
+    /// The day it was measured, year-month-day.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub measured_on: Option<String>,
 }
 
 impl Material {
@@ -26,10 +32,20 @@ impl Material {
         self.density_g_cm3.value / MM3_PER_CM3
     }
 
-    /// The lightest and heaviest a sound print of `mass_g` may weigh, g.
-    pub fn weighing_window_g(&self, mass_g: f64) -> [f64; 2] {
-        let spread = self.density_spread_ratio.value;
-        [mass_g * (1.0 - spread), mass_g * (1.0 + spread)]
+    /// Whether the density was measured on what the shop printed, so that absolute masses can be judged.
+    pub fn is_measured(&self) -> bool {
+        self.density_g_cm3.sure == Sure::Measured
+    }
+
+    /// The share by which the mass of a sound print may differ, where both it and the density were measured.
+    pub fn measured_spread_ratio(&self) -> Option<f64> {
+        let spread = self.density_spread_ratio.as_ref()?;
+        (self.is_measured() && spread.sure == Sure::Measured).then_some(spread.value)
+    }
+
+    /// The lightest and heaviest a sound print of `mass_g` may weigh, g; none where the density was not measured.
+    pub fn weighing_window_g(&self, mass_g: f64) -> Option<[f64; 2]> {
+        self.measured_spread_ratio().map(|spread| [mass_g * (1.0 - spread), mass_g * (1.0 + spread)])
     }
 }
 

@@ -25,14 +25,17 @@
 //! density_spread_ratio = { value = 0.01, source = "five coupons", sure = "computed" }
 //! ```
 
+mod complete;
 mod error;
 mod layer;
 mod library;
 mod machine;
 mod material;
+mod materials;
 mod profile;
 mod quantity;
 mod resolve;
+mod room;
 mod size;
 mod sourced;
 mod wall;
@@ -41,6 +44,7 @@ pub use error::{Fault, Faults, Problem, ProfileError};
 pub use machine::{Grid, PrintPose, Printer, Support, Tolerance};
 pub use material::{Material, MaterialError};
 pub use quantity::Quantity;
+pub use room::{Corner, ExcludedCorner};
 pub use size::{SizeError, leaves_room};
 pub use sourced::{Sourced, Sure};
-pub use wall::{WallChoice, WallError};
+pub use wall::{SizedWall, WallChoice, WallError};

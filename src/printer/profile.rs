@@ -3,9 +3,12 @@
 use std::{collections::BTreeMap, ops::RangeInclusive};
 
 use serde::Deserialize;
-use toml::Spanned;
+use toml::{Spanned, value::Datetime};
 
-use super::{Fault, Grid, Material, PrintPose, Problem, Quantity, Sourced, Support, Sure};
+use super::{
+    Corner, ExcludedCorner, Fault, Grid, Material, PrintPose, Problem, Quantity, SizedWall, Sourced, Support,
+    Sure,
+};
 use crate::{
     toml_text::{self, Place, TextFault},
     units::MM_PER_INCH,
@@ -19,6 +22,12 @@ const DENSITY_G_CM3: RangeInclusive<f64> = 0.05..=25.0;
 
 /// Shares by which the mass of a sound print may differ; above it per cent were given.
 const DENSITY_SPREAD_RATIO: RangeInclusive<f64> = 1e-4..=0.5;
+
+/// Sides of a corner of the plate that can be meant, mm.
+const CORNER_MM: RangeInclusive<f64> = 0.1..=5_000.0;
+
+/// Sizes of parts that walls can depend on, mm.
+const PART_SIZE_MM: RangeInclusive<f64> = 1.0..=10_000.0;
 
 /// A printer's or a process's file.
 #[derive(Debug, Deserialize)]
@@ -34,6 +43,12 @@ pub(super) struct ProfileText {
     pub materials: Option<Spanned<Vec<Spanned<String>>>>,
     pub default_material: Option<Spanned<String>>,
     pub build_volume_mm: Option<Spanned<Quoted<[f64; 3]>>>,
+    pub largest_part_mm: Option<Spanned<Quoted<[f64; 3]>>>,
+    pub compensates_shrinkage: Option<Spanned<Quoted<bool>>>,
+    #[serde(default)]
+    pub excluded_corners: Vec<Spanned<CornerText>>,
+    #[serde(default)]
+    pub walls_by_part_size: Vec<Spanned<WallText>>,
     #[serde(default)]
     pub numbers: BTreeMap<Quantity, Spanned<Quoted<f64>>>,
     #[serde(default)]
@@ -47,7 +62,9 @@ pub(super) struct MaterialText {
     pub id: Spanned<String>,
     pub name: Spanned<String>,
     pub density_g_cm3: Spanned<Quoted<f64>>,
-    pub density_spread_ratio: Spanned<Quoted<f64>>,
+    pub density_spread_ratio: Option<Spanned<Quoted<f64>>>,
+    pub lot: Option<Spanned<String>>,
+    pub measured_on: Option<Spanned<Datetime>>,
 }
 
 /// A value as written, with its source still unchecked.
@@ -56,6 +73,26 @@ pub(super) struct MaterialText {
 pub(super) struct Quoted<T> {
     value: Option<T>,
     dpi: Option<f64>,
+    source: Option<String>,
+    sure: Option<Sure>,
+}
+
+/// A corner of the plate as written.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct CornerText {
+    corner: Corner,
+    size_mm: [f64; 2],
+    source: Option<String>,
+    sure: Option<Sure>,
+}
+
+/// The least wall of parts up to a size, as written.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct WallText {
+    up_to_mm: f64,
+    wall_mm: f64,
     source: Option<String>,
     sure: Option<Sure>,
 }
@@ -112,24 +149,86 @@ impl<'a> Reader<'a> {
         self.sourced(Entry { key, at, range: quantity.plausible() }, quoted)
     }
 
-    /// The build volume.
-    pub fn build_volume(&mut self, quoted: &Spanned<Quoted<[f64; 3]>>) -> Option<Sourced<[f64; 3]>> {
-        let entry = Entry { key: "build_volume_mm", at: quoted.span().start, range: BUILD_VOLUME_MM };
+    /// A box's sides.
+    pub fn volume(
+        &mut self,
+        key: &'static str,
+        quoted: &Spanned<Quoted<[f64; 3]>>,
+    ) -> Option<Sourced<[f64; 3]>> {
+        let entry = Entry { key, at: quoted.span().start, range: BUILD_VOLUME_MM };
         self.sourced(entry, quoted.get_ref().clone())
+    }
+
+    /// Whether the machine makes up for shrinkage by itself.
+    pub fn flag(&mut self, key: &'static str, quoted: &Spanned<Quoted<bool>>) -> Option<Sourced<bool>> {
+        let entry = Entry { key, at: quoted.span().start, range: BUILD_VOLUME_MM };
+        self.sourced(entry, quoted.get_ref().clone())
+    }
+
+    /// A corner where nothing may be printed.
+    pub fn corner(&mut self, text: &Spanned<CornerText>) -> Option<ExcludedCorner> {
+        let CornerText { corner, size_mm, source, sure } = text.get_ref().clone();
+        let entry = Entry { key: "excluded_corners", at: text.span().start, range: CORNER_MM };
+        let size_mm = self.sourced(entry, Quoted { value: Some(size_mm), dpi: None, source, sure })?;
+        Some(ExcludedCorner { corner, size_mm })
+    }
+
+    /// The least wall of parts up to a size.
+    pub fn sized_wall(&mut self, text: &Spanned<WallText>) -> Option<SizedWall> {
+        let WallText { up_to_mm, wall_mm, source, sure } = text.get_ref().clone();
+        let at = text.span().start;
+        let key = "walls_by_part_size";
+        self.judge(&Entry { key, at, range: PART_SIZE_MM }, up_to_mm);
+        let entry = Entry { key, at, range: Quantity::MinWallMm.plausible() };
+        let wall_mm = self.sourced(entry, Quoted { value: Some(wall_mm), dpi: None, source, sure })?;
+        Some(SizedWall { up_to_mm, wall_mm })
     }
 
     /// A material with its two numbers.
     pub fn material(&mut self, text: &MaterialText) -> Option<Material> {
         let id = self.id(&text.id);
         let name = self.words("name", &text.name);
-        let [density, spread] = [
-            ("density_g_cm3", &text.density_g_cm3, DENSITY_G_CM3),
-            ("density_spread_ratio", &text.density_spread_ratio, DENSITY_SPREAD_RATIO),
-        ]
-        .map(|(key, quoted, range)| {
-            self.sourced(Entry { key, at: quoted.span().start, range }, quoted.get_ref().clone())
-        });
-        Some(Material { id, name, density_g_cm3: density?, density_spread_ratio: spread? })
+        let density = self.number_of("density_g_cm3", &text.density_g_cm3, DENSITY_G_CM3);
+        let spread = text.density_spread_ratio.as_ref();
+        let spread =
+            spread.map(|quoted| self.number_of("density_spread_ratio", quoted, DENSITY_SPREAD_RATIO));
+        let lot = text.lot.as_ref().map(|lot| self.words("lot", lot));
+        let measured_on = text.measured_on.as_ref().and_then(|day| self.day(day));
+        let density = density?;
+        if density.sure == Sure::Measured {
+            self.note_not_dated(text, &id);
+        }
+        let density_spread_ratio = spread.flatten();
+        Some(Material { id, name, density_g_cm3: density, density_spread_ratio, lot, measured_on })
+    }
+
+    fn number_of(
+        &mut self,
+        key: &'static str,
+        quoted: &Spanned<Quoted<f64>>,
+        range: RangeInclusive<f64>,
+    ) -> Option<Sourced<f64>> {
+        self.sourced(Entry { key, at: quoted.span().start, range }, quoted.get_ref().clone())
+    }
+
+    /// A day without a time, as year-month-day.
+    fn day(&mut self, day: &Spanned<Datetime>) -> Option<String> {
+        let text = day.get_ref().to_string();
+        if day.get_ref().date.is_some() && day.get_ref().time.is_none() {
+            return Some(text);
+        }
+        self.note(day.span().start, Problem::NotADay { value: text });
+        None
+    }
+
+    /// Notes what a measured density lacks to be traced.
+    fn note_not_dated(&mut self, text: &MaterialText, id: &str) {
+        for (is_there, missing) in [(text.measured_on.is_some(), "measured_on"), (text.lot.is_some(), "lot")]
+        {
+            if !is_there {
+                self.note(text.density_g_cm3.span().start, Problem::NotDated { id: id.to_owned(), missing });
+            }
+        }
     }
 
     /// The value with its source; everything missing or impossible about it is noted.
@@ -182,8 +281,14 @@ impl Numbers for f64 {
     }
 }
 
-impl Numbers for [f64; 3] {
+impl<const N: usize> Numbers for [f64; N] {
     fn numbers(&self) -> &[f64] {
         self
+    }
+}
+
+impl Numbers for bool {
+    fn numbers(&self) -> &[f64] {
+        &[]
     }
 }

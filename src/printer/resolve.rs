@@ -1,15 +1,17 @@
-//! A profile, its process and its materials put together into one printer.
+//! A profile, what it inherits from and its materials put together into one printer.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use toml::Spanned;
 
 use super::{
-    Faults, Material, Printer, Problem, ProfileError, Quantity, Sourced, Tolerance,
+    Faults, Printer, Problem, ProfileError,
+    complete::{complete, consistent},
     error::suggestion,
-    layer::{Layer, Reference},
-    library::{Library, Profile, by_id, ids},
-    profile::{MaterialText, ProfileText, Reader},
+    layer::Layer,
+    library::{Library, PROFILE_ENDING, Profile, by_id, ids},
+    materials::materials,
+    profile::{ProfileText, Reader},
 };
 use crate::{digest::sha256_hex, toml_text::TextFault};
 
@@ -17,195 +19,144 @@ use crate::{digest::sha256_hex, toml_text::TextFault};
 /// what is there is right.
 pub(super) fn resolve(library: &Library, profile: Profile) -> Result<Printer, ProfileError> {
     let mut reader = Reader::new(profile.file, profile.text);
-    let text: ProfileText = reader.parse()?;
-    let mut layer = Layer::read(&mut reader, &text);
-    let mut process_text = "";
-    if let Some(id) = &text.inherits {
-        let process = parent(library, &mut reader, id, &text).ok_or_else(|| faults_of(&mut reader))?;
-        layer = layer.over(read_process(process, &mut reader)?);
-        process_text = process.text;
-    }
+    let mut way = Way { library, names: Vec::new(), ids: Vec::new(), texts: Vec::new() };
+    let layer = way.layer_of(profile, &mut reader)?;
     let materials = materials(library, &mut reader, &layer)?;
-    if !reader.faults.is_empty() {
-        return Err(faults_of(&mut reader));
+    refuse_faults(&mut reader)?;
+    consistent(&mut reader, &layer);
+    let printer = complete(&mut reader, layer, materials);
+    refuse_faults(&mut reader)?;
+    let texts: Vec<&[u8]> = way.texts.iter().map(String::as_bytes).collect();
+    let profile_sha256 = sha256_hex(&texts);
+    // Without a fault everything a printer needs was there.
+    let printer = printer.ok_or_else(|| ProfileError::Broken(Faults(Vec::new())))?;
+    Ok(Printer { profile_sha256, ..printer })
+}
+
+/// Fails with what was noted, if anything was.
+fn refuse_faults(reader: &mut Reader) -> Result<(), ProfileError> {
+    if reader.faults.is_empty() { Ok(()) } else { Err(Faults(std::mem::take(&mut reader.faults)).into()) }
+}
+
+/// The way from a profile up to the last it inherits from.
+struct Way<'l, 'a> {
+    library: &'l Library<'a>,
+    /// The files on the way, from the profile up; built-in profiles by their ids.
+    names: Vec<String>,
+    /// Their ids, in the same order.
+    ids: Vec<String>,
+    /// Their texts, in the same order.
+    texts: Vec<String>,
+}
+
+/// What a profile inherits from.
+enum Parent<'a> {
+    Process(Profile<'a>),
+    Printer(Profile<'a>),
+    /// A file, with its text.
+    File(String, String),
+}
+
+impl<'a> Way<'_, 'a> {
+    /// What the profile says, over what it inherits.
+    fn layer_of(&mut self, profile: Profile, reader: &mut Reader) -> Result<Layer, ProfileError> {
+        let text: ProfileText = reader.parse()?;
+        let layer = Layer::read(reader, &text);
+        self.names.push(self.name_on_way(&profile));
+        self.ids.push(text.id.get_ref().clone());
+        self.texts.push(profile.text.to_owned());
+        let Some(id) = &text.inherits else { return Ok(layer) };
+        let Some(parent) = self.parent(reader, profile.file, id) else {
+            refuse_faults(reader)?;
+            return Ok(layer);
+        };
+        let above = match &parent {
+            Parent::Process(process) => self.process(*process, reader)?,
+            Parent::Printer(printer) => self.above(*printer, reader)?,
+            Parent::File(file, text) => self.above(Profile { id: file, file, text }, reader)?,
+        };
+        Ok(layer.over(above))
     }
-    let printer = complete(&mut reader, layer, materials).ok_or_else(|| faults_of(&mut reader))?;
-    Ok(Printer { profile_sha256: sha256_hex(&[profile.text.as_bytes(), process_text.as_bytes()]), ..printer })
-}
 
-fn faults_of(reader: &mut Reader) -> ProfileError {
-    Faults(std::mem::take(&mut reader.faults)).into()
-}
-
-/// The process that the profile inherits from; a wrong parent is noted.
-fn parent<'a>(
-    library: &Library<'a>,
-    reader: &mut Reader,
-    id: &Spanned<String>,
-    child: &ProfileText,
-) -> Option<&'a Profile<'a>> {
-    let process = by_id(library.processes, id.get_ref());
-    let parent = id.get_ref().clone();
-    let known = ids(library.processes);
-    let problem = if parent == *child.id.get_ref() {
-        Problem::Cycle { id: parent, known: known.join(", ") }
-    } else if process.is_some() {
-        return process;
-    } else if by_id(library.printers, &parent).is_some() {
-        Problem::ParentIsPrinter { parent, known: known.join(", ") }
-    } else {
-        Problem::UnknownParent { remedy: suggestion(&parent, &known), parent }
-    };
-    reader.note(id.span().start, problem);
-    None
-}
-
-/// What a process says; its faults join those of the printer.
-fn read_process(process: &Profile, child: &mut Reader) -> Result<Layer, TextFault> {
-    let mut reader = Reader::new(process.file, process.text);
-    let text: ProfileText = reader.parse()?;
-    let layer = Layer::read(&mut reader, &text);
-    if let Some(parent) = &text.inherits {
-        let problem = Problem::ProcessInherits { id: layer.id.clone(), parent: parent.get_ref().clone() };
-        reader.note(parent.span().start, problem);
+    /// The layer of a parent; its faults join those of the child.
+    fn above(&mut self, parent: Profile, child: &mut Reader) -> Result<Layer, ProfileError> {
+        let mut reader = Reader::new(parent.file, parent.text);
+        let layer = self.layer_of(parent, &mut reader)?;
+        child.faults.append(&mut reader.faults);
+        Ok(layer)
     }
-    child.faults.append(&mut reader.faults);
-    Ok(layer)
-}
 
-/// The materials of the profile, its default first: those it lists or inherits, and its own.
-fn materials(library: &Library, reader: &mut Reader, layer: &Layer) -> Result<Vec<Material>, TextFault> {
-    let mut found: Vec<Material> = Vec::new();
-    note_repeats(reader, layer);
-    for (id, at) in layer.materials.iter().flatten() {
-        match layer.own_materials.iter().find(|own| own.id == *id) {
-            Some(own) => found.push(own.clone()),
-            None => found.extend(from_library(library, reader, (id, *at))?),
+    /// What a process says; its faults join those of the printer.
+    fn process(&mut self, process: Profile, child: &mut Reader) -> Result<Layer, TextFault> {
+        let mut reader = Reader::new(process.file, process.text);
+        let text: ProfileText = reader.parse()?;
+        let layer = Layer::read(&mut reader, &text);
+        if let Some(parent) = &text.inherits {
+            let problem = Problem::ProcessInherits { id: layer.id.clone(), parent: parent.get_ref().clone() };
+            reader.note(parent.span().start, problem);
         }
+        self.texts.push(process.text.to_owned());
+        child.faults.append(&mut reader.faults);
+        Ok(layer.as_process())
     }
-    let listed = found.len();
-    for own in &layer.own_materials {
-        if found[..listed].iter().all(|material| material.id != own.id) {
-            found.push(own.clone());
+
+    /// What a profile is called when a circle is looked for.
+    fn name_on_way(&self, profile: &Profile) -> String {
+        let is_built_in = by_id(self.library.printers, profile.id).is_some_and(|p| p.file == profile.file);
+        if is_built_in { profile.id.to_owned() } else { one_form(Path::new(profile.file)) }
+    }
+
+    /// What the profile in `file` inherits from; a parent that is none is noted.
+    fn parent(&self, reader: &mut Reader, file: &str, id: &Spanned<String>) -> Option<Parent<'a>> {
+        let at = id.span().start;
+        let parent = id.get_ref();
+        let known = ids(self.library.processes);
+        let path = parent.ends_with(PROFILE_ENDING).then(|| beside(file, parent));
+        let name = path.clone().unwrap_or_else(|| parent.clone());
+        if let Some(first) = self.names.iter().position(|on_way| *on_way == name) {
+            reader.note(at, circle(&self.names[first..], &known));
+            return None;
         }
-    }
-    if found.is_empty() && reader.faults.is_empty() {
-        reader.note(0, Problem::NoMaterials);
-    }
-    default_first(reader, &mut found, layer.default_material.as_ref());
-    Ok(found)
-}
-
-/// Notes materials that are listed or defined twice.
-fn note_repeats(reader: &mut Reader, layer: &Layer) {
-    let mut seen = BTreeSet::new();
-    for (id, at) in layer.materials.iter().flatten() {
-        if !seen.insert(id) {
-            reader.note(*at, Problem::MaterialTwice { id: id.clone() });
+        if let Some(path) = path {
+            return match std::fs::read_to_string(&path) {
+                Ok(text) => Some(Parent::File(path, text)),
+                Err(_) => {
+                    reader.note(at, Problem::UnreadableParent { parent: path });
+                    None
+                }
+            };
         }
-    }
-    let mut seen = BTreeSet::new();
-    for own in &layer.own_materials {
-        if !seen.insert(&own.id) {
-            reader.note(0, Problem::MaterialTwice { id: own.id.clone() });
+        let process = by_id(self.library.processes, parent).map(|process| Parent::Process(*process));
+        let printer = by_id(self.library.printers, parent).map(|printer| Parent::Printer(*printer));
+        let found = process.or(printer);
+        if let (None, Some(first)) = (&found, self.ids.iter().position(|id| id == parent)) {
+            reader.note(at, circle(&self.ids[first..], &known));
+        } else if found.is_none() {
+            let all: Vec<&str> = known.into_iter().chain(ids(self.library.printers)).collect();
+            reader.note(
+                at,
+                Problem::UnknownParent { remedy: suggestion(parent, &all), parent: parent.clone() },
+            );
         }
+        found
     }
 }
 
-fn from_library(
-    library: &Library,
-    child: &mut Reader,
-    (id, at): (&str, usize),
-) -> Result<Option<Material>, TextFault> {
-    let Some(profile) = by_id(library.materials, id) else {
-        let remedy = suggestion(id, &ids(library.materials));
-        child.note(at, Problem::UnknownMaterial { id: id.to_owned(), remedy });
-        return Ok(None);
-    };
-    let mut reader = Reader::new(profile.file, profile.text);
-    let text: MaterialText = reader.parse()?;
-    let material = reader.material(&text);
-    child.faults.append(&mut reader.faults);
-    Ok(material)
+/// The fault of a profile that is its own ancestor by this way up.
+fn circle(way: &[String], known: &[&str]) -> Problem {
+    let id = way.first().cloned().unwrap_or_default();
+    Problem::Cycle { way: format!("{} → {id}", way.join(" → ")), id, known: known.join(", ") }
 }
 
-/// Moves the default material to the front.
-fn default_first(reader: &mut Reader, materials: &mut [Material], default: Option<&Reference>) {
-    let Some((id, at)) = default else {
-        return;
-    };
-    match materials.iter().position(|material| material.id == *id) {
-        Some(place) => materials[..=place].rotate_right(1),
-        None => {
-            let known: Vec<&str> = materials.iter().map(|material| material.id.as_str()).collect();
-            let known = known.join(", ");
-            reader.note(*at, Problem::DefaultNotListed { id: id.clone(), known });
-        }
-    }
+/// The path of a parent that is named in `file`, in the one form that the same file always has.
+fn beside(file: &str, parent: &str) -> String {
+    let folder = Path::new(file).parent().unwrap_or(Path::new(""));
+    one_form(&folder.join(parent))
 }
 
-/// The printer, unless something that every printer needs is unset; each such key is noted.
-fn complete(reader: &mut Reader, layer: Layer, materials: Vec<Material>) -> Option<Printer> {
-    let mut needs = Needs { reader, numbers: layer.numbers };
-    let [pixel_x_mm, pixel_y_mm, layer_mm] =
-        [Quantity::PixelXMm, Quantity::PixelYMm, Quantity::LayerMm].map(|key| needs.number(key));
-    let [min_wall_mm, min_feature_mm, min_opening_mm] =
-        [Quantity::MinWallMm, Quantity::MinFeatureMm, Quantity::MinOpeningMm].map(|key| needs.number(key));
-    let [pin_min_diameter_mm, pin_length_ratio] =
-        [Quantity::PinMinDiameterMm, Quantity::PinLengthRatio].map(|key| needs.number(key));
-    let [clearance_per_side_mm, socket_extra_depth_mm, chamfer_mm] =
-        [Quantity::ClearancePerSideMm, Quantity::SocketExtraDepthMm, Quantity::ChamferMm]
-            .map(|key| needs.number(key));
-    let least_mm = needs.number(Quantity::ToleranceLeastMm);
-    let ratio = needs.numbers.remove(&Quantity::ToleranceRatio);
-    let grid = needs.word("grid", layer.grid);
-    let support = needs.word("support", layer.support);
-    let print_pose = needs.word("print_pose", layer.print_pose);
-    let cleaning = needs.word("cleaning", layer.cleaning);
-    Some(Printer {
-        id: layer.id,
-        name: layer.name,
-        process: layer.process,
-        profile_sha256: String::new(),
-        grid: grid?,
-        pixel_x_mm: pixel_x_mm?,
-        pixel_y_mm: pixel_y_mm?,
-        layer_mm: layer_mm?,
-        build_volume_mm: layer.build_volume_mm,
-        min_wall_mm: min_wall_mm?,
-        min_feature_mm: min_feature_mm?,
-        min_opening_mm: min_opening_mm?,
-        pin_min_diameter_mm: pin_min_diameter_mm?,
-        pin_length_ratio: pin_length_ratio?,
-        clearance_per_side_mm: clearance_per_side_mm?,
-        socket_extra_depth_mm: socket_extra_depth_mm?,
-        chamfer_mm: chamfer_mm?,
-        tolerance: Tolerance { least_mm: least_mm?, ratio },
-        support: support?,
-        print_pose: print_pose?,
-        cleaning: cleaning?,
-        materials,
-    })
-}
-
-/// Takes what every printer needs, and notes what is not there.
-struct Needs<'r, 'a> {
-    reader: &'r mut Reader<'a>,
-    numbers: BTreeMap<Quantity, Sourced<f64>>,
-}
-
-impl Needs<'_, '_> {
-    fn number(&mut self, quantity: Quantity) -> Option<Sourced<f64>> {
-        let number = self.numbers.remove(&quantity);
-        self.word(quantity.key(), number)
-    }
-
-    fn word<T>(&mut self, key: &str, value: Option<T>) -> Option<T> {
-        if value.is_none() {
-            self.reader.note(0, Problem::Missing { key: key.to_owned() });
-        }
-        value
-    }
+/// The absolute path without links and dots; the path itself where there is no such file.
+fn one_form(path: &Path) -> String {
+    std::fs::canonicalize(path).unwrap_or_else(|_| path.to_owned()).to_string_lossy().into_owned()
 }
 
 #[cfg(test)]
@@ -271,7 +222,7 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
     }
 
     /// What to replace in the whole profile, by what, and what the message must then say, the place first.
-    const BROKEN: [(&str, &str, &str, &str); 40] = [
+    const BROKEN: &[(&str, &str, &str, &str)] = &[
         ("id = \"test\"\n", "", ":1:1: ", "missing field `id`"),
         ("name = \"Test printer\"\n", "", ":1:1: ", "missing field `name`"),
         ("\"test\"", "\"My Printer\"", ":1:6: ", "may only have lower-case letters"),
@@ -281,10 +232,12 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
         ("id = \"test\"", "id = \"test\"\nid = \"again\"", ":2:1: ", "duplicate key"),
         ("id = \"test\"", "ID = \"test\"", ":1:1: ", "unknown field `ID`"),
         ("inherits", "inherit", ":3:1: ", "did you mean `inherits`"),
-        ("\"polyjet\"", "\"polyjt\"", ":3:12: ", "no process `polyjt`; remedy: did you mean `polyjet`?"),
-        ("\"polyjet\"", "\"laser-tag\"", ":3:12: ", "use one of fdm, polyjet, sla"),
+        ("\"polyjet\"", "\"polyjt\"", ":3:12: ", "no process or printer `polyjt`; remedy: did you mean `polyjet`?"),
+        ("\"polyjet\"", "\"laser-tag\"", ":3:12: ", "use one of fdm, mjf, mjp, polyjet, sla, sls, bambu"),
         ("\"polyjet\"", "\"test\"", ":3:12: ", "`test` inherits from itself"),
-        ("\"polyjet\"", "\"prusa-mk4\"", ":3:12: ", "is a printer, and a profile has one parent"),
+        ("\"polyjet\"", "\"prusa-mk5\"", ":3:12: ", "did you mean `prusa-mk4`?"),
+        ("\"polyjet\"", "\"gone.toml\"", ":3:12: ", "cannot read the parent gone.toml"),
+        ("\"polyjet\"", "[\"polyjet\"]", ":3:12: ", "invalid type: sequence"),
         ("\"vero-white\", \"pla\"", "", ":5:20: ", "default material `pla` is not among"),
         ("\"vero-white\", \"pla\"", "\"pla\", \"vero-wite\"", ":4:21: ", "did you mean `vero-white`?"),
         ("\"vero-white\", \"pla\"", "\"pla\", \"pla\"", ":4:21: ", "`pla` appears twice"),
@@ -327,12 +280,71 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
         ),
         ("value = 1.2,", "value = 1200,", ":16:17: ", "outside 0.05 to 25"),
         ("id = \"own\"\n", "", ":13:1: ", "missing field `id`"),
+        ("value = 1.2,", "value = 0,", ":16:17: ", "`density_g_cm3` is 0, but must be positive"),
+        ("value = 1.2,", "value = -1.2,", ":16:17: ", "`density_g_cm3` is -1.2, but must be positive"),
+        ("value = 1.2,", "value = 1e300,", ":16:17: ", "is 1e300, outside 0.05 to 25"),
+        ("value = 1.2,", "value = inf,", ":16:17: ", "is inf, but must be positive and finite"),
+        ("value = 1.2,", "value = \"1.2 g\",", ":16:27: ", "invalid type: string"),
+        ("density_g_cm3 =", "density_kg_m3 =", ":16:1: ", "did you mean `density_g_cm3`"),
+        ("density_g_cm3 =", "# density_g_cm3 =", ":13:1: ", "missing field `density_g_cm3`"),
+        (
+            "sure = \"read\" }\ndensity_spread",
+            "sure = \"measured\" }\ndensity_spread",
+            ":16:17: ",
+            "no measured_on; remedy",
+        ),
+        ("density_spread", "measured_on = 12:00:00\ndensity_spread", ":17:15: ", "must be a day"),
+        ("density_spread", "measured_on = \"soon\"\ndensity_spread", ":17:15: ", "invalid type: string"),
+        ("density_spread", "measured_on = 2026-02-31\ndensity_spread", ":17:", "date"),
+        ("density_spread", "lot = \" \"\ndensity_spread", ":17:7: ", "`lot` is empty"),
+        ("dpi = 600", "value = 1e300", ":9:14: ", "is 1e300, outside 0.001 to 2"),
+        ("dpi = 600", "value = -0.0", ":9:14: ", "must be positive and finite"),
+        ("dpi = 600", "dpi = nan", ":9:14: ", "is NaN, but must be positive"),
+        ("dpi = 600", "dpi = 1e-300", ":9:14: ", "`pixel_x_mm` is 2.54e301, outside"),
+        (
+            "layer_mm =",
+            "layer_least_mm = { value = 0.1, source = \"s\", sure = \"read\" }\nlayer_mm =",
+            ":1:1: ",
+            "`layer_least_mm` is 0.1, but `layer_mm` is 0.03",
+        ),
+        (
+            "[numbers]",
+            "largest_part_mm = { value = [300, 50, 50], source = \"s\", sure = \"read\" }\n[numbers]",
+            ":1:1: ",
+            "`largest_part_mm` is 300, but the build volume is 200 there",
+        ),
+        (
+            "[numbers]",
+            "excluded_corners = [{ corner = \"left\", size_mm = [1, 1], source = \"s\", sure = \"read\" }]\n[numbers]",
+            ":8:32: ",
+            "unknown variant `left`, expected one of `front-left`",
+        ),
+        (
+            "[numbers]",
+            "excluded_corners = [{ corner = \"front-left\", size_mm = [500, 1], source = \"s\", sure = \"read\" }]\n[numbers]",
+            ":1:1: ",
+            "`excluded_corners.size_mm` is 500, but the build volume is 200",
+        ),
+        (
+            "[numbers]",
+            "walls_by_part_size = [{ up_to_mm = 100, wall_mm = 0.7, sure = \"read\" }]\n[numbers]",
+            ":8:23: ",
+            "`walls_by_part_size` has no source",
+        ),
+        (
+            "[numbers]",
+            "walls_by_part_size = [\n{ up_to_mm = 100, wall_mm = 0.7, source = \"s\", sure = \"read\" },\n\
+            { up_to_mm = 50, wall_mm = 0.7, source = \"s\", sure = \"read\" }]\n[numbers]",
+            ":1:1: ",
+            "`walls_by_part_size.up_to_mm` is 50, but the one before it is 100",
+        ),
+        ("[numbers]", "compensates_shrinkage = true\n[numbers]", ":8:25: ", "invalid type: boolean"),
     ];
 
     #[test]
     fn every_broken_profile_is_refused_with_its_place_and_its_reason() {
         let mut wrong = Vec::new();
-        for (from, to, place, reason) in BROKEN {
+        for &(from, to, place, reason) in BROKEN {
             assert!(WHOLE.contains(from), "{from}");
             let error = load(&WHOLE.replacen(from, to, 1)).expect_err(to).to_string();
             if !error.contains(reason) || !error.contains(&format!("t.toml{place}")) {
@@ -368,6 +380,44 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
             let error = load(&WHOLE.replacen(from, to, 1)).unwrap_err().to_string();
             assert!(error.contains("has no source"), "{error}");
         }
+    }
+
+    /// A folder with these profiles, each made of the whole one by its id and its parent.
+    fn shop(profiles: &[(&str, &str)]) -> tempfile::TempDir {
+        let folder = tempfile::tempdir().unwrap();
+        for (name, parent) in profiles {
+            let text = WHOLE.replace("\"test\"", &format!("\"{name}\"")).replace("polyjet", parent);
+            std::fs::write(folder.path().join(format!("{name}.toml")), text).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn a_profile_may_inherit_from_a_printer_and_from_a_file_beside_it() {
+        let text = "id = \"mine\"\nname = \"Mine\"\ninherits = \"prusa-mk4\"\n[numbers]\n\
+                    min_wall_mm = { value = 1.3, source = \"s\", sure = \"measured\" }\n";
+        let mine = load(text).unwrap();
+        assert_eq!((mine.inherits.join(" "), mine.process.as_deref()), ("prusa-mk4 fdm".into(), Some("fdm")));
+        assert_eq!((mine.min_wall_mm.value, mine.pixel_x_mm.value), (1.3, 0.45));
+        assert_eq!(
+            mine.pixel_x_mm.process_default_of, None,
+            "the machine's own number is no process default"
+        );
+        assert_eq!(mine.min_feature_mm.process_default_of.as_deref(), Some("fdm"));
+        let folder = shop(&[("first", "formlabs-form4"), ("second", "first.toml")]);
+        let second = Printer::read(&folder.path().join("second.toml")).unwrap();
+        assert_eq!(second.inherits, ["first", "formlabs-form4", "sla"]);
+    }
+
+    #[test]
+    fn a_circle_of_parents_is_told_with_its_way_however_the_files_are_named() {
+        let folder = shop(&[("a", "b.toml"), ("b", "c.toml"), ("c", "../NAME/a.toml")]);
+        let name = folder.path().file_name().unwrap().to_str().unwrap();
+        let last = folder.path().join("c.toml");
+        std::fs::write(&last, std::fs::read_to_string(&last).unwrap().replace("NAME", name)).unwrap();
+        let error = Printer::read(&folder.path().join("a.toml")).unwrap_err().to_string();
+        assert!(error.contains("c.toml:3:12: ") && error.contains("inherits from itself ("), "{error}");
+        assert_eq!(error.matches(" → ").count(), 3, "{error}");
     }
 
     #[test]

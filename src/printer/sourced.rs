@@ -8,6 +8,8 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sure {
+    /// Measured by the shop on a part it printed, such as a weighed coupon.
+    Measured,
     /// Seen in the named source by whoever wrote the profile.
     Read,
     /// Stated in one of the scientific papers the method rests on.
@@ -25,6 +27,7 @@ pub enum Sure {
 impl fmt::Display for Sure {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
+            Self::Measured => "measured",
             Self::Read => "read",
             Self::Paper => "paper",
             Self::Computed => "computed",

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Grid, Printer};
+use super::{Grid, Printer, Sourced};
 use crate::units::show_mm;
 
 /// How far beyond a whole number of steps a wall may lie and still count as that number, in steps.
@@ -15,6 +15,15 @@ const WHOLE_STEP_TOLERANCE: f64 = 1e-6;
 ///
 /// Below it the moments of thin shells drift; above it columns are spent where nothing can be emptied.
 const COLUMNS_PER_WALL: f64 = 4.0;
+
+/// The thinnest wall of parts up to a size.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SizedWall {
+    /// The longest side of the parts it holds for, mm.
+    pub up_to_mm: f64,
+    /// The wall, mm.
+    pub wall_mm: Sourced<f64>,
+}
 
 /// The wall that is printed, and why it is that.
 #[derive(Debug, Clone, PartialEq, Serialize)]

@@ -1,0 +1,123 @@
+//! The room a printer has for a part: its build volume, less the corners that must stay free, and its largest part.
+
+use serde::{Deserialize, Serialize};
+
+use super::{Printer, Sourced};
+
+/// A corner of the plate, seen by who stands before the machine: x to the right, y to the back.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Corner {
+    /// x and y least.
+    FrontLeft,
+    /// x greatest, y least.
+    FrontRight,
+    /// x least, y greatest.
+    BackLeft,
+    /// x and y greatest.
+    BackRight,
+}
+
+/// A corner of the plate where nothing may be printed, at any height.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct ExcludedCorner {
+    /// Which corner.
+    pub corner: Corner,
+    /// How far it reaches along x and y, mm.
+    pub size_mm: Sourced<[f64; 2]>,
+}
+
+impl ExcludedCorner {
+    /// Whether the corner reaches into the rectangle from `low` to `high` on a plate of that size, mm.
+    fn meets(&self, [low, high]: [[f64; 2]; 2], plate_mm: [f64; 2]) -> bool {
+        let [width, depth] = self.size_mm.value;
+        let left = matches!(self.corner, Corner::FrontLeft | Corner::BackLeft);
+        let front = matches!(self.corner, Corner::FrontLeft | Corner::FrontRight);
+        let in_x = if left { low[0] < width } else { high[0] > plate_mm[0] - width };
+        let in_y = if front { low[1] < depth } else { high[1] > plate_mm[1] - depth };
+        in_x && in_y
+    }
+}
+
+impl Printer {
+    /// Width, depth and height of what can be printed at once, mm: the largest upright box of the build volume that
+    /// keeps clear of the excluded corners, no side longer than the largest part's; none where the build volume is not known.
+    pub fn usable_volume_mm(&self) -> Option<[f64; 3]> {
+        let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
+        let [x, y] = self.clear_rectangle_mm([width, depth]);
+        let largest = self.largest_part_mm.as_ref().map_or([f64::INFINITY; 3], |largest| largest.value);
+        Some([x.min(largest[0]), y.min(largest[1]), height.min(largest[2])])
+    }
+
+    /// The sides of the largest rectangle of the plate that no excluded corner reaches into, mm.
+    fn clear_rectangle_mm(&self, plate_mm: [f64; 2]) -> [f64; 2] {
+        let ends = |axis: usize| {
+            let sizes = self.excluded_corners.iter().map(|corner| corner.size_mm.value[axis]);
+            let sizes: Vec<f64> = std::iter::once(0.0).chain(sizes).collect();
+            let low = sizes.clone();
+            low.into_iter()
+                .flat_map(move |low| sizes.clone().into_iter().map(move |high| [low, plate_mm[axis] - high]))
+        };
+        let mut best = [0.0; 2];
+        for [left, right] in ends(0) {
+            for [front, back] in ends(1) {
+                let sides = [right - left, back - front];
+                let rectangle = [[left, front], [right, back]];
+                let is_clear = !self.excluded_corners.iter().any(|corner| corner.meets(rectangle, plate_mm));
+                if is_clear && sides[0] > 0.0 && sides[1] > 0.0 && sides[0] * sides[1] > best[0] * best[1] {
+                    best = sides;
+                }
+            }
+        }
+        best
+    }
+
+    /// Whether a part of that size fits as it lies or turned by a right angle on the plate; none where the build
+    /// volume is not known.
+    pub fn fits(&self, size_mm: [f64; 3]) -> Option<bool> {
+        let [width, depth, height] = self.usable_volume_mm()?;
+        let lies = |x: f64, y: f64| x <= width && y <= depth && size_mm[2] <= height;
+        Some(lies(size_mm[0], size_mm[1]) || lies(size_mm[1], size_mm[0]))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::printer::Sure;
+
+    fn sourced<T>(value: T) -> Sourced<T> {
+        Sourced { value, source: "test".into(), sure: Sure::Read, process_default_of: None }
+    }
+
+    #[test]
+    fn a_part_may_be_turned_on_the_plate_but_not_stood_up() {
+        let form4 = Printer::find("formlabs-form4").unwrap();
+        assert_eq!(form4.fits([120.0, 199.0, 210.0]), Some(true));
+        assert_eq!(form4.fits([126.0, 126.0, 1.0]), Some(false));
+        assert_eq!(form4.fits([10.0, 10.0, 211.0]), Some(false));
+        assert_eq!(Printer::find("objet-connex350").unwrap().fits([1.0, 1.0, 1.0]), None);
+    }
+
+    #[test]
+    fn an_excluded_corner_takes_a_strip_off_the_side_where_that_costs_least() {
+        let mut printer = Printer::find("formlabs-form4").unwrap();
+        printer.build_volume_mm = Some(sourced([256.0, 256.0, 250.0]));
+        let corner = |corner, x, y| ExcludedCorner { corner, size_mm: sourced([x, y]) };
+        printer.excluded_corners = vec![corner(Corner::FrontLeft, 18.0, 28.0)];
+        assert_eq!(printer.usable_volume_mm(), Some([238.0, 256.0, 250.0]));
+        // A corner at the back right would cost 18 mm of width once more; both together cost less depth: 256 − 28 − 6.
+        printer.excluded_corners.push(corner(Corner::BackRight, 30.0, 6.0));
+        assert_eq!(printer.usable_volume_mm(), Some([238.0, 250.0, 250.0]));
+        printer.largest_part_mm = Some(sourced([300.0, 200.0, 240.0]));
+        assert_eq!(printer.usable_volume_mm(), Some([238.0, 200.0, 240.0]));
+    }
+
+    #[test]
+    fn corners_that_take_the_whole_plate_leave_no_room() {
+        let mut printer = Printer::find("formlabs-form4").unwrap();
+        printer.excluded_corners =
+            vec![ExcludedCorner { corner: Corner::BackLeft, size_mm: sourced([200.0, 125.0]) }];
+        assert_eq!(printer.fits([1.0, 1.0, 1.0]), Some(false));
+    }
+}
