@@ -122,9 +122,10 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
 /// What the solid could become with the wall that was asked for, or the printer's least.
 fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError> {
     let asked_mm = args.wall.map(|wall| wall.mm());
+    let size_mm = solid.mesh().longest_side_mm();
     let wall_mm = match &args.printer {
-        Some(id) => Printer::find(id)?.quantised_wall(asked_mm)?.wall_mm,
-        None => asked_mm.unwrap_or(PLAIN_WALL_RATIO * solid.mesh().longest_side_mm()),
+        Some(id) => Printer::find(id)?.quantised_wall(asked_mm, size_mm)?.wall_mm,
+        None => asked_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
     };
     let case = Case {
         solid,

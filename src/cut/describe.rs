@@ -17,18 +17,17 @@ use super::{
 use crate::geom::Plane;
 
 /// The plan's data for these cuts and pieces.
-pub(crate) fn described(scene: &Scene, layout: Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
+pub(crate) fn described(scene: &Scene, layout: &Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
     let Layout { planes, voids, pieces, bridges } = layout;
-    check_no_cavity(&pieces)?;
-    let pin_scene =
-        PinScene { request: scene.request, planes: &planes, pieces: &pieces, material: &scene.material };
+    check_no_cavity(pieces)?;
+    let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
     let mut placed: Vec<Vec<Peg>> = Vec::new();
-    for joint in joints(&pieces) {
+    for joint in joints(pieces) {
         let placement = place(&pin_scene, &joint, &placed);
         placed.push(placement.pegs.clone());
         notes.extend(shortage(scene.request, &joint, &placement));
-        joint_notes.push(joint_note(&pieces, &joint, &placement, pins.len()));
+        joint_notes.push(joint_note(pieces, &joint, &placement, pins.len()));
         pins.extend(placement.sites.into_iter().map(|site| PinSite { cut: cut_id(joint.cut), ..site }));
     }
     for (index, pin) in pins.iter_mut().enumerate() {
@@ -36,8 +35,9 @@ pub(crate) fn described(scene: &Scene, layout: Layout, mut notes: Vec<String>) -
     }
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
     notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
-    let uncut = bridges.iter().map(|bridge| uncut_face(&planes, bridge)).collect();
-    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
+    let uncut = bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect();
+    let voids = voids.clone();
+    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes, moves: Vec::new() })
 }
 
 fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {

@@ -5,6 +5,7 @@ mod cover;
 mod describe;
 mod error;
 mod family;
+mod layers;
 mod opening;
 mod outline;
 mod part;
@@ -30,6 +31,7 @@ mod tests;
 
 pub use access::VoidAccess;
 pub use error::CutError;
+pub use layers::CutMove;
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
 pub use plan::{Cut, CutPlan, JointNote, UncutFace};

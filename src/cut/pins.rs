@@ -62,8 +62,9 @@ impl Size {
         let length = round_up(diameter * pins.length_ratio, request.layer_mm);
         // A chamfer of more than a quarter of the diameter would leave a point instead of a tip.
         let chamfer = pins.chamfer_mm.min(diameter / 4.0);
-        let socket_diameter = diameter + 2.0 * pins.clearance_mm;
-        Self { diameter, length, chamfer, socket_diameter, depth: length + pins.bottom_relief_mm }
+        let socket_diameter = round_up(diameter + 2.0 * pins.clearance_mm, request.hole_step_mm);
+        let depth = round_up(length + pins.bottom_relief_mm, request.layer_mm);
+        Self { diameter, length, chamfer, socket_diameter, depth }
     }
 
     fn corner(&self) -> f64 {
@@ -127,7 +128,8 @@ fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[Vec<Peg>
 fn diameter_pairs(request: &PlanRequest) -> Vec<[f64; 2]> {
     let pixel = request.pixel_mm;
     let least = round_up(request.pins.min_diameter_mm, pixel);
-    let step = round_up(2.0 * request.pins.clearance_mm + 2.0 * FORCE_TOLERANCE_MM, pixel);
+    let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
+    let step = round_up(gaps + 2.0 * FORCE_TOLERANCE_MM, pixel);
     let mut stout: Vec<f64> = DIAMETER_RATIOS.iter().map(|ratio| round_up(ratio * least, pixel)).collect();
     stout.push(least + step);
     stout.retain(|&diameter| diameter >= least + step);
@@ -189,7 +191,8 @@ impl<'a> Face<'a> {
     fn has_meat(&self, p: &Point2, size: &Size) -> bool {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
         let bottom = mouth + self.plane.normal * (self.sign * size.depth);
-        let radius = size.corner() + self.scene.request.wall_mm;
+        // The cut may still move by half a layer, and its pins with it.
+        let radius = size.corner() + self.scene.request.wall_mm + self.scene.request.layer_mm / 2.0;
         let others = (0..self.scene.planes.len()).filter(|&cut| cut != self.joint.cut);
         let is_clear = |cut: usize| {
             let [near, far] = [mouth, bottom].map(|end| self.scene.planes[cut].distance(&end));

@@ -2,7 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{access::VoidAccess, error::CutError, pin_shape::PinSite, rejoin::Bridge, section::Chart};
+use super::{
+    access::VoidAccess, error::CutError, layers::CutMove, pin_shape::PinSite, rejoin::Bridge, section::Chart,
+};
 use crate::{
     geom::{Plane, Point, Vector},
     mesh::{Hollowed, Solid, TriMesh},
@@ -22,6 +24,9 @@ pub struct CutPlan {
     /// Where a cut leaves the body whole.
     #[serde(default)]
     pub uncut: Vec<UncutFace>,
+    /// Which cuts were moved to a whole layer of the printer.
+    #[serde(default)]
+    pub moves: Vec<CutMove>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -71,6 +76,7 @@ impl CutPlan {
             joints: Vec::new(),
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
+            moves: Vec::new(),
             notes: Vec::new(),
         }
     }

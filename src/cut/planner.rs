@@ -6,6 +6,7 @@ use super::{
     access::{VoidAccess, access},
     describe::described,
     error::CutError,
+    layers::at_layers,
     plan::{Cut, CutPlan, cut_id},
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
@@ -41,7 +42,8 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    described(&scene, layout, notes)
+    let plan = described(&scene, &layout, notes)?;
+    at_layers(&scene, &layout, plan)
 }
 
 /// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
@@ -51,7 +53,7 @@ pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let pieces = split(&scene.material, &planes)?;
     let voids = accesses(hollowed, &planes)?;
-    described(&scene, Layout { planes, voids, pieces, bridges: Vec::new() }, Vec::new())
+    described(&scene, &Layout { planes, voids, pieces, bridges: Vec::new() }, Vec::new())
 }
 
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
@@ -98,6 +100,7 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
         ("pins.chamfer_mm", pins.chamfer_mm),
         ("pins.bottom_relief_mm", pins.bottom_relief_mm),
         ("pixel_mm", request.pixel_mm),
+        ("hole_step_mm", request.hole_step_mm),
         ("layer_mm", request.layer_mm),
     ];
     let bad = positive.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
@@ -136,7 +139,7 @@ fn proof_note(found: &Found) -> String {
 }
 
 /// The plane, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
-fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
+pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
     let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
     heights.sort_by(f64::total_cmp);
     let is_free = |offset_mm: f64| {
@@ -170,6 +173,6 @@ fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>)
 }
 
 /// How the cuts open each void.
-fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Result<Vec<VoidAccess>, CutError> {
+pub(crate) fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Result<Vec<VoidAccess>, CutError> {
     hollowed.voids.par_iter().enumerate().map(|(i, void)| access(i, void, planes)).collect()
 }

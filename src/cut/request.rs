@@ -19,7 +19,9 @@ pub struct PlanRequest {
     pub axis: GoalAxis,
     /// Pin diameters are whole multiples of this, mm.
     pub pixel_mm: f64,
-    /// Pin lengths are whole multiples of this, mm.
+    /// Socket diameters are whole multiples of this, mm; zero where holes are not made of steps, as with lines of filament.
+    pub hole_step_mm: f64,
+    /// Pin lengths, socket depths and the heights of faces that look up are whole multiples of this, mm.
     pub layer_mm: f64,
     /// How parts are laid in the printer.
     pub pose: PosePreference,

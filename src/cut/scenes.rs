@@ -66,6 +66,7 @@ pub(crate) fn request() -> PlanRequest {
         },
         axis: GoalAxis { point: Point::new(0.0, 0.0, -100.0), direction: Vector::z() },
         pixel_mm: 0.042,
+        hole_step_mm: 0.042,
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
     }

@@ -149,7 +149,10 @@ fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_arou
             .fold(f64::INFINITY, f64::min);
         // The socket's flats lie nearer to the axis than its corners, by the cosine of half a side.
         let flat = corner * (std::f64::consts::PI / pin_shape::SIDES as f64).cos();
-        assert!((flat - pin_radius - request.pins.clearance_mm).abs() < 1e-9, "{flat} {pin_radius}");
+        let gap_mm = (pin.socket_diameter_mm - pin.diameter_mm) / 2.0;
+        assert!((flat - pin_radius - gap_mm).abs() < 1e-9, "{flat} {pin_radius}");
+        let clearance_mm = request.pins.clearance_mm;
+        assert!(clearance_mm <= gap_mm && gap_mm < clearance_mm + request.hole_step_mm, "{gap_mm}");
         let far = Point::from(pin.center_mm) + axis * pin.socket_depth_mm;
         let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
         let least = surface.segment_distance(&Point::from(pin.center_mm), &far, f64::INFINITY);

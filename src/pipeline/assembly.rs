@@ -16,7 +16,7 @@ use crate::hollow::Solution;
 use crate::job::CutMode;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
-use crate::printer::PrintPose;
+use crate::printer::{Grid, PrintPose, Quantity};
 use crate::progress::Progress;
 use crate::report::HeightProof;
 use crate::verify::{PartEvidence, assembly_moments};
@@ -158,19 +158,24 @@ fn written_parts(
 /// What cuts, pins and poses are asked for.
 pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
+    let size_mm = setup.model.solid.mesh().longest_side_mm();
+    let elephant_foot_mm = printer.number(Quantity::ElephantFootMm).map_or(0.0, |foot| foot.value);
+    let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
-        wall_mm: printer.min_wall_mm.value,
+        wall_mm: printer.least_wall_mm(size_mm).value,
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,
             length_ratio: printer.pin_length_ratio.value,
             clearance_mm: printer.clearance_per_side_mm.value,
-            chamfer_mm: printer.chamfer_mm.value,
+            // The mouth of a socket that lies on the plate must be wider than what spreads there.
+            chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
             bottom_relief_mm: printer.socket_extra_depth_mm.value,
         },
         axis: GoalAxis { point: frame.origin, direction: frame.axis() },
-        pixel_mm: printer.pixel_x_mm.value.max(printer.pixel_y_mm.value),
+        pixel_mm,
+        hole_step_mm: if printer.grid == Grid::Pixel { pixel_mm } else { 0.0 },
         layer_mm: printer.layer_mm.value,
         pose: match printer.print_pose {
             PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,

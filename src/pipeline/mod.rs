@@ -2,6 +2,7 @@
 
 mod advising;
 mod assembly;
+mod grid_rows;
 mod kit;
 mod outcome;
 mod rows;

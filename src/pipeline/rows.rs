@@ -8,7 +8,7 @@ use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
 use crate::goal::{GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
-use crate::printer::{Sourced, Support};
+use crate::printer::Support;
 use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PrinterRow,
     Tool, VoidRow, WallRow,
@@ -20,6 +20,10 @@ const LEVEL_COSINE: f64 = 0.9999;
 
 /// What must be minded of anything hollow in water.
 const SEAL: &str = "seal every joint: a void that fills with water sinks it or turns it over";
+
+/// What must be minded of anything that floats, where its density was not measured.
+const UNWEIGHED: &str = "how deep it floats rests on a density that was not measured: weigh coupons (equipoise coupon) and \
+                         prepare again; every part too heavy by 1 % takes 1 % more water";
 
 /// Everything a checklist is filled from.
 pub struct Sheet<'a> {
@@ -54,6 +58,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         cuts: cut_rows(sheet),
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
+        grid: super::grid_rows::grid_rows(sheet),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -124,21 +129,25 @@ fn printer_row(setup: &Setup) -> PrinterRow {
     }
 }
 
-/// What the numbers that matter rest on, one sentence each.
+/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is not known.
 fn sources(setup: &Setup) -> Vec<String> {
     let printer = &setup.printer;
-    let said = |what: &str, number: &Sourced<f64>| format!("{what}: {}", number.provenance());
-    let mut sources = vec![
-        said("pixel", &printer.pixel_x_mm),
-        said("layer", &printer.layer_mm),
-        said("minimum wall", &printer.min_wall_mm),
-        said("minimum opening", &printer.min_opening_mm),
-        said("clearance", &printer.clearance_per_side_mm),
-    ];
-    if printer.build_volume_mm.is_none() {
-        sources.push("build volume: not known; check by hand that the parts fit".to_owned());
-    }
-    sources
+    let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
+    let numbers = printer.numbers().into_iter();
+    let numbers =
+        numbers.map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
+    let volume =
+        printer.build_volume_mm.iter().map(|volume| format!("build volume: {}", volume.provenance()));
+    let none = printer.build_volume_mm.is_none();
+    let unfit = none.then(|| "build volume: not known; check by hand that the parts fit".to_owned());
+    let corners = printer.excluded_corners.iter().map(|corner| {
+        let [x, y] = corner.size_mm.value;
+        format!("keep clear of a corner of {x} × {y} mm: {}", corner.size_mm.provenance())
+    });
+    let unknown: Vec<String> =
+        printer.unknown().into_iter().filter(|key| *key != "build_volume_mm").map(words).collect();
+    let unknown = (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
+    numbers.chain(volume).chain(unfit).chain(corners).chain(unknown).collect()
 }
 
 fn material_row(setup: &Setup) -> MaterialRow {
@@ -291,7 +300,8 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
         (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
-    placement.chain(repairs).chain(small).chain(seal).collect()
+    let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());
+    placement.chain(repairs).chain(small).chain(seal).chain(unweighed).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {

@@ -52,10 +52,11 @@ impl Setup {
         progress.report(super::phase::LOAD, 0.0);
         let printer = Printer::find(&job.printer.id)?;
         let material = printer.material(job.printer.material.as_deref())?.clone();
-        let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()))?;
-        let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, job.pitch.map(|pitch| pitch.mm()));
         let (job, model) = load(job, &printer)?;
-        leaves_room(model.solid.mesh().longest_side_mm(), wall.wall_mm)?;
+        let size_mm = model.solid.mesh().longest_side_mm();
+        let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()), size_mm)?;
+        let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, size_mm, job.pitch.map(|pitch| pitch.mm()));
+        leaves_room(size_mm, wall.wall_mm)?;
         let means = Means { model: &model, printer: &printer, material: &material, wall: &wall };
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };

@@ -143,7 +143,8 @@ mod tests {
     fn a_file_of_ones_own_inherits_a_process_and_a_missing_one_is_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("shop.toml");
-        let text = by_id(BUILT_IN.printers, "objet-connex350").unwrap().text.replace("objet-connex350", "shop-jet");
+        let text =
+            by_id(BUILT_IN.printers, "objet-connex350").unwrap().text.replace("objet-connex350", "shop-jet");
         std::fs::write(&path, text).unwrap();
         let printer = Printer::find(path.to_str().unwrap()).unwrap();
         assert_eq!((printer.id.as_str(), printer.process.as_deref()), ("shop-jet", Some("polyjet")));

@@ -19,6 +19,16 @@ pub enum Grid {
     Line,
 }
 
+impl Grid {
+    /// Its steps, in words.
+    pub fn steps(self) -> &'static str {
+        match self {
+            Self::Pixel => "pixels",
+            Self::Line => "line widths",
+        }
+    }
+}
+
 /// What holds overhangs up while printing, and so what must come out of a void.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

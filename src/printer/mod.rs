@@ -47,4 +47,4 @@ pub use quantity::Quantity;
 pub use room::{Corner, ExcludedCorner};
 pub use size::{SizeError, leaves_room};
 pub use sourced::{Sourced, Sure};
-pub use wall::{SizedWall, WallChoice, WallError};
+pub use wall::{SizedWall, WallChoice, WallError, whole_steps};

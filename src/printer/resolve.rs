@@ -232,7 +232,12 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
         ("id = \"test\"", "id = \"test\"\nid = \"again\"", ":2:1: ", "duplicate key"),
         ("id = \"test\"", "ID = \"test\"", ":1:1: ", "unknown field `ID`"),
         ("inherits", "inherit", ":3:1: ", "did you mean `inherits`"),
-        ("\"polyjet\"", "\"polyjt\"", ":3:12: ", "no process or printer `polyjt`; remedy: did you mean `polyjet`?"),
+        (
+            "\"polyjet\"",
+            "\"polyjt\"",
+            ":3:12: ",
+            "no process or printer `polyjt`; remedy: did you mean `polyjet`?",
+        ),
         ("\"polyjet\"", "\"laser-tag\"", ":3:12: ", "use one of fdm, mjf, mjp, polyjet, sla, sls, bambu"),
         ("\"polyjet\"", "\"test\"", ":3:12: ", "`test` inherits from itself"),
         ("\"polyjet\"", "\"prusa-mk5\"", ":3:12: ", "did you mean `prusa-mk4`?"),

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::grid::GridRow;
 use super::rows::{CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use crate::verify::{Aim, Check, FigureName, Figures, PromisedFigure, SCHEMA};
@@ -50,6 +51,9 @@ pub struct Checklist {
     pub parts: Vec<PartRow>,
     /// The glue joints, in the order they are made.
     pub joints: Vec<JointRow>,
+    /// What the machine's pixels, lines and layers make of walls, pins and cut faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub grid: Vec<GridRow>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.

@@ -3,6 +3,7 @@
 mod album;
 mod base64;
 mod checklist;
+mod grid;
 mod kit;
 mod page;
 mod picture;
@@ -20,6 +21,7 @@ pub use checklist::{
     Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
     Tool, Verdict, WallRow,
 };
+pub use grid::GridRow;
 pub use kit::{Existing, Kit, KitError};
 pub use page::page;
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};

@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::base64::base64;
+use super::grid;
 use super::steps::steps;
 use super::words::{self, coordinates, extent, number, quantity, quantity_or_dash};
 use super::{Checklist, PartRow, Picture, Verdict};
@@ -31,6 +32,7 @@ pub fn page(sheet: &Checklist, pictures: &[Picture]) -> String {
                 (overview(sheet, pictures))
                 (parts(sheet))
                 (steps(sheet, pictures))
+                (grid::table(&sheet.grid))
                 (checks(&sheet.checks))
                 (proof(sheet))
                 (sign_off())
@@ -130,13 +132,17 @@ fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
     }
 }
 
-/// The mass, and what a sound print may weigh where the density's spread is known.
+/// The mass, and what a sound print may weigh where the density was measured; else its share of the whole, which no
+/// density changes.
 pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
     html! {
         (quantity(mass_g, "g"))
         @if let Some(spread) = sheet.material.density_spread_ratio {
             br;
             span class="small" { (number(mass_g * (1.0 - spread))) "–" (quantity(mass_g * (1.0 + spread), "g")) }
+        } @else {
+            br;
+            span class="small" { (number(100.0 * mass_g / sheet.assembly.mass_g)) " % of the whole" }
         }
     }
 }

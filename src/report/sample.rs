@@ -62,6 +62,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         cuts: vec![CutRow { id: "C1".into(), point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }],
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
         joints: vec![joint()],
+        grid: vec![grid_row()],
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![
@@ -96,6 +97,20 @@ fn material() -> MaterialRow {
         density_source: "datasheet".into(),
         density_sure: "recalled".into(),
         density_spread_ratio: Some(0.02),
+    }
+}
+
+fn grid_row() -> GridRow {
+    GridRow {
+        what: "wall".into(),
+        along: "x".into(),
+        asked_mm: 3.0,
+        drawn_mm: 3.0033,
+        steps_of: "pixels".into(),
+        step_mm: 0.0423,
+        steps: 71,
+        given_mm: 71.0 * 0.0423,
+        is_whole: true,
     }
 }
 

@@ -136,18 +136,30 @@ fn glue_line(joint: &JointRow) -> Markup {
 fn weigh(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.material.density_spread_ratio.is_none() {
-            p { "How far the density may vary is not known, so no window is given; weigh a coupon of known volume first." }
+            p {
+                "The density is not measured (" (sheet.material.density_sure) "), so no window is given, only each part's share of the whole, which no density changes. "
+                "Print and weigh coupons for a window: " code { "equipoise coupon --printer " (sheet.printer.id) }
+            }
         }
         table {
-            tr { th { "What" } th class="n" { "Expected" } th { "Weighed, g" } th { "In the window" } }
+            tr { th { "What" } th class="n" { "Expected" } th { "Weighed, g" } th { @if sheet.material.density_spread_ratio.is_some() { "In the window" } @else { "Share of the whole, %" } } }
             @for part in &sheet.parts {
-                tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { "☐" } }
+                tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
             }
             tr {
-                td { strong { "all, glued" } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { "☐" }
+                td { strong { "all, glued" } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) }
             }
         }
         p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
+    }
+}
+
+/// A box to tick where there is a window, a line to write a share on where there is none.
+fn tick_or_blank(sheet: &Checklist) -> Markup {
+    if sheet.material.density_spread_ratio.is_some() {
+        html! { "☐" }
+    } else {
+        blank()
     }
 }
 
@@ -197,9 +209,17 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
 
 /// How to try what floats.
 fn floating_lines(sheet: &Checklist) -> Vec<String> {
+    let is_measured = sheet.material.density_spread_ratio.is_some();
+    let only_if = if is_measured {
+        String::new()
+    } else {
+        let mass = quantity(sheet.assembly.mass_g, "g");
+        format!("Weighing {mass}, which the density must first be measured for, ")
+    };
     let depth = sheet.assembly.afloat.map(|afloat| {
         format!(
-            "It lies {} deep; leaned by {} to any side and let go, it comes back.",
+            "{only_if}{} lies {} deep; leaned by {} to any side and let go, it comes back.",
+            if is_measured { "It" } else { "it" },
             quantity(afloat.waterline_mm, "mm"),
             quantity(afloat.rights_from_deg, "°")
         )

@@ -1,0 +1,56 @@
+//! What the machine makes of the lengths that were asked for: its pixels, lines and layers.
+
+use maud::{Markup, html};
+use serde::{Deserialize, Serialize};
+
+use super::words::{number, quantity};
+
+/// A length as it was asked for, as it is drawn, and as the machine makes it.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct GridRow {
+    /// What it is, such as `wall` or `pin N1, diameter`.
+    pub what: String,
+    /// Along which direction of the printer: `x`, `y`, `z`, or `tilted`.
+    pub along: String,
+    /// What was asked for, mm.
+    pub asked_mm: f64,
+    /// What the files have, mm.
+    pub drawn_mm: f64,
+    /// What the machine's steps are called: `pixels`, `line widths` or `layers`.
+    pub steps_of: String,
+    /// One step, mm.
+    pub step_mm: f64,
+    /// How many whole steps it becomes; the least where that depends on where it lies between them.
+    pub steps: u32,
+    /// What the machine makes of it, mm: `steps` of `step_mm`.
+    pub given_mm: f64,
+    /// Whether what is drawn is a whole number of steps.
+    pub is_whole: bool,
+}
+
+/// The table of these rows; nothing where there are none.
+pub(super) fn table(rows: &[GridRow]) -> Markup {
+    html! {
+        @if !rows.is_empty() {
+            h2 { "What the machine makes of it" }
+            table {
+                tr { th { "What" } th { "Along" } th class="n" { "Asked" } th class="n" { "Drawn" } th { "The machine gives" } }
+                @for row in rows {
+                    tr {
+                        td { (row.what) } td { (row.along) }
+                        td class="n" { (quantity(row.asked_mm, "mm")) } td class="n" { (quantity(row.drawn_mm, "mm")) }
+                        td { (given(row)) }
+                    }
+                }
+            }
+            p class="small" { "Walls are counted wherever they lie between the pixels and layers, so that many or one more." }
+        }
+    }
+}
+
+/// The last column: `24 pixels of 42.33 µm = 1.016 mm`.
+fn given(row: &GridRow) -> String {
+    let least = if row.is_whole { "" } else { "about " };
+    let step = number(row.step_mm * 1000.0);
+    format!("{least}{} {} of {step}\u{a0}µm = {}", row.steps, row.steps_of, quantity(row.given_mm, "mm"))
+}
