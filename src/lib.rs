@@ -37,6 +37,7 @@
 
 pub mod advice;
 pub mod cli;
+pub mod coupon;
 pub mod cut;
 pub mod digest;
 pub mod error;

@@ -30,6 +30,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("cut", &["geom", "mass", "mesh", "printer", "progress", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),
     ("report", &["geom", "goal", "mass", "mesh", "units", "verify"]),
+    ("coupon", &["geom", "io", "mesh", "printer", "report", "units"]),
     ("job", &["digest", "goal", "toml_text", "units", "words"]),
     (
         "error",
@@ -48,7 +49,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "advice", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
+            "advice", "coupon", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
             "progress", "report", "units", "verify", "words",
         ],
     ),

@@ -16,8 +16,14 @@ use crate::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
     },
     job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
+    printer::{Shop, ShopError},
     units::Length,
     words::ChoiceError,
+};
+
+use super::{
+    args_printers::{CouponArgs, PrintersArgs},
+    shop::shop_folders,
 };
 
 const EXIT_CODES: &str = "\
@@ -66,6 +72,8 @@ pub enum Command {
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
+    /// Make coupons to print, weigh and try, so that a profile says what the machine does
+    Coupon(CouponArgs),
     /// Read a kit's written files again and judge them, without the solver
     Verify(VerifyArgs),
 }
@@ -78,8 +86,8 @@ pub struct PrepareArgs {
     #[arg(required_unless_present = "job")]
     pub model: Option<PathBuf>,
 
-    /// A known printer's id (see `equipoise printers`), or a profile file
-    #[arg(long, value_name = "ID|FILE", required_unless_present = "job", help_heading = "Printer")]
+    /// A known printer's id (see `equipoise printers`), or a profile file [default: the shop's, from equipoise.toml]
+    #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
     /// A material the printer offers [default: the printer's]
     #[arg(long, value_name = "ID", help_heading = "Printer")]
@@ -248,35 +256,6 @@ pub struct InspectArgs {
     pub scaling: ScalingArgs,
 }
 
-/// The arguments of `printers`.
-#[derive(Debug, Args)]
-pub struct PrintersArgs {
-    /// What about them; to list them where nothing is said.
-    #[command(subcommand)]
-    pub action: Option<PrintersAction>,
-}
-
-/// What to do about printers.
-#[derive(Debug, Clone, PartialEq, Eq, Subcommand)]
-pub enum PrintersAction {
-    /// List the known printers
-    List {
-        /// Print the table of README
-        #[arg(long)]
-        markdown: bool,
-    },
-    /// Show every number of a printer with its source
-    Show {
-        /// A known printer's id, or a profile file
-        id: String,
-    },
-    /// Tell whether a profile file can be used, and everything that is wrong with it
-    Check {
-        /// The profile file
-        file: PathBuf,
-    },
-}
-
 /// The arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
@@ -307,6 +286,28 @@ pub enum ArgsError {
     /// An argument that neither the command line nor a job gives; the parser lets none pass.
     #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
     Missing(&'static str),
+    /// Neither the command line nor the shop names a printer.
+    #[error(
+        "--printer is missing; remedy: give it, or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
+         your configuration folder"
+    )]
+    NoPrinter,
+    /// The shop's defaults cannot be used.
+    #[error(transparent)]
+    Shop(#[from] ShopError),
+}
+
+/// The printer and material that were asked for, or the shop's defaults.
+fn chosen_printer(
+    printer: Option<String>,
+    material: Option<String>,
+    model: &Path,
+) -> Result<PrinterChoice, ArgsError> {
+    if let Some(id) = printer {
+        return Ok(PrinterChoice { id, material });
+    }
+    let shop = Shop::of_folders(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
+    Ok(PrinterChoice { id: shop.printer, material: material.or(shop.material) })
 }
 
 impl PrepareArgs {
@@ -325,8 +326,8 @@ impl PrepareArgs {
         let goal = self.goal()?;
         let path = self.model.ok_or(ArgsError::Missing("MODEL"))?;
         let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
-        let id = self.printer.ok_or(ArgsError::Missing("--printer"))?;
-        let default = Job::new(model, PrinterChoice { id, material: self.material }, goal);
+        let printer = chosen_printer(self.printer, self.material, &model.path)?;
+        let default = Job::new(model, printer, goal);
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
@@ -506,7 +507,6 @@ mod tests {
     #[test]
     fn what_must_be_said_is_asked_for() {
         for (line, says) in [
-            ("equipoise prepare m.stl --goal top", "--printer"),
             ("equipoise prepare m.stl --printer prusa-mk4", "--goal"),
             ("equipoise prepare --printer prusa-mk4 --goal top", "<MODEL>"),
             (
@@ -538,6 +538,25 @@ mod tests {
     }
 
     #[test]
+    fn without_a_printer_the_shops_own_is_taken_and_where_there_is_none_it_is_asked_for() {
+        let folder = tempfile::tempdir().unwrap();
+        let model = folder.path().join("m.stl");
+        let line = format!("equipoise prepare {} --goal top", model.display());
+        let Command::Prepare(args) = parse(&line).unwrap().command else { panic!("{line}") };
+        // A user who runs the tests may have defaults of his own.
+        match args.request() {
+            Err(error) => assert!(error.to_string().contains("equipoise.toml"), "{error}"),
+            Ok(request) => assert!(!request.job.printer.id.is_empty()),
+        }
+        std::fs::write(folder.path().join("equipoise.toml"), "printer = \"prusa-mk4\"\nmaterial = \"asa\"\n")
+            .unwrap();
+        let printer = request(&line).job.printer;
+        assert_eq!((printer.id.as_str(), printer.material.as_deref()), ("prusa-mk4", Some("asa")));
+        let printer = request(&format!("{line} --printer objet-connex350")).job.printer;
+        assert_eq!((printer.id.as_str(), printer.material), ("objet-connex350", None));
+    }
+
+    #[test]
     fn a_job_is_replayed_and_its_model_may_lie_elsewhere() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("job.toml");
@@ -559,21 +578,5 @@ mod tests {
             assert_eq!(global.threads, Some(2));
         }
         assert_eq!(parse("equipoise inspect a.stl -vv").unwrap().global.verbose, 2);
-    }
-
-    #[test]
-    fn printers_takes_list_show_and_check() {
-        let action = |line: &str| match parse(line).unwrap().command {
-            Command::Printers(args) => args.action,
-            other => panic!("{other:?}"),
-        };
-        assert_eq!(action("equipoise printers"), None);
-        assert_eq!(action("equipoise printers list"), Some(PrintersAction::List { markdown: false }));
-        let show = PrintersAction::Show { id: "prusa-mk4".into() };
-        assert_eq!(action("equipoise printers show prusa-mk4"), Some(show));
-        assert_eq!(
-            action("equipoise printers check a.toml"),
-            Some(PrintersAction::Check { file: "a.toml".into() })
-        );
     }
 }

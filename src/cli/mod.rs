@@ -1,10 +1,14 @@
 //! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
 
 pub mod args;
+pub mod args_printers;
+pub mod coupon;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;
 pub mod printers_markdown;
+pub mod profiles;
+pub mod shop;
 pub mod show;
 pub mod verify;
 
@@ -58,6 +62,10 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
         Command::Inspect(args) => Ok(inspect::inspect(&args, voice, out)?),
         Command::Printers(args) => {
             printers::run(args.action, voice.json, out)?;
+            Ok(Exit::Kept)
+        }
+        Command::Coupon(args) => {
+            coupon::coupon(&args, voice, out)?;
             Ok(Exit::Kept)
         }
         Command::Verify(args) => Ok(verify::verify(&args.kit, voice, out)?),

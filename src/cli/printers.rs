@@ -4,7 +4,12 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{args::PrintersAction, printers_markdown::markdown, show::table};
+use super::{
+    args_printers::PrintersAction,
+    printers_markdown::markdown,
+    profiles::{self, ProfilesError},
+    show::table,
+};
 use crate::{
     printer::{Printer, ProfileError, Quantity, Sourced, Sure},
     units::{show_mm, show_percent},
@@ -16,6 +21,9 @@ pub enum PrintersError {
     /// The profile's fault.
     #[error(transparent)]
     Profile(#[from] ProfileError),
+    /// A profile could not be written.
+    #[error(transparent)]
+    Profiles(#[from] ProfilesError),
     /// The output's.
     #[error("cannot write to the output")]
     Output(#[from] io::Error),
@@ -31,6 +39,9 @@ pub fn run(action: Option<PrintersAction>, json: bool, out: &mut dyn Write) -> R
         PrintersAction::List { markdown: false } => list(&Printer::all()?, json, out),
         PrintersAction::Show { id } => show(&Printer::find(&id)?, json, out),
         PrintersAction::Check { file } => check(&Printer::read(&file)?, json, out),
+        PrintersAction::New(args) => Ok(profiles::new(&args, out)?),
+        PrintersAction::Import(args) => Ok(profiles::import(&args, out)?),
+        PrintersAction::Calibrate(args) => Ok(profiles::calibrate(&args, out)?),
     }
 }
 

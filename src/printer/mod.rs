@@ -25,8 +25,10 @@
 //! density_spread_ratio = { value = 0.01, source = "five coupons", sure = "computed" }
 //! ```
 
+mod calibrate;
 mod complete;
 mod error;
+pub mod import;
 mod layer;
 mod library;
 mod machine;
@@ -36,15 +38,18 @@ mod profile;
 mod quantity;
 mod resolve;
 mod room;
+mod shop;
 mod size;
 mod sourced;
 mod wall;
 
+pub use calibrate::{CalibrateError, Measured, calibrated};
 pub use error::{Fault, Faults, Problem, ProfileError};
 pub use machine::{Grid, PrintPose, Printer, Support, Tolerance};
 pub use material::{Material, MaterialError};
 pub use quantity::Quantity;
 pub use room::{Corner, ExcludedCorner};
+pub use shop::{CONFIGURATION, SHOP_FILE, Shop, ShopError};
 pub use size::{SizeError, leaves_room};
 pub use sourced::{Sourced, Sure};
 pub use wall::{SizedWall, WallChoice, WallError, whole_steps};

@@ -76,7 +76,8 @@ impl Printer {
 
     /// The wall to print for the one asked for, or for the profile's minimum at that size: whole pixels or lines of the coarser
     /// of x and y, and where the grid is of pixels so many that neither these nor the layers can make it thinner than asked,
-    /// wherever it lies between them. A wall that is whole already stays as it is, to the bit.
+    /// wherever it lies between them. A wall of whole pixels already stays as it is, to the bit; the checklist says what layers
+    /// make of it.
     ///
     /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the checklist says how many.
     pub fn quantised_wall(&self, asked_mm: Option<f64>, size_mm: f64) -> Result<WallChoice, WallError> {
@@ -90,12 +91,11 @@ impl Printer {
         }
         let step_mm = self.pixel_x_mm.value.max(self.pixel_y_mm.value);
         let mut steps = (wanted_mm / step_mm - WHOLE_STEP_TOLERANCE).ceil().max(1.0);
-        while self.may_print_thinner(steps * step_mm, wanted_mm) {
+        let is_whole = (steps * step_mm - wanted_mm).abs() <= WHOLE_STEP_TOLERANCE * step_mm;
+        while !is_whole && self.may_print_thinner(steps * step_mm, wanted_mm) {
             steps += 1.0;
         }
-        let rounded_mm = steps * step_mm;
-        let is_whole = (rounded_mm - wanted_mm).abs() <= WHOLE_STEP_TOLERANCE * step_mm;
-        let wall_mm = if is_whole { wanted_mm } else { rounded_mm };
+        let wall_mm = if is_whole { wanted_mm } else { steps * step_mm };
         let why = self.why(asked_mm.ok_or(least.value), wall_mm, steps);
         Ok(WallChoice { asked_mm, wall_mm, steps: steps as u32, step_mm, why })
     }

@@ -100,6 +100,11 @@ impl Kit {
     }
 }
 
+/// What a set of coupons is told by.
+pub const COUPON_FILE: &str = "coupon.json";
+/// The files by which a folder is known as one of ours.
+const SIGNS: [&str; 2] = ["checklist.json", COUPON_FILE];
+
 /// Whether the target may be written before anything is.
 fn may_take(target: &Path, existing: Existing) -> Result<(), KitError> {
     let target_path = target.to_owned();
@@ -108,7 +113,7 @@ fn may_take(target: &Path, existing: Existing) -> Result<(), KitError> {
         (Err(source), _) => Err(KitError::Write { path: target_path, source }),
         (Ok(found), _) if !found.is_dir() => Err(KitError::NotAFolder { target: target_path }),
         (Ok(_), Existing::Keep) if !is_empty(target) => Err(KitError::Exists { target: target_path }),
-        (Ok(_), _) if !is_empty(target) && !target.join("checklist.json").is_file() => {
+        (Ok(_), _) if !is_empty(target) && !SIGNS.iter().any(|sign| target.join(sign).is_file()) => {
             Err(KitError::NotAKit { target: target_path })
         }
         (Ok(_), _) => Ok(()),

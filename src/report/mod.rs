@@ -22,7 +22,7 @@ pub use checklist::{
     Tool, Verdict, WallRow,
 };
 pub use grid::GridRow;
-pub use kit::{Existing, Kit, KitError};
+pub use kit::{COUPON_FILE, Existing, Kit, KitError};
 pub use page::page;
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
 pub use rows::{CutRow, JointRow, PartRow, VoidRow};

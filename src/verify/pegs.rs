@@ -176,8 +176,9 @@ pub(super) fn overlaps(felt: &[Felt]) -> usize {
     felt.iter().map(|part| under_surface(part.part).filter(|p| is_in_another(p, part, felt)).count()).sum()
 }
 
+/// Whether a place is in another part as well as in its own: under an acute rim it may be in neither or in the mate alone.
 fn is_in_another(place: &Point, own: &Felt, felt: &[Felt]) -> bool {
-    felt.iter().any(|other| !std::ptr::eq(other, own) && other.holds(place))
+    own.holds(place) && felt.iter().any(|other| !std::ptr::eq(other, own) && other.holds(place))
 }
 
 /// Places just under the middles of a sample of the part's triangles, model frame.

@@ -1,0 +1,171 @@
+//! The arguments of `printers` and `coupon`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Subcommand};
+
+/// The arguments of `printers`.
+#[derive(Debug, Args)]
+pub struct PrintersArgs {
+    /// What about them; to list them where nothing is said.
+    #[command(subcommand)]
+    pub action: Option<PrintersAction>,
+}
+
+/// What to do about printers.
+#[derive(Debug, Clone, PartialEq, Subcommand)]
+pub enum PrintersAction {
+    /// List the known printers
+    List {
+        /// Print the table of README
+        #[arg(long)]
+        markdown: bool,
+    },
+    /// Show every number of a printer with its source
+    Show {
+        /// A known printer's id, or a profile file
+        id: String,
+    },
+    /// Tell whether a profile file can be used, and everything that is wrong with it
+    Check {
+        /// The profile file
+        file: PathBuf,
+    },
+    /// Write a shop's own profile, that inherits from a printer or is taken over from a slicer's files
+    New(NewArgs),
+    /// Take a printer, its materials and layers over from a slicer: PrusaSlicer and SuperSlicer .ini, Cura .def.json,
+    /// .xml.fdm_material and .inst.cfg
+    Import(ImportArgs),
+    /// Write what was measured on coupons into a shop's own profile, with the day and the lot
+    Calibrate(CalibrateArgs),
+}
+
+/// The arguments of `printers new`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct NewArgs {
+    /// The printer's id or profile, or a slicer's files
+    #[arg(long, value_name = "ID|FILE", required = true, num_args = 1..)]
+    pub from: Vec<PathBuf>,
+    /// Which printer of the slicer's
+    #[arg(long, value_name = "NAME")]
+    pub printer: Option<String>,
+    /// The new profile's id: lower-case letters, digits and hyphens [default: the file's name]
+    #[arg(long)]
+    pub id: Option<String>,
+    /// The file to write
+    #[arg(long, value_name = "FILE")]
+    pub out: PathBuf,
+    /// Replace the file if it is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// The arguments of `printers import`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct ImportArgs {
+    /// The slicer's files, together
+    #[arg(required = true)]
+    pub files: Vec<PathBuf>,
+    /// List the printers and materials in them
+    #[arg(long, conflicts_with_all = ["printer", "id", "out"])]
+    pub list: bool,
+    /// Which printer of theirs
+    #[arg(long, value_name = "NAME")]
+    pub printer: Option<String>,
+    /// The new profile's id: lower-case letters, digits and hyphens [default: the printer's name]
+    #[arg(long)]
+    pub id: Option<String>,
+    /// The file to write [default: the standard output]
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Replace the file if it is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+/// The arguments of `printers calibrate`.
+#[derive(Debug, Clone, PartialEq, Args)]
+pub struct CalibrateArgs {
+    /// The shop's own profile
+    pub file: PathBuf,
+    /// The material that was measured [default: the printer's]
+    #[arg(long, value_name = "ID")]
+    pub material: Option<String>,
+    /// Its lot
+    #[arg(long)]
+    pub lot: String,
+    /// The day, as 2026-11-21 [default: today]
+    #[arg(long, value_name = "DAY")]
+    pub date: Option<String>,
+    /// What a density coupon weighs, g; once for each
+    #[arg(long, value_name = "G", allow_hyphen_values = true)]
+    pub weighed: Vec<f64>,
+    /// The coupons' volume as drawn, mm³ [default: that of `equipoise coupon`]
+    #[arg(long, value_name = "MM3", allow_hyphen_values = true)]
+    pub volume: Option<f64>,
+    /// The clearance a side at which the pin goes in by hand, to be glued, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub clearance: Option<f64>,
+    /// The clearance a side at which it is pressed in and holds, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub press: Option<f64>,
+    /// The clearance a side at which it falls out, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub loose: Option<f64>,
+    /// The thinnest pin that stood, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub pin: Option<f64>,
+    /// The thinnest free wall that stood, mm
+    #[arg(long, value_name = "MM", allow_hyphen_values = true)]
+    pub wall: Option<f64>,
+}
+
+/// The arguments of `coupon`.
+#[derive(Debug, Args)]
+pub struct CouponArgs {
+    /// A known printer's id, or a profile file
+    #[arg(long, value_name = "ID|FILE")]
+    pub printer: String,
+    /// A material the printer offers [default: the printer's]
+    #[arg(long, value_name = "ID")]
+    pub material: Option<String>,
+    /// Write the coupons to this folder [default: the printer's id with -coupon]
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Replace the folder if it is there
+    #[arg(long)]
+    pub force: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::args::{Cli, Command};
+    use clap::Parser;
+
+    fn action(line: &str) -> Option<PrintersAction> {
+        match Cli::try_parse_from(line.split_whitespace()).unwrap().command {
+            Command::Printers(args) => args.action,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn printers_takes_list_show_and_check() {
+        assert_eq!(action("equipoise printers"), None);
+        assert_eq!(action("equipoise printers list"), Some(PrintersAction::List { markdown: false }));
+        let show = PrintersAction::Show { id: "prusa-mk4".into() };
+        assert_eq!(action("equipoise printers show prusa-mk4"), Some(show));
+        assert_eq!(
+            action("equipoise printers check a.toml"),
+            Some(PrintersAction::Check { file: "a.toml".into() })
+        );
+    }
+
+    #[test]
+    fn coupons_are_weighed_one_by_one() {
+        let line = "equipoise printers calibrate s.toml --lot A --weighed 9.8 --weighed 9.9 --wall 1.1";
+        let Some(PrintersAction::Calibrate(args)) = action(line) else { panic!("{line}") };
+        assert_eq!((args.weighed, args.wall, args.pin), (vec![9.8, 9.9], Some(1.1), None));
+    }
+}

@@ -1,0 +1,55 @@
+//! `equipoise coupon`: coupons to print, weigh and try, with their sheet.
+
+use std::io::Write;
+use std::path::PathBuf;
+
+use super::{args_printers::CouponArgs, prepare::Voice};
+use crate::{
+    coupon::{CouponError, CouponSet, coupon_kit},
+    printer::{MaterialError, Printer, ProfileError},
+    report::{Existing, KitError},
+};
+
+/// Why no coupons were made.
+#[derive(Debug, thiserror::Error)]
+pub enum CouponCommandError {
+    /// The printer's fault.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// They cannot be made.
+    #[error(transparent)]
+    Coupon(#[from] CouponError),
+    /// They cannot be written.
+    #[error(transparent)]
+    Kit(#[from] KitError),
+    /// The sizes cannot be put into JSON.
+    #[error("the sizes cannot be written as JSON")]
+    Json(#[from] serde_json::Error),
+    /// Standard output is closed.
+    #[error("cannot write to the standard output")]
+    Output(#[from] std::io::Error),
+}
+
+/// Writes the coupons of a printer and says where.
+pub fn coupon(args: &CouponArgs, voice: Voice, out: &mut dyn Write) -> Result<(), CouponCommandError> {
+    let printer = Printer::find(&args.printer)?;
+    let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
+    let target = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-coupon", printer.id)));
+    let existing = if args.force { Existing::Replace } else { Existing::Keep };
+    coupon_kit(&set)?.write(&target, existing)?;
+    if voice.json {
+        writeln!(out, "{}", serde_json::to_string_pretty(&set)?)?;
+    } else if !voice.manner.quiet {
+        writeln!(
+            out,
+            "coupons for {} ({}); the sheet is {}",
+            set.printer_name,
+            set.material_name,
+            target.join("coupon.html").display()
+        )?;
+    }
+    Ok(())
+}

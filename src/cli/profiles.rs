@@ -1,0 +1,218 @@
+//! `equipoise printers new`, `import` and `calibrate`: a shop's own profiles.
+
+use std::fs;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use super::args_printers::{CalibrateArgs, ImportArgs, NewArgs};
+use super::shop::today;
+use crate::{
+    coupon::CouponSet,
+    printer::{
+        CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity, calibrated,
+        import::{ImportError, Imported, slug},
+    },
+    units::{counted, show_percent},
+};
+
+/// Why no profile was written.
+#[derive(Debug, thiserror::Error)]
+pub enum ProfilesError {
+    /// The profile's fault.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// The slicer's files'.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// The measured values'.
+    #[error(transparent)]
+    Calibrate(#[from] CalibrateError),
+    /// The printer has no such material.
+    #[error(transparent)]
+    Material(#[from] MaterialError),
+    /// The file is there already.
+    #[error("{} exists; choose another with --out, or replace it with --force", .0.display())]
+    Exists(PathBuf),
+    /// A built-in printer is not a file.
+    #[error(
+        "{id} is a shipped printer; remedy: equipoise printers new --from {id} --out shop.toml, and calibrate that"
+    )]
+    ShippedPrinter {
+        /// The printer's id.
+        id: String,
+    },
+    /// The system refused.
+    #[error("cannot write {}; remedy: check the folder and your permissions", path.display())]
+    Write {
+        /// Where.
+        path: PathBuf,
+        /// What it says.
+        source: io::Error,
+    },
+    /// Standard output is closed.
+    #[error("cannot write to the output")]
+    Output(#[from] io::Error),
+}
+
+/// Writes a shop's own profile: one that inherits, or one taken over from a slicer.
+pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
+    let id = args.id.clone().unwrap_or_else(|| slug(&stem(&args.out)));
+    let is_slicers = |path: &PathBuf| {
+        let name = path.to_string_lossy();
+        [".ini", ".json", ".xml", ".fdm_material", ".cfg"].iter().any(|ending| name.ends_with(ending))
+    };
+    let text = if args.from.iter().any(is_slicers) {
+        let all = Imported::read(&args.from)?;
+        all.to_toml(all.printer(args.printer.as_deref())?, &id)
+    } else {
+        inheriting(&args.from[0].to_string_lossy(), &id, &args.out)?
+    };
+    written_and_checked(&args.out, &text, args.force)?;
+    Ok(writeln!(
+        out,
+        "{} is a profile: print coupons (equipoise coupon --printer {0}) and calibrate it",
+        args.out.display()
+    )?)
+}
+
+fn stem(path: &Path) -> String {
+    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// The text of a profile that inherits from a printer, with its numbers as remarks.
+fn inheriting(from: &str, id: &str, target: &Path) -> Result<String, ProfilesError> {
+    let printer = Printer::find(from)?;
+    let is_file = Path::new(from).is_file();
+    let parent = if is_file { relative(Path::new(from), target) } else { printer.id.clone() };
+    let name = toml_string(&format!("{}, our own", printer.name));
+    let mut text = format!(
+        "# A shop's own profile: what it does not say is as in the profile it inherits from.\n\
+         # Take the # off a line to state a number of your own; every number needs its source.\n\
+         id = \"{id}\"\nname = {name}\ninherits = {}\n\n[numbers]\n",
+        toml_string(&parent)
+    );
+    for (quantity, number) in printer.numbers() {
+        text +=
+            &format!("# {quantity} = {{ value = {}, source = \"…\", sure = \"measured\" }}\n", number.value);
+    }
+    Ok(text)
+}
+
+/// The path of a parent as a profile at `target` names it: from its own folder where both share it.
+fn relative(parent: &Path, target: &Path) -> String {
+    let same = parent.parent() == target.parent();
+    let name = parent.file_name().filter(|_| same).map(PathBuf::from);
+    let whole = || fs::canonicalize(parent).unwrap_or_else(|_| parent.to_owned());
+    name.unwrap_or_else(whole).to_string_lossy().into_owned()
+}
+
+fn toml_string(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
+}
+
+/// Lists what is in a slicer's files, or writes the profile of one of their printers.
+pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
+    let all = Imported::read(&args.files)?;
+    if args.list {
+        return list(&all, out);
+    }
+    let printer = all.printer(args.printer.as_deref())?;
+    let id = args.id.clone().unwrap_or_else(|| slug(&printer.name));
+    let text = all.to_toml(printer, &id);
+    let Some(target) = &args.out else { return Ok(out.write_all(text.as_bytes())?) };
+    let imported = written_and_checked(target, &text, args.force)?;
+    Ok(writeln!(
+        out,
+        "{}: {} with {}",
+        target.display(),
+        printer.name,
+        counted(imported.materials.len(), "material")
+    )?)
+}
+
+fn list(all: &Imported, out: &mut dyn Write) -> Result<(), ProfilesError> {
+    for printer in &all.printers {
+        writeln!(out, "printer   {} ({})", printer.name, printer.technology.process())?;
+    }
+    for material in &all.materials {
+        let density = material.density_g_cm3.as_ref();
+        let density =
+            density.map_or_else(|| "no density".to_owned(), |found| format!("{} g/cm³", found.value));
+        writeln!(out, "material  {} ({}), {density}", material.name, material.technology.process())?;
+    }
+    Ok(())
+}
+
+/// Writes a profile that loads; one that does not is not left behind.
+fn written_and_checked(target: &Path, text: &str, force: bool) -> Result<Printer, ProfilesError> {
+    if target.exists() && !force {
+        return Err(ProfilesError::Exists(target.to_owned()));
+    }
+    let refused = |source| ProfilesError::Write { path: target.to_owned(), source };
+    let mut name = target.file_name().map(|name| name.to_owned()).unwrap_or_default();
+    name.push(".new");
+    let draft = target.with_file_name(name);
+    fs::write(&draft, text).map_err(refused)?;
+    let read = Printer::read(&draft);
+    let printer = match read {
+        Ok(printer) => fs::rename(&draft, target).map(|()| printer).map_err(refused),
+        Err(error) => Err(error.into()),
+    };
+    if printer.is_err() {
+        // What cannot be removed now cannot be helped; the fault itself is told.
+        let _ = fs::remove_file(&draft);
+    }
+    printer
+}
+
+/// Writes what was measured into a shop's own profile.
+pub fn calibrate(args: &CalibrateArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
+    let name = args.file.to_string_lossy();
+    if !args.file.is_file() && Printer::find(&name).is_ok() {
+        return Err(ProfilesError::ShippedPrinter { id: name.into_owned() });
+    }
+    let printer = Printer::read(&args.file)?;
+    let text = fs::read_to_string(&args.file)
+        .map_err(|source| ProfileError::Unreadable { path: args.file.clone(), source })?;
+    let measured = measured(args, &printer)?;
+    let after = calibrated(&name, &text, &measured)?;
+    written_and_checked(&args.file, &after, true)?;
+    tell(&measured, &printer, out)
+}
+
+fn measured(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, ProfilesError> {
+    let material = printer.material(args.material.as_deref())?;
+    let set = CouponSet::of(printer, material);
+    let lengths = [
+        (Quantity::ClearancePerSideMm, args.clearance),
+        (Quantity::ClearancePressPerSideMm, args.press),
+        (Quantity::ClearanceLoosePerSideMm, args.loose),
+        (Quantity::PinMinDiameterMm, args.pin),
+        (Quantity::MinWallMm, args.wall),
+    ];
+    Ok(Measured {
+        day: args.date.clone().unwrap_or_else(today),
+        lot: args.lot.clone(),
+        material: Some((material.id.clone(), material.name.clone())),
+        weighed_g: args.weighed.clone(),
+        coupon_mm3: args.volume.unwrap_or(set.density_volume_mm3),
+        lengths: lengths.into_iter().filter_map(|(quantity, value)| Some((quantity, value?))).collect(),
+    })
+}
+
+fn tell(measured: &Measured, printer: &Printer, out: &mut dyn Write) -> Result<(), ProfilesError> {
+    if let (Some(density), Some((id, _))) = (measured.density_g_cm3(), &measured.material) {
+        let spread = measured.spread_ratio().map_or_else(
+            || "no window yet: weigh a second coupon".to_owned(),
+            |spread| format!("± {}", show_percent(spread)),
+        );
+        writeln!(out, "{id}: {density:.4} g/cm³, {spread}")?;
+    }
+    for (quantity, value) in &measured.lengths {
+        let before = printer
+            .number(*quantity)
+            .map_or_else(|| "not known".to_owned(), |number| number.value.to_string());
+        writeln!(out, "{quantity}: {value} (was {before})")?;
+    }
+    Ok(())
+}

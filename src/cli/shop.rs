@@ -1,0 +1,72 @@
+//! Where a shop's defaults are looked for, and what day it is: what the program asks of the machine it runs on.
+
+use std::path::{Path, PathBuf};
+use std::time::{SystemTime, UNIX_EPOCH};
+
+use crate::printer::CONFIGURATION;
+
+/// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the user's.
+pub fn shop_folders(model: &Path) -> Vec<PathBuf> {
+    let beside = model.parent().map(Path::to_owned);
+    [PathBuf::from(".")].into_iter().chain(beside).chain(configuration_folder()).collect()
+}
+
+/// The program's folder in the user's configuration folder; none where the system names none.
+fn configuration_folder() -> Option<PathBuf> {
+    let named = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let home = || named("HOME").map(|home| home.join(".config"));
+    let folder = named("XDG_CONFIG_HOME").or_else(|| named("APPDATA")).or_else(home);
+    folder.map(|folder| folder.join(CONFIGURATION))
+}
+
+/// Seconds of a day.
+const DAY_S: u64 = 86_400;
+
+/// Today in Greenwich, as 2026-11-21.
+pub fn today() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    day(since / DAY_S)
+}
+
+/// The day that many days after 1970-01-01, in the Gregorian calendar.
+fn day(mut days: u64) -> String {
+    let is_leap =
+        |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    let mut year = 1970;
+    while days >= 365 + u64::from(is_leap(year)) {
+        days -= 365 + u64::from(is_leap(year));
+        year += 1;
+    }
+    let february = 28 + u64::from(is_leap(year));
+    let months = [31, february, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31];
+    let mut month = 0;
+    while days >= months[month] {
+        days -= months[month];
+        month += 1;
+    }
+    format!("{year}-{:02}-{:02}", month + 1, days + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_are_counted_by_the_calendar() {
+        for (days, name) in [
+            (0, "1970-01-01"),
+            (58, "1970-02-28"),
+            (59, "1970-03-01"),
+            (11_016, "2000-02-29"),
+            (20_778, "2026-11-21"),
+        ] {
+            assert_eq!(day(days), name);
+        }
+    }
+
+    #[test]
+    fn the_folder_of_the_run_comes_first_then_the_models() {
+        let folders = shop_folders(Path::new("models/elephant.obj"));
+        assert_eq!(folders[..2], [PathBuf::from("."), PathBuf::from("models")]);
+    }
+}
