@@ -151,8 +151,8 @@ fn written_parts(
         }
         parts => parts?,
     };
-    let (job, count) = (setup.name(), parts.len());
-    parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count)).collect()
+    let (job, count, scale_ratio) = (setup.name(), parts.len(), setup.printer.print_scale_ratio());
+    parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count, scale_ratio)).collect()
 }
 
 /// What cuts, pins and poses are asked for.

@@ -85,7 +85,10 @@ fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
 fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
     Promise {
         schema: SCHEMA,
-        printer: PrinterLimits { build_volume_mm: setup.printer.usable_volume_mm() },
+        printer: PrinterLimits {
+            build_volume_mm: setup.printer.usable_volume_mm(),
+            print_scale_ratio: rows::scaled(setup.printer.print_scale_ratio()),
+        },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
         goal: rows::aim(setup),
         promise: None,

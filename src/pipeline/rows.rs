@@ -123,6 +123,7 @@ fn printer_row(setup: &Setup) -> PrinterRow {
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
+        print_scale_ratio: scaled(printer.print_scale_ratio()),
         support: support_word(printer.support).to_owned(),
         minimum_opening_mm: printer.min_opening_mm.value,
         sources: sources(setup),
@@ -148,6 +149,11 @@ fn sources(setup: &Setup) -> Vec<String> {
         printer.unknown().into_iter().filter(|key| *key != "build_volume_mm").map(words).collect();
     let unknown = (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
     numbers.chain(volume).chain(unfit).chain(corners).chain(unknown).collect()
+}
+
+/// What files are multiplied by; none where they are of nominal size.
+pub fn scaled(ratio: [f64; 3]) -> Option<[f64; 3]> {
+    (ratio != [1.0; 3]).then_some(ratio)
 }
 
 fn material_row(setup: &Setup) -> MaterialRow {
@@ -306,7 +312,15 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
 
 fn notes(sheet: &Sheet) -> Vec<String> {
     let wall = sheet.setup.wall.why.clone();
-    std::iter::once(wall).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
+    let scale = scaled(sheet.setup.printer.print_scale_ratio()).map(scale_note);
+    std::iter::once(wall).chain(scale).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
+}
+
+fn scale_note([x, y, z]: [f64; 3]) -> String {
+    format!(
+        "part files are larger than the parts by {x:.5}, {y:.5} and {z:.5} along x, y and z, as this machine does not make up for \
+         shrinkage: do not scale them again"
+    )
 }
 
 fn log_row(row: &hollow::LogRow) -> LogRow {

@@ -99,12 +99,16 @@ pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String,
     let profile: ProfileText = reader.parse()?;
     let own: OwnMaterials = reader.parse()?;
     let mut edits = Edits { text, edits: Vec::new() };
+    let mut added = String::new();
     for &(quantity, value) in &measured.lengths {
         let said = quoted(value, &measured.source("read off a coupon"));
         match profile.numbers.get(&quantity) {
             Some(old) => edits.replace(old.span(), said),
-            None => edits.add_number(quantity.key(), &said),
+            None => added += &format!("{quantity} = {said}\n"),
         }
+    }
+    if !added.is_empty() {
+        edits.add_numbers(&added);
     }
     if let (Some((id, name)), Some(density)) = (&measured.material, measured.density_g_cm3()) {
         let found = own.material.iter().find(|material| material.id.get_ref() == id);
@@ -152,8 +156,8 @@ impl Edits<'_> {
         self.edits.push((range, by));
     }
 
-    /// Adds a number at the head of `[numbers]`, which is made if it is not there.
-    fn add_number(&mut self, key: &str, said: &str) {
+    /// Adds lines at the head of `[numbers]`, which is made if it is not there.
+    fn add_numbers(&mut self, lines: &str) {
         const HEADER: &str = "[numbers]";
         let mut start = 0;
         let mut header = None;
@@ -167,8 +171,8 @@ impl Edits<'_> {
             start += line.len();
         }
         match header {
-            Some(at) => self.replace(at..at, format!("{key} = {said}\n")),
-            None => self.replace(first_material..first_material, format!("\n{HEADER}\n{key} = {said}\n\n")),
+            Some(at) => self.replace(at..at, lines.to_owned()),
+            None => self.replace(first_material..first_material, format!("\n{HEADER}\n{lines}\n")),
         }
     }
 

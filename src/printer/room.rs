@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Printer, Sourced};
+use super::{Printer, Quantity, Sourced};
 
 /// A corner of the plate, seen by who stands before the machine: x to the right, y to the back.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,13 +40,28 @@ impl ExcludedCorner {
 }
 
 impl Printer {
-    /// Width, depth and height of what can be printed at once, mm: the largest upright box of the build volume that
+    /// Width, depth and height of what can be printed at once, mm of the model: the largest upright box of the build volume that
     /// keeps clear of the excluded corners, no side longer than the largest part's; none where the build volume is not known.
     pub fn usable_volume_mm(&self) -> Option<[f64; 3]> {
         let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
         let [x, y] = self.clear_rectangle_mm([width, depth]);
         let largest = self.largest_part_mm.as_ref().map_or([f64::INFINITY; 3], |largest| largest.value);
-        Some([x.min(largest[0]), y.min(largest[1]), height.min(largest[2])])
+        let scale = self.print_scale_ratio();
+        let room = [x.min(largest[0]), y.min(largest[1]), height.min(largest[2])];
+        Some([room[0] / scale[0], room[1] / scale[1], room[2] / scale[2]])
+    }
+
+    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal size: 1, unless the profile says
+    /// that the machine does not make up for shrinkage, and by how much parts shrink.
+    pub fn print_scale_ratio(&self) -> [f64; 3] {
+        let is_left_to_us = self.compensates_shrinkage.as_ref().is_some_and(|flag| !flag.value);
+        let scale = |quantity: Quantity| {
+            let shrinkage =
+                self.number(quantity).filter(|_| is_left_to_us).map_or(0.0, |number| number.value);
+            1.0 / (1.0 - shrinkage)
+        };
+        let [across, up] = [Quantity::ShrinkageXyRatio, Quantity::ShrinkageZRatio].map(scale);
+        [across, across, up]
     }
 
     /// The sides of the largest rectangle of the plate that no excluded corner reaches into, mm.
@@ -111,6 +126,19 @@ mod tests {
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 250.0, 250.0]));
         printer.largest_part_mm = Some(sourced([300.0, 200.0, 240.0]));
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 200.0, 240.0]));
+    }
+
+    #[test]
+    fn files_are_nominal_unless_the_profile_says_that_shrinkage_is_left_to_us() {
+        let mut printer = Printer::find("formlabs-form4").unwrap();
+        printer.besides.insert(Quantity::ShrinkageXyRatio, sourced(0.02));
+        assert_eq!(printer.print_scale_ratio(), [1.0; 3]);
+        printer.compensates_shrinkage = Some(sourced(true));
+        assert_eq!(printer.print_scale_ratio(), [1.0; 3]);
+        printer.compensates_shrinkage = Some(sourced(false));
+        assert_eq!(printer.print_scale_ratio(), [1.0 / 0.98, 1.0 / 0.98, 1.0]);
+        let room = printer.usable_volume_mm().unwrap();
+        assert!((room[0] - 196.0).abs() < 1e-12 && room[2] == 210.0, "{room:?}");
     }
 
     #[test]

@@ -112,6 +112,10 @@ pub struct PrinterRow {
     pub layer_mm: f64,
     /// The edges of the build volume, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
+    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal size; none where files are
+    /// nominal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub print_scale_ratio: Option<[f64; 3]>,
     /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or `none`.
     pub support: String,
     /// The least opening through which a void can be cleaned, mm.

@@ -83,6 +83,7 @@ fn printer() -> PrinterRow {
         pixel_mm: [0.0423, 0.0423],
         layer_mm: 0.016,
         build_volume_mm: Some([100.0, 100.0, 6.0]),
+        print_scale_ratio: None,
         support: "water-jet".into(),
         minimum_opening_mm: 4.0,
         sources: vec!["layer: read: user guide".into()],

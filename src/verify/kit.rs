@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use super::{Check, Evidence, Judgement, Limit, PartEvidence, Promise, SCHEMA, judge};
 use crate::digest::sha256_hex;
+use crate::geom::Vector;
 use crate::io::{ReadError, read_model};
 use crate::mesh::TriMesh;
 
@@ -63,6 +64,7 @@ pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
     let parts = promise.parts.iter().map(|part| {
         let mesh = read_mesh(&folder.join(&part.file))?;
+        let mesh = of_nominal_size(mesh, promise.printer.print_scale_ratio);
         Ok(PartEvidence { id: part.id.clone(), mesh, pose: part.print_from_model })
     });
     let evidence = Evidence { hollowed, parts: parts.collect::<Result<_, _>>()?, promise };
@@ -110,6 +112,14 @@ fn lies_within(file: &str) -> bool {
 
 fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {
     std::fs::read(path).map_err(|source| VerifyError::File { path: path.to_owned(), source })
+}
+
+/// The mesh of a part before it was scaled for the printer.
+fn of_nominal_size(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> TriMesh {
+    match scale_ratio.map(Vector::from) {
+        Some(scale) => mesh.map_vertices(|p| p.coords.component_div(&scale).into()),
+        None => mesh,
+    }
 }
 
 fn read_mesh(path: &Path) -> Result<TriMesh, VerifyError> {

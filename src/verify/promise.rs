@@ -47,6 +47,9 @@ pub struct Promise {
 pub struct PrinterLimits {
     /// The edges of the build volume along x, y and z, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
+    /// What part files are multiplied by along x, y and z to make up for shrinkage; none where they are of nominal size.
+    #[serde(default)]
+    pub print_scale_ratio: Option<[f64; 3]>,
 }
 
 /// The density the masses rest on.

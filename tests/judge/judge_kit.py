@@ -382,11 +382,11 @@ def judge_pins(table, sheet, parts):
             table.at_least(f"{pin['id']} gap, mm", gaps[pin["joint"]] - GAP_TOLERANCE_MM, (bores - radii).min())
 
 
-def judge_part(table, kit, part, room):
+def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
-    path = kit / part["file"]
+    path, room = kit / part["file"], printer.get("build_volume_mm")
     table.line(f"{part['id']} SHA-256", part["sha256"][:12], digest(path)[:12], part["sha256"] == digest(path))
-    corners = read_stl(path)
+    corners = read_stl(path) / (printer.get("print_scale_ratio") or [1, 1, 1])
     mesh = welded(corners)
     sound = bool(mesh.is_watertight and mesh.is_winding_consistent and moments(corners)[0] > 0)
     table.line(f"{part['id']} watertight, outward", True, sound, sound)
@@ -413,8 +413,7 @@ def judge(kit):
     sheet = json.loads((kit / "checklist.json").read_text())
     goal, promised, table = sheet["goal"], sheet["assembly"], Table()
     print(f"{kit}: {goal['kind']}, {len(sheet['parts'])} parts\n  {'':39} {'promised/limit':>18} {'measured':>18}")
-    room = sheet["printer"].get("build_volume_mm")
-    parts = [judge_part(table, kit, part, room) for part in sheet["parts"]]
+    parts = [judge_part(table, kit, part, sheet["printer"]) for part in sheet["parts"]]
     hollowed = read_stl(kit / "hollowed.stl")
     whole = welded(hollowed)
     table.line("hollowed.stl watertight", True, bool(whole.is_watertight), bool(whole.is_watertight))

@@ -205,7 +205,9 @@ mod tests {
         let mine = all.printer(Some("Mine")).unwrap();
         let width = &mine.pixel_mm.as_ref().unwrap()[0];
         assert!((width.value - 0.45).abs() < 1e-12 && width.is_computed, "{width:?}");
-        assert_eq!(mine.layer_mm.as_ref().unwrap().source, "b.ini line 22 [print:Fine], layer_height");
+        let source = &mine.layer_mm.as_ref().unwrap().source;
+        let line = 1 + BUNDLE.lines().position(|line| line == "[print:Fine]").unwrap();
+        assert_eq!(*source, format!("b.ini line {line} [print:Fine], layer_height"));
         assert_eq!(mine.build_volume_mm.as_ref().unwrap().value, [250.0, 210.0, 210.0]);
         assert_eq!(mine.elephant_foot_mm.as_ref().unwrap().value, 0.2);
         let wide = all.printer(Some("Wide")).unwrap();
