@@ -16,14 +16,14 @@ use crate::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
     },
     job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
-    printer::{Shop, ShopError},
+    printer::ShopError,
     units::Length,
     words::ChoiceError,
 };
 
 use super::{
     args_printers::{CouponArgs, PrintersArgs},
-    shop::shop_folders,
+    shop::chosen_printer,
 };
 
 const EXIT_CODES: &str = "\
@@ -295,19 +295,6 @@ pub enum ArgsError {
     /// The shop's defaults cannot be used.
     #[error(transparent)]
     Shop(#[from] ShopError),
-}
-
-/// The printer and material that were asked for, or the shop's defaults.
-fn chosen_printer(
-    printer: Option<String>,
-    material: Option<String>,
-    model: &Path,
-) -> Result<PrinterChoice, ArgsError> {
-    if let Some(id) = printer {
-        return Ok(PrinterChoice { id, material });
-    }
-    let shop = Shop::of_folders(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
-    Ok(PrinterChoice { id: shop.printer, material: material.or(shop.material) })
 }
 
 impl PrepareArgs {

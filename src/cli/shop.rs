@@ -3,7 +3,24 @@
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
 
-use crate::printer::CONFIGURATION;
+use super::args::ArgsError;
+use crate::{
+    job::PrinterChoice,
+    printer::{CONFIGURATION, Shop},
+};
+
+/// The printer and material that were asked for, or the shop's defaults.
+pub fn chosen_printer(
+    printer: Option<String>,
+    material: Option<String>,
+    model: &Path,
+) -> Result<PrinterChoice, ArgsError> {
+    if let Some(id) = printer {
+        return Ok(PrinterChoice { id, material });
+    }
+    let shop = Shop::of_folders(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
+    Ok(PrinterChoice { id: shop.printer, material: material.or(shop.material) })
+}
 
 /// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the user's.
 pub fn shop_folders(model: &Path) -> Vec<PathBuf> {

@@ -171,7 +171,10 @@ impl Edits<'_> {
             start += line.len();
         }
         match header {
-            Some(at) => self.replace(at..at, lines.to_owned()),
+            Some(at) => {
+                let newline = if self.text[..at].ends_with('\n') { "" } else { "\n" };
+                self.replace(at..at, format!("{newline}{lines}"));
+            }
             None => self.replace(first_material..first_material, format!("\n{HEADER}\n{lines}\n")),
         }
     }

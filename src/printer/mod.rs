@@ -1,14 +1,15 @@
 //! What a printer can make and of what: profiles as TOML data, every number with its source.
 //!
-//! A printer's profile inherits from one process at most (`inherits = "polyjet"`); a process inherits from nothing. What neither
-//! says is an error for the numbers every print needs, and simply unset for the build volume.
+//! A printer's profile inherits from a process (`inherits = "polyjet"`), from a shipped machine (`"prusa-mk4"`) or from a file
+//! beside it (`"shop.toml"`), which may inherit in turn; a process inherits from nothing. What none of them says is an error for
+//! the numbers every print needs, and simply unset for the others, such as the build volume.
 //!
 //! A shop's own printer is a file such as
 //!
 //! ```toml
 //! id = "shop-jet"
 //! name = "The PolyJet machine in room 2"
-//! inherits = "polyjet"                       # fdm, polyjet or sla
+//! inherits = "polyjet"                       # a process, a shipped printer or a file
 //! default_material = "lot-7"
 //! build_volume_mm = { value = [300, 300, 180], source = "measured on the tray", sure = "read" }
 //!
