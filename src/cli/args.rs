@@ -15,7 +15,7 @@ use crate::{
     goal::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
     },
-    job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
+    job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, Scaling, Solver},
     printer::ShopError,
     units::Length,
     words::ChoiceError,

@@ -6,7 +6,9 @@ use std::{collections::BTreeMap, path::Path};
 use serde_json::Value;
 
 use super::{
-    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology, first_number, ini::Ini,
+    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology, first_number,
+    formula::{Setting, evaluated},
+    ini::Ini,
     read_text,
 };
 use crate::toml_text::Place;
@@ -14,23 +16,19 @@ use crate::toml_text::Place;
 /// How a definition's file ends.
 const ENDING: &str = ".def.json";
 
-/// A setting: its number and the file it is from.
-type Settings = BTreeMap<String, (f64, String)>;
+/// Settings by name, each with the file it is from.
+type Settings = BTreeMap<String, (Setting, String)>;
 
 /// Adds the machine of a definition to `all`.
 pub(super) fn read_definition(path: &Path, text: &str, all: &mut Imported) -> Result<(), ImportError> {
     let mut settings = Settings::new();
-    let mut way = Vec::new();
-    let name = collect(path, text, &mut settings, &mut way)?;
-    let found = |key: &str| {
-        let (value, file) = settings.get(key)?;
-        Some(Found { value: *value, source: format!("{file}, {key}"), is_computed: false })
-    };
+    let name = collect(path, text, &mut settings, &mut Vec::new())?;
+    let width = found(&settings, "line_width").or_else(|| nozzle(&settings));
     all.printers.push(ImportedPrinter {
         name,
         technology: Technology::Filament,
-        pixel_mm: found("line_width").or_else(|| nozzle(&settings)).map(|width| [width.clone(), width]),
-        layer_mm: found("layer_height"),
+        pixel_mm: width.map(|width| [width.clone(), width]),
+        layer_mm: found(&settings, "layer_height"),
         layers_mm: [None, None],
         build_volume_mm: build_volume(&settings),
         elephant_foot_mm: None,
@@ -39,18 +37,30 @@ pub(super) fn read_definition(path: &Path, text: &str, all: &mut Imported) -> Re
     Ok(())
 }
 
-/// The nozzle's diameter, which stands for a line's width where that is a formula.
+/// A setting's number, read or worked out from its formula.
+fn found(settings: &Settings, key: &str) -> Option<Found<f64>> {
+    let (setting, file) = settings.get(key)?;
+    let named = |name: &str| settings.get(name).map(|(setting, _)| setting);
+    let (value, how, is_computed) = match setting {
+        Setting::Number(number) => (*number, String::new(), false),
+        Setting::Formula(formula) => (evaluated(formula, &named)?, format!(" = {formula}"), true),
+    };
+    let is_length = value.is_finite() && value > 0.0;
+    is_length.then(|| Found { value, source: format!("{file}, {key}{how}"), is_computed })
+}
+
+/// The nozzle's diameter, which stands for a line's width where its formula is not understood.
 fn nozzle(settings: &Settings) -> Option<Found<f64>> {
-    let (value, file) = settings.get("machine_nozzle_size")?;
-    let source = format!("{file}, machine_nozzle_size, as the line width is a formula");
-    Some(Found { value: *value, source, is_computed: true })
+    let nozzle = found(settings, "machine_nozzle_size")?;
+    let source = format!("{}, as the line width is a formula of another kind", nozzle.source);
+    Some(Found { source, is_computed: true, ..nozzle })
 }
 
 fn build_volume(settings: &Settings) -> Option<Found<[f64; 3]>> {
-    let side = |key: &str| settings.get(key);
+    let side = |key: &str| found(settings, key);
     let sides = [side("machine_width")?, side("machine_depth")?, side("machine_height")?];
-    let source = format!("{}, machine_width, machine_depth and machine_height", sides[0].1);
-    Some(Found { value: sides.map(|side| side.0), source, is_computed: false })
+    let source = format!("{}, machine_depth and machine_height", sides[0].source);
+    Some(Found { value: sides.map(|side| side.value), source, is_computed: false })
 }
 
 /// Gathers the settings of a definition over those it inherits; gives its name.
@@ -85,24 +95,21 @@ fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
     };
     let value: Value =
         serde_json::from_str(text).map_err(|error| fault(error.line(), error.column(), error.to_string()))?;
-    let is_definition = value["settings"].is_object() || value["overrides"].is_object();
-    if is_definition { Ok(value) } else { Err(fault(1, 1, "neither settings nor overrides".to_owned())) }
+    let is_definition =
+        value["inherits"].is_string() || value["settings"].is_object() || value["overrides"].is_object();
+    let none = || fault(1, 1, "it neither inherits nor has settings or overrides".to_owned());
+    if is_definition { Ok(value) } else { Err(none()) }
 }
 
-/// The numbers of settings, and of their children. A formula hides the number of a parent: it is not evaluated.
+/// The numbers and formulas of settings, and of their children; a formula comes before its default value.
 fn gather(settings: &Value, file: &str, into: &mut Settings) {
     for (key, setting) in settings.as_object().into_iter().flatten() {
-        let formula = &setting["value"];
-        let number = formula.as_f64().or_else(|| formula.as_str().and_then(|text| text.trim().parse().ok()));
-        let number = number.or_else(|| setting["default_value"].as_f64().filter(|_| formula.is_null()));
-        match number.filter(|number: &f64| number.is_finite() && *number > 0.0) {
-            Some(number) => {
-                into.insert(key.clone(), (number, file.to_owned()));
-            }
-            None if !formula.is_null() => {
-                into.remove(key);
-            }
-            None => {}
+        let formula = setting["value"].as_str().map(|text| Setting::Formula(text.to_owned()));
+        let number = setting["value"].as_f64().or_else(|| setting["default_value"].as_f64());
+        // As in Cura: a default value does not undo the formula that a parent has given.
+        let holds = setting["value"].is_null() && matches!(into.get(key), Some((Setting::Formula(_), _)));
+        if let Some(found) = formula.or(number.map(Setting::Number)).filter(|_| !holds) {
+            into.insert(key.clone(), (found, file.to_owned()));
         }
         gather(&setting["children"], file, into);
     }
@@ -197,11 +204,21 @@ mod tests {
     }
 
     #[test]
-    fn a_formula_is_not_evaluated_and_the_nozzle_stands_for_it() {
+    fn a_formula_is_worked_out_and_the_nozzle_stands_for_one_of_another_kind() {
         let folder = folder();
-        let all = Imported::read(&[folder.path().join("five.def.json")]).unwrap();
-        let width = &all.printer(None).unwrap().pixel_mm.as_ref().unwrap()[0];
-        assert!(width.value == 0.4 && width.is_computed && width.source.contains("formula"), "{width:?}");
+        let path = folder.path().join("five.def.json");
+        let width = |path: &Path| {
+            let all = Imported::read(&[path.to_owned()]).unwrap();
+            all.printer(None).unwrap().pixel_mm.clone().unwrap()[0].clone()
+        };
+        assert!(width(&path).value == 0.35 && width(&path).is_computed, "{:?}", width(&path));
+        let odd = std::fs::read_to_string(&path).unwrap().replace("round(", "max(");
+        std::fs::write(&path, odd).unwrap();
+        assert!(
+            width(&path).value == 0.4 && width(&path).source.contains("another kind"),
+            "{:?}",
+            width(&path)
+        );
     }
 
     #[test]
@@ -209,7 +226,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         for (text, words) in [
             ("{\n \"name\": }", "x.def.json:2:"),
-            ("{}", "neither settings nor overrides"),
+            ("{}", "neither inherits nor has settings"),
             (r#"{"inherits": "x", "settings": {}}"#, "x.def.json → x.def.json"),
         ] {
             let path = folder.path().join("x.def.json");

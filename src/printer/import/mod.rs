@@ -4,6 +4,7 @@
 //! it is from. What slicers do not know (least walls, clearances, cleaning) is inherited from the process and marked so.
 
 mod cura;
+mod formula;
 mod ini;
 mod prusa;
 mod write;
