@@ -9,7 +9,7 @@
 //! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall, pitch and material, [`shell`] keeps
 //! the wall, [`interior`] holds what may be emptied as exact columns, [`hollow`] solves, [`advice`] says
 //! what helps where that is impossible, [`voids`] draws the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without knowing how it was made, [`report`] puts
-//! the kit together; [`pipeline::run`] is that line.
+//! the kit together; [`coupon`] lets a shop measure what its printer does; [`pipeline::run`] is that line.
 //!
 //! # Example
 //! ```no_run

@@ -158,13 +158,13 @@ fn written_parts(
 /// What cuts, pins and poses are asked for.
 pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
-    let size_mm = setup.model.solid.mesh().longest_side_mm();
     let elephant_foot_mm = printer.number(Quantity::ElephantFootMm).map_or(0.0, |foot| foot.value);
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
-        wall_mm: printer.least_wall_mm(size_mm).value,
+        // The judge holds sockets to the wall that was ordered, which is no less than the printer's.
+        wall_mm: setup.wall.wall_mm,
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,
             length_ratio: printer.pin_length_ratio.value,
