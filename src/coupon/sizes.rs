@@ -122,8 +122,8 @@ mod tests {
             let set = CouponSet::of(&printer, printer.material(None).unwrap());
             let is_whole = |length: f64, step: f64| (length / step - (length / step).round()).abs() < 1e-6;
             let steps = [printer.pixel_x_mm.value, printer.pixel_y_mm.value, printer.layer_mm.value];
-            for axis in 0..3 {
-                assert!(is_whole(set.density_size_mm[axis], steps[axis]), "{}", printer.id);
+            for (side, step) in set.density_size_mm.into_iter().zip(steps) {
+                assert!(is_whole(side, step), "{}", printer.id);
             }
             assert!(set.walls_x_mm.iter().all(|wall| is_whole(*wall, steps[0])), "{}", printer.id);
             assert!(set.walls_y_mm.iter().all(|wall| is_whole(*wall, steps[1])), "{}", printer.id);

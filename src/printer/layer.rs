@@ -73,7 +73,7 @@ impl Layer {
     }
 
     /// This layer of a process, whose numbers are defaults from now on.
-    pub fn as_process(mut self) -> Self {
+    pub fn into_defaults(mut self) -> Self {
         let id = self.id.clone();
         let walls = self.walls_by_part_size.iter_mut().map(|wall| &mut wall.wall_mm);
         for number in self.numbers.values_mut().chain(walls) {

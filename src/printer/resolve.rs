@@ -97,7 +97,7 @@ impl<'a> Way<'_, 'a> {
         }
         self.texts.push(process.text.to_owned());
         child.faults.append(&mut reader.faults);
-        Ok(layer.as_process())
+        Ok(layer.into_defaults())
     }
 
     /// What a profile is called when a circle is looked for.
