@@ -73,7 +73,7 @@ fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
     let members = |set: usize| (0..middles.len()).filter(move |i| set >> i & 1 == 1);
     let one_plane = |set: usize| {
         let points: Vec<Point> = members(set).map(|i| Point::from(middles[i])).collect();
-        points.len() <= 3 || !(width(&points) > 2.0 * reach)
+        points.len() <= 3 || width(&points) <= 2.0 * reach
     };
     let shared: Vec<bool> = (0..=all).map(one_plane).collect();
     let mut least = vec![usize::MAX; all + 1];
