@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::programme::{DualPoint, HEIGHT_ROW, Programme, index};
+use super::programme::{DualPoint, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
 use crate::progress::Progress;
 
@@ -80,9 +80,20 @@ impl Visit {
         (self.value - self.bound) / self.value.abs().max(1e-3)
     }
 
-    /// The derivative of a top's ratio by the height of its centre, by the envelope theorem: −λ_ℓ s₁/(e·s).
-    pub fn height_slope(&self) -> f64 {
-        -self.point.lambda[HEIGHT_ROW] * self.extreme.s[index::ONE] / self.denominator
+    /// The extreme interior's mass.
+    pub fn mass(&self) -> f64 {
+        self.extreme.s[index::ONE]
+    }
+
+    /// The height of the extreme interior's centre.
+    pub fn center_height(&self) -> f64 {
+        self.extreme.s[index::Z] / self.extreme.s[index::ONE]
+    }
+
+    /// Whether a step that promises this gain in D would raise the bound by no more than this share of itself.
+    fn is_near(&self, gain: f64, share: f64) -> bool {
+        let promised = self.point.tau + (self.dual + gain) / self.denominator;
+        promised - self.bound <= share * promised.abs()
     }
 
     fn is_within(&self, tolerance: f64) -> bool {
@@ -122,6 +133,9 @@ pub(super) struct Climb {
 #[derive(Clone, Copy)]
 pub(super) struct Budget<'a> {
     pub tolerance: f64,
+    /// The share of the bound by which it may still rise when it is good enough whatever the tolerance; none where it never
+    /// is.
+    pub slack: Option<f64>,
     pub passes: usize,
     pub first_damping: f64,
     pub progress: &'a Progress<'a>,
@@ -156,6 +170,9 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         if is_settled {
             stride = Stride::first(programme, budget);
             step = Step::from(&here, programme, &stride);
+        }
+        if budget.slack.is_some_and(|share| here.is_near(step.gain(), share)) {
+            return done(End::Converged);
         }
         let there = Visit::new(reach, programme, step.to.clone());
         if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
@@ -296,7 +313,7 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
         return None;
     }
-    let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, ..budget });
+    let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
     let separator = Some(proof.best.point.y.clone());
     let end = End::Infeasible(proof.best.bound);
     (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end, separator })
@@ -350,7 +367,13 @@ mod tests {
         let reach = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
         let programme = Programme::yoyo_dominance(&reach);
         let progress = Progress::silent();
-        let budget = Budget { tolerance: 1e-9, passes: 60, first_damping: COLD_DAMPING, progress: &progress };
+        let budget = Budget {
+            tolerance: 1e-9,
+            slack: None,
+            passes: 60,
+            first_damping: COLD_DAMPING,
+            progress: &progress,
+        };
         let best = climb(&reach, &programme, programme.cold_start(&reach), budget);
         assert_eq!(best.end, End::Converged);
         for i in 0..60 {

@@ -121,7 +121,7 @@ mod cover;
 mod float;
 mod golden;
 mod heights;
-mod mass;
+mod lever;
 mod method;
 mod papers;
 mod problem;

@@ -65,12 +65,12 @@ pub enum Stage {
         /// The height, mm.
         height_mm: f64,
     },
-    /// A top with its centre at this height and of this mass.
-    AtMass {
+    /// A top with its centre at this height and of this lever.
+    AtLever {
         /// The height, mm.
         height_mm: f64,
-        /// The volume of material, mm³.
-        volume_mm3: f64,
+        /// Volume times the height of the centre, mm⁴.
+        lever_mm4: f64,
     },
     /// The proof that no other height is better, for heights about this one.
     Cover {
@@ -120,8 +120,7 @@ impl Solution {
         matches!(self.status, Status::Solved | Status::AlmostSolved)
     }
 
-    /// The multipliers of the constraints in the solver's units, in the order of THEORY §3's rows; the one of a top's
-    /// height row comes last and vanishes at the best height.
+    /// The multipliers of the constraints in the solver's units, in the order of the table of rows in [`super`].
     pub fn multipliers(&self) -> Vec<f64> {
         self.warm.point.lambda.iter().copied().collect()
     }
@@ -133,8 +132,8 @@ pub(super) struct Warm {
     pub point: DualPoint,
     /// A top's height, in the solver's units, and how the slope of the objective grows with it.
     pub height: Option<Tangent>,
-    /// A top's mass where Spin-It's functional weighs it.
-    pub mass: Option<f64>,
+    /// A top's lever where Spin-It's functional weighs it.
+    pub lever: Option<f64>,
 }
 
 /// Where a slope was last seen to vanish, and its derivative there.

@@ -49,9 +49,24 @@ impl<'a> Work<'a> {
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
     pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
+        self.climb_within(programme, start, (tolerance, None))
+    }
+
+    /// The same until the bound can rise by no more than a share of itself, whatever the constraints are missed by.
+    pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: f64) -> Climb {
+        self.climb_within(programme, start, (0.0, Some(slack)))
+    }
+
+    fn climb_within(
+        &self,
+        programme: &Programme,
+        start: DualPoint,
+        (tolerance, slack): (f64, Option<f64>),
+    ) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
             tolerance: tolerance.max(self.settings.tolerance),
+            slack,
             passes: self.settings.passes_per_ascent,
             first_damping: self.first_damping,
             progress: self.progress,
