@@ -30,7 +30,7 @@ pub(super) struct Answer {
     /// A top's height, and its slope's growth.
     pub height: Option<Tangent>,
     /// A top's lever, where it matters.
-    pub lever: Option<f64>,
+    pub lever: Option<Tangent>,
     /// A lower bound of the ratio over all heights.
     pub bound_over_heights: Option<f64>,
 }

@@ -4,19 +4,20 @@ use super::answer::Answer;
 use super::ascent::{Climb, End, Visit};
 use super::lever;
 use super::programme::{DualPoint, Programme};
+use super::solution::Tangent;
 use super::valley::{Bottom, Place, Sample, Valley};
 use super::work::Work;
 use crate::goal::Objective;
 
-/// How exact the ends of the range of heights are; their outer bounds are used. A tenth costs a pass or two an end and
-/// saves none of the proof, which steps over what is out of reach in one.
-const RANGE_TOLERANCE: f64 = 3e-2;
+/// By which part of themselves the ends of the range of heights may be too far out. Less costs passes, and saves the proof
+/// none, which steps over what is out of reach in one or two.
+const RANGE_SLACK: f64 = 0.2;
 /// The least height of a centre, as a part of the greatest, that counts as above the contact. A top whose centre lies in
 /// its contact needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
 
-/// A dual point to start from, and the lever it belongs to.
-pub(super) type Start<'a> = Option<(&'a DualPoint, Option<f64>)>;
+/// A dual point to start from, and the best lever where it was found.
+pub(super) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 
 /// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
 ///
@@ -42,7 +43,7 @@ impl<'a> Heights<'a> {
     pub fn range(work: &Work) -> Result<[f64; 2], Box<Climb>> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
-            let climb = work.climb(&programme, programme.cold_start(&work.reach), RANGE_TOLERANCE);
+            let climb = work.climb_to_bound(&programme, programme.cold_start(&work.reach), RANGE_SLACK);
             match climb.end {
                 End::Infeasible(_) | End::Cancelled => Err(Box::new(climb)),
                 _ => Ok(sense * climb.best.bound),

@@ -2,11 +2,15 @@
 
 use super::heights::{Heights, Start};
 use super::programme::{DualPoint, LEVER_ROW, Programme, index};
+use super::solution::Tangent;
 use super::valley::{Place, Sample, Valley};
 use crate::goal::Objective;
 
-/// How exact the ends of the range of levers are.
-const RANGE_TOLERANCE: f64 = 1e-3;
+/// How exactly the lever that the search begins at is found.
+const ROUGH_TOLERANCE: f64 = 1e-2;
+
+/// The longest step of a lever, as a part of it: far larger, and it leaves what interiors can have.
+const STEP_RATIO: f64 = 0.1;
 
 /// γ_c and γ_I of a functional that weighs the lever; none where only the inertia counts and the lever is free.
 pub(super) fn weighed(objective: Objective) -> Option<[f64; 2]> {
@@ -27,25 +31,34 @@ pub(super) struct Levers<'a> {
 }
 
 impl Levers<'_> {
-    /// The least over the lever, and its slope by the height. It lies between the least lever of all and that of the
-    /// interior whose inertia alone is best, beyond which both terms grow.
+    /// The least over the lever, and its slope by the height.
     pub fn best(&self, near: Start, tolerance: f64) -> Option<Sample> {
-        let work = self.heights.work;
-        let least = work.climb_near(&Programme::top_least_lever(), None, RANGE_TOLERANCE)?;
-        let free = work.climb_near(&self.heights.programme(self.height), None, RANGE_TOLERANCE)?;
-        let range = [least.best.bound, free.best.extreme.s[index::Z]];
-        let start = near.map(|(point, _)| point.clone());
-        let place = near.and_then(|(_, lever)| lever).unwrap_or(0.5 * (range[0] + range[1]));
-        let bottom = Valley::from(place, range).bottom(|Place { at, near, .. }| {
-            let near = near.map(|sample| &sample.climb.best.point).or(start.as_ref());
-            self.sample(at, near, tolerance)
+        let (start, hint) = match near {
+            Some((point, Some(hint))) => (Some(point.clone()), hint),
+            _ => (None, self.unweighed()?),
+        };
+        let valley = Valley::from_tangent(hint, [0.0, self.greatest()]).in_steps_of(STEP_RATIO).within(tolerance);
+        let bottom = valley.bottom(|place: Place| {
+            let near = place.near.map(|sample| &sample.climb.best.point).or(start.as_ref());
+            self.sample(place.at, near, tolerance.max(place.tolerance))
         })?;
         let [_, gamma_i] = self.gammas;
         let best = &bottom.sample.climb.best;
         let chain = 2.0 * gamma_i * best.value;
         let [slope, bend] = self.heights.slopes(self.height, best).map(|slope| chain * slope);
-        let lever = Some(bottom.sample.at);
+        let lever = Some(bottom.tangent());
         Some(Sample { at: self.height, slope, bend, lever, ..bottom.sample })
+    }
+
+    /// The lever of the interior whose inertia alone is best: the best one is less.
+    fn unweighed(&self) -> Option<Tangent> {
+        let free = self.heights.work.climb_near(&self.heights.programme(self.height), None, ROUGH_TOLERANCE)?;
+        Some(Tangent { at: free.best.extreme.s[index::Z], curvature: 0.0 })
+    }
+
+    /// No interior has a greater lever.
+    fn greatest(&self) -> f64 {
+        self.heights.range[1] * self.heights.work.reach.fullest[index::ONE]
     }
 
     fn sample(&self, lever: f64, near: Option<&DualPoint>, tolerance: f64) -> Option<Sample> {
@@ -59,6 +72,7 @@ impl Levers<'_> {
         // By the envelope theorem the least ratio falls by the row's multiplier.
         let falling = 2.0 * gamma_i * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
         let slope = 2.0 * gamma_c * part / solid - falling;
-        Some(Sample { at: lever, value, slope, bend: 0.0, climb, lever: Some(lever) })
+        let bend = 2.0 * gamma_c / (solid * solid);
+        Some(Sample { at: lever, value, slope, bend, climb, lever: None })
     }
 }

@@ -193,12 +193,6 @@ impl Programme {
         self.bounded(reach)
     }
 
-    /// Top: the least lever s_z of an interior that meets the rows; no ratio.
-    pub fn top_least_lever() -> Self {
-        let lever = row(&[(Z, 1.0)]);
-        Self::new(lever, DMatrix::zeros(0, 10), Vector10::zeros(), axis_rows())
-    }
-
     /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can have, as a ratio.
     pub fn top_height(reach: &Reach, sense: f64) -> Self {
         let nothing = DMatrix::zeros(0, 10);

@@ -133,7 +133,7 @@ pub(super) struct Warm {
     /// A top's height, in the solver's units, and how the slope of the objective grows with it.
     pub height: Option<Tangent>,
     /// A top's lever where Spin-It's functional weighs it.
-    pub lever: Option<f64>,
+    pub lever: Option<Tangent>,
 }
 
 /// Where a slope was last seen to vanish, and its derivative there.

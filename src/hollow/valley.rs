@@ -6,7 +6,7 @@ use super::solution::Tangent;
 
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
-/// A descent ends when the next step promises less than this part of the value: the value is then exact to twice it.
+/// A descent ends when the next step promises less than this part of the value, which is then exact to twice it.
 const PROMISE_RATIO: f64 = 1e-8;
 /// Values below this count as this large, lest a value near zero ask for impossible precision.
 const LEAST_VALUE: f64 = 1e-3;
@@ -32,12 +32,12 @@ pub(super) struct Sample {
     /// The ascent that gave it.
     pub climb: Climb,
     /// The lever the function was least at, where it was minimised over that too.
-    pub lever: Option<f64>,
+    pub lever: Option<Tangent>,
 }
 
 impl Sample {
     /// What a sample near this one starts from.
-    pub fn start(&self) -> (&DualPoint, Option<f64>) {
+    pub fn start(&self) -> (&DualPoint, Option<Tangent>) {
         (&self.climb.best.point, self.lever)
     }
 }
@@ -75,6 +75,8 @@ pub(super) struct Valley {
     longest_step: f64,
     /// Where it begins, and the growth of the slope there, where that is known of a similar function.
     start: Tangent,
+    /// It ends when the next step promises less than this part of the value.
+    promise_ratio: f64,
     /// The last two samples; the secant goes through them.
     before: Option<Sample>,
     last: Option<Sample>,
@@ -83,14 +85,29 @@ pub(super) struct Valley {
 impl Valley {
     /// A search from a place in a range of which nothing else is known.
     pub fn from(place: f64, [low, high]: [f64; 2]) -> Self {
-        let start = Tangent { at: place.max(low).min(high), curvature: 0.0 };
-        Self { low, high, longest_step: high - low, start, before: None, last: None }
+        Self::from_tangent(Tangent { at: place, curvature: 0.0 }, [low, high])
+    }
+
+    /// The same from where the bottom of a similar function was.
+    pub fn from_tangent(hint: Tangent, [low, high]: [f64; 2]) -> Self {
+        let start = Tangent { at: hint.at.max(low).min(high), ..hint };
+        let promise_ratio = PROMISE_RATIO;
+        Self { low, high, longest_step: high - low, start, promise_ratio, before: None, last: None }
+    }
+
+    /// The same with steps of no more than this part of the place it begins at.
+    pub fn in_steps_of(self, part: f64) -> Self {
+        Self { longest_step: part * self.start.at, ..self }
+    }
+
+    /// The same for samples of this tolerance: the bottom need not be known better than they are.
+    pub fn within(self, tolerance: f64) -> Self {
+        Self { promise_ratio: PROMISE_RATIO.max(tolerance * tolerance), ..self }
     }
 
     /// A search near the bottom of a similar function.
     pub fn near(hint: Tangent) -> Self {
-        let longest_step = HINT_RANGE_RATIO * hint.at;
-        Self { longest_step, start: hint, ..Self::from(hint.at, [0.0, 2.0 * hint.at]) }
+        Self::from_tangent(hint, [0.0, 2.0 * hint.at]).in_steps_of(HINT_RANGE_RATIO)
     }
 
     /// The bottom, by a secant on the slope that the samples keep from straying; none where a place cannot be sampled.
@@ -145,7 +162,7 @@ impl Valley {
     fn is_bottom(&self, next: f64) -> bool {
         let Some(last) = &self.last else { return false };
         let promise = 0.5 * (last.slope * (next - last.at)).abs();
-        promise <= PROMISE_RATIO * last.value.abs().max(LEAST_VALUE)
+        promise <= self.promise_ratio * last.value.abs().max(LEAST_VALUE)
             || self.high - self.low <= NARROW_RATIO * (self.low.abs() + self.high.abs())
     }
 
