@@ -85,15 +85,20 @@ impl Visit {
         self.extreme.s[index::ONE]
     }
 
+    /// Its lever s_z.
+    pub fn lever(&self) -> f64 {
+        self.extreme.s[index::Z]
+    }
+
     /// The height of the extreme interior's centre.
     pub fn center_height(&self) -> f64 {
         self.extreme.s[index::Z] / self.extreme.s[index::ONE]
     }
 
-    /// Whether a step that promises this gain in D would raise the bound by no more than this share of itself.
-    fn is_near(&self, gain: f64, share: f64) -> bool {
+    /// Whether the bound is good enough, where the next step promises this gain in D.
+    fn suffices(&self, gain: f64, slack: Slack) -> bool {
         let promised = self.point.tau + (self.dual + gain) / self.denominator;
-        promised - self.bound <= share * promised.abs()
+        promised - self.bound <= slack.share * promised.abs() || self.bound >= slack.enough
     }
 
     fn is_within(&self, tolerance: f64) -> bool {
@@ -129,13 +134,21 @@ pub(super) struct Climb {
     pub separator: Option<DVector<f64>>,
 }
 
+/// When a bound is good enough.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slack {
+    /// It may still rise by this share of itself,
+    pub share: f64,
+    /// or it is this much.
+    pub enough: f64,
+}
+
 /// What an ascent may cost and whom it obeys.
 #[derive(Clone, Copy)]
 pub(super) struct Budget<'a> {
     pub tolerance: f64,
-    /// The share of the bound by which it may still rise when it is good enough whatever the tolerance; none where it never
-    /// is.
-    pub slack: Option<f64>,
+    /// When the bound is good enough whatever the tolerance; none where it never is.
+    pub slack: Option<Slack>,
     pub passes: usize,
     pub first_damping: f64,
     pub progress: &'a Progress<'a>,
@@ -171,7 +184,7 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
             stride = Stride::first(programme, budget);
             step = Step::from(&here, programme, &stride);
         }
-        if budget.slack.is_some_and(|share| here.is_near(step.gain(), share)) {
+        if budget.slack.is_some_and(|slack| here.suffices(step.gain(), slack)) {
             return done(End::Converged);
         }
         let there = Visit::new(reach, programme, step.to.clone());
@@ -313,7 +326,8 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
         return None;
     }
-    let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
+    let proof =
+        climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
     let separator = Some(proof.best.point.y.clone());
     let end = End::Infeasible(proof.best.bound);
     (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end, separator })

@@ -1,6 +1,6 @@
 //! The proof over every height: a finite set of intervals in each of which no interior is better.
 
-use super::ascent::Visit;
+use super::ascent::{Slack, Visit};
 use super::heights::Heights;
 use super::programme::DualPoint;
 use super::solution::Stage;
@@ -10,6 +10,11 @@ use super::valley::Bottom;
 const MOST_POSTS: usize = 400;
 /// The share of a margin that is not worth another pass.
 const MARGIN_SLACK: f64 = 0.2;
+/// How many times the margin that was expected is enough. Where no interior is to be had it grows without bound, and the
+/// multipliers with it.
+const CONTENT_RATIO: f64 = 10.0;
+/// How many times the last step the multipliers are followed ahead.
+const FARTHEST_AHEAD: f64 = 4.0;
 /// How far a post reaches at first guess, as a part of its distance from the bottom.
 const FIRST_REACH: f64 = 0.25;
 /// The part of the foreseen reach that is counted on. Nearer to one, and posts miss the edge that they have to overlap.
@@ -32,10 +37,14 @@ const COUNTED_REACH: f64 = 0.9;
 pub(super) struct Cover<'a> {
     pub heights: &'a Heights<'a>,
     pub target: f64,
+    /// The lever of the interiors it is about; none where it is about all.
+    pub lever: Option<f64>,
+    /// The share of a post's margin that has to remain as far as it reaches.
+    pub level_ratio: f64,
 }
 
 /// What is known of a claim.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) enum Claim {
     /// It holds.
     Proved,
@@ -47,82 +56,83 @@ pub(super) enum Claim {
 
 /// A dual point at ℓ that speaks for all heights within its reach.
 #[derive(Debug, Clone)]
-struct Post {
-    at: f64,
-    reach: f64,
-    point: DualPoint,
+pub(super) struct Post {
+    pub at: f64,
+    /// δ
+    pub margin: f64,
+    /// How far from it the share of the margin is left.
+    pub reach: f64,
+    pub point: DualPoint,
 }
 
-impl Cover<'_> {
+impl<'a> Cover<'a> {
+    /// The claim about interiors of any lever.
+    pub fn of_all(heights: &'a Heights<'a>, target: f64) -> Self {
+        Self { heights, target, lever: None, level_ratio: 0.0 }
+    }
+
     /// Whether the claim holds at every height of the range, by posts from the bottom of a valley up and down.
     pub fn claim(&self, bottom: &Bottom) -> Claim {
         let best = &bottom.sample.climb.best;
         let margin = (best.bound - self.target) * best.denominator / best.mass();
         let start = DualPoint { tau: margin, ..best.point.clone() };
-        match self.post(bottom.sample.at, start) {
-            Ok(middle) => self.claim_both_ways(&middle),
-            Err(claim) => claim,
-        }
+        self.posts(bottom.sample.at, start).map_or_else(|claim| claim, |_| Claim::Proved)
     }
 
-    fn claim_both_ways(&self, middle: &Post) -> Claim {
-        let mut known = None;
-        for end in self.heights.range.into_iter().rev() {
-            match self.march(middle, known.as_ref(), end) {
-                Ok(first) => known = first,
-                Err(claim) => return claim,
-            }
-        }
-        Claim::Proved
+    /// The posts of a claim that holds, the first at `height`, which is best where the margin is least.
+    pub fn posts(&self, height: f64, start: DualPoint) -> Result<Vec<Post>, Claim> {
+        let middle = self.post(height, start)?;
+        let [low, high] = self.heights.range;
+        let up = self.march(&middle, None, high)?;
+        let down = self.march(&middle, up.first(), low)?;
+        Ok(std::iter::once(middle).chain(up).chain(down).collect())
     }
 
-    /// Posts from the middle one to an end of the range, each overlapping the one before; the first of them.
-    fn march(&self, middle: &Post, other: Option<&Post>, end: f64) -> Result<Option<Post>, Claim> {
+    /// Posts from the middle one to an end of the range, each overlapping the one before.
+    fn march(&self, middle: &Post, other: Option<&Post>, end: f64) -> Result<Vec<Post>, Claim> {
         let side = (end - middle.at).signum();
         let (mut edge, mut reach_ratio) = (middle.reach, FIRST_REACH);
-        let (mut first, mut before) = (None, other.cloned());
-        let mut last = middle.clone();
+        let (mut posts, mut before, mut last) = (Vec::new(), other.cloned(), middle.clone());
         for _ in 0..MOST_POSTS {
             if edge >= (end - middle.at) * side {
-                return Ok(first);
+                return Ok(posts);
             }
             let distance = edge / (1.0 - COUNTED_REACH * reach_ratio);
             let at = middle.at + side * distance;
-            let margin = self.margin_at(&last, (middle.at, at), reach_ratio);
+            let margin = margin_at(&last, (middle.at, at), reach_ratio);
             let post = self.post(at, aimed(&last, before.as_ref(), at, margin))?;
             reach_ratio = (post.reach / distance).min(1.0);
             if distance - post.reach <= edge {
                 edge = edge.max(distance + post.reach);
-                first.get_or_insert_with(|| post.clone());
+                posts.push(post.clone());
             }
             before = Some(std::mem::replace(&mut last, post));
         }
         Err(Claim::Open)
     }
 
-    /// The margin to expect at a place from the one before: it grows with the square of the distance from the middle.
-    fn margin_at(&self, last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
-        let distance = at - middle;
-        if last.at == middle {
-            return (reach_ratio * distance).powi(2);
-        }
-        last.point.tau * (distance / (last.at - middle)).powi(2)
-    }
-
     /// A post at a height, or what its margin says of the claim if that is not positive.
     fn post(&self, at: f64, start: DualPoint) -> Result<Post, Claim> {
         let work = self.heights.work;
-        let mut programme = self.heights.programme(at).margin(&work.reach, self.target);
+        let mut programme = self.heights.programme(at);
+        if let Some(lever) = self.lever {
+            programme = programme.with_lever(&work.reach, lever);
+        }
+        let mut programme = programme.margin(&work.reach, self.target);
         programme.stage = Stage::Cover { height_mm: work.to_mm(at) };
-        let climb = work.climb_to_bound(&programme, start, MARGIN_SLACK);
+        let enough = if start.tau > 0.0 { CONTENT_RATIO * start.tau } else { f64::INFINITY };
+        let slack = Slack { share: MARGIN_SLACK, enough };
+        let climb = work.climb_to_bound(&programme, start, slack);
         if work.is_cancelled() {
             return Err(Claim::Open);
         }
-        if climb.best.bound <= 0.0 {
+        let margin = climb.best.bound;
+        if margin <= 0.0 {
             return Err(self.refutation(&climb.best));
         }
         let weight = self.heights.weight(&climb.best.point).max(0.0);
-        Ok(Post { at, reach: (climb.best.bound / weight).sqrt(), point: climb.best.point })
+        let reach = ((1.0 - self.level_ratio) * margin / weight).sqrt();
+        Ok(Post { at, margin, reach, point: climb.best.point })
     }
 
     /// Whether an interior that all but meets the constraints is below the target.
@@ -132,11 +142,20 @@ impl Cover<'_> {
     }
 }
 
+/// The margin to expect at a place from the post before: it grows with the square of the distance from the middle.
+fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
+    let distance = at - middle;
+    if last.at == middle {
+        return (reach_ratio * distance).powi(2).max(last.margin);
+    }
+    last.margin * (distance / (last.at - middle)).powi(2)
+}
+
 /// The dual point on the line through the last two, which the multipliers follow as the height changes.
 fn aimed(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint {
     let mut point = DualPoint { tau: margin, ..last.point.clone() };
     if let Some(before) = before {
-        let ahead = (at - last.at) / (last.at - before.at);
+        let ahead = ((at - last.at) / (last.at - before.at)).clamp(-FARTHEST_AHEAD, FARTHEST_AHEAD);
         point.y += (&last.point.y - &before.point.y) * ahead;
         point.lambda += (&last.point.lambda - &before.point.lambda) * ahead;
         let length = point.y.norm();
@@ -157,15 +176,19 @@ mod tests {
 
     #[test]
     fn a_true_claim_is_proved_and_a_false_one_is_refuted() {
-        for objective in [Objective::CriticalSpeed, Objective::Dominance, Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }] {
+        for objective in
+            [Objective::CriticalSpeed, Objective::Dominance, Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }]
+        {
             let world = worlds::egg_on_its_side(objective);
             let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
             let work = Work::new(&problem, &settings, &progress);
             let heights = Heights::new(&work, objective).unwrap();
             let bottom = heights.bottom_from(heights.range[1]).unwrap();
             let best = bottom.sample.climb.best.value;
-            for (worse, expected) in [(-1e-1, true), (-1e-3, true), (-1e-6, true), (1e-3, false), (1e-1, false)] {
-                let cover = Cover { heights: &heights, target: best + worse * best.abs() };
+            for (worse, expected) in
+                [(-1e-1, true), (-1e-3, true), (-1e-6, true), (1e-3, false), (1e-1, false)]
+            {
+                let cover = Cover::of_all(&heights, best + worse * best.abs());
                 let claim = cover.claim(&bottom);
                 assert_eq!(claim == Claim::Proved, expected, "{objective:?} {worse}: {claim:?}");
             }

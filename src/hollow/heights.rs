@@ -1,8 +1,8 @@
 //! A top's objective as a function of one number: the height at which its tensor is made linear.
 
 use super::answer::Answer;
-use super::ascent::{Climb, End, Visit};
-use super::lever;
+use super::ascent::{Climb, End, Slack, Visit};
+use super::lever::{Levers, Weighed};
 use super::programme::{DualPoint, Programme};
 use super::solution::Tangent;
 use super::valley::{Bottom, Place, Sample, Valley};
@@ -11,7 +11,7 @@ use crate::goal::Objective;
 
 /// By which part of themselves the ends of the range of heights may be too far out. Less costs passes, and saves the proof
 /// none, which steps over what is out of reach in one or two.
-const RANGE_SLACK: f64 = 0.2;
+const RANGE_SLACK: Slack = Slack { share: 0.2, enough: f64::INFINITY };
 /// The least height of a centre, as a part of the greatest, that counts as above the contact. A top whose centre lies in
 /// its contact needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
@@ -67,8 +67,8 @@ impl<'a> Heights<'a> {
 
     /// The objective and its slope; none where the run was stopped or no interior meets the constraints.
     pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
-        if let Some(gammas) = lever::weighed(self.objective) {
-            return lever::Levers { heights: self, gammas, height }.best(near, tolerance);
+        if let Some(weighed) = Weighed::of(self.objective, self.work) {
+            return Levers { heights: self, weighed, height }.best(near, tolerance);
         }
         let climb = self.work.climb_near(&self.programme(height), near.map(|(point, _)| point), tolerance)?;
         let (ratio, [slope, bend]) = (climb.best.value, self.slopes(height, &climb.best));

@@ -119,6 +119,7 @@ mod balance;
 mod ballast;
 mod cover;
 mod float;
+mod frontier;
 mod golden;
 mod heights;
 mod lever;
@@ -273,16 +274,25 @@ mod tests {
     }
 
     #[test]
-    fn of_all_round_ways_to_empty_a_disc_none_spins_slower_than_a_top() {
-        let world = worlds::rings(Objective::CriticalSpeed);
-        let solution = solved(&world);
-        let mut best = f64::INFINITY;
-        worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
-            best = best.min(figures(&world.goal, moments).critical_speed_rpm.unwrap_or(f64::INFINITY));
-        });
-        let bound = solution.certificate.bound_over_heights.unwrap();
-        assert!(bound <= solution.certificate.value && bound > 0.998 * solution.certificate.value);
-        assert!(best >= bound && best < 1.2 * bound, "{best} {bound}");
+    fn of_all_round_ways_to_empty_a_disc_none_is_a_better_top_whatever_its_height() {
+        let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.3 };
+        for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.9)] {
+            let world = worlds::rings(objective);
+            let solution = solved(&world);
+            let mut best = f64::INFINITY;
+            worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
+                let figures = figures(&world.goal, moments);
+                let value = match objective {
+                    Objective::CriticalSpeed => figures.critical_speed_rpm,
+                    _ => figures.spin_it,
+                };
+                best = best.min(value.unwrap_or(f64::INFINITY));
+            });
+            let (value, bound) =
+                (solution.certificate.value, solution.certificate.bound_over_heights.unwrap());
+            assert!(bound <= value && bound >= (1.0 - 1e-6) * value - 1e-12, "{objective:?} {bound} {value}");
+            assert!(best >= bound && best < 1.2 * bound, "{objective:?} {best} {bound}");
+        }
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use super::answer::Answer;
 use super::cover::{Claim, Cover};
+use super::frontier::Frontier;
 use super::heights::Heights;
-use super::lever;
+use super::lever::Weighed;
 use super::programme::{Programme, index};
 use super::solution::Warm;
 use super::status::Status;
@@ -66,13 +67,10 @@ impl Found {
 fn lowest(heights: &Heights) -> Option<Found> {
     let solid = &heights.work.reach.solid;
     let mut bottom = heights.bottom_from(solid[index::Z] / solid[index::ONE])?;
-    if lever::weighed(heights.objective).is_some() {
-        return Some(Found { bottom, bound_over_heights: None });
-    }
     for _ in 0..MOST_VALLEYS {
-        let target = target_below(heights.objective, bottom.sample.climb.best.bound);
-        match (Cover { heights, target }).claim(&bottom) {
-            Claim::Proved => return Some(Found { bottom, bound_over_heights: Some(target) }),
+        let (bound, claim) = claim(heights, &bottom);
+        match claim {
+            Claim::Proved => return Some(Found { bottom, bound_over_heights: Some(bound) }),
             Claim::Open => break,
             Claim::Refuted(height) => match heights.bottom_from(height) {
                 Some(lower) if lower.sample.value < bottom.sample.value => bottom = lower,
@@ -81,6 +79,19 @@ fn lowest(heights: &Heights) -> Option<Found> {
         }
     }
     Some(Found { bottom, bound_over_heights: None })
+}
+
+/// A bound just below the bottom of a valley, and whether it holds at every height.
+fn claim(heights: &Heights, bottom: &Bottom) -> (f64, Claim) {
+    let best = &bottom.sample.climb.best;
+    let Some(weighed) = Weighed::of(heights.objective, heights.work) else {
+        let target = target_below(heights.objective, best.bound);
+        return (target, Cover::of_all(heights, target).claim(bottom));
+    };
+    let target = bottom.sample.value * (1.0 - COVER_RATIO);
+    // As the ratio with which the interior at hand would have this value.
+    let bound = ((target - weighed.lever * best.lever().powi(2)) / weighed.inertia).max(0.0).sqrt();
+    (bound, Frontier { heights, weighed, target }.claim(bottom))
 }
 
 /// What is claimed of all heights where the bottom of one valley is this low.

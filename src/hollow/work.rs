@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::ascent::{Budget, COLD_DAMPING, Climb, End, WARM_DAMPING, climb};
+use super::ascent::{Budget, COLD_DAMPING, Climb, End, Slack, WARM_DAMPING, climb};
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Reach, Scale};
@@ -52,8 +52,8 @@ impl<'a> Work<'a> {
         self.climb_within(programme, start, (tolerance, None))
     }
 
-    /// The same until the bound can rise by no more than a share of itself, whatever the constraints are missed by.
-    pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: f64) -> Climb {
+    /// The same until the bound is good enough, whatever the constraints are missed by.
+    pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: Slack) -> Climb {
         self.climb_within(programme, start, (0.0, Some(slack)))
     }
 
@@ -61,7 +61,7 @@ impl<'a> Work<'a> {
         &self,
         programme: &Programme,
         start: DualPoint,
-        (tolerance, slack): (f64, Option<f64>),
+        (tolerance, slack): (f64, Option<Slack>),
     ) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
