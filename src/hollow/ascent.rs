@@ -130,8 +130,6 @@ pub(super) enum End {
 pub(super) struct Climb {
     pub best: Visit,
     pub end: End,
-    /// The separating multipliers, where the rows cannot be met.
-    pub separator: Option<DVector<f64>>,
 }
 
 /// When a bound is good enough.
@@ -165,7 +163,7 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
     let mut here = Visit::new(reach, programme, start);
     let mut stride = Stride::first(programme, budget);
     loop {
-        let done = |end| Climb { best: here.clone(), end, separator: None };
+        let done = |end| Climb { best: here.clone(), end };
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
@@ -328,9 +326,8 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     }
     let proof =
         climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
-    let separator = Some(proof.best.point.y.clone());
     let end = End::Infeasible(proof.best.bound);
-    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end, separator })
+    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end })
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Spin-It's functional where it weighs the lever: at each height also the best lever has to be found.
 
 use super::heights::{Heights, Start};
-use super::programme::{DualPoint, LEVER_ROW, Programme, index};
+use super::programme::{DualPoint, LEVER_ROW, index};
 use super::solution::Tangent;
 use super::valley::{Place, Sample, Valley};
 use super::work::Work;

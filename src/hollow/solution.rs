@@ -33,7 +33,8 @@ pub enum Figure {
 /// What was reached, and the proof of how much better anything else could be.
 ///
 /// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is better than
-/// `bound`. A top's bound is for its centre at the solution's height; `bound_over_heights` is for every height.
+/// `bound`. A top's bound is for its centre at the solution's height (and lever, where that is weighed);
+/// `bound_over_heights` is for every height and lever.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// What is measured.
@@ -46,7 +47,8 @@ pub struct Certificate {
     pub gap_ratio: f64,
     /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
     pub residual: f64,
-    /// Tops: what no interior with its centre at any height can beat; none where that was not proved in this run.
+    /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the value or less. None where
+    /// that was not proved in this run: refined solutions are not, nor tops that no speed makes stable.
     pub bound_over_heights: Option<f64>,
 }
 
