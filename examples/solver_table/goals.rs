@@ -47,7 +47,7 @@ fn rows() -> Vec<(&'static str, &'static str, Request)> {
         yoyo(Objective::Dominance),
         upright(GoalKind::Stand, Objective::TopplingAngle),
         upright(GoalKind::Stand, Objective::LowestCenter),
-        upright(GoalKind::Float, Objective::MetacentricHeight),
+        ("elephant", "elephant.obj", Request::new(GoalKind::Float)),
         rotor(Objective::LeastRemoved),
         rotor(Objective::LeastUnbalance),
     ]
@@ -86,7 +86,7 @@ fn figures(scene: &Scene) -> Result<String> {
         Ok((last.passes, last))
     })?;
     Ok(format!(
-        "{} | {} | {:.1} | {} | {below} | {:?} | {} | {passes} | {native_s:.2} | {}",
+        "{} | {} | {:.1} | {} | {below} | {} | {} | {passes} | {native_s:.2} | {}",
         columns.len(),
         coarse.passes,
         coarse_s * 1e3,

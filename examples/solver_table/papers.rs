@@ -64,6 +64,11 @@ fn differs(found: &Found, best: &Found, problem: &Problem) -> f64 {
     100.0 * found.emptied.difference_mm3(&best.emptied, problem.columns) / volume
 }
 
+/// A value, where there is one.
+fn shown(value: f64) -> String {
+    if value.is_nan() { "none".into() } else { format!("{value:.6}") }
+}
+
 /// How many times the quadric's time Wu et al.'s own program took at least for as many rays; empty where they report none.
 fn published(method: &dyn Method, found: &Found, best_s: f64) -> String {
     let is_reported =
@@ -76,11 +81,11 @@ fn rays_and_voxels(row: &Row, scene: &Scene) -> Result<()> {
     let problem = scene.problem(&columns);
     let (best, best_s) = timed(QUADRIC_RUNS, || find(&ByQuadric::default(), &problem))?;
     println!(
-        "| {} | quadric | 10 | {} | {:.2} | 1 | | {:.6} | {:.0e} | 0 | {:?} |",
+        "| {} | quadric | 10 | {} | {:.2} | 1 | | {} | {:.0e} | 0 | {:?} |",
         row.title(),
         best.iterations,
         best_s * 1e3,
-        best.value,
+        shown(best.value),
         best.residual,
         best.outcome
     );
