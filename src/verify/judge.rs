@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, Hull, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    Check, Figures, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments, checks, rotor::ends_mm, smallest_wall_mm,
 };
 use crate::goal::GoalKind;
@@ -36,6 +37,10 @@ pub struct Judgement {
     pub parts: Vec<PartFacts>,
     /// The smallest wall between a void and the outside, mm; none without voids.
     pub wall_min_mm: Option<f64>,
+    /// Every pin and its socket, as found in the files.
+    pub pegs: Vec<PegFacts>,
+    /// How many of a sample of places just under the parts' surfaces lie in another part too.
+    pub overlaps: usize,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -56,6 +61,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let shells = Shells::of_mesh(&welded);
     let outer = shells.outer_mesh();
     let setting = setting(&evidence.promise, &outer);
+    let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let figures_of = |moments| Figures::new(&moments, &setting);
     let mut judgement = Judgement {
         solid: figures_of(moments_of_mesh(&outer)),
@@ -64,6 +70,8 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
+        pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
+        overlaps: overlaps(&felt),
         checks: Vec::new(),
     };
     judgement.checks = checks(&evidence.promise, &judgement);
