@@ -8,10 +8,9 @@ use super::valley::Bottom;
 
 /// Half the angle of the first side, as a part of √(how far below the value the claim is).
 const FIRST_ANGLE_RATIO: f64 = 0.25;
-/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet there.
-const LEVEL_RATIO: f64 = 0.3;
-/// The share of the foreseen angle that is taken.
-const COUNTED_ANGLE: f64 = 0.7;
+/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet there. Less takes more
+/// sides, more takes more posts.
+const LEVEL_RATIO: f64 = 0.5;
 /// What is left of an angle that was too wide.
 const SHRINKAGE: f64 = 0.5;
 /// The widest angle of a side, rad.
@@ -148,7 +147,7 @@ impl Frontier<'_> {
         let loss = (bend * self.heights.range[1] / last.lever).sqrt() * self.greatest();
         let margin = last.level().sqrt();
         let angle = 2.0 * margin / (loss - margin / distance).max(margin / distance);
-        (COUNTED_ANGLE * angle).min(WIDEST)
+        angle.min(WIDEST)
     }
 
     /// Whether every interior beyond this corner is as the claim says.
