@@ -1,6 +1,6 @@
 //! The proof over every height: a finite set of intervals in each of which no interior is better.
 
-use super::ascent::{Slack, Visit};
+use super::ascent::{End, Slack, Visit};
 use super::heights::Heights;
 use super::programme::DualPoint;
 use super::solution::Stage;
@@ -124,7 +124,7 @@ impl<'a> Cover<'a> {
         let enough = if start.tau > 0.0 { CONTENT_RATIO * start.tau } else { f64::INFINITY };
         let slack = Slack { share: MARGIN_SLACK, enough };
         let climb = work.climb_to_bound(&programme, start, slack);
-        if work.is_cancelled() {
+        if matches!(climb.end, End::Infeasible(_) | End::Cancelled) {
             return Err(Claim::Open);
         }
         let margin = climb.best.bound;

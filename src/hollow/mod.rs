@@ -172,7 +172,7 @@ use work::Work;
 
 /// The best interior, or the proof that none will do, from nothing.
 ///
-/// For coarse columns: a top takes 35 to 55 passes over them with its proof over all heights, one whose lever is weighed too
+/// For coarse columns: a top takes 30 to 50 passes over them with its proof over all heights, one whose lever is weighed too
 /// 150 to 400, the others about ten. Cancelling `progress` ends it after
 /// the pass at hand, with [`Status::Cancelled`].
 pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {

@@ -100,10 +100,6 @@ impl<'a> Work<'a> {
             && climb.best.gap_ratio().abs() <= self.settings.accepted_gap_ratio
     }
 
-    pub fn is_cancelled(&self) -> bool {
-        self.progress.is_cancelled()
-    }
-
     /// A height in the solver's units, in mm.
     pub fn to_mm(&self, height: f64) -> f64 {
         height * self.reach.scale.length_mm
