@@ -27,11 +27,11 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("hollow", &["geom", "goal", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("advice", &["geom", "goal", "hollow", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("voids", &["geom", "mass", "mesh", "progress", "shell", "units"]),
-    ("cut", &["geom", "mass", "mesh", "printer", "progress", "units", "voids"]),
+    ("cut", &["geom", "mass", "mesh", "printer", "progress", "toml_text", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),
     ("report", &["geom", "goal", "mass", "mesh", "units", "verify"]),
     ("coupon", &["geom", "io", "mesh", "printer", "report", "units"]),
-    ("job", &["digest", "goal", "toml_text", "units", "words"]),
+    ("job", &["cut", "digest", "goal", "toml_text", "units", "words"]),
     (
         "error",
         &[
@@ -49,8 +49,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "advice", "coupon", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
-            "progress", "report", "units", "verify", "words",
+            "advice", "coupon", "cut", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline",
+            "printer", "progress", "report", "units", "verify", "words",
         ],
     ),
     ("guide", &[]),

@@ -11,11 +11,12 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 
+use super::cut_arg::CutArg;
 use crate::{
     goal::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
     },
-    job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, Scaling, Solver},
+    job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver},
     printer::ShopError,
     units::Length,
     words::ChoiceError,
@@ -130,9 +131,10 @@ pub struct PrepareArgs {
     /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Method")]
     pub pitch: Option<Length>,
-    /// Cut the object where a void would stay closed, or never [default: auto]
-    #[arg(long, value_parser = words::<CutMode>(CutMode::WORDS), help_heading = "Method")]
-    pub cut: Option<CutMode>,
+    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
+    /// cuts.toml, edited [default: auto]
+    #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
+    pub cut: Option<CutArg>,
 
     /// Write the kit to this folder [default: the model's name with -kit]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
@@ -283,6 +285,9 @@ pub enum ArgsError {
     /// The replayed job's.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// The plan's.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// An argument that neither the command line nor a job gives; the parser lets none pass.
     #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
     Missing(&'static str),
@@ -315,11 +320,13 @@ impl PrepareArgs {
         let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
         let printer = chosen_printer(self.printer, self.material, &model.path)?;
         let default = Job::new(model, printer, goal);
+        let (cut, plan) = self.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
             solver: self.solver.unwrap_or(default.solver),
-            cut: self.cut.unwrap_or(default.cut),
+            cut,
+            plan,
             format: self.format.unwrap_or(default.format),
             ..default
         })
@@ -386,6 +393,7 @@ fn factor(text: &str) -> Result<f64, FactorError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::CutMode;
     use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Cli, clap::Error> {

@@ -3,6 +3,7 @@
 pub mod args;
 pub mod args_printers;
 pub mod coupon;
+mod cut_arg;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;

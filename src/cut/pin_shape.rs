@@ -17,6 +17,7 @@ const OVERLAP_RATIO: f64 = 0.2;
 
 /// A pin and its socket: plain data, written into the plan and editable there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PinSite {
     /// The pin's name, the same on both parts.
     pub id: String,
@@ -81,8 +82,13 @@ impl PinSite {
         socket_diameter_mm / 2.0 / (std::f64::consts::PI / SIDES as f64).cos()
     }
 
+    /// How far the root of a pin of this diameter reaches into its own part, mm.
+    pub(crate) fn root_mm(diameter_mm: f64) -> f64 {
+        OVERLAP_RATIO * diameter_mm
+    }
+
     fn overlap_mm(&self) -> f64 {
-        OVERLAP_RATIO * self.diameter_mm
+        Self::root_mm(self.diameter_mm)
     }
 
     /// (radius, height) of the pin's outline from the cut face to the tip, mm.

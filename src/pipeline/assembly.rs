@@ -4,13 +4,14 @@ use rayon::prelude::*;
 
 use super::{
     Error, Setup, Solved, phase,
+    rows::minimum_wall_mm,
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids},
     tuning::is_tuned,
     written::WrittenPart,
 };
 use crate::cut::{
-    self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_for_cuts,
+    self, CutError, CutOrder, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_by,
 };
 use crate::hollow::Solution;
 use crate::job::CutMode;
@@ -103,9 +104,10 @@ fn planned(
 }
 
 fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    match setup.job.cut {
-        CutMode::Auto => cut::plan(&voids.hollowed, request),
-        CutMode::Never => plan_for_cuts(&voids.hollowed, request, &[]),
+    match (&setup.job.plan, setup.job.cut) {
+        (Some(order), _) => plan_by(&voids.hollowed, request, order),
+        (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),
+        (None, CutMode::Never) => plan_by(&voids.hollowed, request, &CutOrder::default()),
     }
 }
 
@@ -146,7 +148,7 @@ fn written_parts(
 ) -> Result<Vec<WrittenPart>, Error> {
     let parts = match parts(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
-            *plan = cut::plan(&voids.hollowed, request)?;
+            *plan = planned_once(setup, voids, request)?;
             parts(&voids.hollowed, plan, request)?
         }
         parts => parts?,
@@ -163,8 +165,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
-        // The judge holds sockets to the wall that was ordered, which is no less than the printer's.
-        wall_mm: setup.wall.wall_mm,
+        wall_mm: minimum_wall_mm(setup),
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,
             length_ratio: printer.pin_length_ratio.value,

@@ -125,6 +125,7 @@ fn printer_row(setup: &Setup) -> PrinterRow {
         build_volume_mm: printer.usable_volume_mm(),
         print_scale_ratio: scaled(printer.print_scale_ratio()),
         support: support_word(printer.support).to_owned(),
+        minimum_wall_mm: minimum_wall_mm(setup),
         minimum_opening_mm: printer.min_opening_mm.value,
         sources: sources(setup),
     }
@@ -149,6 +150,11 @@ fn sources(setup: &Setup) -> Vec<String> {
         printer.unknown().into_iter().filter(|key| *key != "build_volume_mm").map(words).collect();
     let unknown = (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
     numbers.chain(volume).chain(unfit).chain(corners).chain(unknown).collect()
+}
+
+/// The least wall that the printer makes of a model of this size, mm.
+pub fn minimum_wall_mm(setup: &Setup) -> f64 {
+    setup.printer.least_wall_mm(setup.model.solid.mesh().longest_side_mm()).value
 }
 
 /// What files are multiplied by; none where they are of nominal size.
@@ -344,8 +350,8 @@ fn stage_words(stage: hollow::Stage) -> String {
         Stage::Dominance => "dominance".to_owned(),
         Stage::HeightRange => "range of heights".to_owned(),
         Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
-        Stage::AtMass { height_mm, volume_mm3 } => {
-            format!("centre at {height_mm:.3} mm, {volume_mm3:.0} mm³ of material")
+        Stage::AtLever { height_mm, lever_mm4 } => {
+            format!("centre at {height_mm:.3} mm, lever {lever_mm4:.0} mm⁴")
         }
         Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
     }

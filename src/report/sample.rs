@@ -85,6 +85,7 @@ fn printer() -> PrinterRow {
         build_volume_mm: Some([100.0, 100.0, 6.0]),
         print_scale_ratio: None,
         support: "water-jet".into(),
+        minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
         sources: vec!["layer: read: user guide".into()],
     }

@@ -50,6 +50,8 @@ pub struct PrinterLimits {
     /// What part files are multiplied by along x, y and z to make up for shrinkage; none where they are of nominal size.
     #[serde(default)]
     pub print_scale_ratio: Option<[f64; 3]>,
+    /// The least wall the process prints, mm: what must stay around sockets.
+    pub minimum_wall_mm: f64,
 }
 
 /// The density the masses rest on.
