@@ -2,6 +2,7 @@
 
 pub mod args;
 mod cut_arg;
+mod goal_args;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;

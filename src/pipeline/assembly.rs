@@ -69,7 +69,7 @@ impl Assembly {
         Ok(assembly)
     }
 
-    /// The moments of the written parts put together, model frame.
+    /// The moments of the written parts put together, without hardware, model frame.
     pub fn written_moments(&self) -> Moments {
         written_moments(&self.parts)
     }
@@ -124,9 +124,9 @@ fn assembled(
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
+        let whole = written + setup.hardware_moments();
         attempts += 1;
-        if attempts == MAX_ASSEMBLIES
-            || is_tuned(goal, &voids.solution.moments, &written.in_frame(&goal.frame))
+        if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;

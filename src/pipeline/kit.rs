@@ -71,7 +71,8 @@ fn pictures(assembly: &Assembly, evidence: &Evidence) -> Result<Vec<Picture>, Er
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
     let aim = evidence.promise.goal;
-    Ok(album(&Sitting { shells: &shells, parts: &evidence.parts, cuts: &cuts, aim })?)
+    let (parts, hardware) = (&evidence.parts, &evidence.promise.hardware);
+    Ok(album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware })?)
 }
 
 /// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.
@@ -98,6 +99,8 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
+        hardware: setup.hardware(),
+        string_gap_mm: setup.string_gap_mm(),
         joints: rows::promised_joints(setup, &assembly.plan),
         assembly: None,
         files: Default::default(),

@@ -2,6 +2,7 @@
 
 mod advising;
 mod assembly;
+mod fitting;
 mod kit;
 mod outcome;
 mod rows;
@@ -49,6 +50,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
     let setup = waterline::chosen(setup, &mut watch)?;
+    let setup = fitting::equipped(setup, &mut watch)?;
     let solved = match Solved::of(&setup, progress, &mut watch)? {
         Ok(solved) => solved,
         Err(impossible) => {

@@ -2,12 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::fitting::{half_of, halves, shallow_axle};
 use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
-use crate::goal::{GoalKind, Objective, Rotor, Warning};
+use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
+use crate::mass::moments_of_mesh;
 use crate::printer::{Sourced, Support};
 use crate::report::{
     Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PrinterRow,
@@ -54,6 +56,8 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         cuts: cut_rows(sheet),
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
+        hardware: setup.hardware(),
+        string_gap_mm: setup.string_gap_mm(),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -97,14 +101,15 @@ pub fn density_g_cm3(setup: &Setup) -> f64 {
 }
 
 fn model_row(setup: &Setup) -> ModelRow {
-    let (model, mesh) = (&setup.model, setup.model.solid.mesh());
+    let model = &setup.model;
+    let mesh = setup.bare.as_ref().unwrap_or(&model.solid).mesh();
     let file = setup.job.model.path.file_name().unwrap_or_default();
     ModelRow {
         file: file.to_string_lossy().into_owned(),
         sha256: model.sha256.clone(),
         triangles: mesh.triangles().len(),
         size_mm: mesh.aabb().size().into(),
-        volume_mm3: setup.placement.goal.solid.volume(),
+        volume_mm3: moments_of_mesh(mesh).volume(),
         scale_ratio: model.scale_ratio,
     }
 }
@@ -159,8 +164,18 @@ fn goal_row(setup: &Setup) -> GoalRow {
         Warning::ContactInAir { missing_mm } => Some(*missing_mm),
         _ => None,
     });
-    let objective = setup.request.objective.word().replace('-', "_");
-    GoalRow { aim: aim(setup), objective, contact_gap_mm: gap.unwrap_or(0.0), choice: setup.choice.clone() }
+    let asked = setup.request.objective;
+    let spin_it_weights = match asked {
+        Objective::SpinIt { gamma_c, gamma_i } => Some([gamma_c, gamma_i]),
+        _ => None,
+    };
+    GoalRow {
+        aim: aim(setup),
+        objective: asked.word().replace('-', "_"),
+        spin_it_weights,
+        contact_gap_mm: gap.unwrap_or(0.0),
+        choice: setup.choice.clone(),
+    }
 }
 
 fn certificate(sheet: &Sheet) -> Certificate {
@@ -178,8 +193,18 @@ fn certificate(sheet: &Sheet) -> Certificate {
         gap_ratio: certificate.gap_ratio,
         kept_solid_mm3: sheet.assembly.refused_mm3,
         over_heights: sheet.assembly.height_proof,
-        written_value: sheet.judgement.assembly.value_of(figure),
+        written_value: written_value(sheet, figure),
     }
+}
+
+/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.
+fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
+    let (setup, goal) = (sheet.setup, &sheet.setup.placement.goal);
+    if figure != FigureName::SpinItRatio {
+        return sheet.judgement.assembly.value_of(figure);
+    }
+    let whole = sheet.assembly.written_moments() + setup.hardware_moments();
+    figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
 fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
@@ -203,6 +228,7 @@ fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
 
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
     let found = &sheet.judgement.parts;
+    let halves = halves(sheet.setup);
     sheet
         .assembly
         .parts
@@ -222,6 +248,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 print_from_model: written.evidence().pose,
                 pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
+                half: half_of(written, &halves),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })
@@ -292,7 +319,7 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
         (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
-    placement.chain(repairs).chain(small).chain(seal).collect()
+    placement.chain(repairs).chain(small).chain(seal).chain(shallow_axle(setup)).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {

@@ -3,6 +3,7 @@
 mod album;
 mod base64;
 mod checklist;
+mod hardware;
 mod kit;
 mod page;
 mod picture;
