@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::cut::CutError;
 use crate::goal::GoalError;
+use crate::hardware::FitError;
 use crate::interior::BuildError;
 use crate::io::{ReadError, StlError};
 use crate::job::JobError;
@@ -54,6 +55,9 @@ pub enum Error {
     /// The goal cannot be placed on the model.
     #[error(transparent)]
     Goal(#[from] GoalError),
+    /// The hardware cannot be put in.
+    #[error(transparent)]
+    Hardware(#[from] FitError),
     /// The shell cannot be built.
     #[error(transparent)]
     Shell(#[from] ShellError),

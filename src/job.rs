@@ -227,7 +227,7 @@ fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goal::{Contact, GoalKind, Liquid, Objective, Rotor, Up, Water, Waterline};
+    use crate::goal::{Contact, GoalKind, Hardware, Liquid, Objective, Rotor, Up, Water, Waterline};
     use proptest::prelude::*;
 
     fn job() -> Job {
@@ -259,7 +259,13 @@ mod tests {
         rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
         boat.goal = Request::new(GoalKind::Float);
         boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
-        for job in [job(), other, rotor, boat] {
+        let mut yoyo = job();
+        yoyo.goal = Request::new(GoalKind::Yoyo);
+        let axle = "6mmx30mm:2.7".parse().ok();
+        yoyo.goal.hardware =
+            Some(Hardware { string_gap: "3mm".parse().ok(), axle, mass_g: Some(2.5), ..Hardware::default() });
+        assert!(yoyo.to_toml().unwrap().contains("axle = \"6mmx30mm:2.7\""));
+        for job in [job(), other, rotor, boat, yoyo] {
             assert_eq!(reread(&job), job);
         }
     }

@@ -44,6 +44,7 @@ pub mod error;
 pub mod geom;
 pub mod goal;
 pub mod guide;
+pub mod hardware;
 pub mod hollow;
 pub mod interior;
 pub mod io;

@@ -13,6 +13,9 @@ pub const STANDARD_GRAVITY_MM_S2: f64 = STANDARD_GRAVITY_M_S2 * 1000.0;
 /// Millimetres in an inch, exact by definition (1959).
 pub const MM_PER_INCH: f64 = 25.4;
 
+/// Cubic millimetres in a cubic centimetre.
+pub const MM3_PER_CM3: f64 = 1000.0;
+
 /// The units a length may be written in, and what each is in mm; `mm` comes first, the default.
 const LENGTH_UNITS: [(&str, f64); 6] =
     [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", MM_PER_INCH), ("um", 1e-3), ("µm", 1e-3)];
@@ -142,7 +145,6 @@ pub fn show_mm(mm: f64) -> String {
 
 /// A volume for people: `12.35 cm³` from 1 cm³, `12.3 mm³` below.
 pub fn show_mm3(mm3: f64) -> String {
-    const MM3_PER_CM3: f64 = 1000.0;
     if mm3.abs() < MM3_PER_CM3 { with_unit(mm3, 1, "mm³") } else { with_unit(mm3 / MM3_PER_CM3, 2, "cm³") }
 }
 

@@ -22,6 +22,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("shell", &["geom", "mesh", "progress", "units"]),
     ("mass", &["geom", "mesh", "units"]),
     ("goal", &["geom", "mass", "mesh", "shell", "units", "words"]),
+    ("hardware", &["geom", "goal", "mass", "mesh", "units"]),
     ("printer", &["digest", "toml_text", "units"]),
     ("interior", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("hollow", &["geom", "goal", "interior", "mass", "mesh", "progress", "shell", "units"]),
@@ -35,15 +36,15 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "error",
         &[
-            "cut", "goal", "hollow", "interior", "io", "job", "mesh", "printer", "report", "shell", "verify",
-            "voids",
+            "cut", "goal", "hardware", "hollow", "interior", "io", "job", "mesh", "printer", "report",
+            "shell", "verify", "voids",
         ],
     ),
     (
         "pipeline",
         &[
-            "advice", "cut", "digest", "error", "geom", "goal", "hollow", "interior", "io", "job", "mass",
-            "mesh", "printer", "progress", "report", "shell", "units", "verify", "voids",
+            "advice", "cut", "digest", "error", "geom", "goal", "hardware", "hollow", "interior", "io",
+            "job", "mass", "mesh", "printer", "progress", "report", "shell", "units", "verify", "voids",
         ],
     ),
     (

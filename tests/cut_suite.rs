@@ -27,6 +27,7 @@ fn request() -> PlanRequest {
         },
         axis: GoalAxis { point: Point::new(0.0, 0.0, -60.0), direction: Vector::z() },
         pixel_mm: 0.05,
+        hole_step_mm: 0.05,
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
     }

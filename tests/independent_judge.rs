@@ -25,6 +25,39 @@ fn judged(python: &OsString, kit: &Path) -> (Option<i32>, String) {
 }
 
 #[test]
+fn an_independent_judge_agrees_on_what_is_not_printed() {
+    let Some(python) = python() else {
+        eprintln!("SKIPPED: no Python with numpy, rtree, scipy, shapely and trimesh here");
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let yoyo =
+        ["--goal", "yoyo", "--up", "y", "--string-gap", "3mm", "--axle", "4mmx15mm", "--hardware-mass", "2"];
+    let top =
+        ["--goal", "top", "--up", "y", "--contact", "center", "--tip", "4mmx12mmx8mm", "--stem", "4mmx16mm"];
+    for (name, goal) in [("yoyo", yoyo), ("top", top)] {
+        let kit = folder.path().join(name);
+        let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+            .args(["-q", "prepare", MODEL, "--printer", "objet-connex350", "--size", "60mm"])
+            .args(["--wall", "1mm", "--pitch", "0.3mm", "--out"])
+            .arg(&kit)
+            .args(goal)
+            .output()
+            .unwrap();
+        assert!(prepared.status.success(), "{}", String::from_utf8_lossy(&prepared.stderr));
+        let (code, said) = judged(&python, &kit);
+        assert!(code == Some(0) && said.contains("H2"), "{said}");
+        let sheet = kit.join("checklist.json");
+        let told = fs::read_to_string(&sheet).unwrap();
+        let lie = told.replacen("\"density_g_cm3\": 7.85", "\"density_g_cm3\": 7.84", 1);
+        assert_ne!(told, lie);
+        fs::write(&sheet, lie).unwrap();
+        let (code, said) = judged(&python, &kit);
+        assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+    }
+}
+
+#[test]
 fn an_independent_judge_agrees_with_the_checklist_and_finds_a_lie_in_it() {
     let Some(python) = python() else {
         eprintln!("SKIPPED: no Python with numpy, rtree, scipy, shapely and trimesh here");

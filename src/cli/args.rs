@@ -12,10 +12,9 @@ use clap::{
 };
 
 use super::cut_arg::CutArg;
+use super::goal_args::{HardwareArgs, RotorArgs, WaterArgs};
 use crate::{
-    goal::{
-        self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
-    },
+    goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
     job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver},
     printer::ShopError,
     units::Length,
@@ -111,8 +110,9 @@ pub struct PrepareArgs {
     #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
     pub spin_point: Option<SpinPoint>,
     /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
-    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]
-    #[arg(long, value_parser = words::<Objective>(Objective::WORDS), hide_possible_values = true, help_heading = "Goal")]
+    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]. The weights
+    /// of Spin-It's functional may follow it, that of a low centre first: spin-it:γc,γI [default: 1,1]
+    #[arg(long, value_name = "OBJECTIVE", allow_hyphen_values = true, help_heading = "Goal")]
     pub objective: Option<Objective>,
     /// How a rotor runs.
     #[command(flatten)]
@@ -120,6 +120,9 @@ pub struct PrepareArgs {
     /// How it floats.
     #[command(flatten)]
     pub water: WaterArgs,
+    /// What is put into it.
+    #[command(flatten)]
+    pub hardware: HardwareArgs,
 
     /// The model's size.
     #[command(flatten)]
@@ -151,7 +154,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 20] = [
+const DECIDED_BY_JOB: [&str; 25] = [
     "printer",
     "material",
     "wall",
@@ -165,6 +168,11 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "bore",
     "liquid",
     "waterline",
+    "string_gap",
+    "axle",
+    "hardware_mass",
+    "tip",
+    "stem",
     "size",
     "scale",
     "unit",
@@ -173,58 +181,6 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "cut",
     "format",
 ];
-
-/// How a rotor runs, for the goal balance.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Goal")]
-pub struct RotorArgs {
-    /// The speed of a rotor to balance, in turns a minute [default: 3000]
-    #[arg(long, value_name = "RPM", value_parser = factor, allow_hyphen_values = true)]
-    pub speed: Option<f64>,
-    /// The balance quality grade G it must reach at that speed (ISO 21940-11), in mm/s [default: 2.5]
-    #[arg(long, value_name = "MM/S", value_parser = factor, allow_hyphen_values = true)]
-    pub grade: Option<f64>,
-    /// Keep a hub solid about a bore of this diameter on its axis [default: none; a bore of the model has its wall]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub bore: Option<Length>,
-}
-
-impl RotorArgs {
-    /// What was said of the rotor, over `default`; none where nothing was said and there is no default.
-    fn over(&self, default: Option<Rotor>) -> Option<Rotor> {
-        let is_said = self.speed.is_some() || self.grade.is_some() || self.bore.is_some();
-        let known = default.or(is_said.then(Rotor::default))?;
-        Some(Rotor {
-            speed_rpm: self.speed.unwrap_or(known.speed_rpm),
-            grade_mm_s: self.grade.unwrap_or(known.grade_mm_s),
-            bore: self.bore.or(known.bore),
-        })
-    }
-}
-
-/// How an object floats, for the goal float.
-#[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Goal")]
-pub struct WaterArgs {
-    /// What it floats in: water, seawater or a density in g/cm³ [default: water]
-    #[arg(long, value_name = "LIQUID", allow_hyphen_values = true)]
-    pub liquid: Option<Liquid>,
-    /// How deep it lies: a LENGTH above its lowest point, or auto, where it is most stable [default: auto]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub waterline: Option<Waterline>,
-}
-
-impl WaterArgs {
-    /// What was said of the water, over `default`; none where nothing was said and there is no default.
-    fn over(&self, default: Option<Water>) -> Option<Water> {
-        let is_said = self.liquid.is_some() || self.waterline.is_some();
-        let known = default.or(is_said.then(Water::default))?;
-        Some(Water {
-            liquid: self.liquid.unwrap_or(known.liquid),
-            waterline: self.waterline.unwrap_or(known.waterline),
-        })
-    }
-}
 
 /// How large the model is; one of them at most.
 #[derive(Debug, Clone, Args)]
@@ -341,6 +297,7 @@ impl PrepareArgs {
             objective: self.objective.unwrap_or(default.objective),
             rotor: self.rotor.over(default.rotor),
             water: self.water.over(default.water),
+            hardware: self.hardware.asked(),
             ..default
         };
         Ok(asked.checked()?)
@@ -381,9 +338,9 @@ where
 /// A factor that is not positive and finite.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
-struct FactorError(String);
+pub struct FactorError(String);
 
-fn factor(text: &str) -> Result<f64, FactorError> {
+pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
     match text.trim().parse::<f64>() {
         Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
         _ => Err(FactorError(text.to_owned())),
@@ -412,6 +369,16 @@ mod tests {
     #[test]
     fn the_definition_of_the_arguments_is_consistent() {
         Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn hardware_and_the_weights_of_the_functional_reach_the_job() {
+        let top =
+            request(&format!("{PREPARE} --tip 4mmx12mmx5mm --stem 5x30 --objective spin-it:0.5,2")).job.goal;
+        assert_eq!(top.objective, Objective::SpinIt { gamma_c: 0.5, gamma_i: 2.0 });
+        let hardware = top.hardware.unwrap();
+        assert_eq!((hardware.tip.unwrap().to_string(), hardware.axle), ("4mmx12mmx5mm".to_owned(), None));
+        assert_eq!(request(PREPARE).job.goal.hardware, None);
     }
 
     #[test]

@@ -4,6 +4,7 @@ pub mod args;
 pub mod args_printers;
 pub mod coupon;
 mod cut_arg;
+mod goal_args;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;

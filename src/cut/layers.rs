@@ -6,7 +6,7 @@ use super::{
     access::VoidAccess,
     error::CutError,
     plan::{CutPlan, cut_id, part_id},
-    planner::{Layout, accesses, off_vertices},
+    planner::{Layout, accesses},
     pose::{apply, laid, sides_down},
     rejoin::rejoined,
     request::PlanRequest,
@@ -14,7 +14,10 @@ use super::{
     section::Chart,
     split::{check_no_cavity, split},
 };
-use crate::geom::{Plane, Point, Vector};
+use crate::{
+    geom::{Plane, Point, Vector},
+    mesh::off_vertices,
+};
 
 /// A face whose normal has this much of the vertical ends at one height, within a thousandth of a layer over 100 mm.
 const LEVEL_COSINE: f64 = 1.0 - 1e-9;

@@ -18,14 +18,10 @@ use super::{
 };
 use crate::{
     geom::{Plane, Vector},
-    mesh::{Hollowed, TriMesh},
+    mesh::{Hollowed, off_vertices},
     units::counted,
 };
 
-/// How near a vertex may lie to a planned cut, mm: nearer, a face along the cut could leave sheets without volume.
-const VERTEX_GAP_MM: f64 = 1e-6;
-/// How often a cut is moved on by twice the gap to find an offset without vertices.
-const NUDGES: usize = 200;
 /// How many of the best plans are cut for trial before the best is taken as it is: two planes may leave a pocket between them
 /// where they meet in a void. The first nearly always does; each costs a cut of every void.
 const TRIED_PLANS: usize = 12;
@@ -142,19 +138,6 @@ fn proof_note(found: &Found) -> String {
     } else {
         format!("{cuts}: fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
     }
-}
-
-/// The plane, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
-pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
-    let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
-    heights.sort_by(f64::total_cmp);
-    let is_free = |offset_mm: f64| {
-        let next = heights.partition_point(|&h| h < offset_mm - VERTEX_GAP_MM);
-        heights.get(next).is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
-    };
-    let offsets = (0..NUDGES).map(|i| plane.offset_mm + 2.0 * VERTEX_GAP_MM * i as f64);
-    let offset_mm = offsets.into_iter().find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
-    Plane { normal: plane.normal, offset_mm }
 }
 
 /// Whether the piece fits the build volume in some pose.

@@ -7,6 +7,7 @@
 mod balance;
 mod figures;
 mod float;
+mod hardware;
 mod place;
 mod request;
 mod sites;
@@ -25,10 +26,12 @@ pub use balance::{Rotor, Spindle};
 pub(crate) use figures::to_rpm;
 pub use figures::{Figures, figures};
 pub use float::{Afloat, Hydrostatics, Liquid, Water, Waterline};
+pub use hardware::{Hardware, HardwareError, Rod, STEEL_G_CM3};
 pub use place::{GoalError, Stock, Weighed, place, place_made_of, place_weighed};
 pub use request::{GoalKind, Objective, Request, RequestError};
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
+pub(crate) use top::height_over_origin;
 
 /// What the object shall do, placed in the model.
 #[derive(Debug, Clone, PartialEq)]

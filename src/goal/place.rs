@@ -60,6 +60,11 @@ pub enum GoalError {
         /// How far the centre lies below, mm.
         depth_mm: f64,
     },
+    /// A tip where there is nothing to hold it.
+    #[error(
+        "the spin axis passes through no part of the model above the contact point, so that no tip can be put in; give another contact"
+    )]
+    NoSeat,
     /// A support without area.
     #[error(
         "the {vertices} lowest vertices of the model support it on a point or a line only; turn it, or give it a flat foot"
@@ -130,7 +135,10 @@ pub fn place_weighed(weighed: &Weighed, stock: &Stock, request: &Request) -> Res
     let request = request.checked()?;
     let site = Site::new(weighed, &request)?;
     match request.kind {
-        GoalKind::Top => top::place(&site, wall_mm, request.contact.unwrap_or(Contact::Lowest)),
+        GoalKind::Top => {
+            let contact = request.contact.unwrap_or(Contact::Lowest);
+            top::place(&site, wall_mm, contact, request.hardware.and_then(|hardware| hardware.tip))
+        }
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
         GoalKind::Stand => stand::place(&site),
         GoalKind::Float => float::place(&site, density_g_cm3, request.water.unwrap_or_default()),

@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::{Contact, Rotor, SpinPoint, Up, Water};
+use super::{Contact, Hardware, HardwareError, Rotor, SpinPoint, Up, Water};
 use crate::words::{ChoiceError, as_text, choice, numbers};
 
 choice! {
@@ -176,6 +176,9 @@ pub struct Request {
     /// How it floats; none for fresh water and the most stable line, and for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<Water>,
+    /// What is put into it that is not printed; none for nothing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardware: Option<Hardware>,
 }
 
 /// A request whose parts do not go together.
@@ -208,6 +211,9 @@ pub enum RequestError {
     /// A liquid or waterline for what does not float.
     #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
     NoWater(GoalKind),
+    /// Hardware that does not go together or with the goal.
+    #[error(transparent)]
+    Hardware(#[from] HardwareError),
     /// A speed or grade that is not positive and finite.
     #[error(
         "a grade of {grade_mm_s} mm/s at {speed_rpm} rpm is none; remedy: give a speed and a grade above zero"
@@ -232,6 +238,7 @@ impl Request {
             objective: Objective::default_of(kind),
             rotor: (kind == GoalKind::Balance).then(Rotor::default),
             water: (kind == GoalKind::Float).then(Water::default),
+            hardware: None,
         }
     }
 
@@ -255,6 +262,7 @@ impl Request {
         if self.water.is_some() && kind != GoalKind::Float {
             return Err(RequestError::NoWater(kind));
         }
+        self.hardware.map_or(Ok(()), |hardware| hardware.check(kind))?;
         Ok(self)
     }
 

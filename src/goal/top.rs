@@ -1,7 +1,7 @@
 //! The top: it spins upright on one contact point.
 
 use super::place::{GoalError, Site};
-use super::{Contact, Placement, Warning, support};
+use super::{Contact, Placement, Rod, Warning, support};
 use crate::geom::{Point, Vector};
 use crate::shell::Keep;
 
@@ -19,8 +19,25 @@ const AIR_RATIO: f64 = 1e-6;
 /// Air below the surface that no printer could fill, mm: less than its layer, so no tip is missing.
 const TOUCHING_MM: f64 = 0.01;
 
-pub(super) fn place(site: &Site, wall_mm: f64, contact: Contact) -> Result<Placement, GoalError> {
+/// A top that stands on a tip touches with it: as far below the surface as the tip stands out, and its socket has a wall
+/// of its own.
+pub(super) fn place(
+    site: &Site,
+    wall_mm: f64,
+    contact: Contact,
+    tip: Option<Rod>,
+) -> Result<Placement, GoalError> {
     let origin = contact_point(site, contact)?;
+    let Some(tip) = tip else { return placed(site, wall_mm, origin) };
+    let surface_mm = first_surface_above(site, &origin).ok_or(GoalError::NoSeat)?;
+    let end = origin + Vector::z() * (surface_mm - tip.out_mm());
+    let Placement { goal, warnings, .. } = placed(site, wall_mm, end)?;
+    let is_of_body = |warning: &Warning| !matches!(warning, Warning::ContactInAir { .. });
+    Ok(Placement { goal, keeps: Vec::new(), warnings: warnings.into_iter().filter(is_of_body).collect() })
+}
+
+/// The top that touches at this point of the upright frame.
+fn placed(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalError> {
     let depth_mm = origin.z - site.upright_center().z;
     if depth_mm >= 0.0 {
         return Err(GoalError::ContactAboveCenter { depth_mm });
@@ -74,7 +91,7 @@ fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
 }
 
 /// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the axis.
-fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> Option<f64> {
+pub(crate) fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> Option<f64> {
     let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
     let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
     let area: f64 = weights.iter().sum();

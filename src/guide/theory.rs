@@ -31,6 +31,12 @@
 //! the equations cannot be met, the unbalances U_A, U_B in two planes are linear in s, and ‖(U_A, U_B)‖/s₁ is again a norm
 //! over a positive linear function, whose bound limits the grade from below.
 //!
+//! # Hardware
+//! What is not printed adds constant moments, and its sockets are outside like any other surface ([`crate::hardware`]). A
+//! yo-yo's halves are moved apart before anything is solved; what is optimal is then one quadric q where the halves are, and
+//! in the model two, q(x, y, z + gap/2) > 0 for the upper half and q(x, y, z − gap/2) > 0 for the lower, with the same
+//! multipliers. Values, bounds and proofs speak of hollowings of those halves, each with its wall towards the gap.
+//!
 //! # The certificate
 //! Any dual point gives a lower bound: no hollowing of this model with this wall can do better. The value, the bound and
 //! their gap are part of every solution. Where the dual grows without limit, its direction is a quadric that separates

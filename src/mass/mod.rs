@@ -1,5 +1,6 @@
 //! Mass properties: the ten moments that add, and the body they describe.
 
+mod bar;
 mod body;
 mod moments;
 mod of_mesh;
@@ -7,6 +8,7 @@ mod submerged;
 #[cfg(test)]
 mod tests;
 
+pub use bar::RoundBar;
 pub use body::{Body, Principal};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;

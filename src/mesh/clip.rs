@@ -41,6 +41,10 @@ const UNIT_LENGTH_TOLERANCE: f64 = 1e-9;
 /// so that its other faces stay clear of the body.
 const SPACE_RATIO: f64 = 2.0;
 
+/// How near a vertex may lie to a planned cut, mm: nearer, a face along the cut could leave sheets without volume.
+const VERTEX_GAP_MM: f64 = 1e-6;
+/// How often a cut is moved on by twice the gap to find an offset without vertices.
+const NUDGES: usize = 200;
 /// A closed mesh in the form in which it can be cut and combined.
 ///
 /// May hold several bodies and cavities (shells wound inward). All operations work in `f64` with exact
@@ -120,7 +124,7 @@ impl Csg {
     }
 
     /// A box that holds what lies of this body on the positive side of a plane.
-    fn half_space(&self, plane: &Plane) -> Result<Self, ClipError> {
+    pub(crate) fn half_space(&self, plane: &Plane) -> Result<Self, ClipError> {
         let aabb = self.0.bounding_box();
         let corner = |at: Vec3| Point::new(at.x, at.y, at.z);
         let (low, high) = (corner(aabb.min), corner(aabb.max));
@@ -164,6 +168,19 @@ impl Csg {
     pub fn triangle_count(&self) -> usize {
         self.0.num_tri()
     }
+}
+
+/// The plane for a cut, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
+pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
+    let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
+    heights.sort_by(f64::total_cmp);
+    let is_free = |offset_mm: f64| {
+        let next = heights.partition_point(|&h| h < offset_mm - VERTEX_GAP_MM);
+        heights.get(next).is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
+    };
+    let offsets = (0..NUDGES).map(|i| plane.offset_mm + 2.0 * VERTEX_GAP_MM * i as f64);
+    let offset_mm = offsets.into_iter().find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
+    Plane { normal: plane.normal, offset_mm }
 }
 
 /// The body, unless the engine has put it into an error state.

@@ -22,6 +22,7 @@ mod unstitch;
 mod weld;
 
 pub use bodies::{bodies, shells, winding_number};
+pub(crate) use clip::off_vertices;
 pub use clip::{ClipError, Csg};
 pub use crossings::Crossings;
 pub use defects::{Defect, DefectKind, Defects};

@@ -6,6 +6,9 @@ use crate::goal::{GoalKind, Request, Up};
 use crate::printer::{Material, Printer, WallChoice};
 use crate::progress::Progress;
 
+/// What to do where hardware is in the way: the remedies are sought on models as they are.
+const BARE: &str = "leave the hardware out, to be told by how much the model as it is can or cannot";
+
 /// What a case is made of besides the request.
 #[derive(Debug, Clone, Copy)]
 pub struct Means<'a> {
@@ -53,6 +56,10 @@ impl<'a> Means<'a> {
 /// The answer that the goal is impossible, with what would help.
 pub fn advised(setup: &Setup, impossible: Impossible, progress: &Progress) -> Impossible {
     progress.report(phase::ADVISE, 0.0);
+    if setup.fitted.is_some() {
+        let hints = impossible.hints.into_iter().chain([BARE.to_owned()]).collect();
+        return Impossible { hints, ..impossible };
+    }
     let Setup { model, printer, material, wall, .. } = setup;
     let remedies = remedies(&Means { model, printer, material, wall }.case(setup.request));
     let hints = if remedies.iter().any(Remedy::helps) { Vec::new() } else { impossible.hints };

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::{
     Error, Setup, Solved, phase,
-    rows::minimum_wall_mm,
+    printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids},
     tuning::is_tuned,
@@ -70,7 +70,7 @@ impl Assembly {
         Ok(assembly)
     }
 
-    /// The moments of the written parts put together, model frame.
+    /// The moments of the written parts put together, without hardware, model frame.
     pub fn written_moments(&self) -> Moments {
         written_moments(&self.parts)
     }
@@ -125,9 +125,9 @@ fn assembled(
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
+        let whole = written + setup.hardware_moments();
         attempts += 1;
-        if attempts == MAX_ASSEMBLIES
-            || is_tuned(goal, &voids.solution.moments, &written.in_frame(&goal.frame))
+        if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;

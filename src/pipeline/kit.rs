@@ -1,5 +1,6 @@
 //! The kit in memory: files, judgement, checklist and page.
 
+use super::printer_rows;
 use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
 use crate::cut::{CutOrder, CutPlan};
@@ -71,7 +72,8 @@ fn pictures(assembly: &Assembly, evidence: &Evidence) -> Result<Vec<Picture>, Er
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
     let aim = evidence.promise.goal;
-    Ok(album(&Sitting { shells: &shells, parts: &evidence.parts, cuts: &cuts, aim })?)
+    let (parts, hardware) = (&evidence.parts, &evidence.promise.hardware);
+    Ok(album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware })?)
 }
 
 /// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.
@@ -91,14 +93,16 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits {
             build_volume_mm: setup.printer.usable_volume_mm(),
-            print_scale_ratio: rows::scaled(setup.printer.print_scale_ratio()),
-            minimum_wall_mm: rows::minimum_wall_mm(setup),
+            print_scale_ratio: printer_rows::scaled(setup.printer.print_scale_ratio()),
+            minimum_wall_mm: printer_rows::minimum_wall_mm(setup),
         },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
         goal: rows::aim(setup),
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
+        hardware: setup.hardware(),
+        string_gap_mm: setup.string_gap_mm(),
         joints: rows::promised_joints(setup, &assembly.plan),
         assembly: None,
         files: Default::default(),

@@ -2,9 +2,11 @@
 
 mod advising;
 mod assembly;
+mod fitting;
 mod grid_rows;
 mod kit;
 mod outcome;
+mod printer_rows;
 mod rows;
 mod setup;
 mod solving;
@@ -51,6 +53,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
     let setup = waterline::chosen(setup, &mut watch)?;
+    let setup = fitting::equipped(setup, &mut watch)?;
     let solved = match Solved::of(&setup, progress, &mut watch)? {
         Ok(solved) => solved,
         Err(impossible) => {

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use super::fitting::{half_of, halves, shallow_axle};
 use super::kit::{figure_name, verdict};
+use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
-use crate::goal::{GoalKind, Objective, Rotor, Warning};
+use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
-use crate::printer::Support;
+use crate::mass::moments_of_mesh;
 use crate::report::{
-    Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PrinterRow,
-    Tool, VoidRow, WallRow,
+    Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{Aim, FigureName, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder, WaterOrder};
 
@@ -59,6 +60,8 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
+        hardware: setup.hardware(),
+        string_gap_mm: setup.string_gap_mm(),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -102,75 +105,16 @@ pub fn density_g_cm3(setup: &Setup) -> f64 {
 }
 
 fn model_row(setup: &Setup) -> ModelRow {
-    let (model, mesh) = (&setup.model, setup.model.solid.mesh());
+    let model = &setup.model;
+    let mesh = setup.bare.as_ref().unwrap_or(&model.solid).mesh();
     let file = setup.job.model.path.file_name().unwrap_or_default();
     ModelRow {
         file: file.to_string_lossy().into_owned(),
         sha256: model.sha256.clone(),
         triangles: mesh.triangles().len(),
         size_mm: mesh.aabb().size().into(),
-        volume_mm3: setup.placement.goal.solid.volume(),
+        volume_mm3: moments_of_mesh(mesh).volume(),
         scale_ratio: model.scale_ratio,
-    }
-}
-
-fn printer_row(setup: &Setup) -> PrinterRow {
-    let printer = &setup.printer;
-    PrinterRow {
-        id: printer.id.clone(),
-        name: printer.name.clone(),
-        process: printer.process.clone().unwrap_or_default(),
-        pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
-        layer_mm: printer.layer_mm.value,
-        build_volume_mm: printer.usable_volume_mm(),
-        print_scale_ratio: scaled(printer.print_scale_ratio()),
-        support: support_word(printer.support).to_owned(),
-        minimum_wall_mm: minimum_wall_mm(setup),
-        minimum_opening_mm: printer.min_opening_mm.value,
-        sources: sources(setup),
-    }
-}
-
-/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is not known.
-fn sources(setup: &Setup) -> Vec<String> {
-    let printer = &setup.printer;
-    let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
-    let numbers = printer.numbers().into_iter();
-    let numbers =
-        numbers.map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
-    let volume =
-        printer.build_volume_mm.iter().map(|volume| format!("build volume: {}", volume.provenance()));
-    let none = printer.build_volume_mm.is_none();
-    let unfit = none.then(|| "build volume: not known; check by hand that the parts fit".to_owned());
-    let corners = printer.excluded_corners.iter().map(|corner| {
-        let [x, y] = corner.size_mm.value;
-        format!("keep clear of a corner of {x} × {y} mm: {}", corner.size_mm.provenance())
-    });
-    let unknown: Vec<String> =
-        printer.unknown().into_iter().filter(|key| *key != "build_volume_mm").map(words).collect();
-    let unknown = (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
-    numbers.chain(volume).chain(unfit).chain(corners).chain(unknown).collect()
-}
-
-/// The least wall that the printer makes of a model of this size, mm.
-pub fn minimum_wall_mm(setup: &Setup) -> f64 {
-    setup.printer.least_wall_mm(setup.model.solid.mesh().longest_side_mm()).value
-}
-
-/// What files are multiplied by; none where they are of nominal size.
-pub fn scaled(ratio: [f64; 3]) -> Option<[f64; 3]> {
-    (ratio != [1.0; 3]).then_some(ratio)
-}
-
-fn material_row(setup: &Setup) -> MaterialRow {
-    let material = &setup.material;
-    MaterialRow {
-        id: material.id.clone(),
-        name: material.name.clone(),
-        density_g_cm3: material.density_g_cm3.value,
-        density_source: material.density_g_cm3.source.clone(),
-        density_sure: material.density_g_cm3.sure.to_string(),
-        density_spread_ratio: material.measured_spread_ratio(),
     }
 }
 
@@ -179,8 +123,18 @@ fn goal_row(setup: &Setup) -> GoalRow {
         Warning::ContactInAir { missing_mm } => Some(*missing_mm),
         _ => None,
     });
-    let objective = setup.request.objective.word().replace('-', "_");
-    GoalRow { aim: aim(setup), objective, contact_gap_mm: gap.unwrap_or(0.0), choice: setup.choice.clone() }
+    let asked = setup.request.objective;
+    let spin_it_weights = match asked {
+        Objective::SpinIt { gamma_c, gamma_i } => Some([gamma_c, gamma_i]),
+        _ => None,
+    };
+    GoalRow {
+        aim: aim(setup),
+        objective: asked.word().replace('-', "_"),
+        spin_it_weights,
+        contact_gap_mm: gap.unwrap_or(0.0),
+        choice: setup.choice.clone(),
+    }
 }
 
 fn certificate(sheet: &Sheet) -> Certificate {
@@ -198,8 +152,18 @@ fn certificate(sheet: &Sheet) -> Certificate {
         gap_ratio: certificate.gap_ratio,
         kept_solid_mm3: sheet.assembly.refused_mm3,
         over_heights: sheet.assembly.height_proof,
-        written_value: sheet.judgement.assembly.value_of(figure),
+        written_value: written_value(sheet, figure),
     }
+}
+
+/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.
+fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
+    let (setup, goal) = (sheet.setup, &sheet.setup.placement.goal);
+    if figure != FigureName::SpinItRatio {
+        return sheet.judgement.assembly.value_of(figure);
+    }
+    let whole = sheet.assembly.written_moments() + setup.hardware_moments();
+    figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
 fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
@@ -223,6 +187,7 @@ fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
 
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
     let found = &sheet.judgement.parts;
+    let halves = halves(sheet.setup);
     sheet
         .assembly
         .parts
@@ -242,6 +207,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 print_from_model: written.evidence().pose,
                 pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
+                half: half_of(written, &halves),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })
@@ -313,20 +279,13 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    placement.chain(repairs).chain(small).chain(seal).chain(unweighed).collect()
+    placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup)).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {
     let wall = sheet.setup.wall.why.clone();
     let scale = scaled(sheet.setup.printer.print_scale_ratio()).map(scale_note);
     std::iter::once(wall).chain(scale).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
-}
-
-fn scale_note([x, y, z]: [f64; 3]) -> String {
-    format!(
-        "part files are larger than the parts by {x:.5}, {y:.5} and {z:.5} along x, y and z, as this machine does not make up for \
-         shrinkage: do not scale them again"
-    )
 }
 
 fn log_row(row: &hollow::LogRow) -> LogRow {
@@ -354,15 +313,6 @@ fn stage_words(stage: hollow::Stage) -> String {
             format!("centre at {height_mm:.3} mm, lever {lever_mm4:.0} mm⁴")
         }
         Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
-    }
-}
-
-fn support_word(support: Support) -> &'static str {
-    match support {
-        Support::Soluble => "soluble",
-        Support::Breakaway => "breakaway",
-        Support::WaterJet => "water-jet",
-        Support::None => "none",
     }
 }
 

@@ -4,6 +4,7 @@ use super::Error;
 use super::advising::Means;
 use crate::digest::sha256_hex;
 use crate::goal::{Placement, Request, Stock, place_made_of};
+use crate::hardware::Fitted;
 use crate::io;
 use crate::job::Job;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
@@ -44,6 +45,10 @@ pub struct Setup {
     pub choice: Option<String>,
     /// The goal in the model.
     pub placement: Placement,
+    /// What is put into the model that is not printed; none where nothing is.
+    pub fitted: Option<Fitted>,
+    /// The model as it was before its hardware was put in; none without hardware.
+    pub bare: Option<Solid>,
 }
 
 impl Setup {
@@ -61,7 +66,8 @@ impl Setup {
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
-        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement })
+        let (fitted, bare) = (None, None);
+        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement, fitted, bare })
     }
 
     /// The name of the job in file names: the model's file name without its ending.

@@ -83,7 +83,8 @@ impl<'a> Tuner<'a> {
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
-            let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + more).in_frame(&goal.frame);
+            let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + self.setup.hardware_moments() + more)
+                .in_frame(&goal.frame);
             if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }

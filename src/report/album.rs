@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
+use super::hardware::drawn;
 use super::picture::{Camera, Color, Item, PictureError, Scene, render};
 use crate::geom::{Aabb, Frame, Plane, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
-use crate::verify::{Aim, PartEvidence, Shells};
+use crate::verify::{Aim, Hardware, PartEvidence, Shells};
 
 /// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to mail.
 const SIZE_PX: [usize; 2] = [720, 560];
@@ -25,6 +26,8 @@ const BODY: Color = [190, 194, 200];
 const VOID: Color = [86, 180, 233];
 /// Material seen where it is cut: vermilion. With blue it stays apart for every colour vision.
 const SECTION: Color = [213, 94, 0];
+/// Hardware: dark grey.
+const HARDWARE: Color = [84, 88, 96];
 /// Parts, in turn (Okabe and Ito, "Color universal design", 2008): told apart by every colour vision.
 const PARTS: [Color; 6] =
     [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [204, 121, 167], [0, 114, 178]];
@@ -51,6 +54,8 @@ pub struct Sitting<'a> {
     pub cuts: &'a [Plane],
     /// The goal: its axis points up in the pictures.
     pub aim: Aim,
+    /// What is put in that is not printed, model frame.
+    pub hardware: &'a [Hardware],
 }
 
 /// The file of the picture of one part.
@@ -67,9 +72,15 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
         GoalKind::Float => "The model as it floats.",
         _ => "The model, its spin axis upright.",
     };
-    let mut shots = vec![model_shot(&outer, &view, upright), cut_away_shot(&outer, &voids, &view)];
     let in_place = parts_in_model(sitting.parts);
-    shots.push(exploded_shot(&in_place, &shifts(&in_place, sitting.cuts), &view));
+    let mut shots = vec![
+        model_shot(&outer, &view, upright),
+        cut_away_shot(&outer, &voids, &view),
+        exploded_shot(&in_place, &shifts(&in_place, sitting.cuts), &view),
+    ];
+    let hardware: Vec<TriMesh> = sitting.hardware.iter().map(drawn).collect();
+    let whole = |mesh| Item { is_whole: true, ..still(mesh, HARDWARE) };
+    shots.iter_mut().for_each(|shot| shot.scene.items.extend(hardware.iter().map(whole)));
     shots.extend(sitting.parts.iter().enumerate().map(|(index, part)| part_shot(index, part)));
     shots.par_iter().map(Shot::take).collect()
 }
@@ -114,7 +125,7 @@ fn turned(normal: &Vector, up: &Vector, lift: f64) -> Vector {
 }
 
 fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
-    Item { mesh, color, shift: Vector::zeros() }
+    Item { mesh, color, shift: Vector::zeros(), is_whole: false }
 }
 
 fn model_shot<'a>(outer: &'a TriMesh, view: &View, caption: &str) -> Shot<'a> {
@@ -153,6 +164,7 @@ fn exploded_shot<'a>(parts: &'a [TriMesh], shifts: &[Vector], view: &View) -> Sh
         mesh,
         color: part_color(index),
         shift,
+        is_whole: false,
     };
     Shot {
         file: "pictures/parts.png".to_owned(),

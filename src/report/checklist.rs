@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::grid::GridRow;
 use super::rows::{CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
-use crate::verify::{Aim, Check, FigureName, Figures, PromisedFigure, SCHEMA};
+use crate::verify::{Aim, Check, FigureName, Figures, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
@@ -54,6 +54,12 @@ pub struct Checklist {
     /// What the machine's pixels, lines and layers make of walls, pins and cut faces.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grid: Vec<GridRow>,
+    /// What is put in that is not printed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub hardware: Vec<Hardware>,
+    /// How far the halves of a yo-yo are apart, mm; none where there is one body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub string_gap_mm: Option<f64>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.
@@ -152,6 +158,9 @@ pub struct GoalRow {
     pub aim: Aim,
     /// What was made as small or large as possible, such as `critical_speed`.
     pub objective: String,
+    /// The weights γ_c of a low centre and γ_I of a flat tensor in Spin-It's functional (its eq. 7), where that was it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spin_it_weights: Option<[f64; 2]>,
     /// How far the contact point hangs below the surface, mm; zero when the surface is touched. A tip piece of this
     /// length is needed.
     pub contact_gap_mm: f64,

@@ -4,6 +4,7 @@ mod album;
 mod base64;
 mod checklist;
 mod grid;
+mod hardware;
 mod kit;
 mod page;
 mod picture;

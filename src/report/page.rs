@@ -62,10 +62,16 @@ fn header(sheet: &Checklist) -> Markup {
             tr { th { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
             tr { th { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
             tr { th { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
-            tr { th { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr { th { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
             tr { th { "Wall" } td { "ordered " (quantity(sheet.wall.required_mm, "mm")) ", thinnest measured " (quantity_or_dash(sheet.wall.measured_min_mm, "mm")) } }
         }
     }
+}
+
+/// How much of the mass is not printed.
+fn of_hardware(sheet: &Checklist) -> String {
+    let mass_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
+    if mass_g > 0.0 { format!(", {} of it hardware", quantity(mass_g, "g")) } else { String::new() }
 }
 
 fn pixels(sheet: &Checklist) -> String {
@@ -120,7 +126,7 @@ fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
     html! {
         tr {
             td {
-                strong { (part.id) } br; code { (part.file) } br;
+                strong { (part.id) } @if let Some(half) = &part.half { ", half " (half) } br; code { (part.file) } br;
                 span class="small" { code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) } }
             }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }

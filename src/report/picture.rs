@@ -26,6 +26,8 @@ pub struct Item<'a> {
     pub color: Color,
     /// Where it is moved to for the picture, mm.
     pub shift: Vector,
+    /// Whether it is shown whole where the others are cut.
+    pub is_whole: bool,
 }
 
 /// What is drawn.
@@ -92,8 +94,9 @@ impl Image {
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
     let mut canvas = Canvas::new(scene, camera);
     for item in &scene.items {
+        let cut = scene.cut.as_ref().filter(|_| !item.is_whole);
         for corners in item.mesh.iter_corners() {
-            canvas.draw(corners.map(|corner| corner + item.shift), item.color, scene.cut.as_ref());
+            canvas.draw(corners.map(|corner| corner + item.shift), item.color, cut);
         }
     }
     canvas.resolve()
@@ -214,7 +217,10 @@ mod tests {
     }
 
     fn draw(meshes: &[&TriMesh], cut: Option<(Plane, Color)>) -> Image {
-        let items = meshes.iter().map(|mesh| Item { mesh, color: RED, shift: Vector::zeros() }).collect();
+        let items = meshes
+            .iter()
+            .map(|mesh| Item { mesh, color: RED, shift: Vector::zeros(), is_whole: false })
+            .collect();
         render(&Scene { items, cut }, &from_above())
     }
 

@@ -59,6 +59,9 @@ pub struct PartRow {
     pub pins: Vec<Peg>,
     /// The sockets sunk into it.
     pub sockets: Vec<Peg>,
+    /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub half: Option<String>,
     /// Its picture, relative to the kit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,

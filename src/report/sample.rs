@@ -18,7 +18,8 @@ pub fn sample() -> (Checklist, Evidence) {
 pub fn sample_album(evidence: &Evidence) -> Vec<Picture> {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
-    album(&Sitting { shells: &shells, parts: &evidence.parts, cuts: &cuts, aim: evidence.promise.goal })
+    let (aim, parts) = (evidence.promise.goal, &evidence.parts);
+    album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware: &evidence.promise.hardware })
         .unwrap()
 }
 
@@ -41,6 +42,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         goal: GoalRow {
             aim: evidence.promise.goal,
             objective: "critical_speed".into(),
+            spin_it_weights: None,
             contact_gap_mm: 10.0,
             choice: None,
         },
@@ -63,6 +65,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
         joints: vec![joint()],
         grid: vec![grid_row()],
+        hardware: vec![],
+        string_gap_mm: None,
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![
@@ -153,6 +157,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         print_from_model: promised.print_from_model,
         pins: vec![],
         sockets: vec![],
+        half: None,
         picture: Some(part_picture_file(&promised.id)),
     }
 }

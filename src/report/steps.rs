@@ -2,6 +2,7 @@
 
 use maud::{Markup, html};
 
+use super::hardware::fitting;
 use super::page::{figure, mass_with_window};
 use super::words::quantity;
 use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
@@ -11,18 +12,22 @@ use crate::units::counted;
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// Every step: print, clean, dry fit, glue, weigh, test.
+/// Every step: print, clean, dry fit, glue, put in what is not printed, weigh, test.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
-    let steps = [
-        ("1. Print", print(sheet, pictures)),
-        ("2. Clean every void", clean(sheet)),
-        ("3. Dry fit", dry_fit(sheet)),
-        ("4. Glue", glue(sheet)),
-        ("5. Weigh", weigh(sheet)),
-        ("6. Test", test(sheet)),
+    let mut steps = vec![
+        ("Print", print(sheet, pictures)),
+        ("Clean every void", clean(sheet)),
+        ("Dry fit", dry_fit(sheet)),
+        ("Glue", glue(sheet)),
     ];
+    if !sheet.hardware.is_empty() {
+        steps.push(("Put in the hardware", fitting(sheet)));
+    }
+    steps.extend([("Weigh", weigh(sheet)), ("Test", test(sheet))]);
     html! {
-        @for (name, step) in &steps { section { h2 { (name) } (step) } }
+        @for (index, (name, step)) in steps.iter().enumerate() {
+            section { h2 { (index + 1) ". " (name) } (step) }
+        }
     }
 }
 
@@ -147,7 +152,7 @@ fn weigh(sheet: &Checklist) -> Markup {
                 tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
             }
             tr {
-                td { strong { "all, glued" } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) }
+                td { strong { (all_glued(sheet)) } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) }
             }
         }
         p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
@@ -161,6 +166,10 @@ fn tick_or_blank(sheet: &Checklist) -> Markup {
     } else {
         blank()
     }
+}
+
+fn all_glued(sheet: &Checklist) -> &'static str {
+    if sheet.hardware.is_empty() { "all, glued" } else { "all, glued, with the hardware" }
 }
 
 fn test(sheet: &Checklist) -> Markup {
@@ -214,7 +223,7 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
         String::new()
     } else {
         let mass = quantity(sheet.assembly.mass_g, "g");
-        format!("Weighing {mass}, which the density must first be measured for, ")
+        format!("Its density was not measured: if it weighs {mass}, ")
     };
     let depth = sheet.assembly.afloat.map(|afloat| {
         format!(

@@ -53,7 +53,7 @@ pub fn coordinates(at: &[f64; 3]) -> String {
 /// What the object is to do and what was made best, in one sentence.
 pub fn goal(goal: &GoalRow) -> String {
     let [at, along] = [&goal.aim.origin_mm, &goal.aim.axis].map(coordinates);
-    let best = best(&goal.objective);
+    let best = best(&goal.objective) + &weights(goal);
     match goal.aim.kind {
         GoalKind::Top => {
             format!("top: spins on its contact point {at}\u{a0}mm about the axis {along}, with {best}")
@@ -74,6 +74,14 @@ pub fn goal(goal: &GoalRow) -> String {
             "rotor: turns about the axis {along} through {at}\u{a0}mm{}, with {best}",
             goal.aim.rotor.map_or(String::new(), |order| format!(" at {}", quantity(order.speed_rpm, "rpm")))
         ),
+    }
+}
+
+/// The weights of Spin-It's functional, where there are any to tell of.
+fn weights(goal: &GoalRow) -> String {
+    match (goal.aim.kind, goal.spin_it_weights) {
+        (GoalKind::Top, Some([c, i])) => format!(" (γ_c = {}, γ_I = {})", number(c), number(i)),
+        _ => String::new(),
     }
 }
 

@@ -24,6 +24,8 @@ pub const RIGHTING_LIMIT_DEG: f64 = 5.0;
 /// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a printed wall
 /// loses a pixel.
 pub const WALL_TOLERANCE_MM: f64 = 0.01;
+/// The string gap of a yo-yo may be this far from the ordered one, mm: the rounding of a file, far below a layer.
+pub const STRING_GAP_TOLERANCE_MM: f64 = 1e-3;
 /// Volumes of the parts add up to this share of the body. STL's f32 coordinates leave about 1e-7 of 100 mm.
 pub const VOLUME_SUM_LIMIT_RATIO: f64 = 1e-6;
 /// A part rests on the plate within this, mm: two f32 steps at 300 mm. Above it a slicer's first layer is thin.
@@ -49,6 +51,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
     checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
+    checks.extend(fit_checks(promise, found));
     checks.extend(surface_checks(found));
     checks.extend(plate_checks(&found.parts));
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
@@ -150,6 +153,23 @@ fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check 
 fn wall_check(required_mm: f64, wall_mm: f64) -> Check {
     let limit = Limit::at_least(required_mm - WALL_TOLERANCE_MM, "mm");
     Check::new("wall", "every wall between a void and the outside is at least", Some(wall_mm), limit)
+}
+
+/// Whether the hardware goes in, and holds a yo-yo's halves apart.
+fn fit_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
+    let Some(fit) = &found.fit else { return Vec::new() };
+    let gap = promise.string_gap_mm.map(|ordered_mm| {
+        let off_mm = fit.gap_mm.map(|gap_mm| (gap_mm - ordered_mm).abs());
+        let promise = format!("the halves are {ordered_mm} mm apart at their axle, within");
+        Check::new("string gap", &promise, off_mm, Limit::at_most(STRING_GAP_TOLERANCE_MM, "mm"))
+    });
+    let room = Check::new(
+        "hardware",
+        "every piece of hardware goes into its socket, with room on each side of",
+        fit.room_mm,
+        Limit::at_least(0.0, "mm"),
+    );
+    std::iter::once(room).chain(gap).collect()
 }
 
 /// Whether the surfaces of all files can be printed.

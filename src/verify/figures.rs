@@ -26,15 +26,17 @@ pub struct Setting {
     pub ends_mm: Option<[f64; 2]>,
     /// The outer surface in the goal frame; only what floats has water on it.
     pub hull: Option<Hull>,
+    /// The moments times the densities of what is not printed, model frame, g, g·mm and g·mm².
+    pub hardware: Moments,
 }
 
 /// The mass properties of a body and its figures for the goal; a figure that the goal does not ask for, or that
 /// does not exist (the critical speed of a top that cannot spin), is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// g.
+    /// With its hardware, g.
     pub mass_g: f64,
-    /// mm³.
+    /// Of what is printed, mm³.
     pub volume_mm3: f64,
     /// The centre of mass, model frame, mm.
     pub center_mm: [f64; 3],
@@ -65,11 +67,14 @@ pub struct Figures {
 }
 
 impl Figures {
-    /// The figures of the region with these moments (model frame). As exact as the moments: nothing is sampled.
-    pub fn new(moments: &Moments, setting: &Setting) -> Self {
-        let body = Body::new(moments, setting.density_g_cm3 / MM3_PER_CM3);
+    /// The figures of the region with these moments (model frame), with the setting's hardware in it. As exact as the
+    /// moments: nothing is sampled.
+    pub fn new(printed: &Moments, setting: &Setting) -> Self {
+        let density_g_mm3 = setting.density_g_cm3 / MM3_PER_CM3;
+        let moments = &(*printed + setting.hardware * density_g_mm3.recip());
+        let body = Body::new(moments, density_g_mm3);
         let frame = setting.aim.frame();
-        let plain = Self::without_goal(moments.volume(), &body);
+        let plain = Self::without_goal(printed.volume(), &body);
         match setting.aim.kind {
             GoalKind::Top => plain.of_top(&body, &frame),
             GoalKind::Yoyo => plain.of_yoyo(&body, &frame),
@@ -217,6 +222,7 @@ mod tests {
             support: None,
             ends_mm: None,
             hull: None,
+            hardware: Moments::default(),
         }
     }
 
@@ -280,8 +286,17 @@ mod tests {
         // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
         let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
         assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
-        let figures =
-            Figures::new(&plate(), &Setting { density_g_cm3: 1.0, aim, support, ends_mm: None, hull: None });
+        let figures = Figures::new(
+            &plate(),
+            &Setting {
+                density_g_cm3: 1.0,
+                aim,
+                support,
+                ends_mm: None,
+                hull: None,
+                hardware: Moments::default(),
+            },
+        );
         assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
         assert!((figures.center_height_mm - 2.0).abs() < 1e-12);
         assert_eq!(figures.axis_offset_mm, None);

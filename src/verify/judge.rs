@@ -4,8 +4,11 @@ use rayon::prelude::*;
 
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support, SurfaceFacts,
-    assembly_moments, checks, rotor::ends_mm, smallest_wall_mm,
+    Check, Figures, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support,
+    SurfaceFacts, assembly_moments, checks,
+    hardware::{fit, mass_moments},
+    rotor::ends_mm,
+    smallest_wall_mm,
 };
 use crate::goal::GoalKind;
 use crate::mass::moments_of_mesh;
@@ -37,6 +40,8 @@ pub struct Judgement {
     pub parts: Vec<PartFacts>,
     /// The smallest wall between a void and the outside, mm; none without voids.
     pub wall_min_mm: Option<f64>,
+    /// How the hardware sits in the outer surface; none without hardware.
+    pub fit: Option<Fit>,
     /// Every pin and its socket, as found in the files.
     pub pegs: Vec<PegFacts>,
     /// How many of a sample of places just under the parts' surfaces lie in another part too.
@@ -57,10 +62,11 @@ impl Judgement {
 /// Exact integrals of the written triangles; the wall is the distance between triangles. Some seconds for a million
 /// triangles; the same judgement on any number of threads.
 pub fn judge(evidence: &Evidence) -> Judgement {
+    let promise = &evidence.promise;
     let welded = weld(&evidence.hollowed);
     let shells = Shells::of_mesh(&welded);
     let outer = shells.outer_mesh();
-    let setting = setting(&evidence.promise, &outer);
+    let setting = setting(promise, &outer);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let figures_of = |moments| Figures::new(&moments, &setting);
     let mut judgement = Judgement {
@@ -70,11 +76,12 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
+        fit: fit(&promise.hardware, &promise.goal, (&outer, promise.wall.required_mm)),
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
         checks: Vec::new(),
     };
-    judgement.checks = checks(&evidence.promise, &judgement);
+    judgement.checks = checks(promise, &judgement);
     judgement
 }
 
@@ -84,5 +91,6 @@ pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
     let support = (aim.kind == GoalKind::Stand).then(|| Support::of_mesh(outer, &aim.frame()));
     let ends_mm = (aim.kind == GoalKind::Balance).then(|| ends_mm(outer, &aim.frame()));
     let hull = (aim.kind == GoalKind::Float).then(|| Hull::new(outer, &aim.frame()));
-    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm, hull }
+    let hardware = mass_moments(&promise.hardware);
+    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm, hull, hardware }
 }

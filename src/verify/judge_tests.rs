@@ -44,6 +44,8 @@ fn promise(poses: &[Pose]) -> Promise {
         promise: None,
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
+        hardware: Vec::new(),
+        string_gap_mm: None,
         joints: vec![],
         assembly: None,
         files: Default::default(),

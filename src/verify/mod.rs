@@ -3,6 +3,7 @@
 mod check;
 mod checks;
 mod figures;
+mod hardware;
 mod judge;
 #[cfg(test)]
 pub(crate) mod judge_tests;
@@ -27,10 +28,11 @@ pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,
     METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG,
-    SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM,
-    checks,
+    SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
+    WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
 };
 pub use figures::{Figures, Setting};
+pub use hardware::{Fit, Hardware, mass_moments};
 pub use judge::{Evidence, Judgement, judge, setting};
 pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};

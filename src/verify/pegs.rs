@@ -173,7 +173,9 @@ fn wall_mm(socket: &Peg, whole: &Bvh) -> f64 {
 
 /// How many of a sample of places just under the parts' surfaces lie in another part too.
 pub(super) fn overlaps(felt: &[Felt]) -> usize {
-    felt.iter().map(|part| under_surface(part.part).filter(|p| is_in_another(p, part, felt)).count()).sum()
+    // Where a part ends in an edge, what lies under its surface may be outside of it already.
+    let is_shared = |place: &Point, part: &Felt| part.holds(place) && is_in_another(place, part, felt);
+    felt.iter().map(|part| under_surface(part.part).filter(|place| is_shared(place, part)).count()).sum()
 }
 
 /// Whether a place is in another part as well as in its own: under an acute rim it may be in neither or in the mate alone.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Figures, Pose, RotorOrder, WaterOrder};
+use super::{Figures, Hardware, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -31,6 +31,12 @@ pub struct Promise {
     pub wall: WallOrder,
     /// The parts, in the order of the checklist.
     pub parts: Vec<PromisedPart>,
+    /// What is put into them that is not printed.
+    #[serde(default)]
+    pub hardware: Vec<Hardware>,
+    /// How far the halves of a yo-yo are to be apart, mm; none where there is one body.
+    #[serde(default)]
+    pub string_gap_mm: Option<f64>,
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,

@@ -4,7 +4,7 @@
     python3 tests/judge/judge_kit.py KIT [KIT ...]
 
 Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the goal,
-the density, the wall, the build volume, the volumes of pins and sockets, and what was promised. Puts the parts together,
+the density, the wall, the build volume, the volumes of pins and sockets, the rods of hardware, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
 """
 
@@ -103,15 +103,82 @@ def moments(corners):
     return volume, first + volume * middle, moved
 
 
-def body(parts, density_g_mm3):
-    """Mass, centre and inertia about the centre of parts (their corners in the model frame)."""
+def rod_moments(rod):
+    """Volume, first and second moments of a round bar: a stack of discs, summed by Gauss and Legendre, 64 to a stretch."""
+    start, end = np.array(rod["from_mm"], float), np.array(rod["to_mm"], float)
+    length, radius = np.linalg.norm(end - start), rod["diameter_mm"] / 2
+    axis = (end - start) / length
+    across = np.eye(3) - np.outer(axis, axis)
+    straight = length - radius if rod["round_end"] else length
+    disc = lambda z: radius**2 - rod["hole_mm"] ** 2 / 4 if z <= straight else radius**2 - (z - straight) ** 2
+    fourth = lambda z: radius**4 - rod["hole_mm"] ** 4 / 16 if z <= straight else (radius**2 - (z - straight) ** 2) ** 2
     volume, first, second = 0.0, np.zeros(3), np.zeros((3, 3))
+    nodes, weights = np.polynomial.legendre.leggauss(64)
+    for low, high in ((0.0, straight), (straight, length)):
+        for z, weight in zip((low + high) / 2 + nodes * (high - low) / 2, weights * (high - low) / 2):
+            area, middle = math.pi * disc(z) * weight, start + axis * z
+            volume, first = volume + area, first + area * middle
+            second += area * np.outer(middle, middle) + across * (math.pi / 4 * fourth(z) * weight)
+    return volume, first, second
+
+
+def body(parts, density_g_mm3, hardware=()):
+    """Volume printed, mass, centre and inertia about the centre of parts (their corners in the model frame) and rods."""
+    volume, mass, first, second = 0.0, 0.0, np.zeros(3), np.zeros((3, 3))
     for corners in parts:
         v, f, s = moments(corners)
-        volume, first, second = volume + v, first + f, second + s
-    center = first / volume
-    central = (second - volume * np.outer(center, center)) * density_g_mm3
-    return volume, volume * density_g_mm3, center, np.trace(central) * np.eye(3) - central
+        volume, mass = volume + v, mass + v * density_g_mm3
+        first, second = first + f * density_g_mm3, second + s * density_g_mm3
+    for rod in hardware:
+        v, f, s = (m * rod["density_g_cm3"] / 1000 for m in rod_moments(rod))
+        mass, first, second = mass + v, first + f, second + s
+    center = first / mass
+    central = second - mass * np.outer(center, center)
+    return volume, mass, center, np.trace(central) * np.eye(3) - central
+
+
+def lines_through(corners, points, direction):
+    """For each point the heights along the unit direction at which its line meets the triangles."""
+    helper = np.eye(3)[np.argmin(np.abs(direction))]
+    u = np.cross(direction, helper) / np.linalg.norm(np.cross(direction, helper))
+    v = np.cross(direction, u)
+    flat, height = corners @ np.stack([u, v], 1), corners @ direction
+    turn = lambda p, q: p[:, 0] * q[:, 1] - p[:, 1] * q[:, 0]
+    for point in points:
+        a, b, c = (flat[:, i] - [point @ u, point @ v] for i in range(3))
+        weights = np.stack([turn(b, c), turn(c, a), turn(a, b)], 1)
+        area = weights.sum(axis=1)
+        met = (area != 0) & (weights * np.sign(area)[:, None] >= 0).all(axis=1)
+        yield np.sort((weights[met] * height[met]).sum(axis=1) / area[met]) - point @ direction
+
+
+def judge_hardware(table, sheet, outer):
+    """Whether every rod is clear of the material, and a yo-yo's halves are as far apart as they should be."""
+    corners, goal = np.concatenate(outer), sheet["goal"]
+    axis = np.array(goal["axis"], float) / np.linalg.norm(goal["axis"])
+    for rod in sheet.get("hardware", []):
+        table.same(f"{rod['id']} {rod['what']}, g", rod["mass_g"], rod_moments(rod)[0] * rod["density_g_cm3"] / 1000)
+        start, end = np.array(rod["from_mm"], float), np.array(rod["to_mm"], float)
+        length, along = np.linalg.norm(end - start), (end - start) / np.linalg.norm(end - start)
+        helper = np.eye(3)[np.argmin(np.abs(along))]
+        u = np.cross(along, helper) / np.linalg.norm(np.cross(along, helper))
+        v = np.cross(along, u)
+        # Lines on the rod's mantle, and just outside it where the printed socket still has room: between the rod's ends
+        # no surface is met, and its middle is in the open.
+        for radius, name in ((rod["diameter_mm"] / 2, "mantle"), (rod["hole_mm"] / 2 + 1e-3, "core")):
+            around = [start + radius * (math.cos(t) * u + math.sin(t) * v) for t in np.arange(24) * math.pi / 12 + 0.05]
+            met = list(lines_through(corners, np.array(around), along))
+            inside = sum(int(((h > 1e-3) & (h < length - 1e-3)).any() or (h > length / 2).sum() % 2) for h in met)
+            table.none(f"{rod['id']} lines of its {name} in material", inside)
+    gap, axles = sheet.get("string_gap_mm"), [rod for rod in sheet.get("hardware", []) if rod["what"] == "axle"]
+    if gap and axles:
+        origin, axes = frame(goal)
+        radius = axles[0]["socket_mm"] / 2 + 0.4 * sheet["wall"]["required_mm"]
+        points = [origin + radius * (math.cos(t) * axes[0] + math.sin(t) * axes[1]) for t in np.arange(12) * math.pi / 6 + 0.1]
+        gaps = [h[h > 0].min() - h[h < 0].max() for h in lines_through(corners, np.array(points), axis)]
+        table.same("string gap at its narrowest, mm", gap, min(gaps), 1e-4)
+        table.same("string gap at its widest, mm", gap, max(gaps), 1e-4)
+        table.line("parts by halves", "A, B", ", ".join(sorted({str(p.get("half")) for p in sheet["parts"]})), {p.get("half") for p in sheet["parts"]} == {"A", "B"})
 
 
 def frame(goal):
@@ -420,11 +487,12 @@ def judge(kit):
     table.none("hollowed.stl self-intersections", self_intersections(hollowed))
     outer, voids = split(whole)
     density = sheet["material"]["density_g_cm3"] / 1000
-    volume, mass, center, inertia = body(parts, density)
+    volume, mass, center, inertia = body(parts, density, sheet.get("hardware", []))
     found = figures(goal, mass, center, inertia, np.concatenate(outer).reshape(-1, 3))
     judge_body(table, promised, (volume, mass, center, inertia), found)
     judge_goal(table, goal, sheet.get("promise"), found)
     judge_whole(table, sheet, volume, moments(hollowed)[0])
+    judge_hardware(table, sheet, outer)
     judge_pins(table, sheet, parts)
     if voids:
         wall = smallest_wall(outer, voids)

@@ -1,0 +1,160 @@
+//! A socket along the axis: its shape, and whether the model holds it.
+
+use std::f64::consts::{PI, TAU};
+
+use crate::geom::{Frame, Point};
+use crate::mesh::{ClipError, Csg, TriMesh, primitives, winding_number};
+
+/// Sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the circle; more only make more triangles.
+const SIDES: u32 = 48;
+/// The socket's first corner is turned by so much about the axis, rad, so that it lies on no model's plane of symmetry.
+const TURN_RAD: f64 = 0.3;
+/// Depths at which the wall about a socket is looked for.
+const LOOKS: usize = 8;
+/// Directions in which it is looked for at each: between them 2 % of the distance from the axis may be missed.
+const DIRECTIONS: usize = 16;
+/// The share of its depth over which a socket must have its wall all around. Less, and a blow on the rod breaks the rim.
+const HELD_RATIO: f64 = 0.5;
+
+/// Why a socket cannot be bored.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+pub enum SeatError {
+    /// It comes out of the model, or its wall is too thin there.
+    #[error(
+        "the {what}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; remedy: a shorter or thinner {what}, \
+         or another place for it"
+    )]
+    BreaksOut {
+        /// What it is for.
+        what: &'static str,
+        /// How deep it was to be, mm.
+        depth_mm: f64,
+        /// The wall it was to have, mm.
+        wall_mm: f64,
+    },
+    /// Too little of its depth has a wall around it.
+    #[error(
+        "the {what}'s socket has a wall of {wall_mm:.2} mm around it over {held_mm:.2} of its {depth_mm:.2} mm only; remedy: a deeper or \
+         thinner {what}, or another place for it"
+    )]
+    HardlyHeld {
+        /// What it is for.
+        what: &'static str,
+        /// Over how much of its depth it has a wall, mm.
+        held_mm: f64,
+        /// How deep it was to be, mm.
+        depth_mm: f64,
+        /// The wall it was to have, mm.
+        wall_mm: f64,
+    },
+}
+
+/// A socket about the z axis of a frame, from its mouth to its bottom.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bore {
+    pub what: &'static str,
+    pub radius_mm: f64,
+    /// The least wall around it and behind its bottom, mm.
+    pub wall_mm: f64,
+    /// The height of its mouth in the frame, mm.
+    pub mouth_mm: f64,
+    /// The height of its bottom in the frame, mm.
+    pub bottom_mm: f64,
+}
+
+impl Bore {
+    fn depth_mm(&self) -> f64 {
+        (self.bottom_mm - self.mouth_mm).abs()
+    }
+
+    /// Whether the model has a wall around the bore and behind its bottom.
+    pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
+        let heights = (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
+        let around: Vec<bool> = heights.map(|z| self.walled(model, frame, z) == DIRECTIONS).collect();
+        let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
+        let Self { what, wall_mm, .. } = *self;
+        let depth_mm = self.depth_mm();
+        if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
+            return Err(SeatError::BreaksOut { what, depth_mm, wall_mm });
+        }
+        let held = around.iter().filter(|&&is_walled| is_walled).count();
+        let held_mm = depth_mm * held as f64 / LOOKS as f64;
+        let is_held = held_mm >= HELD_RATIO * depth_mm;
+        if is_held { Ok(()) } else { Err(SeatError::HardlyHeld { what, held_mm, depth_mm, wall_mm }) }
+    }
+
+    /// Whether it goes right through the model: its bottom lies clear outside, and behind its mouth it has its wall.
+    pub fn passes_through(&self, model: &TriMesh, frame: &Frame) -> bool {
+        self.walled(model, frame, self.bottom_mm) == 0
+            && self.walled(model, frame, self.at_depth(self.wall_mm)) == DIRECTIONS
+    }
+
+    /// The height in the frame at a depth below the mouth, mm.
+    fn at_depth(&self, depth_mm: f64) -> f64 {
+        self.mouth_mm + depth_mm.copysign(self.bottom_mm - self.mouth_mm)
+    }
+
+    /// In how many directions the wall about the bore is in the model at this height.
+    fn walled(&self, model: &TriMesh, frame: &Frame, z: f64) -> usize {
+        let at = |i: usize| {
+            let (sin, cos) = (TAU * i as f64 / DIRECTIONS as f64 + TURN_RAD).sin_cos();
+            let radius_mm = self.radius_mm + self.wall_mm;
+            frame.to_model(&Point::new(radius_mm * cos, radius_mm * sin, z))
+        };
+        (0..DIRECTIONS).filter(|&i| is_inside(model, &at(i))).count()
+    }
+}
+
+/// The prism that is taken away for a round rod between two heights of a frame: the rod's circle touches its sides.
+pub(super) fn prism(frame: &Frame, radius_mm: f64, [low_mm, high_mm]: [f64; 2]) -> Result<Csg, ClipError> {
+    let corner_mm = radius_mm / (PI / f64::from(SIDES)).cos();
+    let (sin, cos) = TURN_RAD.sin_cos();
+    let upright = primitives::cylinder(corner_mm, high_mm - low_mm, SIDES);
+    let place =
+        |p: &Point| frame.to_model(&Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z + low_mm));
+    Csg::of_mesh(&upright.map_vertices(place))
+}
+
+/// Whether a point lies in the body that a mesh bounds.
+pub(super) fn is_inside(mesh: &TriMesh, point: &Point) -> bool {
+    winding_number(mesh, point) > 0.5
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::primitives::cuboid;
+
+    fn bore(bottom_mm: f64) -> Bore {
+        Bore { what: "pin", radius_mm: 2.0, wall_mm: 1.0, mouth_mm: 0.0, bottom_mm }
+    }
+
+    #[test]
+    fn a_rod_fits_its_prism_and_the_prism_is_no_larger_than_it_must_be() {
+        let prism = prism(&Frame::identity(), 2.0, [1.0, 4.0]).unwrap().to_mesh().unwrap();
+        let volume = prism.signed_volume_mm3();
+        // A prism about a circle is larger by (π/n)²/3 of its area, 0.14 % for 48 sides.
+        assert!(volume > 12.0 * PI && volume < 12.0 * PI * 1.0015, "{volume}");
+        let off_axis = prism.vertices().iter().map(|p| p.x.hypot(p.y)).filter(|r| *r > 0.0);
+        assert!(off_axis.fold(f64::INFINITY, f64::min) > 2.0);
+    }
+
+    #[test]
+    fn a_socket_needs_its_wall_behind_the_bottom_and_around() {
+        let block = cuboid(&Point::new(-4.0, -4.0, 0.0), &Point::new(4.0, 4.0, 10.0));
+        let check = |bottom_mm| bore(bottom_mm).check(&block, &Frame::identity());
+        let is_through = |bottom_mm| bore(bottom_mm).passes_through(&block, &Frame::identity());
+        assert!(check(8.9) == Ok(()) && !is_through(8.9));
+        assert!(matches!(check(9.1), Err(SeatError::BreaksOut { .. })) && !is_through(9.1));
+        assert!(matches!(check(11.0), Err(SeatError::BreaksOut { .. })) && is_through(11.0));
+        let thin = cuboid(&Point::new(-2.9, -4.0, 0.0), &Point::new(4.0, 4.0, 10.0));
+        assert!(bore(5.0).check(&thin, &Frame::identity()).is_err());
+    }
+
+    #[test]
+    fn a_socket_whose_upper_half_is_in_the_open_is_hardly_held() {
+        let block = cuboid(&Point::new(-4.0, -4.0, 7.0), &Point::new(4.0, 4.0, 20.0));
+        let held = bore(10.0).check(&block, &Frame::identity());
+        assert!(matches!(held, Err(SeatError::HardlyHeld { held_mm, .. }) if held_mm == 3.75));
+    }
+}

@@ -1,0 +1,93 @@
+//! A model cut across its axis into the two halves that its axle will hold.
+
+use super::bore::is_inside;
+use super::{FitError, Workshop};
+use crate::geom::{Plane, Point, Vector};
+use crate::mesh::{Csg, TriMesh, off_vertices};
+
+/// Pieces below this volume are sheets of a plane that runs along a face, mm³.
+const SHEET_MM3: f64 = 1e-6;
+/// A piece that stays with the other half is held by a hull so much larger than itself, mm, so that rounding leaves no skin of
+/// it; what else lies nearer is cut into.
+const HULL_MARGIN_MM: f64 = 0.02;
+/// By how much of a piece's volume its hull may hold of something else.
+const FOREIGN_RATIO: f64 = 1e-3;
+
+/// The two halves, where they were in the model.
+pub(super) struct Halves {
+    pub upper: Csg,
+    pub lower: Csg,
+}
+
+/// The halves above and below the spin point. What the cut parts from both, such as the hand that hangs beside the body,
+/// stays with the half it grows from, whatever side of the plane it is on.
+pub(super) fn halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves, FitError> {
+    let (frame, mesh) = (&workshop.goal.frame, workshop.solid.mesh());
+    let plane = off_vertices(mesh, &Plane::through(&frame.origin, &frame.axis()));
+    let body = Csg::of_mesh(mesh)?;
+    let (above, below) = body.split_by_plane(&plane)?;
+    let hub_mm = bore_radius_mm + 0.5 * workshop.allowances.wall_mm;
+    let probe =
+        |side: f64| frame.to_model(&Point::new(hub_mm, 0.0, side * hub_mm.min(workshop.allowances.wall_mm)));
+    let (above, below) = (Side::of(&above, &probe(1.0))?, Side::of(&below, &probe(-1.0))?);
+    if above.loose.is_empty() && below.loose.is_empty() {
+        return Ok(Halves { upper: above.hub, lower: below.hub });
+    }
+    around(&body, &plane, [&above, &below])
+}
+
+/// The pieces on one side of the cut: the one with the hub, and the others.
+struct Side {
+    hub: Csg,
+    loose: Vec<TriMesh>,
+}
+
+impl Side {
+    fn of(pieces: &Csg, on_hub: &Point) -> Result<Self, FitError> {
+        let mut bodies: Vec<TriMesh> = Vec::new();
+        for body in pieces.decompose()? {
+            bodies.push(body.to_mesh()?);
+        }
+        bodies.retain(|body| body.signed_volume_mm3() > SHEET_MM3);
+        let count = bodies.len();
+        let hub = bodies
+            .iter()
+            .position(|body| is_inside(body, on_hub))
+            .ok_or(FitError::Loose { pieces: count })?;
+        Ok(Self { hub: Csg::of_mesh(&bodies.remove(hub))?, loose: bodies })
+    }
+}
+
+/// The halves of a cut that goes around the loose pieces: each is left with what it touches on the other side.
+fn around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halves, FitError> {
+    let mut upper_room = body.half_space(plane)?;
+    for piece in &above.loose {
+        upper_room = upper_room.subtract(&hull(body, piece)?)?;
+    }
+    for piece in &below.loose {
+        upper_room = upper_room.union(&hull(body, piece)?)?;
+    }
+    let (upper, lower) = (body.intersect(&upper_room)?, body.subtract(&upper_room)?);
+    let pieces = upper.decompose()?.len() + lower.decompose()?.len();
+    if pieces == 2 { Ok(Halves { upper, lower }) } else { Err(FitError::Loose { pieces }) }
+}
+
+/// A convex room with nothing of the body in it but the piece.
+fn hull(body: &Csg, piece: &TriMesh) -> Result<Csg, FitError> {
+    let signs = [-HULL_MARGIN_MM, HULL_MARGIN_MM];
+    let corners =
+        signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| Vector::new(*x, *y, z))));
+    let corners: Vec<Vector> = corners.collect();
+    let points = piece.vertices().iter().flat_map(|p| corners.iter().map(move |corner| p + corner));
+    let hull = Csg::convex_hull(&points.collect::<Vec<_>>())?;
+    let held_mm3 = body.intersect(&hull)?.to_mesh()?.signed_volume_mm3();
+    let own_mm3 = piece.signed_volume_mm3();
+    // Of what it grows from, a skin of the margin is in the hull too.
+    let skin_mm3 = 2.0 * HULL_MARGIN_MM * surface_mm2(piece);
+    let is_alone = held_mm3 - own_mm3 <= FOREIGN_RATIO * own_mm3 + skin_mm3;
+    if is_alone { Ok(hull) } else { Err(FitError::Loose { pieces: 3 }) }
+}
+
+fn surface_mm2(mesh: &TriMesh) -> f64 {
+    mesh.iter_corners().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
+}

@@ -1,0 +1,223 @@
+//! What is put into a kit's parts that is not printed: its mass, and whether it goes where it should.
+
+use std::f64::consts::TAU;
+
+use serde::{Deserialize, Serialize};
+
+use super::Aim;
+use crate::geom::{Frame, Point, Vector};
+use crate::mass::{Moments, RoundBar};
+use crate::mesh::{TriMesh, winding_number};
+
+/// Cubic millimetres in one cubic centimetre.
+const MM3_PER_CM3: f64 = 1000.0;
+/// The ends of a rod are left out over so much, mm: they touch the bottoms of their sockets.
+const END_MM: f64 = 1e-3;
+/// Lines along the axis on which the string gap is measured.
+const GAP_LINES: usize = 16;
+/// How far outside of the socket they lie, as a share of the ordered wall: in the middle of the hub.
+const GAP_WALL_RATIO: f64 = 0.5;
+
+/// One piece of hardware as the kit names it: a round bar in its place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Hardware {
+    /// The name on the sheet, such as `H1`.
+    pub id: String,
+    /// What it is: `axle`, `ring`, `tip` or `stem`.
+    pub what: String,
+    /// One end of its axis, model frame, mm.
+    pub from_mm: [f64; 3],
+    /// The other end; of a round end the outermost point.
+    pub to_mm: [f64; 3],
+    /// The outer diameter, mm.
+    pub diameter_mm: f64,
+    /// The diameter of the hole along it, mm; zero for none.
+    pub hole_mm: f64,
+    /// Whether the end at `to_mm` is a half ball.
+    pub round_end: bool,
+    /// g/cm³.
+    pub density_g_cm3: f64,
+    /// What it weighs, g.
+    pub mass_g: f64,
+    /// How far it goes in, into each half for an axle, mm.
+    pub depth_mm: f64,
+    /// The diameter of its socket, mm; zero where it has none.
+    pub socket_mm: f64,
+}
+
+/// How the hardware sits in the parts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fit {
+    /// The least room between a rod and the surface around it, mm; negative where a rod does not go in.
+    pub room_mm: Option<f64>,
+    /// How far a yo-yo's halves are apart about their axle, mm; none where there is one body.
+    pub gap_mm: Option<f64>,
+}
+
+impl Hardware {
+    fn bar(&self) -> RoundBar {
+        RoundBar {
+            from: Point::from(self.from_mm),
+            to: Point::from(self.to_mm),
+            radius_mm: 0.5 * self.diameter_mm,
+            hole_mm: 0.5 * self.hole_mm,
+            is_round: self.round_end,
+        }
+    }
+
+    /// Its moments times its density, g, g·mm and g·mm², model frame.
+    fn mass_moments(&self) -> Moments {
+        self.bar().moments() * (self.density_g_cm3 / MM3_PER_CM3)
+    }
+}
+
+/// The moments of all pieces times their densities, model frame.
+pub fn mass_moments(hardware: &[Hardware]) -> Moments {
+    hardware.iter().map(Hardware::mass_moments).fold(Moments::default(), |sum, piece| sum + piece)
+}
+
+/// How the pieces sit in the outer surface.
+pub fn fit(hardware: &[Hardware], aim: &Aim, (outer, wall_mm): (&TriMesh, f64)) -> Option<Fit> {
+    let rooms = hardware.iter().map(|piece| room_mm(&piece.bar(), outer));
+    let room_mm = rooms.min_by(f64::total_cmp)?;
+    let axle = hardware.iter().find(|piece| piece.what == "axle");
+    let radius_mm = |axle: &Hardware| 0.5 * axle.socket_mm + GAP_WALL_RATIO * wall_mm;
+    let gap_mm = axle.and_then(|axle| gap_mm(outer, &aim.frame(), radius_mm(axle)));
+    Some(Fit { room_mm: Some(room_mm), gap_mm })
+}
+
+/// The least distance of the surface from the side of a bar, mm; negative by as much as it reaches in. A bar that lies in the
+/// material as a whole has less than none.
+fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
+    let frame = Frame::with_axis(bar.from, &(bar.to - bar.from));
+    let middle = nalgebra::center(&bar.from, &bar.to);
+    let beside = middle + frame.axes.column(0) * (0.5 * (bar.radius_mm + bar.hole_mm));
+    if winding_number(outer, &beside).abs() > 0.5 {
+        return -bar.radius_mm;
+    }
+    let ends_mm = [END_MM, bar.length_mm() - END_MM];
+    let off_axis = outer.iter_corners().filter_map(|corners| {
+        distance_from_axis(&between(corners.map(|p| frame.to_local(&p).coords), ends_mm))
+    });
+    off_axis.fold(f64::INFINITY, f64::min) - bar.radius_mm
+}
+
+/// The corners of the part of a triangle that lies between two heights (Sutherland and Hodgman, 1974).
+fn between(corners: [Vector; 3], [low_mm, high_mm]: [f64; 2]) -> Vec<Vector> {
+    let above = clipped(&corners, |p| p.z - low_mm);
+    clipped(&above, |p| high_mm - p.z)
+}
+
+/// The part of a polygon where a linear height is not negative.
+fn clipped(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> Vec<Vector> {
+    let mut kept = Vec::new();
+    for (i, p) in polygon.iter().enumerate() {
+        let next = &polygon[(i + 1) % polygon.len()];
+        let (here, there) = (height(p), height(next));
+        if here >= 0.0 {
+            kept.push(*p);
+        }
+        if (here >= 0.0) != (there >= 0.0) {
+            kept.push(p + (next - p) * (here / (here - there)));
+        }
+    }
+    kept
+}
+
+/// How near a polygon comes to the z axis, mm; none for no polygon.
+fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
+    let sides = || polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let turns = |sign: f64| sides().all(|(p, q)| sign * (p.x * q.y - p.y * q.x) > 0.0);
+    if !polygon.is_empty() && (turns(1.0) || turns(-1.0)) {
+        return Some(0.0);
+    }
+    let to_side = |(p, q): (&Vector, &Vector)| {
+        let (start, along) = (p.xy(), q.xy() - p.xy());
+        let length = along.norm_squared();
+        let share = if length > 0.0 { (-start.dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        (start + along * share).norm()
+    };
+    sides().map(to_side).min_by(f64::total_cmp)
+}
+
+/// The least way from half to half along the axis, on lines about it at this radius, mm; none where a line meets only one.
+fn gap_mm(outer: &TriMesh, frame: &Frame, radius_mm: f64) -> Option<f64> {
+    let local: Vec<[Vector; 3]> =
+        outer.iter_corners().map(|corners| corners.map(|p| frame.to_local(&p).coords)).collect();
+    let on_line = |i: usize| {
+        let (sin, cos) = (TAU * (i as f64 + 0.5) / GAP_LINES as f64).sin_cos();
+        let at = Vector::new(radius_mm * cos, radius_mm * sin, 0.0);
+        let heights = local.iter().filter_map(|corners| height_on_line(corners, &at));
+        let [above, below] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[above, below], z| {
+            if z >= 0.0 { [above.min(z), below] } else { [above, below.max(z)] }
+        });
+        above - below
+    };
+    (0..GAP_LINES).map(on_line).min_by(f64::total_cmp).filter(|gap| gap.is_finite())
+}
+
+/// Where the vertical line through a point meets a triangle.
+fn height_on_line(corners: &[Vector; 3], at: &Vector) -> Option<f64> {
+    let [a, b, c] = corners.map(|corner| corner - at);
+    let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
+    let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
+    let area: f64 = weights.iter().sum();
+    let holds = area != 0.0 && weights.iter().all(|w| w * area.signum() >= 0.0);
+    holds.then(|| (weights[0] * a.z + weights[1] * b.z + weights[2] * c.z) / area)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::goal::GoalKind;
+    use crate::verify::test_meshes::block;
+
+    fn rod(what: &str, from_mm: [f64; 3], to_mm: [f64; 3]) -> Hardware {
+        Hardware {
+            id: "H1".into(),
+            what: what.into(),
+            from_mm,
+            to_mm,
+            diameter_mm: 2.0,
+            hole_mm: 0.0,
+            round_end: false,
+            density_g_cm3: 8.0,
+            mass_g: 0.0,
+            depth_mm: 1.0,
+            socket_mm: 2.2,
+        }
+    }
+
+    /// Two blocks of 10 × 10 × 5 mm, 3 mm apart.
+    fn blocks() -> TriMesh {
+        block(Point::new(-5.0, -5.0, 1.5), [10.0, 10.0, 5.0])
+            .joined(&block(Point::new(-5.0, -5.0, -6.5), [10.0, 10.0, 5.0]))
+    }
+
+    #[test]
+    fn the_gap_between_two_blocks_is_their_distance() {
+        let aim = Aim::new(GoalKind::Yoyo, [0.0; 3], [0.0, 0.0, 1.0]);
+        let axle = rod("axle", [0.0, 0.0, -1.4], [0.0, 0.0, 1.4]);
+        let fit = fit(&[axle], &aim, (&blocks(), 1.0)).unwrap();
+        assert!((fit.gap_mm.unwrap() - 3.0).abs() < 1e-12);
+        // Between the faces the rod is in the open: nothing lies beside it.
+        assert_eq!(fit.room_mm, Some(f64::INFINITY));
+    }
+
+    #[test]
+    fn a_rod_has_as_much_room_as_the_wall_beside_it_leaves() {
+        let beside = |x: f64| room_mm(&rod("tip", [x, 0.0, -3.0], [x, 0.0, 9.0]).bar(), &blocks());
+        assert!((beside(7.5) - 1.5).abs() < 1e-12);
+        assert!((beside(5.4) + 0.6).abs() < 1e-12);
+        let within = rod("tip", [0.0, 0.0, 2.0], [0.0, 0.0, 4.0]);
+        assert_eq!(room_mm(&within.bar(), &blocks()), -1.0);
+    }
+
+    #[test]
+    fn a_triangle_about_the_axis_touches_it_and_one_beside_it_does_not() {
+        let about = [Vector::new(-1.0, -1.0, 0.0), Vector::new(2.0, -1.0, 0.0), Vector::new(0.0, 2.0, 0.0)];
+        assert_eq!(distance_from_axis(&about), Some(0.0));
+        let moved = about.map(|p| p + Vector::new(0.0, 3.0, 0.0));
+        assert!((distance_from_axis(&moved).unwrap() - 2.0).abs() < 1e-12);
+    }
+}
