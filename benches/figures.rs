@@ -135,11 +135,11 @@ impl Scene {
     }
 
     fn wall_mm(&self) -> f64 {
-        PRINTED_BY.quantised_wall(Some(WALL_MM)).unwrap().wall_mm
+        PRINTED_BY.quantised_wall(Some(WALL_MM), SIZE_MM).unwrap().wall_mm
     }
 
     fn native_pitch_mm(&self) -> [f64; 2] {
-        PRINTED_BY.solve_pitch_mm(self.wall_mm(), None)
+        PRINTED_BY.solve_pitch_mm(self.wall_mm(), SIZE_MM, None)
     }
 
     fn placement(&self) -> &Placement {
