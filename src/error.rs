@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::ballast::{BallastError, Order};
 use crate::cut::CutError;
 use crate::goal::GoalError;
 use crate::interior::BuildError;
@@ -60,6 +61,15 @@ pub enum Error {
     /// The columns cannot be built.
     #[error(transparent)]
     Columns(#[from] BuildError),
+    /// The ballast cannot be had.
+    #[error(transparent)]
+    Ballast(#[from] BallastError),
+    /// The ballast that was ordered does not fit.
+    #[error("--ballast={order} has no room inside; remedy: order fewer or smaller parts, or none")]
+    NoRoomForBallast {
+        /// What was ordered.
+        order: Order,
+    },
     /// The surface of the voids cannot be made.
     #[error(transparent)]
     Voids(#[from] VoidError),

@@ -9,6 +9,7 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
 
 use crate::{
+    ballast::Order,
     digest::sha256_hex,
     goal::Request,
     toml_text::{self, TextFault},
@@ -40,6 +41,9 @@ pub struct Job {
     pub cut: CutMode,
     /// The file format of the parts.
     pub format: PartFormat,
+    /// The ballast asked for; none where the key is left out.
+    #[serde(default, skip_serializing_if = "Order::is_none")]
+    pub ballast: Order,
     /// What is prepared.
     pub model: ModelChoice,
     /// What prints it.
@@ -136,6 +140,7 @@ impl Job {
             solver: Solver::Quadric,
             cut: CutMode::Auto,
             format: PartFormat::Stl,
+            ballast: Order::None,
             model,
             printer,
             goal,

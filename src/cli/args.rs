@@ -11,6 +11,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 
+use super::ballast_args::BallastArgs;
 use crate::{
     goal::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
@@ -125,6 +126,9 @@ pub struct PrepareArgs {
     /// Cut the object where a void would stay closed, or never [default: auto]
     #[arg(long, value_parser = words::<CutMode>(CutMode::WORDS), help_heading = "Method")]
     pub cut: Option<CutMode>,
+    /// What is laid into it.
+    #[command(flatten)]
+    pub load: BallastArgs,
 
     /// Write the kit to this folder [default: the model's name with -kit]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
@@ -141,7 +145,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 20] = [
+const DECIDED_BY_JOB: [&str; 21] = [
     "printer",
     "material",
     "wall",
@@ -162,6 +166,7 @@ const DECIDED_BY_JOB: [&str; 20] = [
     "pitch",
     "cut",
     "format",
+    "ballast",
 ];
 
 /// How a rotor runs, for the goal balance.
@@ -329,6 +334,7 @@ impl PrepareArgs {
             solver: self.solver.unwrap_or(default.solver),
             cut: self.cut.unwrap_or(default.cut),
             format: self.format.unwrap_or(default.format),
+            ballast: self.load.ballast.unwrap_or(default.ballast),
             ..default
         })
     }

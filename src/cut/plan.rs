@@ -213,7 +213,8 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     for planes in found.plans.iter().take(TRIED_PLANS) {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
-        if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
+        let needed_mm = |void: &VoidAccess| scene.request.needed_mm(void.void, scene.hollowed.voids.len());
+        if voids.iter().all(|void| void.opening_mm >= needed_mm(void)) {
             return Layout::new(scene, planes, voids);
         }
         narrow = narrow.or(Some((planes, voids)));
@@ -285,7 +286,7 @@ fn described(scene: &Scene, layout: Layout, mut notes: Vec<String>) -> Result<Cu
         pin.id = pin_id(index);
     }
     let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
-    notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
+    notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
     let uncut = bridges.iter().map(|bridge| uncut_face(&planes, bridge)).collect();
     Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
 }
@@ -307,8 +308,9 @@ fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin:
 }
 
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.
-fn narrow(request: &PlanRequest, void: &VoidAccess) -> Option<String> {
-    let (index, opening, asked) = (void.void, void.opening_mm, request.min_opening_mm);
+fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
+    let (index, opening) = (void.void, void.opening_mm);
+    let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());
     let note =
         || format!("void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm");
     (opening < asked).then(note)

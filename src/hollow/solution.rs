@@ -50,6 +50,16 @@ pub struct Certificate {
     pub bound_over_heights: Option<f64>,
 }
 
+impl Figure {
+    /// The value so that less is better.
+    pub fn cost(self, value: f64) -> f64 {
+        match self {
+            Self::TopplingAngleRad | Self::MetacentricHeightMm | Self::VolumeMm3 => -value,
+            _ => value,
+        }
+    }
+}
+
 /// Which search an ascent belonged to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]

@@ -1,6 +1,7 @@
 //! Mass properties: the ten moments that add, and the body they describe.
 
 mod body;
+mod lump;
 mod moments;
 mod of_mesh;
 mod submerged;
@@ -8,6 +9,8 @@ mod submerged;
 mod tests;
 
 pub use body::{Body, Principal};
+pub(crate) use lump::rims;
+pub use lump::{Lump, LumpShape};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;
 pub use submerged::{Section, Submerged, submerged};

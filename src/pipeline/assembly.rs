@@ -3,7 +3,9 @@
 use rayon::prelude::*;
 
 use super::{
-    Error, Setup, Solved, phase,
+    Error, Setup, Solved,
+    ballasting::seats,
+    phase,
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids},
     tuning::is_tuned,
@@ -69,7 +71,7 @@ impl Assembly {
         Ok(assembly)
     }
 
-    /// The moments of the written parts put together, model frame.
+    /// The moments of the written parts put together, without ballast, model frame.
     pub fn written_moments(&self) -> Moments {
         written_moments(&self.parts)
     }
@@ -94,12 +96,20 @@ fn planned(
 ) -> Result<(Voids, CutPlan), Error> {
     for _ in 0..MAX_PLANS {
         match planned_once(setup, &voids, request) {
-            Err(CutError::Unopenable { voids: refused, .. }) => voids = tuner.without(&voids, &refused)?,
+            Err(CutError::Unopenable { voids: refused, .. }) if are_plain(setup, &voids, &refused) => {
+                voids = tuner.without(&voids, &refused)?;
+            }
             plan => return Ok((voids, plan?)),
         }
     }
     let plan = planned_once(setup, &voids, request)?;
     Ok((voids, plan))
+}
+
+/// Whether none of these voids is a pocket of ballast, which cannot be left solid.
+fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
+    let plain = voids.hollowed.voids.len() - setup.load.parts.len();
+    refused.iter().all(|&void| void < plain)
 }
 
 fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
@@ -125,7 +135,11 @@ fn assembled(
         let written = written_moments(&parts);
         attempts += 1;
         if attempts == MAX_ASSEMBLIES
-            || is_tuned(goal, &voids.solution.moments, &written.in_frame(&goal.frame))
+            || is_tuned(
+                goal,
+                &voids.solution.moments,
+                &(written + setup.load.moments()).in_frame(&goal.frame),
+            )
         {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
@@ -176,5 +190,6 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
             PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
             PrintPose::CutFaceDown => PosePreference::CutFaceDown,
         },
+        seats: seats(&setup.load),
     }
 }

@@ -92,6 +92,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(promised_part).collect(),
+        ballast: rows::ballast_orders(setup),
         assembly: None,
         files: Default::default(),
     }

@@ -2,6 +2,7 @@
 
 mod advising;
 mod assembly;
+mod ballasting;
 mod kit;
 mod outcome;
 mod rows;
@@ -49,7 +50,8 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
     let setup = waterline::chosen(setup, &mut watch)?;
-    let solved = match Solved::of(&setup, progress, &mut watch)? {
+    let (setup, solved) = ballasting::solved(setup, progress, &mut watch)?;
+    let solved = match solved {
         Ok(solved) => solved,
         Err(impossible) => {
             let advised = advising::advised(&setup, impossible, progress);

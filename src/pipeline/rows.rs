@@ -4,16 +4,17 @@ use std::collections::BTreeMap;
 
 use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, written::WrittenPart};
+use crate::ballast::Placed;
 use crate::cut::PinSite;
 use crate::geom::Vector;
 use crate::goal::{GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
 use crate::report::{
-    Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
+    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
     PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, PromisedFigure, RotorOrder, WaterOrder};
+use crate::verify::{Aim, BallastOrder, FigureName, Judgement, PromisedFigure, RotorOrder, WaterOrder};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -54,6 +55,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         cuts: cut_rows(sheet),
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
+        ballast: ballast_rows(sheet),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -184,7 +186,7 @@ fn certificate(sheet: &Sheet) -> Certificate {
 fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
     let plan = &sheet.assembly.plan;
     let row = |access: &crate::cut::VoidAccess| VoidRow {
-        id: format!("V{}", access.void + 1),
+        id: void_id(access.void),
         volume_mm3: access.volume_mm3,
         opened_by: access.opened_by.clone(),
         opening_mm: access.opening_mm,
@@ -193,6 +195,10 @@ fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
         clean: sheet.setup.printer.cleaning.clone(),
     };
     plan.voids.iter().map(row).collect()
+}
+
+fn void_id(void: usize) -> String {
+    format!("V{}", void + 1)
 }
 
 fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
@@ -271,6 +277,32 @@ fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
             note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
         })
         .collect()
+}
+
+/// The ballast as the judge sees it.
+pub fn ballast_orders(setup: &Setup) -> Vec<BallastOrder> {
+    let order = |(index, placed): (usize, &Placed)| BallastOrder {
+        id: format!("B{}", index + 1),
+        lump: placed.lump,
+    };
+    setup.load.parts.iter().enumerate().map(order).collect()
+}
+
+fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
+    let (load, voids) = (&sheet.setup.load, &sheet.assembly.plan.voids);
+    let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
+    let rows = ballast_orders(sheet.setup).into_iter().zip(&load.parts).zip(pockets);
+    rows.map(|((order, Placed { part, .. }), pocket)| BallastRow {
+        order,
+        part: part.id.clone(),
+        name: part.name.clone(),
+        void: void_id(pocket.void),
+        opened_by: pocket.opened_by.clone(),
+        clearance_mm: load.fit.clearance_mm,
+        mass_spread_ratio: part.mass_spread_ratio,
+        sources: [&part.size, &part.mass].map(|known| format!("{}: {}", known.sure, known.source)),
+    })
+    .collect()
 }
 
 fn warnings(sheet: &Sheet) -> Vec<String> {

@@ -2,10 +2,12 @@
 
 use super::Error;
 use super::advising::Means;
+use crate::ballast::Load;
 use crate::digest::sha256_hex;
 use crate::goal::{Placement, Request, Stock, place_made_of};
 use crate::io;
 use crate::job::Job;
+use crate::mass::Moments;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
 use crate::printer::{Material, Printer, WallChoice, leaves_room};
 use crate::progress::Progress;
@@ -44,6 +46,8 @@ pub struct Setup {
     pub choice: Option<String>,
     /// The goal in the model.
     pub placement: Placement,
+    /// The ballast that is laid in.
+    pub load: Load,
 }
 
 impl Setup {
@@ -60,7 +64,13 @@ impl Setup {
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
-        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement })
+        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement, load: Load::default() })
+    }
+
+    /// The moments of nothing emptied, goal frame: the solid's, and the ballast's less its pockets'.
+    pub fn fixed(&self) -> Moments {
+        let goal = &self.placement.goal;
+        goal.solid + self.load.excess().in_frame(&goal.frame)
     }
 
     /// The name of the job in file names: the model's file name without its ending.

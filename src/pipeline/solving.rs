@@ -42,8 +42,9 @@ impl Solved {
         for (done, pitch_mm) in pitches.into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
             let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent())?;
+            let columns = setup.load.carved(columns, &goal.frame);
             watch.lap("columns");
-            let solution = solution_on(setup, &columns, level.as_ref(), goal.solid);
+            let solution = solution_on(setup, &columns, level.as_ref(), setup.fixed());
             watch.lap("solve");
             if progress.is_cancelled() {
                 return Err(Error::Cancelled);

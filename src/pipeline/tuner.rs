@@ -6,10 +6,10 @@ use super::{Error, Setup, Solved, tuning::is_tuned};
 use crate::hollow::Solution;
 use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Hollowed, TriMesh};
+use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::progress::Progress;
 use crate::report::HeightProof;
-use crate::voids::{Cavity, CavitySpec, grown, without_slivers};
+use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
 /// each may find another void too small; more than a few mean that voids come and go.
@@ -33,7 +33,7 @@ pub struct Voids {
     pub solution: Solution,
     /// The moments of nothing emptied that the solution was found with, goal frame.
     pub fixed: Moments,
-    /// The body with the voids in it.
+    /// The body with the voids in it; the ballast's pockets are the last of them.
     pub hollowed: Hollowed,
     /// The volume of voids that were too small to clean and stay solid, mm³.
     pub refused_mm3: f64,
@@ -63,7 +63,8 @@ pub struct Tuner<'a> {
 impl<'a> Tuner<'a> {
     /// Draws what may be emptied.
     pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
-        let cavity = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
+        let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
+        let cavity = setup.load.jackets().try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
         Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
     }
 
@@ -74,7 +75,7 @@ impl<'a> Tuner<'a> {
 
     /// The voids whose uncut mesh meets the goal's constraints before cuts and pins.
     pub fn first(&mut self) -> Result<Voids, Error> {
-        let voids = self.voids(self.solved.solution.clone(), self.setup.placement.goal.solid, 0)?;
+        let voids = self.voids(self.solved.solution.clone(), self.setup.fixed(), 0)?;
         self.tuned(voids, Moments::default())
     }
 
@@ -83,7 +84,8 @@ impl<'a> Tuner<'a> {
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
-            let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + more).in_frame(&goal.frame);
+            let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
+            let written = (printed + self.setup.load.moments()).in_frame(&goal.frame);
             if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }
@@ -121,7 +123,10 @@ impl<'a> Tuner<'a> {
             bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > least_mm3).collect();
         let refused_mm3 = self.refused_mm3 + crumbs_mm3;
         self.refuse(&significant)?;
-        let hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        let mut hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        for pocket in self.setup.load.pockets() {
+            hollowed.voids.push(Solid::new(pocket.mesh()).map_err(VoidError::from)?);
+        }
         Ok(Voids { solution, fixed, hollowed, refused_mm3, rounds })
     }
 

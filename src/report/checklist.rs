@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::rows::{CutRow, JointRow, PartRow, VoidRow};
+use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use crate::verify::{Aim, Check, FigureName, Figures, PromisedFigure, SCHEMA};
 
@@ -50,6 +50,9 @@ pub struct Checklist {
     pub parts: Vec<PartRow>,
     /// The glue joints, in the order they are made.
     pub joints: Vec<JointRow>,
+    /// The stock parts that are laid in before gluing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ballast: Vec<BallastRow>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.

@@ -62,6 +62,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         cuts: vec![CutRow { id: "C1".into(), point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }],
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
         joints: vec![joint()],
+        ballast: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![

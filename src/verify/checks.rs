@@ -2,7 +2,7 @@
 
 use super::{
     Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder,
-    WaterOrder,
+    WaterOrder, ballast,
 };
 use crate::goal::GoalKind;
 
@@ -43,6 +43,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
     checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
+    checks.extend(found.ballast_room_mm.map(ballast::room_check));
     checks.extend(surface_checks(found));
     checks.extend(plate_checks(&found.parts));
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));

@@ -64,10 +64,23 @@ pub struct Figures {
     pub afloat: Option<Afloat>,
 }
 
+impl Setting {
+    /// The density, g/mm³.
+    pub fn density_g_mm3(&self) -> f64 {
+        self.density_g_cm3 / MM3_PER_CM3
+    }
+}
+
 impl Figures {
+    /// The figures of a printed region with a load inside, both as moments of the print's density (model frame); the
+    /// volume is that of the print alone.
+    pub fn loaded(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
+        Self { volume_mm3: printed.volume(), ..Self::new(&(*printed + *load), setting) }
+    }
+
     /// The figures of the region with these moments (model frame). As exact as the moments: nothing is sampled.
     pub fn new(moments: &Moments, setting: &Setting) -> Self {
-        let body = Body::new(moments, setting.density_g_cm3 / MM3_PER_CM3);
+        let body = Body::new(moments, setting.density_g_mm3());
         let frame = setting.aim.frame();
         let plain = Self::without_goal(moments.volume(), &body);
         match setting.aim.kind {
@@ -146,7 +159,7 @@ impl Figures {
     }
 
     fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
-        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_cm3 / MM3_PER_CM3);
+        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_mm3());
         let center = local.centroid();
         let unbalance = setting.aim.rotor.zip(setting.ends_mm);
         Self {

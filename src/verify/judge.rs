@@ -4,7 +4,11 @@ use rayon::prelude::*;
 
 use super::{
     Check, Figures, Hull, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
-    assembly_moments, checks, rotor::ends_mm, smallest_wall_mm,
+    assembly_moments,
+    ballast::{ballast_moments, least_room_mm},
+    checks,
+    rotor::ends_mm,
+    smallest_wall_mm,
 };
 use crate::goal::GoalKind;
 use crate::mass::moments_of_mesh;
@@ -26,9 +30,9 @@ pub struct Evidence {
 pub struct Judgement {
     /// The figures of the outer surface filled solid.
     pub solid: Figures,
-    /// The figures of the uncut result.
+    /// The figures of the uncut result with its ballast.
     pub hollowed: Figures,
-    /// The figures of the parts put together.
+    /// The figures of the parts put together with the ballast.
     pub assembly: Figures,
     /// What is true of the uncut result's surface.
     pub surface: SurfaceFacts,
@@ -36,6 +40,8 @@ pub struct Judgement {
     pub parts: Vec<PartFacts>,
     /// The smallest wall between a void and the outside, mm; none without voids.
     pub wall_min_mm: Option<f64>,
+    /// The least gap around a part of ballast, mm; none without ballast.
+    pub ballast_room_mm: Option<f64>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -56,14 +62,17 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let shells = Shells::of_mesh(&welded);
     let outer = shells.outer_mesh();
     let setting = setting(&evidence.promise, &outer);
-    let figures_of = |moments| Figures::new(&moments, &setting);
+    let ballast = &evidence.promise.ballast;
+    let load = ballast_moments(ballast, setting.density_g_mm3());
+    let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
     let mut judgement = Judgement {
-        solid: figures_of(moments_of_mesh(&outer)),
+        solid: Figures::new(&moments_of_mesh(&outer), &setting),
         hollowed: figures_of(moments_of_mesh(&welded)),
         assembly: figures_of(assembly_moments(&evidence.parts)),
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
+        ballast_room_mm: least_room_mm(ballast, &welded, &outer),
         checks: Vec::new(),
     };
     judgement.checks = checks(&evidence.promise, &judgement);

@@ -40,6 +40,7 @@ fn promise(poses: &[Pose]) -> Promise {
         promise: None,
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
+        ballast: Vec::new(),
         assembly: None,
         files: Default::default(),
     }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Figures, Pose, RotorOrder, WaterOrder};
+use super::{BallastOrder, Figures, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -31,6 +31,9 @@ pub struct Promise {
     pub wall: WallOrder,
     /// The parts, in the order of the checklist.
     pub parts: Vec<PromisedPart>,
+    /// The stock parts that are laid into its voids.
+    #[serde(default)]
+    pub ballast: Vec<BallastOrder>,
     /// The figures of the assembly as the checklist states them; absent while the checklist is being made.
     #[serde(default)]
     pub assembly: Option<Figures>,
