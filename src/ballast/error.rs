@@ -19,7 +19,9 @@ pub enum StockFault {
         table: &'static str,
     },
     /// A size or mass that is none.
-    #[error("{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its name ends in")]
+    #[error(
+        "{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its name ends in"
+    )]
     NotPositive {
         /// The catalogue.
         file: String,
@@ -29,7 +31,9 @@ pub enum StockFault {
         key: &'static str,
     },
     /// A part lighter or heavier than anything of its size.
-    #[error("{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its sizes in mm")]
+    #[error(
+        "{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its sizes in mm"
+    )]
     Implausible {
         /// The catalogue.
         file: String,

@@ -42,11 +42,6 @@ impl Rank {
         }
     }
 
-    /// Whether it is possible.
-    pub fn is_possible(self) -> bool {
-        self.0 <= PARTIAL
-    }
-
     /// Whether it does all that was asked.
     pub fn is_full(self) -> bool {
         self.0 == FULL

@@ -5,7 +5,7 @@ use super::rank::Rank;
 use super::sites::{Sites, Wish};
 use super::{BallastError, Fit, MOST_PARTS, Order, Part, catalogue, find};
 use crate::goal::Placement;
-use crate::hollow::{Problem, Settings, Solution, least_ballast, solve};
+use crate::hollow::{Problem, Settings, Solution, has_spare, least_ballast, solve};
 use crate::interior::Columns;
 use crate::mesh::Solid;
 use crate::progress::Progress;
@@ -109,11 +109,11 @@ impl<'a> Search<'a> {
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
 
-    /// So many of a part, if that makes the goal possible on finer columns too.
+    /// So many of a part, if that makes the goal possible with something to spare, on finer columns too.
     fn possible(&self, part: &Part, count: u32) -> Option<Found> {
         let found = self.so_many(part, count)?;
         let fine = self.solved(found.load, &self.fine);
-        self.rank(&fine.solution).is_possible().then_some(fine)
+        has_spare(&self.shop.placement.goal, &fine.solution).then_some(fine)
     }
 
     /// So many of a part, each where it acts most; none where they do not fit.
@@ -141,7 +141,8 @@ impl<'a> Search<'a> {
             // With the prices of the answer at hand: the multipliers know what the other parts already do.
             let rest = Found { load: rest, solution: found.solution.clone() };
             let Some(after) = self.placed(part, &rest) else { continue };
-            let ways = STEPS.iter().filter_map(|&share| self.sites.between(&before, &after, share, &rest.load));
+            let ways =
+                STEPS.iter().filter_map(|&share| self.sites.between(&before, &after, share, &rest.load));
             let tried = ways.map(|placed| self.solved(rest.load.with(placed), &self.coarse));
             let better = |other: &Found| self.rank(&other.solution).beats(self.rank(&found.solution));
             if let Some(other) = { tried }.find(better) {

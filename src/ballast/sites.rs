@@ -143,9 +143,8 @@ impl<'a> Sites<'a> {
                 let way = Vector::ith(i / 2, if i % 2 == 0 { step_mm } else { -step_mm });
                 (stamp_cost(stamp, wish, &(best.1 + way)), best.1 + way)
             });
-            let gains = moves.filter(|(cost, p)| {
-                *cost < best.0 && self.has_room(&self.lump(wish, stamp, p), wish.load)
-            });
+            let gains = moves
+                .filter(|(cost, p)| *cost < best.0 && self.has_room(&self.lump(wish, stamp, p), wish.load));
             match gains.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some(better) => best = better,
                 None if step_mm < FINEST_STEP_MM => break,
@@ -172,12 +171,19 @@ fn points_of(columns: &Columns, step_mm: f64) -> Vec<Point> {
         let [x, y] = columns.centers[*column];
         is_row(x, px) && is_row(y, py)
     };
-    (0..columns.len()).filter(is_taken).flat_map(|column| {
-        let [x, y] = columns.centers[column];
-        columns.intervals_of(column).iter().flat_map(move |&[bottom, top]| {
-            let steps = ((top - bottom) / step_mm).floor() as u32;
-            let middle = 0.5 * (bottom + top - f64::from(steps) * step_mm);
-            (0..=steps).map(move |i| Point::new(x, y, middle + f64::from(i) * step_mm))
-        }).collect::<Vec<_>>()
-    }).collect()
+    (0..columns.len())
+        .filter(is_taken)
+        .flat_map(|column| {
+            let [x, y] = columns.centers[column];
+            columns
+                .intervals_of(column)
+                .iter()
+                .flat_map(move |&[bottom, top]| {
+                    let steps = ((top - bottom) / step_mm).floor() as u32;
+                    let middle = 0.5 * (bottom + top - f64::from(steps) * step_mm);
+                    (0..=steps).map(move |i| Point::new(x, y, middle + f64::from(i) * step_mm))
+                })
+                .collect::<Vec<_>>()
+        })
+        .collect()
 }

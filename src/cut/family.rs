@@ -132,7 +132,8 @@ fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Cand
 /// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part into.
 fn candidate(plane: Plane, extents: &[Extent], seats: &[Seat]) -> Candidate {
     let (offset_mm, first) = (plane.offset_mm, extents.len().saturating_sub(seats.len()));
-    let is_seat_opened = |i: usize| i.checked_sub(first).and_then(|i| seats.get(i)).is_none_or(|s| s.is_opened_by(&plane));
+    let is_seat_opened =
+        |i: usize| i.checked_sub(first).and_then(|i| seats.get(i)).is_none_or(|s| s.is_opened_by(&plane));
     let met = || extents.iter().enumerate().filter(|(i, e)| e.meets(offset_mm) && is_seat_opened(*i));
     Candidate {
         plane,

@@ -121,8 +121,10 @@ fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
 /// What the candidate opens, measured on its sections.
 fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     let openings = scene.openings(&candidate.plane, candidate.met);
-    let enough = |void: usize, o: &Option<Opening>| o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void));
-    let opened = openings.iter().enumerate().filter(|(i, o)| enough(*i, o)).fold(0, |set, (i, _)| set | 1 << i);
+    let enough =
+        |void: usize, o: &Option<Opening>| o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void));
+    let opened =
+        openings.iter().enumerate().filter(|(i, o)| enough(*i, o)).fold(0, |set, (i, _)| set | 1 << i);
     Exact { plane: candidate.plane, openings, opened }
 }
 

@@ -66,7 +66,9 @@ mod tests {
     fn a_ball_goes_in_where_the_opening_is_as_wide_as_itself() {
         let seat = Seat { center: Point::origin(), axis: None, radius_mm: 2.1, opening_mm: 4.0 };
         // The opening at distance t has the radius √(2.1² − t²), which is 2 at 0.64.
-        assert!(seat.is_opened_by(&plane(Vector::x(), 0.63)) && !seat.is_opened_by(&plane(Vector::x(), 0.65)));
+        assert!(
+            seat.is_opened_by(&plane(Vector::x(), 0.63)) && !seat.is_opened_by(&plane(Vector::x(), 0.65))
+        );
     }
 
     #[test]

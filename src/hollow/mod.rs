@@ -142,7 +142,7 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
-pub use ballast::{Ballast, least_ballast};
+pub use ballast::{Ballast, has_spare, least_ballast};
 pub use golden::golden_section;
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};

@@ -138,7 +138,14 @@ impl Lump {
         if self.shape.is_ball() {
             return (vec![center], self.shape.radius_mm());
         }
-        (rims(&center, &Vector::from(self.axis).normalize(), [self.shape.radius_mm(), self.shape.half_height_mm()]), 0.0)
+        (
+            rims(
+                &center,
+                &Vector::from(self.axis).normalize(),
+                [self.shape.radius_mm(), self.shape.half_height_mm()],
+            ),
+            0.0,
+        )
     }
 }
 

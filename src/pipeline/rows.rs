@@ -11,8 +11,8 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
 use crate::report::{
-    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow, PegRow,
-    PrinterRow, Tool, VoidRow, WallRow,
+    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow,
+    PegRow, PrinterRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{Aim, BallastOrder, FigureName, Judgement, PromisedFigure, RotorOrder, WaterOrder};
 
@@ -281,10 +281,8 @@ fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
 
 /// The ballast as the judge sees it.
 pub fn ballast_orders(setup: &Setup) -> Vec<BallastOrder> {
-    let order = |(index, placed): (usize, &Placed)| BallastOrder {
-        id: format!("B{}", index + 1),
-        lump: placed.lump,
-    };
+    let order =
+        |(index, placed): (usize, &Placed)| BallastOrder { id: format!("B{}", index + 1), lump: placed.lump };
     setup.load.parts.iter().enumerate().map(order).collect()
 }
 

@@ -64,7 +64,18 @@ impl Setup {
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
-        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement, load: Load::default() })
+        Ok(Self {
+            job,
+            model,
+            printer,
+            material,
+            wall,
+            pitch_mm,
+            request,
+            choice,
+            placement,
+            load: Load::default(),
+        })
     }
 
     /// The moments of nothing emptied, goal frame: the solid's, and the ballast's less its pockets'.

@@ -2,28 +2,67 @@
 
 use maud::{Markup, html};
 
-use super::page::{figure, mass_with_window};
-use super::words::quantity;
-use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
+use super::page::{figure, mass_window, mass_with_window};
+use super::words::{coordinates, quantity};
+use super::{BallastRow, Checklist, JointRow, PartRow, Picture, VoidRow};
 use crate::goal::GoalKind;
 use crate::units::counted;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// Every step: print, clean, dry fit, glue, weigh, test.
+/// Every step: print, clean, dry fit, lay in the ballast if there is any, glue, weigh, test.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     let steps = [
-        ("1. Print", print(sheet, pictures)),
-        ("2. Clean every void", clean(sheet)),
-        ("3. Dry fit", dry_fit(sheet)),
-        ("4. Glue", glue(sheet)),
-        ("5. Weigh", weigh(sheet)),
-        ("6. Test", test(sheet)),
+        Some(("Print", print(sheet, pictures))),
+        Some(("Clean every void", clean(sheet))),
+        Some(("Dry fit", dry_fit(sheet))),
+        (!sheet.ballast.is_empty()).then(|| ("Lay in the ballast", ballast(sheet))),
+        Some(("Glue", glue(sheet))),
+        Some(("Weigh", weigh(sheet))),
+        Some(("Test", test(sheet))),
     ];
     html! {
-        @for (name, step) in &steps { section { h2 { (name) } (step) } }
+        @for (index, (name, step)) in steps.iter().flatten().enumerate() {
+            section { h2 { (index + 1) ". " (name) } (step) }
+        }
     }
+}
+
+fn ballast(sheet: &Checklist) -> Markup {
+    html! {
+        p { "Weigh each piece first: one outside its window spoils the balance. Glue it into its pocket so that it cannot rattle." }
+        table {
+            tr {
+                th { "Done" } th { "Piece" } th class="n" { "Mass" } th { "Weighed, g" } th { "Into" } th { "Centre, model frame" }
+            }
+            @for row in &sheet.ballast { (ballast_line(row)) }
+        }
+        p class="small" { "What the sizes and masses rest on:" }
+        @for source in ballast_sources(sheet) { p class="small" { (source) } }
+    }
+}
+
+fn ballast_line(row: &BallastRow) -> Markup {
+    let lump = &row.order.lump;
+    html! {
+        tr {
+            td { "☐" }
+            td { strong { (row.order.id) } ": " (row.name) " (" code { (row.part) } ")" }
+            td class="n" { (mass_window(lump.mass_g, row.mass_spread_ratio)) }
+            td { (blank()) }
+            td { "pocket " (row.void) ", open along " (row.opened_by.join(", ")) ", " (quantity(row.clearance_mm, "mm")) " of room all around" }
+            td { (coordinates(&lump.center_mm)) @if !lump.shape.is_ball() { ", axis " (coordinates(&lump.axis)) } }
+        }
+    }
+}
+
+/// The sources of the ballast's numbers, each once.
+fn ballast_sources(sheet: &Checklist) -> Vec<&String> {
+    let mut sources: Vec<&String> = sheet.ballast.iter().flat_map(|row| &row.sources).collect();
+    sources.sort();
+    sources.dedup();
+    sources
 }
 
 fn print(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -144,10 +183,23 @@ fn weigh(sheet: &Checklist) -> Markup {
                 tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { "☐" } }
             }
             tr {
-                td { strong { "all, glued" } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { "☐" }
+                td { strong { "all, glued" } } td class="n" { (assembled_mass(sheet)) } td { (blank()) } td { "☐" }
             }
         }
         p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
+    }
+}
+
+/// The mass of everything, with the window that the print's density and the pieces of ballast leave.
+fn assembled_mass(sheet: &Checklist) -> Markup {
+    let (ballast, spread) = sheet.ballast.iter().fold((0.0, 0.0), |(mass, spread), row| {
+        let mass_g = row.order.lump.mass_g;
+        (mass + mass_g, spread + mass_g * row.mass_spread_ratio)
+    });
+    let mass_g = sheet.assembly.mass_g;
+    match sheet.material.density_spread_ratio {
+        Some(ratio) => mass_window(mass_g, (ratio * (mass_g - ballast) + spread) / mass_g),
+        None => mass_with_window(sheet, mass_g),
     }
 }
 
