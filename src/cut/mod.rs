@@ -2,6 +2,7 @@
 
 mod access;
 mod cover;
+mod describe;
 mod error;
 mod family;
 mod opening;
@@ -11,6 +12,7 @@ mod pattern;
 mod pin_shape;
 mod pins;
 mod plan;
+mod planner;
 mod pose;
 mod rejoin;
 mod request;
@@ -31,7 +33,8 @@ pub use access::VoidAccess;
 pub use error::CutError;
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
-pub use plan::{Cut, CutPlan, JointNote, UncutFace, plan, plan_for_cuts, plan_of};
+pub use plan::{Cut, CutPlan, JointNote, UncutFace};
+pub use planner::{plan, plan_for_cuts, plan_of};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use seat::Seat;

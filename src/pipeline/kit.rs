@@ -2,14 +2,15 @@
 
 use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
+use crate::cut::CutPlan;
 use crate::digest::sha256_hex;
 use crate::io::stl;
 use crate::mesh::weld;
 use crate::progress::Progress;
 use crate::report::{Checklist, Kit, Picture, Sitting, Verdict, album, page};
 use crate::verify::{
-    Density, Evidence, FigureName, Judgement, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart,
-    SCHEMA, Shells, WallOrder, checks, judge,
+    Density, Evidence, FigureName, Judgement, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA,
+    Shells, WallOrder, checks, judge,
 };
 
 /// The name of the uncut result in a kit.
@@ -91,22 +92,23 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         goal: rows::aim(setup),
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
-        parts: assembly.parts.iter().map(promised_part).collect(),
+        parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
+        joints: rows::promised_joints(setup, &assembly.plan),
         ballast: rows::ballast_orders(setup),
         assembly: None,
         files: Default::default(),
     }
 }
 
-fn promised_part(written: &super::written::WrittenPart) -> PromisedPart {
+fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> PromisedPart {
     let part = &written.part;
     PromisedPart {
         id: part.id.clone(),
         file: written.file.clone(),
         sha256: sha256_hex(&[&written.bytes]),
         print_from_model: written.evidence().pose,
-        pins: part.pins.iter().map(|pin| Peg { volume_mm3: pin.pin_volume_mm3() }).collect(),
-        sockets: part.sockets.iter().map(|pin| Peg { volume_mm3: pin.socket_volume_mm3() }).collect(),
+        pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
+        sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),
     }
 }
 

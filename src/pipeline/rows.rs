@@ -5,16 +5,18 @@ use std::collections::BTreeMap;
 use super::kit::{figure_name, verdict};
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::ballast::Placed;
-use crate::cut::PinSite;
+use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
 use crate::goal::{GoalKind, Objective, Rotor, Warning};
 use crate::hollow;
 use crate::printer::{Sourced, Support};
 use crate::report::{
     BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, MaterialRow, ModelRow, PartRow,
-    PegRow, PrinterRow, Tool, VoidRow, WallRow,
+    PrinterRow, Tool, VoidRow, WallRow,
 };
-use crate::verify::{Aim, BallastOrder, FigureName, Judgement, PromisedFigure, RotorOrder, WaterOrder};
+use crate::verify::{
+    Aim, BallastOrder, FigureName, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder, WaterOrder,
+};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -225,39 +227,47 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 size_mm: facts.size_mm,
                 lies: lies(written, sheet),
                 print_from_model: written.evidence().pose,
-                pins: part.pins.iter().map(|pin| pin_row(pin, sheet)).collect(),
-                sockets: part.sockets.iter().map(|pin| socket_row(pin, sheet)).collect(),
+                pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
+                sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })
         .collect()
 }
 
-fn pin_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
-    PegRow {
-        id: pin.id.clone(),
-        joint: joint_of(pin, sheet),
-        center_mm: pin.center_mm,
-        axis: pin.direction,
-        diameter_mm: pin.diameter_mm,
-        length_mm: pin.length_mm,
-        volume_mm3: pin.pin_volume_mm3(),
+/// A pin as the sheet names it.
+pub fn pin(site: &PinSite, plan: &CutPlan) -> Peg {
+    Peg {
+        id: site.id.clone(),
+        joint: joint_of(site, plan),
+        center_mm: site.center_mm,
+        axis: site.direction,
+        diameter_mm: site.diameter_mm,
+        length_mm: site.length_mm,
+        volume_mm3: site.pin_volume_mm3(),
     }
 }
 
-fn socket_row(pin: &PinSite, sheet: &Sheet) -> PegRow {
-    PegRow {
-        diameter_mm: pin.socket_diameter_mm,
-        length_mm: pin.socket_depth_mm,
-        volume_mm3: pin.socket_volume_mm3(),
-        ..pin_row(pin, sheet)
+/// The pin's socket as the sheet names it.
+pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
+    Peg {
+        diameter_mm: site.socket_diameter_mm,
+        length_mm: site.socket_depth_mm,
+        volume_mm3: site.socket_volume_mm3(),
+        ..pin(site, plan)
     }
 }
 
 /// The name of the joint a pin belongs to.
-fn joint_of(pin: &PinSite, sheet: &Sheet) -> String {
-    let joint = sheet.assembly.plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
+fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
+    let joint = plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
     joint.map(joint_id).unwrap_or_default()
+}
+
+/// What is ordered of each joint.
+pub fn promised_joints(setup: &Setup, plan: &CutPlan) -> Vec<PromisedJoint> {
+    let clearance_mm = setup.printer.clearance_per_side_mm.value;
+    (0..plan.joints.len()).map(|index| PromisedJoint { id: joint_id(index), clearance_mm }).collect()
 }
 
 fn joint_id(index: usize) -> String {

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, Pose};
+use crate::verify::{BallastOrder, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -56,31 +56,12 @@ pub struct PartRow {
     /// Model coordinates to print coordinates, rows.
     pub print_from_model: Pose,
     /// The pins that stand out of it.
-    pub pins: Vec<PegRow>,
+    pub pins: Vec<Peg>,
     /// The sockets sunk into it.
-    pub sockets: Vec<PegRow>,
+    pub sockets: Vec<Peg>,
     /// Its picture, relative to the kit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,
-}
-
-/// One pin or socket.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct PegRow {
-    /// Its name; a pin and its socket share it.
-    pub id: String,
-    /// The joint it belongs to.
-    pub joint: String,
-    /// The middle of its base on the cut, model frame, mm.
-    pub center_mm: [f64; 3],
-    /// Its direction out of (pin) or into (socket) the part's cut face, unit, model frame.
-    pub axis: [f64; 3],
-    /// mm.
-    pub diameter_mm: f64,
-    /// Its length or depth, mm.
-    pub length_mm: f64,
-    /// What it adds to the hollowed body, or takes from it, mm³, of the triangles as written.
-    pub volume_mm3: f64,
 }
 
 /// One glue joint.

@@ -1,7 +1,7 @@
 //! The list of checks, and the limits they hold.
 
 use super::{
-    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, Promise, RotorOrder,
+    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, RotorOrder,
     WaterOrder, ballast,
 };
 use crate::goal::GoalKind;
@@ -30,6 +30,12 @@ pub const VOLUME_SUM_LIMIT_RATIO: f64 = 1e-6;
 pub const RESTING_LIMIT_MM: f64 = 1e-4;
 /// A pose's matrix is rigid within this: rounding of a 4×4 matrix is 1e-15, a mirror 2, a 0.01 % stretch 2e-4.
 pub const POSE_LIMIT_RATIO: f64 = 1e-9;
+/// A pin or socket may be this far from its promised radius, length or depth, mm: the flats of a circle of 48 sides lie 0.004 mm
+/// inside it at 4 mm across; above it a pin may bind, or rattle.
+pub const PIN_LIMIT_MM: f64 = 0.02;
+/// The gap between a pin and its socket may be this much narrower than ordered, mm: the rounding of files; above it, and
+/// still far below what a printer can hold, a shop's own clearance would be eaten into.
+pub const GAP_TOLERANCE_MM: f64 = 1e-3;
 /// The written assembly may miss the promised figure by this share: above the rounding of STL (1e-6), below
 /// anything a person can measure.
 pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
@@ -48,6 +54,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(plate_checks(&found.parts));
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
     checks.push(volume_check(promise, found));
+    checks.extend(joint_checks(promise, found));
     checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));
     checks
 }
@@ -210,6 +217,48 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
         Some(error),
         Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
     )
+}
+
+/// Whether the pins are in the files, fit their sockets, and leave the wall; and the parts leave each other room.
+fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
+    let apart = none("overlap", "no part reaches into another", found.overlaps);
+    if found.pegs.is_empty() {
+        return vec![apart];
+    }
+    let (deviation_mm, off_at) = worst_of(&found.pegs, |peg| Some(peg.deviation_mm));
+    let (lack_mm, tight_at) = worst_of(&found.pegs, |peg| Some(peg.ordered_gap_mm - peg.gap_mm?));
+    let (wall_lack_mm, thin_at) = worst_of(&found.pegs, |peg| Some(promise.wall.required_mm - peg.wall_mm));
+    let wall_mm = wall_lack_mm.map(|lack_mm| promise.wall.required_mm - lack_mm);
+    vec![
+        Check::new(
+            "pins",
+            "every pin and socket has its size, within",
+            deviation_mm,
+            Limit::at_most(PIN_LIMIT_MM, "mm"),
+        )
+        .at(off_at),
+        Check::new(
+            "clearance",
+            "the gap of every pin on each side is the ordered one, short by",
+            lack_mm,
+            Limit::at_most(GAP_TOLERANCE_MM, "mm"),
+        )
+        .at(tight_at),
+        wall_around_check(promise, wall_mm).at(thin_at),
+        apart,
+    ]
+}
+
+fn wall_around_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
+    let limit = Limit::at_least(promise.wall.required_mm - WALL_TOLERANCE_MM, "mm");
+    Check::new("socket wall", "the wall around every socket is at least", wall_mm, limit)
+}
+
+/// The largest value of any pin and which; not a number, so that the check fails, where one has none.
+fn worst_of(pegs: &[PegFacts], value: impl Fn(&PegFacts) -> Option<f64>) -> (Option<f64>, Option<String>) {
+    let of = |peg: &PegFacts| value(peg).unwrap_or(f64::INFINITY);
+    let worst = pegs.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
+    (worst.map(of), worst.map(|peg| peg.id.clone()))
 }
 
 /// Whether the checklist states the figures of the files: the largest difference in mass, centre (in radii of

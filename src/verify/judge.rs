@@ -2,8 +2,9 @@
 
 use rayon::prelude::*;
 
+use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, Hull, PartEvidence, PartFacts, Promise, Setting, Shells, Support, SurfaceFacts,
+    Check, Figures, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments,
     ballast::{ballast_moments, least_room_mm},
     checks,
@@ -42,6 +43,10 @@ pub struct Judgement {
     pub wall_min_mm: Option<f64>,
     /// The least gap around a part of ballast, mm; none without ballast.
     pub ballast_room_mm: Option<f64>,
+    /// Every pin and its socket, as found in the files.
+    pub pegs: Vec<PegFacts>,
+    /// How many of a sample of places just under the parts' surfaces lie in another part too.
+    pub overlaps: usize,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -65,6 +70,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let ballast = &evidence.promise.ballast;
     let load = ballast_moments(ballast, setting.density_g_mm3());
     let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
+    let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let mut judgement = Judgement {
         solid: Figures::new(&moments_of_mesh(&outer), &setting),
         hollowed: figures_of(moments_of_mesh(&welded)),
@@ -73,6 +79,8 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
         ballast_room_mm: least_room_mm(ballast, &welded, &outer),
+        pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
+        overlaps: overlaps(&felt),
         checks: Vec::new(),
     };
     judgement.checks = checks(&evidence.promise, &judgement);

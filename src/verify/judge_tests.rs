@@ -41,13 +41,14 @@ fn promise(poses: &[Pose]) -> Promise {
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
         ballast: Vec::new(),
+        joints: vec![],
         assembly: None,
         files: Default::default(),
     }
 }
 
 /// The names of the checks a kit fails.
-fn failures(evidence: &Evidence) -> Vec<String> {
+pub(crate) fn failures(evidence: &Evidence) -> Vec<String> {
     judge(evidence).checks.into_iter().filter(|check| !check.pass).map(|check| check.name).collect()
 }
 
@@ -122,7 +123,7 @@ fn a_part_too_large_for_the_printer_is_found() {
 #[test]
 fn a_socket_that_was_never_sunk_is_found() {
     let mut evidence = sound();
-    evidence.promise.parts[0].sockets = vec![Peg { volume_mm3: 0.1 }];
+    evidence.promise.parts[0].sockets = vec![pegs_tests::peg(0.4, 0.8, 0.1)];
     assert_eq!(failures(&evidence), ["volumes"]);
 }
 

@@ -11,6 +11,9 @@ mod kit;
 #[cfg(test)]
 mod kit_tests;
 mod measure;
+mod pegs;
+#[cfg(test)]
+mod pegs_tests;
 mod pose;
 mod promise;
 mod rotor;
@@ -24,17 +27,20 @@ mod water;
 pub use ballast::BallastOrder;
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
-    METACENTRIC_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG, SHEET_LIMIT_RATIO,
-    STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,
+    METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG,
+    SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM,
+    checks,
 };
 pub use figures::{Figures, Setting};
 pub use judge::{Evidence, Judgement, judge, setting};
 pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
+pub use pegs::PegFacts;
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA, WallOrder,
+    Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
+    SCHEMA, WallOrder,
 };
 pub use rotor::{RotorOrder, Unbalance};
 pub use shells::Shells;

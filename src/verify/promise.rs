@@ -34,6 +34,9 @@ pub struct Promise {
     /// The stock parts that are laid into its voids.
     #[serde(default)]
     pub ballast: Vec<BallastOrder>,
+    /// The joints between them.
+    #[serde(default)]
+    pub joints: Vec<PromisedJoint>,
     /// The figures of the assembly as the checklist states them; absent while the checklist is being made.
     #[serde(default)]
     pub assembly: Option<Figures>,
@@ -190,8 +193,37 @@ pub struct PromisedPart {
 }
 
 /// What a pin adds to the hollowed body, or a socket takes from it.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Peg {
+    /// Its name; a pin and its socket share it.
+    pub id: String,
+    /// The joint it belongs to.
+    pub joint: String,
+    /// The middle of its base on the cut, model frame, mm.
+    pub center_mm: [f64; 3],
+    /// Its direction: out of the part that has the pin, into the part that has the socket; model frame.
+    pub axis: [f64; 3],
+    /// mm.
+    pub diameter_mm: f64,
+    /// The pin's length or the socket's depth, mm.
+    pub length_mm: f64,
     /// mm³, of the triangles as written.
     pub volume_mm3: f64,
+}
+
+/// What was ordered of the pins of a joint.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct PromisedJoint {
+    /// The name on the sheet, such as `J1`.
+    pub id: String,
+    /// The gap between pin and socket on each side, mm.
+    pub clearance_mm: f64,
+}
+
+impl Promise {
+    /// The gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is not in the list.
+    pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
+        let found = self.joints.iter().find(|known| known.id == joint);
+        found.map_or(0.0, |joint| joint.clearance_mm)
+    }
 }

@@ -21,6 +21,8 @@ import trimesh
 GRAVITY_MM_S2 = 9806.65
 AXIS_OFFSET_LIMIT_MM = 0.005
 AXIS_TILT_LIMIT_DEG = 0.05
+PIN_TOLERANCE_MM = 0.02
+GAP_TOLERANCE_MM = 1e-3
 WALL_TOLERANCE_MM = 0.01
 VOLUME_SUM_LIMIT_RATIO = 1e-6
 RESTING_LIMIT_MM = 1e-4
@@ -380,6 +382,53 @@ def smallest_wall(outer, voids):
     return float(min(distances))
 
 
+def first_hits(corners, origins, directions):
+    """How far each ray goes until it meets a triangle; infinite where it meets none. A plane and three sides each."""
+    a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    reached = np.full(len(origins), np.inf)
+    for i, (origin, direction) in enumerate(zip(origins, directions)):
+        across = np.cross(direction, ac)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            scale = 1 / np.einsum("ij,ij->i", ab, across)
+            u = np.einsum("ij,ij->i", origin - a, across) * scale
+            turned = np.cross(origin - a, ab)
+            v, t = turned @ direction * scale, np.einsum("ij,ij->i", ac, turned) * scale
+            met = (u >= 0) & (v >= 0) & (u + v <= 1) & (t > 0)
+        reached[i] = t[met].min(initial=np.inf)
+    return reached
+
+
+def felt(corners, peg, pin_length):
+    """Distances of a pin's or socket's sides from its axis, and how far from the cut it ends, by rays in a part's file."""
+    axis, center = np.array(peg["axis"]), np.array(peg["center_mm"])
+    reach = 2 * (peg["diameter_mm"] + peg["length_mm"])
+    near = (corners.min(axis=1) <= center + reach).all(axis=1) & (corners.max(axis=1) >= center - reach).all(axis=1)
+    corners = corners[near]
+    u = np.cross(axis, np.eye(3)[np.abs(axis).argmin()])
+    u /= np.linalg.norm(u)
+    v = np.cross(axis, u)
+    sides = [u * math.cos(a) + v * math.sin(a) for a in np.arange(60) * math.tau / 60 + 0.01]
+    places = [center + axis * share * pin_length for share in (0.4, 0.6)]
+    radii = first_hits(corners, [p for p in places for _ in sides], sides * len(places))
+    middle = center + axis * pin_length / 2
+    ends = pin_length / 2 + first_hits(corners, [middle + s * peg["diameter_mm"] / 7 for s in sides[::20]], [axis] * 3)
+    return radii, ends
+
+
+def judge_pins(table, sheet, parts):
+    """Every pin stands in its part's file, and its socket in its mate's, with the gap of the joint between them."""
+    sockets = {peg["id"]: (peg, corners) for part, corners in zip(sheet["parts"], parts) for peg in part["sockets"]}
+    gaps = {joint["id"]: joint["clearance_mm"] for joint in sheet["joints"]}
+    for part, corners in zip(sheet["parts"], parts):
+        for pin in part["pins"]:
+            socket, mate = sockets[pin["id"]]
+            (radii, ends), (bores, depths) = felt(corners, pin, pin["length_mm"]), felt(mate, socket, pin["length_mm"])
+            off = [radii.max() - pin["diameter_mm"] / 2, bores.min() - socket["diameter_mm"] / 2]
+            off += list(ends - pin["length_mm"]) + list(depths - socket["length_mm"])
+            table.at_most(f"{pin['id']} pin and socket off by, mm", PIN_TOLERANCE_MM, np.abs(off).max())
+            table.at_least(f"{pin['id']} gap, mm", gaps[pin["joint"]] - GAP_TOLERANCE_MM, (bores - radii).min())
+
+
 def judge_part(table, kit, part, room):
     """Checks one file and returns its corners in the model frame."""
     path = kit / part["file"]
@@ -427,6 +476,7 @@ def judge(kit):
     judge_whole(table, sheet, volume, moments(hollowed)[0])
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
+    judge_pins(table, sheet, parts)
     if voids:
         wall = smallest_wall(outer, voids)
         table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)

@@ -104,10 +104,30 @@ impl Bvh {
         let inverse = along.map(f64::recip);
         self.visit(
             false,
-            |aabb| if meets_box(a, &inverse, aabb) { 0.0 } else { f64::INFINITY },
+            |aabb| if entered_box(a, &inverse, aabb).is_some() { 0.0 } else { f64::INFINITY },
             |&is_crossed| if is_crossed { f64::NEG_INFINITY } else { f64::INFINITY },
-            |is_crossed, slot| *is_crossed = *is_crossed || is_crossed_in(a, &along, &self.corners[slot]),
+            |is_crossed, slot| {
+                *is_crossed = *is_crossed || crossed_at(a, &along, &self.corners[slot]).is_some();
+            },
         )
+    }
+
+    /// How far along the segment from `a` to `b` it first passes through a triangle, as a share of its length; none where it
+    /// passes through none.
+    pub fn first_crossing(&self, a: &Point, b: &Point) -> Option<f64> {
+        let along = b - a;
+        let inverse = along.map(f64::recip);
+        let nearest = self.visit(
+            f64::INFINITY,
+            |aabb| entered_box(a, &inverse, aabb).unwrap_or(f64::INFINITY),
+            |nearest| *nearest,
+            |nearest, slot| {
+                if let Some(share) = crossed_at(a, &along, &self.corners[slot]) {
+                    *nearest = nearest.min(share);
+                }
+            },
+        );
+        nearest.is_finite().then_some(nearest)
     }
 
     /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's numbers and with their
@@ -253,28 +273,29 @@ fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     gap.norm_squared()
 }
 
-/// Whether the segment from `a` along 1/`inverse` may meet the box: the slab test of Kay and Kajiya (1986).
-fn meets_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> bool {
+/// Where the segment from `a` along 1/`inverse` enters the box, as a share of its length; none where it misses it: the slab test
+/// of Kay and Kajiya (1986).
+fn entered_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64> {
     let low = (aabb.min - a).component_mul(inverse);
     let high = (aabb.max - a).component_mul(inverse);
     // A segment that lies in a face of the box gives 0/0; sup and inf then keep the other number.
     let enter = (0..3).map(|i| low[i].min(high[i])).fold(0.0, f64::max);
     let leave = (0..3).map(|i| low[i].max(high[i])).fold(1.0, f64::min);
-    enter <= leave
+    (enter <= leave).then_some(enter)
 }
 
-/// Whether the segment from `a` along `along` passes through the triangle (Möller and Trumbore, 1997).
-fn is_crossed_in(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> bool {
+/// Where the segment from `a` along `along` passes through the triangle, as a share of its length (Möller and Trumbore, 1997).
+fn crossed_at(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> Option<f64> {
     let (first, second) = (q - p, r - p);
     let normal = along.cross(&second);
     let determinant = first.dot(&normal);
     if determinant == 0.0 {
-        return false;
+        return None;
     }
     let from = (a - p) / determinant;
     let across = from.cross(&first);
     let (u, v, t) = (from.dot(&normal), along.dot(&across), second.dot(&across));
-    u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)).then_some(t)
 }
 
 /// Whether the ray from `p` along +z may meet the box.

@@ -1,0 +1,109 @@
+//! Pins and sockets felt out in files: a sound joint, and the same joint with one thing wrong at a time.
+
+use super::judge_tests::{failures, sound};
+use super::*;
+use crate::geom::Vector;
+use crate::mesh::{Csg, TriMesh, primitives::cylinder};
+
+/// Where the pin stands: in the middle of a side of the box of [`sound`], whose halves meet at z = 16.
+const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
+const GAP_MM: f64 = 0.1;
+const PIN: [f64; 2] = [0.6, 1.2];
+const SOCKET: [f64; 2] = [PIN[0] + 2.0 * GAP_MM, PIN[1] + 0.3];
+
+/// A pin or socket of that diameter and length at the seat.
+pub(crate) fn peg(diameter_mm: f64, length_mm: f64, volume_mm3: f64) -> Peg {
+    let (id, joint) = ("N1".to_owned(), "J1".to_owned());
+    Peg { id, joint, center_mm: SEAT, axis: [0.0, 0.0, 1.0], diameter_mm, length_mm, volume_mm3 }
+}
+
+/// A turned body of 96 sides about the seat, from `below` under the cut to `above` over it.
+fn turned(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
+    let base = Vector::from(SEAT) - Vector::z() * below;
+    cylinder(diameter_mm / 2.0, below + above, 96).map_vertices(|p| p + base)
+}
+
+/// The sound kit with pins of one size made and another promised.
+fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
+    let mut evidence = sound();
+    let body = |evidence: &Evidence, i: usize| {
+        let part = &evidence.parts[i];
+        Csg::of_mesh(&part.mesh.map_vertices(|p| part.pose.to_model(p))).unwrap()
+    };
+    let (pin, socket) = made;
+    let carrier = body(&evidence, 0).union(&Csg::of_mesh(&turned(pin[0], [0.5, pin[1]])).unwrap()).unwrap();
+    let hole = turned(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
+    let receiver = body(&evidence, 1).subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
+    for (part, solid) in evidence.parts.iter_mut().zip([carrier, receiver]) {
+        part.mesh = solid.to_mesh().unwrap().map_vertices(|p| part.pose.to_print(p));
+    }
+    let volume = |[diameter, length]: [f64; 2]| turned(diameter, [0.0, length]).signed_volume_mm3();
+    evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
+    evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
+    evidence.promise.joints = vec![PromisedJoint { id: "J1".to_owned(), clearance_mm: GAP_MM - 0.001 }];
+    evidence.promise.wall.required_mm = 1.05;
+    evidence.promise.printer.build_volume_mm = None;
+    evidence
+}
+
+/// What fails beside what moves with any pin: a single pin at the side puts the centre aside.
+fn wrong(evidence: &Evidence) -> Vec<String> {
+    failures(evidence).into_iter().filter(|name| name != "axis offset" && name != "volumes").collect()
+}
+
+#[test]
+fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
+    let evidence = jointed((PIN, SOCKET), Vector::zeros());
+    assert_eq!(wrong(&evidence), Vec::<String>::new(), "{:?}", judge(&evidence).pegs);
+    assert!(!failures(&evidence).contains(&"volumes".to_owned()));
+    let found = judge(&evidence).pegs.remove(0);
+    // Sides of 96-gons lie within 5e-4 of their radius inside the circle.
+    assert!(found.deviation_mm < 5e-4 && (found.gap_mm.unwrap() - GAP_MM).abs() < 5e-4, "{found:?}");
+    // The side is 3 mm thick, the seat in its middle.
+    assert!((found.wall_mm - (1.5 - SOCKET[0] / 2.0)).abs() < 1e-9);
+}
+
+#[test]
+fn a_pin_left_out_of_the_file_is_missed() {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    evidence.parts[0].mesh = sound().parts[0].mesh.clone();
+    assert_eq!(wrong(&evidence), ["pins", "clearance"]);
+}
+
+#[test]
+fn a_socket_left_out_of_the_file_is_missed_and_the_pin_reaches_into_the_material() {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    evidence.parts[1].mesh = sound().parts[1].mesh.clone();
+    assert_eq!(wrong(&evidence), ["pins", "clearance", "overlap"]);
+}
+
+#[test]
+fn a_socket_that_no_part_has_on_the_list_is_missed() {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    evidence.promise.parts[1].sockets.clear();
+    assert_eq!(wrong(&evidence), ["pins", "clearance", "socket wall"]);
+}
+
+#[test]
+fn a_pin_too_stout_or_too_long_and_a_socket_too_shallow_are_found() {
+    let stout = jointed(([PIN[0] + 0.06, PIN[1]], SOCKET), Vector::zeros());
+    assert_eq!(wrong(&stout), ["pins", "clearance"]);
+    let long = jointed(([PIN[0], PIN[1] + 0.05], SOCKET), Vector::zeros());
+    assert_eq!(wrong(&long), ["pins"]);
+    let shallow = jointed((PIN, [SOCKET[0], SOCKET[1] - 0.05]), Vector::zeros());
+    assert_eq!(wrong(&shallow), ["pins"]);
+}
+
+#[test]
+fn a_socket_sunk_aside_leaves_too_small_a_gap() {
+    // Nothing that the socket's own axis would show: half the tolerance of sizes, ten times that of gaps.
+    let aside = jointed((PIN, SOCKET), Vector::new(0.0, 0.01, 0.0));
+    assert_eq!(wrong(&aside), ["clearance"]);
+}
+
+#[test]
+fn a_wall_around_the_socket_thinner_than_ordered_is_found() {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    evidence.promise.wall.required_mm = 1.5 - SOCKET[0] / 2.0 + 0.011;
+    assert_eq!(wrong(&evidence), ["socket wall"]);
+}
