@@ -187,3 +187,120 @@ fn best_kind(mut found: impl Iterator<Item = Found>, rank: impl Fn(&Found) -> Ra
     }
     Some(found.find(|other| rank(other).is_full()).unwrap_or(first))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Point;
+    use crate::goal::{GoalKind, Request, SpinPoint, Stock, Up, place_made_of, testing};
+    use crate::mesh::MeshDistance;
+    use crate::shell::fixtures;
+
+    const WALL_MM: f64 = 3.0;
+    /// With the arm's inside emptied the figure leans out of its foot by 0.05 mm.
+    const FIGURE_WALL_MM: f64 = 1.5;
+    const WEB_MM: f64 = 1.0;
+    const DENSITY_G_CM3: f64 = 1.2;
+
+    fn placed(solid: &Solid, wall_mm: f64, request: Request) -> Placement {
+        place_made_of(solid, &Stock { wall_mm, density_g_cm3: DENSITY_G_CM3 }, &request).unwrap()
+    }
+
+    fn searched(solid: &Solid, wall_mm: f64, request: Request, order: &str) -> Option<Found> {
+        let placement = placed(solid, wall_mm, request);
+        let fit = Fit { clearance_mm: 0.2, web_mm: WEB_MM };
+        let shop = Shop { solid, placement: &placement, wall_mm, fit, density_g_cm3: DENSITY_G_CM3 };
+        let found = Search::new(shop).unwrap().of_order(&order.parse().unwrap()).unwrap()?;
+        assert_sound(solid, wall_mm, &found.load);
+        Some(found)
+    }
+
+    /// Every pocket leaves the wall, and the web to every other pocket.
+    fn assert_sound(solid: &Solid, wall_mm: f64, load: &Load) {
+        let outside = MeshDistance::new(solid.mesh());
+        let meshes: Vec<_> = load.pockets().map(|pocket| pocket.mesh()).collect();
+        for (index, mesh) in meshes.iter().enumerate() {
+            assert!(outside.min_distance_to(mesh) >= wall_mm && outside.signed(&mesh.vertices()[0]) > 0.0);
+            let distance = MeshDistance::new(mesh);
+            for other in &meshes[..index] {
+                assert!(distance.min_distance_to(other) >= WEB_MM, "{index}");
+            }
+        }
+    }
+
+    /// A block that turns about an axis 3 mm above its middle.
+    fn rotor() -> (Solid, Request) {
+        let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
+        let spin_point = Some(SpinPoint::At([20.0, 8.0, 18.0]));
+        (solid, Request { up: Up::X, spin_point, ..Request::new(GoalKind::Balance) })
+    }
+
+    /// A foot with an arm to one side.
+    fn leaning() -> (Solid, Request) {
+        let solid = fixtures::cells(&[[0, 0, 0], [0, 0, 1], [1, 0, 1], [2, 0, 1]], 12.0);
+        (solid, Request::new(GoalKind::Stand))
+    }
+
+    fn bare(solid: &Solid, wall_mm: f64, request: Request) -> Solution {
+        let placement = placed(solid, wall_mm, request);
+        let shell = Shell::new(solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
+        let columns = Columns::of_shell(&shell, shell.coarse_pitch(100), &Progress::silent()).unwrap();
+        let problem = Problem { goal: &placement.goal, fixed: placement.goal.solid, columns: &columns };
+        solve(&problem, &Settings::default(), &Progress::silent())
+    }
+
+    #[test]
+    fn a_rotor_that_no_hollowing_balances_is_balanced_with_as_few_balls_as_reach_its_unbalance() {
+        let (solid, request) = rotor();
+        assert!(bare(&solid, WALL_MM, request).status.is_impossible());
+        let found = searched(&solid, WALL_MM, request, "auto").unwrap();
+        assert!(found.solution.is_usable());
+        // In mm⁴ of the print: the block pulls down by 19200 · 3; all of the interior below the axis, 34 · 10 · 15 mm³ of it
+        // 7.5 mm down, is 38250 of it. A ball of diameter d, 7.83/1.2 times as dense, has its middle at most 27 − d/2 − 0.2 high.
+        let missing = 19_200.0 * 3.0 - 34.0 * 10.0 * 15.0 * 7.5;
+        let pull = |d: f64| std::f64::consts::PI / 6.0 * d.powi(3) * (7.83 / 1.2) * (8.8 - d / 2.0);
+        let most = (1..=19).map(|half| pull(0.5 * f64::from(half))).fold(0.0, f64::max);
+        let least = (missing / most).ceil() as usize;
+        assert!(least >= 2 && found.load.parts.len() >= least, "{least} {}", found.load.parts.len());
+        assert!(found.load.parts.len() <= least + 1, "{}", found.load.parts.len());
+        assert!(found.load.parts.iter().all(|placed| placed.lump.center_mm[2] > 18.0));
+    }
+
+    #[test]
+    fn a_figure_that_falls_over_stands_with_one_ball_in_its_foot() {
+        let (solid, request) = leaning();
+        assert!(bare(&solid, FIGURE_WALL_MM, request).status.is_impossible());
+        let found = searched(&solid, FIGURE_WALL_MM, request, "auto").unwrap();
+        assert_eq!(found.load.parts.len(), 1);
+        let Point { coords } = Point::from(found.load.parts[0].lump.center_mm);
+        assert!(coords.x < 8.0, "{coords}");
+        assert!(found.solution.certificate.value > 0.0087);
+    }
+
+    #[test]
+    fn parts_of_a_kind_are_laid_in_as_they_were_ordered_or_not_at_all() {
+        let (solid, request) = rotor();
+        let found = searched(&solid, WALL_MM, request, "ball-5x3").unwrap();
+        assert_eq!(found.load.parts.len(), 3);
+        assert!(found.load.parts.iter().all(|placed| placed.part.id == "ball-5"));
+        // The interior is 10 mm wide.
+        assert!(searched(&solid, WALL_MM, request, "ball-10x1").is_none());
+        assert!(searched(&solid, WALL_MM, request, "coin-us-quarterx1").is_none());
+    }
+
+    #[test]
+    fn a_nut_lies_where_its_round_has_room_on_all_sides() {
+        let (solid, request) = leaning();
+        let found = searched(&solid, FIGURE_WALL_MM, request, "nut-m3").unwrap();
+        assert!(!found.load.parts.is_empty() && found.solution.is_usable());
+    }
+
+    #[test]
+    fn what_no_steel_inside_helps_gets_none() {
+        // A pole on its edge: the axis lies 6 mm outside the block.
+        let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
+        let spin_point = Some(SpinPoint::At([20.0, 8.0, 36.0]));
+        let request = Request { up: Up::X, spin_point, ..Request::new(GoalKind::Balance) };
+        assert!(searched(&solid, WALL_MM, request, "auto").is_none());
+    }
+}

@@ -297,7 +297,7 @@ mod tests {
         let found = ballast(&world, density_ratio).unwrap();
         let mut least = f64::INFINITY;
         worlds::each_mixture(&world, density_ratio, |moments, blocks| {
-            let figures = crate::goal::figures(&world.goal, moments);
+            let figures = figures(&world.goal, moments);
             if figures.toppling_angle_rad.is_some_and(|angle| angle >= STANDING_RAD) {
                 least = least.min(f64::from(blocks) * block_mm3);
             }

@@ -173,7 +173,9 @@ fn wall_mm(socket: &Peg, whole: &Bvh) -> f64 {
 
 /// How many of a sample of places just under the parts' surfaces lie in another part too.
 pub(super) fn overlaps(felt: &[Felt]) -> usize {
-    felt.iter().map(|part| under_surface(part.part).filter(|p| is_in_another(p, part, felt)).count()).sum()
+    // Under a feathered edge beside a cut a place lies beyond the part's own cut face already, where the other part is at home.
+    let is_shared = |p: &Point, part: &Felt| part.holds(p) && is_in_another(p, part, felt);
+    felt.iter().map(|part| under_surface(part.part).filter(|p| is_shared(p, part)).count()).sum()
 }
 
 fn is_in_another(place: &Point, own: &Felt, felt: &[Felt]) -> bool {
