@@ -1,12 +1,14 @@
 //! The whole input of a run as plain data: `job.toml` replays the run exactly.
 
 mod choices;
+mod filling;
 
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
+pub use filling::Filling;
 
 use crate::{
     ballast::Order,
@@ -44,6 +46,9 @@ pub struct Job {
     /// The ballast asked for; none where the key is left out.
     #[serde(default, skip_serializing_if = "Order::is_none")]
     pub ballast: Order,
+    /// What the voids are filled with; air where the key is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill: Option<Filling>,
     /// What is prepared.
     pub model: ModelChoice,
     /// What prints it.
@@ -141,6 +146,7 @@ impl Job {
             cut: CutMode::Auto,
             format: PartFormat::Stl,
             ballast: Order::None,
+            fill: None,
             model,
             printer,
             goal,

@@ -145,7 +145,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 21] = [
+const DECIDED_BY_JOB: [&str; 22] = [
     "printer",
     "material",
     "wall",
@@ -167,6 +167,7 @@ const DECIDED_BY_JOB: [&str; 21] = [
     "cut",
     "format",
     "ballast",
+    "fill",
 ];
 
 /// How a rotor runs, for the goal balance.
@@ -335,6 +336,7 @@ impl PrepareArgs {
             cut: self.cut.unwrap_or(default.cut),
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
+            fill: self.load.fill,
             ..default
         })
     }

@@ -3,6 +3,7 @@
 use clap::Args;
 
 use crate::ballast::Order;
+use crate::job::Filling;
 
 /// What is laid into a print to make it heavier somewhere.
 #[derive(Debug, Clone, Args)]
@@ -12,4 +13,7 @@ pub struct BallastArgs {
     /// and how many, such as ball-4, nut-m5x2 or coin-euro-1-cent [default: none]
     #[arg(long, value_name = "auto|ID[xN]|none")]
     pub ballast: Option<Order>,
+    /// Fill the voids with a material of this density, such as 2.3 for plaster, instead of leaving air in them
+    #[arg(long, value_name = "G/CM3", allow_hyphen_values = true, conflicts_with = "ballast")]
+    pub fill: Option<Filling>,
 }

@@ -130,6 +130,20 @@ impl Solution {
         matches!(self.status, Status::Solved | Status::AlmostSolved)
     }
 
+    /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`, its void is where the
+    /// quadric was negative.
+    pub(super) fn stretched(self, factor: f64, is_turned: bool) -> Self {
+        let Certificate { figure, value, bound, .. } = self.certificate;
+        let stretch = if figure == Figure::VolumeMm3 { factor } else { 1.0 };
+        let turned = Quadric(self.quadric.0.map(|coefficient| -coefficient));
+        Self {
+            moments: self.moments * factor,
+            quadric: if is_turned { turned } else { self.quadric },
+            certificate: Certificate { value: value * stretch, bound: bound * stretch, ..self.certificate },
+            ..self
+        }
+    }
+
     /// The multipliers of the constraints in the solver's units, in the order of THEORY §3's rows; the one of a top's
     /// height row comes last and vanishes at the best height.
     pub fn multipliers(&self) -> Vec<f64> {

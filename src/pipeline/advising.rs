@@ -52,6 +52,10 @@ impl<'a> Means<'a> {
 
 /// The answer that the goal is impossible, with what would help.
 pub fn advised(setup: &Setup, impossible: Impossible, progress: &Progress) -> Impossible {
+    if setup.job.fill.is_some() {
+        // The searches know of air only.
+        return impossible;
+    }
     progress.report(phase::ADVISE, 0.0);
     let Setup { model, printer, material, wall, .. } = setup;
     let remedies = remedies(&Means { model, printer, material, wall }.case(setup.request));

@@ -7,7 +7,7 @@ use super::{
     ballasting::seats,
     phase,
     stopwatch::Stopwatch,
-    tuner::{Tuner, Voids},
+    tuner::{Tuner, Voids, inside},
     tuning::is_tuned,
     written::WrittenPart,
 };
@@ -138,7 +138,7 @@ fn assembled(
             || is_tuned(
                 goal,
                 &voids.solution.moments,
-                &(written + setup.load.moments()).in_frame(&goal.frame),
+                &(written + inside(setup, &voids.hollowed)).in_frame(&goal.frame),
             )
         {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
@@ -175,7 +175,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
         build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
-        wall_mm: printer.min_wall_mm.value,
+        wall_mm: setup.wall.wall_mm,
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,
             length_ratio: printer.pin_length_ratio.value,

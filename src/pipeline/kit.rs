@@ -95,6 +95,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
         joints: rows::promised_joints(setup, &assembly.plan),
         ballast: rows::ballast_orders(setup),
+        fill: rows::fill_order(setup),
         assembly: None,
         files: Default::default(),
     }

@@ -15,7 +15,8 @@ use crate::report::{
     PrinterRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder, WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
+    WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -58,6 +59,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
         ballast: ballast_rows(sheet),
+        fill: fill_order(setup),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -294,6 +296,11 @@ pub fn ballast_orders(setup: &Setup) -> Vec<BallastOrder> {
     let order =
         |(index, placed): (usize, &Placed)| BallastOrder { id: format!("B{}", index + 1), lump: placed.lump };
     setup.load.parts.iter().enumerate().map(order).collect()
+}
+
+/// The filling as the judge sees it.
+pub fn fill_order(setup: &Setup) -> Option<FillOrder> {
+    setup.job.fill.map(|filling| FillOrder { density_g_cm3: filling.density_g_cm3() })
 }
 
 fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {

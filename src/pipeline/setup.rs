@@ -4,7 +4,8 @@ use super::Error;
 use super::advising::Means;
 use crate::ballast::Load;
 use crate::digest::sha256_hex;
-use crate::goal::{Placement, Request, Stock, place_made_of};
+use crate::goal::{GoalKind, Placement, Request, Stock, place_made_of};
+use crate::hollow::Fill;
 use crate::io;
 use crate::job::Job;
 use crate::mass::Moments;
@@ -48,6 +49,8 @@ pub struct Setup {
     pub placement: Placement,
     /// The ballast that is laid in.
     pub load: Load,
+    /// What is in the voids.
+    pub fill: Fill,
 }
 
 impl Setup {
@@ -64,6 +67,7 @@ impl Setup {
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
+        let fill = fill(&job, stock.density_g_cm3)?;
         Ok(Self {
             job,
             model,
@@ -75,6 +79,7 @@ impl Setup {
             choice,
             placement,
             load: Load::default(),
+            fill,
         })
     }
 
@@ -90,6 +95,20 @@ impl Setup {
         let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
         stem.unwrap_or_default().chars().map(|c| if is_plain(c) { c } else { '-' }).collect()
     }
+}
+
+/// What is in the voids of a job's print.
+fn fill(job: &Job, density_g_cm3: f64) -> Result<Fill, Error> {
+    let Some(filling) = job.fill else { return Ok(Fill::AIR) };
+    if !job.ballast.is_none() {
+        return Err(Error::FillAndBallast { fill: filling, order: job.ballast.clone() });
+    }
+    let fill = Fill::new(filling.density_g_cm3() / density_g_cm3)
+        .ok_or(Error::FillLikePrint { fill: filling, density_g_cm3 })?;
+    if fill.is_heavier() && job.goal.kind == GoalKind::Balance {
+        return Err(Error::HeavyFillInRotor { fill: filling });
+    }
+    Ok(fill)
 }
 
 /// The model of a job, and the job bound to it.

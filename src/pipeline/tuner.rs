@@ -4,7 +4,6 @@ use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::is_tuned};
 use crate::hollow::Solution;
-use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::progress::Progress;
@@ -85,7 +84,7 @@ impl<'a> Tuner<'a> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
             let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
-            let written = (printed + self.setup.load.moments()).in_frame(&goal.frame);
+            let written = (printed + inside(self.setup, &voids.hollowed)).in_frame(&goal.frame);
             if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }
@@ -107,7 +106,7 @@ impl<'a> Tuner<'a> {
     /// to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
         // What was refused since the voids were solved for is known to the columns now.
-        let planned = voids.fixed - moments_where_positive(&self.solved.columns, &voids.solution.quadric);
+        let planned = self.setup.fill.filled(voids.fixed, &self.solved.columns, &voids.solution.quadric);
         let fixed = voids.fixed + (written - planned);
         self.solved.solution = self.solved.corrected(self.setup, fixed);
         self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
@@ -148,6 +147,13 @@ impl<'a> Tuner<'a> {
         self.solved.columns = columns;
         Ok(())
     }
+}
+
+/// The moments, model frame, of what is put into the print: ballast, or a filling of the voids.
+pub fn inside(setup: &Setup, hollowed: &Hollowed) -> Moments {
+    let voids = hollowed.voids.iter().map(|void| moments_of_mesh(void.mesh()));
+    let volume = voids.fold(Moments::default(), |sum, void| sum + void);
+    setup.load.moments() + volume * setup.fill.density_ratio()
 }
 
 /// What the surface of the voids is made to.

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
-use crate::verify::{Aim, Check, FigureName, Figures, PromisedFigure, SCHEMA};
+use crate::verify::{Aim, Check, FigureName, Figures, FillOrder, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
@@ -53,6 +53,9 @@ pub struct Checklist {
     /// The stock parts that are laid in before gluing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ballast: Vec<BallastRow>,
+    /// What the voids are filled with; none for air.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill: Option<FillOrder>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.

@@ -63,6 +63,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
         joints: vec![joint()],
         ballast: Vec::new(),
+        fill: None,
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![

@@ -7,16 +7,18 @@ use super::words::{coordinates, quantity};
 use super::{BallastRow, Checklist, JointRow, PartRow, Picture, VoidRow};
 use crate::goal::GoalKind;
 use crate::units::counted;
+use crate::verify::FillOrder;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// Every step: print, clean, dry fit, lay in the ballast if there is any, glue, weigh, test.
+/// Every step: print, clean, dry fit, fill the voids or lay in the ballast where that is asked for, glue, weigh, test.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     let steps = [
         Some(("Print", print(sheet, pictures))),
         Some(("Clean every void", clean(sheet))),
         Some(("Dry fit", dry_fit(sheet))),
+        sheet.fill.map(|fill| ("Fill every void", filling(sheet, fill))),
         (!sheet.ballast.is_empty()).then(|| ("Lay in the ballast", ballast(sheet))),
         Some(("Glue", glue(sheet))),
         Some(("Weigh", weigh(sheet))),
@@ -25,6 +27,25 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         @for (index, (name, step)) in steps.iter().flatten().enumerate() {
             section { h2 { (index + 1) ". " (name) } (step) }
+        }
+    }
+}
+
+fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
+    html! {
+        p {
+            "With the cut faces up and level, fill every piece of a void flush with its cut face with a material of "
+            (quantity(fill.density_g_cm3, "g/cm³")) ", without bubbles, and let it set. Keep sockets and cut faces clean."
+        }
+        table {
+            tr { th { "Done" } th { "Void" } th class="n" { "Filling, in all its pieces" } th { "Weighed, g" } }
+            @for void in &sheet.voids {
+                tr {
+                    td { "☐" } td { strong { (void.id) } }
+                    td class="n" { (quantity(void.volume_mm3 / 1000.0, "cm³")) ", " (quantity(void.volume_mm3 / 1000.0 * fill.density_g_cm3, "g")) }
+                    td { (blank()) }
+                }
+            }
         }
     }
 }
@@ -192,13 +213,12 @@ fn weigh(sheet: &Checklist) -> Markup {
 
 /// The mass of everything, with the window that the print's density and the pieces of ballast leave.
 fn assembled_mass(sheet: &Checklist) -> Markup {
-    let (ballast, spread) = sheet.ballast.iter().fold((0.0, 0.0), |(mass, spread), row| {
-        let mass_g = row.order.lump.mass_g;
-        (mass + mass_g, spread + mass_g * row.mass_spread_ratio)
-    });
+    let printed_g: f64 = sheet.parts.iter().map(|part| part.mass_g).sum();
+    let spread_g: f64 = sheet.ballast.iter().map(|row| row.order.lump.mass_g * row.mass_spread_ratio).sum();
     let mass_g = sheet.assembly.mass_g;
     match sheet.material.density_spread_ratio {
-        Some(ratio) => mass_window(mass_g, (ratio * (mass_g - ballast) + spread) / mass_g),
+        // A filling is as heavy as it was mixed: its own spread is not known here.
+        Some(ratio) => mass_window(mass_g, (ratio * printed_g + spread_g) / mass_g),
         None => mass_with_window(sheet, mass_g),
     }
 }

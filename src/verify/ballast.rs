@@ -1,10 +1,10 @@
-//! Ballast as a kit declares it: parts of stated mass at stated places, and whether they have room there.
+//! Ballast as a kit declares it: parts of stated mass at stated places, and whether they have room there; and fillings.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Check, Limit};
 use crate::geom::Point;
-use crate::mass::{Lump, Moments};
+use crate::mass::{Lump, Moments, moments_of_mesh};
 use crate::mesh::{MeshDistance, TriMesh};
 
 /// A stock part that is laid into a void when the kit is put together.
@@ -42,4 +42,16 @@ pub(super) fn least_room_mm(ballast: &[BallastOrder], hollowed: &TriMesh, outer:
 pub(super) fn room_check(room_mm: f64) -> Check {
     let promise = "every part of ballast lies in a void, with a gap around it of";
     Check::new("ballast room", promise, Some(room_mm), Limit::above(0.0, "mm"))
+}
+
+/// What the voids are filled with.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FillOrder {
+    /// Its density, g/cm³.
+    pub density_g_cm3: f64,
+}
+
+/// What a filling of the voids, which are turned inward, adds to a body of `density_g_cm3`, model frame.
+pub(super) fn fill_moments(fill: Option<FillOrder>, voids: &TriMesh, density_g_cm3: f64) -> Moments {
+    fill.map_or(Moments::default(), |fill| moments_of_mesh(voids) * (-fill.density_g_cm3 / density_g_cm3))
 }

@@ -6,7 +6,7 @@ use super::pegs::{Felt, overlaps, pegs};
 use super::{
     Check, Figures, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support, SurfaceFacts,
     assembly_moments,
-    ballast::{ballast_moments, least_room_mm},
+    ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     rotor::ends_mm,
     smallest_wall_mm,
@@ -68,7 +68,8 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let outer = shells.outer_mesh();
     let setting = setting(&evidence.promise, &outer);
     let ballast = &evidence.promise.ballast;
-    let load = ballast_moments(ballast, setting.density_g_mm3());
+    let load = ballast_moments(ballast, setting.density_g_mm3())
+        + fill_moments(evidence.promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
     let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let mut judgement = Judgement {

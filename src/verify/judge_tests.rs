@@ -42,6 +42,7 @@ fn promise(poses: &[Pose]) -> Promise {
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
         ballast: Vec::new(),
+        fill: None,
         joints: vec![],
         assembly: None,
         files: Default::default(),

@@ -24,7 +24,7 @@ pub(crate) mod test_meshes;
 mod wall;
 mod water;
 
-pub use ballast::BallastOrder;
+pub use ballast::{BallastOrder, FillOrder};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{BallastOrder, Figures, Pose, RotorOrder, WaterOrder};
+use super::{BallastOrder, Figures, FillOrder, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -34,6 +34,9 @@ pub struct Promise {
     /// The stock parts that are laid into its voids.
     #[serde(default)]
     pub ballast: Vec<BallastOrder>,
+    /// What the voids are filled with; none for air.
+    #[serde(default)]
+    pub fill: Option<FillOrder>,
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,

@@ -127,10 +127,7 @@ def loaded(body, ballast):
         across, along = mean_squares(part["shape"])
         tensor = part["mass_g"] * ((across + along) * np.eye(3) + (across - along) * np.outer(axis, axis))
         pieces.append((part["mass_g"], np.array(part["center_mm"], float), tensor))
-    total = math.fsum(m for m, _, _ in pieces)
-    middle = sum(m * c for m, c, _ in pieces) / total
-    moved = lambda m, d: m * (d @ d * np.eye(3) - np.outer(d, d))
-    return volume, total, middle, sum(t + moved(m, c - middle) for m, c, t in pieces)
+    return volume, *together(pieces)
 
 
 def ballast_room(part, material, voids):
@@ -148,6 +145,24 @@ def ballast_room(part, material, voids):
     gap = trimesh.proximity.closest_point(material, points)[1].min() - reach
     inside = any(welded(void[:, ::-1]).contains(points).all() for void in voids)
     return gap if inside else -abs(gap)
+
+
+def filled(body, voids, density_g_mm3):
+    """A body whose voids (turned inward) are full of another material."""
+    volume, mass, center, inertia = body
+    v, first, second = (-sum(part) for part in zip(*map(moments, voids)))
+    middle = first / v
+    central = (second - v * np.outer(middle, middle)) * density_g_mm3
+    pieces = [(mass, center, inertia), (v * density_g_mm3, middle, np.trace(central) * np.eye(3) - central)]
+    return volume, *together(pieces)
+
+
+def together(pieces):
+    """Mass, centre and inertia of pieces of known mass, centre and inertia (Steiner)."""
+    total = math.fsum(m for m, _, _ in pieces)
+    middle = sum(m * c for m, c, _ in pieces) / total
+    moved = lambda m, d: m * (d @ d * np.eye(3) - np.outer(d, d))
+    return total, middle, sum(t + moved(m, c - middle) for m, c, t in pieces)
 
 
 def body(parts, density_g_mm3):
@@ -470,6 +485,10 @@ def judge(kit):
     density = sheet["material"]["density_g_cm3"] / 1000
     ballast = sheet.get("ballast", [])
     volume, mass, center, inertia = loaded(body(parts, density), ballast)
+    if "fill" in sheet:
+        # A kit has ballast in pockets or a filling in its voids, never both.
+        unfilled = volume, mass, center, inertia
+        volume, mass, center, inertia = filled(unfilled, voids, sheet["fill"]["density_g_cm3"] / 1000)
     found = figures(goal, mass, center, inertia, np.concatenate(outer).reshape(-1, 3))
     judge_body(table, promised, (volume, mass, center, inertia), found)
     judge_goal(table, goal, sheet.get("promise"), found)
