@@ -139,7 +139,7 @@ mod tests {
             let least = points.iter().map(|p| distance.signed(p)).fold(f64::INFINITY, f64::min);
             let room_mm = least - if shape.is_ball() { shape.radius_mm() } else { 0.0 };
             // Facets touch from outside; at rims the gap is measured across the corner's nearer face.
-            assert!(room_mm >= 0.2 - 1e-9 && room_mm < 0.25, "{shape:?}: {room_mm}");
+            assert!((0.2 - 1e-9..0.25).contains(&room_mm), "{shape:?}: {room_mm}");
             assert!(pocket.radius_mm < part.radius_mm + 0.25);
         }
     }
