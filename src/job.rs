@@ -12,6 +12,7 @@ pub use filling::Filling;
 
 use crate::{
     ballast::Order,
+    cut::CutOrder,
     digest::sha256_hex,
     goal::Request,
     toml_text::{self, TextFault},
@@ -56,6 +57,9 @@ pub struct Job {
     /// What it is to do.
     #[serde(deserialize_with = "possible_goal")]
     pub goal: Request,
+    /// Cuts and pins that a person ordered, in place of the planner's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<CutOrder>,
 }
 
 /// The model file and its size.
@@ -104,6 +108,31 @@ pub struct PrinterChoice {
     pub material: Option<String>,
 }
 
+/// Why a plan of cuts cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum PlanError {
+    /// The file cannot be read.
+    #[error(
+        "cannot read the cuts {path}; remedy: give auto, never, or the path of a plan such as a kit's cuts.toml"
+    )]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The text is not a plan.
+    #[error(transparent)]
+    Text(#[from] TextFault),
+}
+
+/// The cuts and pins ordered in the file at `path`.
+pub fn read_plan(path: &Path) -> Result<CutOrder, PlanError> {
+    let text = std::fs::read_to_string(path)
+        .map_err(|source| PlanError::Unreadable { path: path.to_owned(), source })?;
+    Ok(CutOrder::from_toml(&path.to_string_lossy(), &text)?)
+}
+
 /// Why a job cannot be read, written or replayed.
 #[derive(Debug, thiserror::Error)]
 pub enum JobError {
@@ -150,6 +179,7 @@ impl Job {
             model,
             printer,
             goal,
+            plan: None,
         }
     }
 

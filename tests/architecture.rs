@@ -43,10 +43,10 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     ("advice", &["geom", "goal", "hollow", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("voids", &["geom", "mass", "mesh", "progress", "shell", "units"]),
-    ("cut", &["geom", "mass", "mesh", "printer", "progress", "units", "voids"]),
+    ("cut", &["geom", "mass", "mesh", "printer", "progress", "toml_text", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),
     ("report", &["geom", "goal", "mass", "mesh", "units", "verify"]),
-    ("job", &["ballast", "digest", "goal", "toml_text", "units", "words"]),
+    ("job", &["ballast", "cut", "digest", "goal", "toml_text", "units", "words"]),
     (
         "error",
         &[
@@ -64,8 +64,8 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "cli",
         &[
-            "advice", "ballast", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline", "printer",
-            "progress", "report", "units", "verify", "words",
+            "advice", "ballast", "cut", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline",
+            "printer", "progress", "report", "units", "verify", "words",
         ],
     ),
     ("guide", &[]),

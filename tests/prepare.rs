@@ -117,3 +117,33 @@ fn an_impossible_goal_is_an_answer_with_the_reason_and_remedies_and_writes_nothi
     assert!(said.contains("Impossible") && said.contains("remedy"), "{said}");
     assert!(!out.exists());
 }
+
+#[test]
+fn the_cuts_of_a_kit_can_be_edited_and_given_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let [kit, moved, cuts] = ["kit", "moved", "mine.toml"].map(|name| folder.path().join(name));
+    assert_eq!(prepare_top(&kit, &[]).status.code(), Some(0));
+    let plan = text(&fs::read(kit.join("cuts.toml")).unwrap());
+    assert!(plan.contains("[[cuts]]") && plan.contains("[[pins]]"), "{plan}");
+    // A person moves the cut by 2 mm along its normal, names it, and lets the pins be placed anew.
+    let order: toml::Table = toml::from_str(&plan).unwrap();
+    let numbers = |key: &str| -> Vec<f64> { order["cuts"][0][key].clone().try_into().unwrap() };
+    let (point, normal) = (numbers("point_mm"), numbers("normal"));
+    let point: Vec<f64> = point.iter().zip(&normal).map(|(p, n)| p + 2.0 * n).collect();
+    let mine = format!("[[cuts]]\nid = \"waist\"\npoint_mm = {point:?}\nnormal = {normal:?}\n");
+    fs::write(&cuts, &mine).unwrap();
+    let output = prepare_top(&moved, &["--cut", cuts.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(0), "{}{}", text(&output.stdout), text(&output.stderr));
+    let written = text(&fs::read(moved.join("cuts.toml")).unwrap());
+    assert!(written.contains("\"waist\"") && written.contains("[[pins]]"), "{written}");
+    let job = text(&fs::read(moved.join("job.toml")).unwrap());
+    assert!(job.contains("[[plan.cuts]]"), "the job replays without the file: {job}");
+    fs::write(&cuts, mine.replace("normal", "nromal")).unwrap();
+    let refused = prepare_top(&folder.path().join("none"), &["--cut", cuts.to_str().unwrap()]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        text(&refused.stderr).contains("mine.toml:4:1: unknown field `nromal`"),
+        "{}",
+        text(&refused.stderr)
+    );
+}

@@ -12,11 +12,13 @@ use clap::{
 };
 
 use super::ballast_args::BallastArgs;
+use super::cut_arg::CutArg;
+use super::printers::PrintersArgs;
 use crate::{
     goal::{
         self, Contact, GoalKind, Liquid, Objective, RequestError, Rotor, SpinPoint, Up, Water, Waterline,
     },
-    job::{CutMode, Job, JobError, ModelChoice, ModelUnit, PartFormat, PrinterChoice, Scaling, Solver},
+    job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, PrinterChoice, Scaling, Solver},
     units::Length,
     words::ChoiceError,
 };
@@ -123,10 +125,11 @@ pub struct PrepareArgs {
     /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Method")]
     pub pitch: Option<Length>,
-    /// Cut the object where a void would stay closed, or never [default: auto]
-    #[arg(long, value_parser = words::<CutMode>(CutMode::WORDS), help_heading = "Method")]
-    pub cut: Option<CutMode>,
-    /// What is laid into it.
+    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
+    /// cuts.toml, edited [default: auto]
+    #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
+    pub cut: Option<CutArg>,
+    /// What is put into it.
     #[command(flatten)]
     pub load: BallastArgs,
 
@@ -254,31 +257,6 @@ pub struct InspectArgs {
     pub scaling: ScalingArgs,
 }
 
-/// The arguments of `printers`.
-#[derive(Debug, Args)]
-pub struct PrintersArgs {
-    /// What about them; to list them where nothing is said.
-    #[command(subcommand)]
-    pub action: Option<PrintersAction>,
-}
-
-/// What to do about printers.
-#[derive(Debug, Clone, PartialEq, Eq, Subcommand)]
-pub enum PrintersAction {
-    /// List the known printers
-    List,
-    /// Show every number of a printer with its source
-    Show {
-        /// A known printer's id, or a profile file
-        id: String,
-    },
-    /// Tell whether a profile file can be used, and everything that is wrong with it
-    Check {
-        /// The profile file
-        file: PathBuf,
-    },
-}
-
 /// The arguments of `verify`.
 #[derive(Debug, Args)]
 pub struct VerifyArgs {
@@ -306,6 +284,9 @@ pub enum ArgsError {
     /// The replayed job's.
     #[error(transparent)]
     Job(#[from] JobError),
+    /// The plan's.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
     /// An argument that neither the command line nor a job gives; the parser lets none pass.
     #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
     Missing(&'static str),
@@ -329,11 +310,13 @@ impl PrepareArgs {
         let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
         let id = self.printer.ok_or(ArgsError::Missing("--printer"))?;
         let default = Job::new(model, PrinterChoice { id, material: self.material }, goal);
+        let (cut, plan) = self.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
             solver: self.solver.unwrap_or(default.solver),
-            cut: self.cut.unwrap_or(default.cut),
+            cut,
+            plan,
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,
@@ -402,6 +385,7 @@ fn factor(text: &str) -> Result<f64, FactorError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::job::CutMode;
     use clap::CommandFactory;
 
     fn parse(line: &str) -> Result<Cli, clap::Error> {

@@ -2,6 +2,7 @@
 
 pub mod args;
 mod ballast_args;
+mod cut_arg;
 pub mod inspect;
 pub mod prepare;
 pub mod printers;

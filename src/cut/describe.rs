@@ -3,9 +3,8 @@
 use super::{
     access::VoidAccess,
     error::CutError,
-    pattern::Peg,
     pin_shape::PinSite,
-    pins::{PinScene, Placement, needed_room_mm, place},
+    pins::{PinScene, Placement, needed_room_mm, place, seated},
     plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id, pin_id},
     planner::Layout,
     rejoin::Bridge,
@@ -16,28 +15,64 @@ use super::{
 };
 use crate::geom::Plane;
 
-/// The plan's data for these cuts and pieces.
-pub(crate) fn described(scene: &Scene, layout: Layout, mut notes: Vec<String>) -> Result<CutPlan, CutError> {
+/// The plan's data for these cuts and pieces; with the pins that were ordered, or else pins placed in every joint.
+pub(crate) fn described(
+    scene: &Scene,
+    layout: Layout,
+    (ordered, mut notes): (&Option<Vec<PinSite>>, Vec<String>),
+) -> Result<CutPlan, CutError> {
     let Layout { planes, voids, pieces, bridges } = layout;
     check_no_cavity(&pieces)?;
     let pin_scene =
         PinScene { request: scene.request, planes: &planes, pieces: &pieces, material: &scene.material };
-    let (mut pins, mut joint_notes) = (Vec::new(), Vec::new());
-    let mut placed: Vec<Vec<Peg>> = Vec::new();
-    for joint in joints(&pieces) {
-        let placement = place(&pin_scene, &joint, &placed);
-        placed.push(placement.pegs.clone());
-        notes.extend(shortage(scene.request, &joint, &placement));
-        joint_notes.push(joint_note(&pieces, &joint, &placement, pins.len()));
-        pins.extend(placement.sites.into_iter().map(|site| PinSite { cut: cut_id(joint.cut), ..site }));
-    }
-    for (index, pin) in pins.iter_mut().enumerate() {
-        pin.id = pin_id(index);
-    }
-    let cuts = planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect();
+    let joints = joints(&pieces);
+    let placements = match ordered {
+        Some(pins) => seated(&pin_scene, &joints, pins)?,
+        None => placed(&pin_scene, &joints),
+    };
+    let told = joints.iter().zip(&placements);
+    notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
-    let uncut = bridges.iter().map(|bridge| uncut_face(&planes, bridge)).collect();
-    Ok(CutPlan { cuts, pins, joints: joint_notes, voids, uncut, notes })
+    Ok(CutPlan {
+        cuts: planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect(),
+        joints: told.map(|(joint, placement)| joint_note(&pieces, joint, placement)).collect(),
+        pins: placements.into_iter().flat_map(|placement| placement.sites).collect(),
+        uncut: bridges.iter().map(|bridge| uncut_face(&planes, bridge)).collect(),
+        voids,
+        notes,
+    })
+}
+
+/// Pins for every joint, numbered through; each pattern is held against those before it.
+fn placed(scene: &PinScene, joints: &[Joint]) -> Vec<Placement> {
+    let (mut placements, mut patterns) = (Vec::new(), Vec::new());
+    let mut count = 0;
+    for joint in joints {
+        let mut placement = place(scene, joint, &patterns);
+        patterns.push(placement.pegs.clone());
+        for site in &mut placement.sites {
+            (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
+            count += 1;
+        }
+        placements.push(placement);
+    }
+    placements
+}
+
+/// The plan with its cuts called as in the order it was made by: the planner numbers them.
+pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
+    let name = |id: &mut String| {
+        let index = plan.cuts.iter().position(|cut| cut.id == *id);
+        if let Some(cut) = index.and_then(|index| cuts.get(index)) {
+            id.clone_from(&cut.id);
+        }
+    };
+    plan.pins.iter_mut().for_each(|pin| name(&mut pin.cut));
+    plan.joints.iter_mut().for_each(|joint| name(&mut joint.cut));
+    plan.uncut.iter_mut().for_each(|face| name(&mut face.cut));
+    plan.voids.iter_mut().flat_map(|void| &mut void.opened_by).for_each(name);
+    plan.cuts = cuts.to_vec();
+    plan
 }
 
 fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
@@ -46,12 +81,12 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     UncutFace { cut: cut_id(bridge.cut), point_mm }
 }
 
-fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement, first_pin: usize) -> JointNote {
+fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement) -> JointNote {
     JointNote {
         cut: cut_id(joint.cut),
         parts: [part_id(joint.below), part_id(joint.above)],
         area_mm2: joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum(),
-        pins: (0..placement.sites.len()).map(|i| pin_id(first_pin + i)).collect(),
+        pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
     }
 }

@@ -41,7 +41,7 @@ pub enum CutError {
         cut: String,
     },
     /// A part would enclose a cavity.
-    #[error("part {part} would enclose {cavities} closed cavities; add a cut that opens them")]
+    #[error("the cuts leave {cavities} of its voids closed in a part (P{:02}); add a cut through them, or take `--cut auto`", part + 1)]
     ClosedCavity {
         /// Which part, from 0.
         part: usize,

@@ -17,6 +17,13 @@ use crate::{
 /// voids, more cost time in proportion.
 const SPREAD_DIRECTIONS: usize = 160;
 
+/// How many voids, the largest, decide between them on directions of their own: with ten there are a thousand, and their
+/// number grows with the fourth power.
+const PAIRED_VOIDS: usize = 10;
+
+/// Two lines between voids that lean less than this (sine) against each other have no common normal to speak of.
+const PARALLEL_SINE: f64 = 1e-6;
+
 /// How many offsets are tried in each interval in which the same voids are met.
 const OFFSETS_PER_INTERVAL: usize = 9;
 
@@ -58,8 +65,8 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
 }
 
 /// The directions of the family: the model's axes, the principal axes of the solid and of every void, the goal's axis
-/// and its perpendiculars, and a Fibonacci spiral over the half sphere (Swinbank and Purser, "Fibonacci
-/// grids", Q. J. R. Meteorol. Soc. 132, 2006).
+/// and its perpendiculars, a Fibonacci spiral over the half sphere (Swinbank and Purser, "Fibonacci
+/// grids", Q. J. R. Meteorol. Soc. 132, 2006), and the directions in which voids lie flattest.
 fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     let mut directions = vec![Vector::x(), Vector::y(), Vector::z()];
     let axis = request.axis.direction.normalize();
@@ -69,8 +76,30 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
     directions.extend(seat::normals(&request.seats));
     directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
+    directions.extend(flattest(&centers(hollowed)));
     directions.retain(|d| d.iter().all(|c| c.is_finite()));
     directions
+}
+
+/// The centres of the largest voids.
+fn centers(hollowed: &Hollowed) -> Vec<Point> {
+    let bodies = hollowed.voids.iter().map(|void| moments_of_mesh(void.mesh()));
+    let mut sized: Vec<(f64, Point)> =
+        bodies.map(|moments| (moments.volume(), Body::new(&moments, 1.0).center)).collect();
+    sized.sort_by(|a, b| b.0.total_cmp(&a.0));
+    sized.into_iter().take(PAIRED_VOIDS).map(|(_, center)| center).collect()
+}
+
+/// The directions in which points may lie flattest: the common normals of two lines through two of them each. The least
+/// distance of parallel planes about any of the points is found along one of these (two edges, or a side and a corner, touch
+/// the planes: Houle and Toussaint, "Computing the width of a set", IEEE TPAMI 10, 1988), so that balls of one size
+/// which some plane opens are opened by one of the family.
+fn flattest(points: &[Point]) -> Vec<Vector> {
+    let pairs = |count: usize| (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
+    let lines: Vec<Vector> = pairs(points.len())
+        .filter_map(|(i, j)| (points[i] - points[j]).try_normalize(f64::MIN_POSITIVE))
+        .collect();
+    pairs(lines.len()).filter_map(|(i, j)| lines[i].cross(&lines[j]).try_normalize(PARALLEL_SINE)).collect()
 }
 
 /// Point `index` of the spiral over the upper half sphere.

@@ -17,6 +17,7 @@ const OVERLAP_RATIO: f64 = 0.2;
 
 /// A pin and its socket: plain data, written into the plan and editable there.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct PinSite {
     /// The pin's name, the same on both parts.
     pub id: String,

@@ -1,13 +1,15 @@
 //! Where alignment pins go: inside the material with the wall around them, spread wide, and one way only.
 
 use super::{
+    error::CutError,
     pattern::{FORCE_TOLERANCE_MM, Peg, fits},
     pin_shape::PinSite,
+    plan::cut_id,
     request::PlanRequest,
     section::{Chart, Point2},
     split::{Joint, Piece},
 };
-use crate::geom::{Bvh, Plane, Point};
+use crate::geom::{Bvh, Plane, Point, Vector};
 
 /// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns better, a thin
 /// one finds room in more places.
@@ -25,6 +27,9 @@ const TRIED_PAIRS: usize = 200;
 
 /// Most pins in one joint: three settle a plane; more only add friction.
 const MAX_PINS: usize = 3;
+
+/// How far from its cut an ordered pin's middle may lie, mm: numbers typed with three decimals.
+const ON_CUT_MM: f64 = 1e-3;
 
 /// What a joint is asked to be fitted into.
 pub(crate) struct PinScene<'a> {
@@ -98,6 +103,47 @@ pub(crate) fn place(scene: &PinScene, joint: &Joint, placed: &[Vec<Peg>]) -> Pla
     let downward = place_along(scene, joint, (placed, false));
     let worth = |p: &Placement| (p.sites.len() >= 2 && p.is_one_way, p.sites.len());
     if worth(&downward) > worth(&upward) { downward } else { upward }
+}
+
+/// The ordered pins joint by joint, with whether they let the parts together one way only. A pin between no two cut faces is
+/// refused.
+pub(crate) fn seated(
+    scene: &PinScene,
+    joints: &[Joint],
+    pins: &[PinSite],
+) -> Result<Vec<Placement>, CutError> {
+    let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
+    for pin in pins {
+        let lost = || CutError::PinOffFace { pin: pin.id.clone() };
+        let is_under = |joint: &Joint| {
+            let plane = &scene.planes[joint.cut];
+            let center = Point::from(pin.center_mm);
+            let at = Chart::of_plane(plane).flat(&center);
+            let caps = || joint.caps.iter().map(|&cap| &scene.pieces[joint.below].caps[cap]);
+            pin.cut == cut_id(joint.cut)
+                && plane.distance(&center).abs() <= ON_CUT_MM
+                && caps().any(|cap| cap.holds(&at))
+        };
+        let joint = joints.iter().position(is_under).ok_or_else(lost)?;
+        of_joint[joint].push(pin);
+    }
+    let mut patterns: Vec<Vec<Peg>> = Vec::new();
+    let placement = |(joint, pins): (&Joint, Vec<&PinSite>)| {
+        let pegs: Vec<Peg> = pins.iter().map(|pin| peg(&scene.planes[joint.cut], pin)).collect();
+        let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &patterns);
+        patterns.push(pegs.clone());
+        let widest_mm = face_points(scene, joint).1;
+        Placement { sites: pins.into_iter().cloned().collect(), pegs, is_one_way, widest_mm }
+    };
+    Ok(joints.iter().zip(of_joint).map(placement).collect())
+}
+
+/// A pin's end view, looking along it: from below the plane left and right are swapped.
+fn peg(plane: &Plane, pin: &PinSite) -> Peg {
+    let sign = plane.normal.dot(&Vector::from(pin.direction)).signum();
+    let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
+    let at = Point2::new(at.x, at.y * sign);
+    Peg { at, pin_mm: pin.diameter_mm, socket_mm: pin.socket_diameter_mm }
 }
 
 /// The pins of a joint that stand out upward, or downward.

@@ -28,6 +28,7 @@ pub struct CutPlan {
 
 /// A plane cut.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Cut {
     /// The cut's name: C1, C2, …
     pub id: String,
@@ -39,6 +40,7 @@ pub struct Cut {
 
 /// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing would be opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct UncutFace {
     /// The cut's id.
     pub cut: String,
@@ -82,14 +84,19 @@ impl CutPlan {
         self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)))
     }
 
-    /// The faces left whole, in the coordinates of the cuts' planes; faces on no cut of the plan are left out.
+    /// The faces left whole, in the coordinates of the cuts' planes.
     pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
-        let bridge = |face: &UncutFace| {
-            let cut = self.cuts.iter().position(|cut| cut.id == face.cut)?;
-            Some(Bridge { cut, at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)) })
-        };
-        self.uncut.iter().filter_map(bridge).collect()
+        bridges_on(planes, &self.cuts, &self.uncut)
     }
+}
+
+/// Faces left whole, in the coordinates of the cuts' planes; faces on none of the cuts are left out.
+pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) -> Vec<Bridge> {
+    let bridge = |face: &UncutFace| {
+        let cut = cuts.iter().position(|cut| cut.id == face.cut)?;
+        Some(Bridge { cut, at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)) })
+    };
+    uncut.iter().filter_map(bridge).collect()
 }
 
 impl Cut {

@@ -4,9 +4,10 @@ use rayon::prelude::*;
 
 use super::{
     access::{VoidAccess, access},
-    describe::described,
+    describe::{described, named_as},
     error::CutError,
-    plan::{Cut, CutPlan, cut_id},
+    order::CutOrder,
+    plan::{Cut, CutPlan, bridges_on, cut_id},
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
@@ -24,8 +25,9 @@ use crate::{
 const VERTEX_GAP_MM: f64 = 1e-6;
 /// How often a cut is moved on by twice the gap to find an offset without vertices.
 const NUDGES: usize = 200;
-/// How many of the best plans are cut for trial before the best is taken as it is.
-const TRIED_PLANS: usize = 3;
+/// How many of the best plans are cut for trial before the best is taken as it is: two planes may leave a pocket between them
+/// where they meet in a void. The first nearly always does; each costs a cut of every void.
+const TRIED_PLANS: usize = 12;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
@@ -41,17 +43,21 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    described(&scene, layout, notes)
+    described(&scene, layout, (&None, notes))
 }
 
-/// The plan for cuts given by the user, each through the whole model: pins, joints and openings as in [`plan`].
-pub fn plan_for_cuts(hollowed: &Hollowed, request: &PlanRequest, cuts: &[Cut]) -> Result<CutPlan, CutError> {
+/// The plan by a person's order: each cut through the whole model but for the faces that are to stay whole; pins as ordered,
+/// or placed as in [`plan`]. Joints and openings follow.
+pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request);
-    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    let pieces = split(&scene.material, &planes)?;
+    let planes = order.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let own = order.numbered();
+    let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
+    let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
     let voids = accesses(hollowed, &planes)?;
-    described(&scene, Layout { planes, voids, pieces, bridges: Vec::new() }, Vec::new())
+    let plan = described(&scene, Layout { planes, voids, pieces, bridges }, (&own.pins, Vec::new()))?;
+    Ok(named_as(plan, &order.cuts))
 }
 
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and

@@ -18,6 +18,9 @@ const ROUNDS: [usize; 3] = [64, 512, 4096];
 /// How many planes of the smallest covers are judged in full: two or three milliseconds each on 100k triangles.
 const JUDGED_PLANES: usize = 48;
 
+/// Weight of a void that two planes meet: it falls into more pieces, and a pocket may stay between the planes.
+const CROSSED_WEIGHT: f64 = 0.5;
+
 /// How many smallest covers are compared.
 const COMPARED_COVERS: usize = 20_000;
 
@@ -139,7 +142,10 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
     }
     // A seat's opening is wide enough or not; more of it is of no use.
     let plain = voids.saturating_sub(scene.request.seats.len());
-    let by_opening = |cover: &Vec<usize>| opening_penalty(scene, openings_mm(exact, cover, plain));
+    let by_opening = |cover: &Vec<usize>| {
+        opening_penalty(scene, openings_mm(exact, cover, plain))
+            + CROSSED_WEIGHT * crossed(exact, cover, voids)
+    };
     let mut covers: Vec<(f64, Vec<usize>)> = covers.into_iter().map(|c| (by_opening(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));
     let burdens = burdens_of(scene, exact, &covers);
@@ -151,6 +157,12 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
         covers.into_iter().filter_map(|(opening, c)| Some((penalty(&c)? + opening, c))).collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     scored.iter().map(|(_, cover)| cover.iter().map(|&i| exact[i].plane).collect()).collect()
+}
+
+/// How many voids more than one of the cover's planes meet.
+fn crossed(exact: &[Exact], cover: &[usize], voids: usize) -> f64 {
+    let meeting = |void: usize| cover.iter().filter(|&&i| exact[i].openings[void].is_some()).count();
+    (0..voids).filter(|&void| meeting(void) > 1).count() as f64
 }
 
 /// The burdens of the first [`JUDGED_PLANES`] planes that the covers name, in the covers' order.

@@ -32,6 +32,11 @@ fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
     (plan, parts)
 }
 
+/// An order of these cuts, pins to be placed.
+fn cuts(cuts: Vec<Cut>) -> CutOrder {
+    CutOrder { cuts, ..CutOrder::default() }
+}
+
 fn assert_volumes_add_up(hollowed: &Hollowed, parts: &[Part]) {
     let body = moments_of_mesh(&hollowed.to_mesh()).volume();
     let written: f64 = parts.iter().map(|part| volume(&part.solid)).sum();
@@ -115,14 +120,14 @@ fn four_small_voids_at_the_corners_of_a_tetrahedron_need_two_cuts() {
 #[test]
 fn no_two_joints_can_be_confused() {
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
-    let cuts: Vec<Cut> = (1..3)
+    let planes: Vec<Cut> = (1..3)
         .map(|i| Cut {
             id: format!("C{i}"),
             point_mm: [20.0 * f64::from(i), 0.0, 0.0],
             normal: [1.0, 0.0, 0.0],
         })
         .collect();
-    let plan = plan_for_cuts(&body, &request(), &cuts).unwrap();
+    let plan = plan_by(&body, &request(), &cuts(planes)).unwrap();
     assert_eq!(plan.joints.len(), 2);
     assert!(plan.joints.iter().all(|joint| joint.one_way && joint.pins.len() >= 2), "{:?}", plan.joints);
 }
@@ -234,11 +239,11 @@ fn degenerate_cuts_and_requests_are_refused_without_panic() {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     for normal in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0]] {
         let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal };
-        let refused = plan_for_cuts(&body, &request(), &[cut]).unwrap_err();
+        let refused = plan_by(&body, &request(), &cuts(vec![cut])).unwrap_err();
         assert_eq!(refused, CutError::DegenerateCut { cut: "C1".into() });
     }
     let aside = Cut { id: "C1".into(), point_mm: [0.0, 0.0, 99.0], normal: [0.0, 0.0, 1.0] };
-    assert!(matches!(plan_for_cuts(&body, &request(), &[aside]), Err(CutError::ClosedCavity { .. })));
+    assert!(matches!(plan_by(&body, &request(), &cuts(vec![aside])), Err(CutError::ClosedCavity { .. })));
     let asked = PlanRequest { wall_mm: f64::NAN, ..request() };
     assert!(matches!(plan(&body, &asked), Err(CutError::BadRequest { name: "wall_mm", .. })));
 }
@@ -247,7 +252,7 @@ fn degenerate_cuts_and_requests_are_refused_without_panic() {
 fn a_cut_along_a_face_leaves_no_sheets() {
     let body = with_balls(cuboid([0.0; 3], [30.0; 3]), &[]);
     let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal: [0.0, 0.0, 1.0] };
-    let plan = plan_for_cuts(&body, &request(), &[cut]).unwrap();
+    let plan = plan_by(&body, &request(), &cuts(vec![cut])).unwrap();
     assert_eq!(parts(&body, &plan, &request()).unwrap().len(), 1);
 }
 

@@ -12,7 +12,7 @@ use super::{
     written::WrittenPart,
 };
 use crate::cut::{
-    self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_for_cuts,
+    self, CutError, CutOrder, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_by,
 };
 use crate::hollow::Solution;
 use crate::job::CutMode;
@@ -113,9 +113,10 @@ fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
 }
 
 fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    match setup.job.cut {
-        CutMode::Auto => cut::plan(&voids.hollowed, request),
-        CutMode::Never => plan_for_cuts(&voids.hollowed, request, &[]),
+    match (&setup.job.plan, setup.job.cut) {
+        (Some(order), _) => plan_by(&voids.hollowed, request, order),
+        (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),
+        (None, CutMode::Never) => plan_by(&voids.hollowed, request, &CutOrder::default()),
     }
 }
 
@@ -160,7 +161,7 @@ fn written_parts(
 ) -> Result<Vec<WrittenPart>, Error> {
     let parts = match parts(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
-            *plan = cut::plan(&voids.hollowed, request)?;
+            *plan = planned_once(setup, voids, request)?;
             parts(&voids.hollowed, plan, request)?
         }
         parts => parts?,

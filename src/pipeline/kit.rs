@@ -2,9 +2,10 @@
 
 use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
-use crate::cut::CutPlan;
+use crate::cut::{CutOrder, CutPlan};
 use crate::digest::sha256_hex;
 use crate::io::stl;
+use crate::job::JobError;
 use crate::mesh::weld;
 use crate::progress::Progress;
 use crate::report::{Checklist, Kit, Picture, Sitting, Verdict, album, page};
@@ -17,6 +18,8 @@ use crate::verify::{
 const HOLLOWED: &str = "hollowed.stl";
 /// The name of the job in a kit.
 const JOB: &str = "job.toml";
+/// The name of the cuts and pins in a kit, to edit.
+const CUTS: &str = "cuts.toml";
 
 /// Judges what is to be written and puts the kit together.
 pub fn prepared(
@@ -43,6 +46,7 @@ pub fn prepared(
         kit.add(&part.file, part.bytes.clone());
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());
+    kit.add(CUTS, CutOrder::of(&assembly.plan).to_toml().map_err(JobError::from)?.into_bytes());
     for picture in &pictures {
         kit.add(&picture.file, picture.png.clone());
     }
@@ -87,6 +91,7 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits {
             build_volume_mm: setup.printer.build_volume_mm.as_ref().map(|volume| volume.value),
+            minimum_wall_mm: setup.printer.min_wall_mm.value,
         },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
         goal: rows::aim(setup),

@@ -125,6 +125,7 @@ fn printer_row(setup: &Setup) -> PrinterRow {
         layer_mm: printer.layer_mm.value,
         build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
         support: support_word(printer.support).to_owned(),
+        minimum_wall_mm: printer.min_wall_mm.value,
         minimum_opening_mm: printer.min_opening_mm.value,
         sources: sources(setup),
     }

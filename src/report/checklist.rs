@@ -116,6 +116,8 @@ pub struct PrinterRow {
     pub build_volume_mm: Option<[f64; 3]>,
     /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or `none`.
     pub support: String,
+    /// The least wall the process prints, mm.
+    pub minimum_wall_mm: f64,
     /// The least opening through which a void can be cleaned, mm.
     pub minimum_opening_mm: f64,
     /// What each of these numbers rests on, in words: sources, and what is only assumed.

@@ -85,6 +85,7 @@ fn printer() -> PrinterRow {
         layer_mm: 0.016,
         build_volume_mm: Some([100.0, 100.0, 6.0]),
         support: "water-jet".into(),
+        minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
         sources: vec!["layer: read: user guide".into()],
     }

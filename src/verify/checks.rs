@@ -227,8 +227,8 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     }
     let (deviation_mm, off_at) = worst_of(&found.pegs, |peg| Some(peg.deviation_mm));
     let (lack_mm, tight_at) = worst_of(&found.pegs, |peg| Some(peg.ordered_gap_mm - peg.gap_mm?));
-    let (wall_lack_mm, thin_at) = worst_of(&found.pegs, |peg| Some(promise.wall.required_mm - peg.wall_mm));
-    let wall_mm = wall_lack_mm.map(|lack_mm| promise.wall.required_mm - lack_mm);
+    let (bulge_mm, thin_at) = worst_of(&found.pegs, |peg| Some(-peg.wall_mm));
+    let wall_mm = bulge_mm.map(|bulge_mm| -bulge_mm);
     vec![
         Check::new(
             "pins",
@@ -250,7 +250,7 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 }
 
 fn wall_around_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
-    let limit = Limit::at_least(promise.wall.required_mm - WALL_TOLERANCE_MM, "mm");
+    let limit = Limit::at_least(promise.printer.minimum_wall_mm - WALL_TOLERANCE_MM, "mm");
     Check::new("socket wall", "the wall around every socket is at least", wall_mm, limit)
 }
 

@@ -35,7 +35,7 @@ fn promise(poses: &[Pose]) -> Promise {
     };
     Promise {
         schema: SCHEMA,
-        printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]) },
+        printer: PrinterLimits { build_volume_mm: Some([100.0, 100.0, 6.0]), minimum_wall_mm: 1.0 },
         material: Density { density_g_cm3: 1.2 },
         goal: Aim::new(GoalKind::Top, [0.0; 3], [0.0, 0.0, 1.0]),
         promise: None,

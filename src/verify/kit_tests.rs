@@ -19,7 +19,7 @@ fn write_kit(folder: &Path) {
     let parts: Vec<Value> = evidence.parts.iter().map(|part| part_json(folder, part)).collect();
     let sheet = json!({
         "schema": SCHEMA,
-        "printer": { "build_volume_mm": null },
+        "printer": { "build_volume_mm": null, "minimum_wall_mm": 1.0 },
         "material": { "density_g_cm3": 1.2 },
         "goal": { "kind": "top", "origin_mm": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "objective": "any" },
         "wall": { "required_mm": 3.0 },

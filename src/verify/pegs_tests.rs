@@ -41,7 +41,7 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
     evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
     evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
     evidence.promise.joints = vec![PromisedJoint { id: "J1".to_owned(), clearance_mm: GAP_MM - 0.001 }];
-    evidence.promise.wall.required_mm = 1.05;
+    evidence.promise.printer.minimum_wall_mm = 1.05;
     evidence.promise.printer.build_volume_mm = None;
     evidence
 }
@@ -104,6 +104,6 @@ fn a_socket_sunk_aside_leaves_too_small_a_gap() {
 #[test]
 fn a_wall_around_the_socket_thinner_than_ordered_is_found() {
     let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
-    evidence.promise.wall.required_mm = 1.5 - SOCKET[0] / 2.0 + 0.011;
+    evidence.promise.printer.minimum_wall_mm = 1.5 - SOCKET[0] / 2.0 + 0.011;
     assert_eq!(wrong(&evidence), ["socket wall"]);
 }

@@ -53,6 +53,8 @@ pub struct Promise {
 pub struct PrinterLimits {
     /// The edges of the build volume along x, y and z, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
+    /// The least wall the process prints, mm: what must stay around sockets.
+    pub minimum_wall_mm: f64,
 }
 
 /// The density the masses rest on.

@@ -1,0 +1,253 @@
+//! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and read again.
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    pin_shape::PinSite,
+    plan::{Cut, CutPlan, UncutFace, cut_id},
+};
+use crate::toml_text::{self, TextFault};
+
+/// The head of every written file.
+const REMARK: &str = "# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
+# Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes.
+
+";
+
+/// What a person orders of a plan: the cuts, and, where given, the pins. What follows from them is not part of it.
+#[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Given")]
+pub struct CutOrder {
+    /// The pins; placed by the planner where none are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pins: Option<Vec<PinSite>>,
+    /// The cuts, each through the whole model.
+    pub cuts: Vec<Cut>,
+    /// Where a cut leaves the body whole.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub uncut: Vec<UncutFace>,
+}
+
+/// An order as it stands in a file, before it is looked at.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Given {
+    pins: Option<Vec<PinSite>>,
+    #[serde(default)]
+    cuts: Vec<Cut>,
+    #[serde(default)]
+    uncut: Vec<UncutFace>,
+}
+
+/// Why an order makes no sense.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum OrderError {
+    /// Two cuts or two pins of one name.
+    #[error("{what} {id} is there twice; remedy: give each its own id")]
+    Twice {
+        /// `cut` or `pin`.
+        what: &'static str,
+        /// The id.
+        id: String,
+    },
+    /// A plane that is none.
+    #[error(
+        "cut {0} has no direction, or numbers that are not finite; remedy: give a normal X, Y, Z and a point in mm"
+    )]
+    NoPlane(String),
+    /// A pin or an uncut face on a cut that is not in the order.
+    #[error("{what} lies on cut {cut}, which is not there; remedy: name one of the cuts")]
+    NoCut {
+        /// What names the cut.
+        what: String,
+        /// The cut it names.
+        cut: String,
+    },
+    /// A pin that cannot be made.
+    #[error("pin {id}: {reason}")]
+    BadPin {
+        /// The pin's id.
+        id: String,
+        /// What is wrong with it, and the remedy.
+        reason: &'static str,
+    },
+}
+
+impl CutOrder {
+    /// The order of exactly this plan, its pins included.
+    pub fn of(plan: &CutPlan) -> Self {
+        Self { pins: Some(plan.pins.clone()), cuts: plan.cuts.clone(), uncut: plan.uncut.clone() }
+    }
+
+    /// The same order with its cuts called as the planner calls them: C1, C2, …
+    pub(crate) fn numbered(&self) -> Self {
+        let number = |id: &mut String| {
+            if let Some(index) = self.cuts.iter().position(|cut| cut.id == *id) {
+                *id = cut_id(index);
+            }
+        };
+        let mut own = self.clone();
+        own.cuts.iter_mut().for_each(|cut| number(&mut cut.id));
+        own.uncut.iter_mut().for_each(|face| number(&mut face.cut));
+        own.pins.iter_mut().flatten().for_each(|pin| number(&mut pin.cut));
+        own
+    }
+
+    /// The order that the TOML `text` says, which messages call `file`.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
+        toml_text::read(file, text)
+    }
+
+    /// The order as a file to edit. Reads back equal, to the bit.
+    pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
+        Ok(format!("{REMARK}{}", toml::to_string(self)?))
+    }
+}
+
+impl TryFrom<Given> for CutOrder {
+    type Error = OrderError;
+
+    fn try_from(given: Given) -> Result<Self, OrderError> {
+        let Given { pins, cuts, uncut } = given;
+        let ids = |what, ids: Vec<&String>| no_twin(what, ids);
+        ids("cut", cuts.iter().map(|cut| &cut.id).collect())?;
+        ids("pin", pins.iter().flatten().map(|pin| &pin.id).collect())?;
+        if let Some(cut) = cuts.iter().find(|cut| cut.plane().is_err()) {
+            return Err(OrderError::NoPlane(cut.id.clone()));
+        }
+        let known = |id: &str| cuts.iter().any(|cut| cut.id == id);
+        if let Some(face) = uncut.iter().find(|face| !known(&face.cut)) {
+            return Err(OrderError::NoCut { what: "an uncut face".to_owned(), cut: face.cut.clone() });
+        }
+        for pin in pins.iter().flatten() {
+            if !known(&pin.cut) {
+                return Err(OrderError::NoCut { what: format!("pin {}", pin.id), cut: pin.cut.clone() });
+            }
+            check_pin(pin).map_err(|reason| OrderError::BadPin { id: pin.id.clone(), reason })?;
+        }
+        Ok(Self { pins, cuts, uncut })
+    }
+}
+
+fn no_twin(what: &'static str, mut ids: Vec<&String>) -> Result<(), OrderError> {
+    ids.sort_unstable();
+    let twin = ids.windows(2).find(|pair| pair[0] == pair[1]);
+    twin.map_or(Ok(()), |pair| Err(OrderError::Twice { what, id: pair[0].clone() }))
+}
+
+/// What keeps a pin from being made.
+fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
+    let sizes = [pin.diameter_mm, pin.length_mm, pin.socket_diameter_mm, pin.socket_depth_mm];
+    let chamfers = [pin.chamfer_mm, pin.socket_chamfer_mm];
+    let places = [pin.center_mm, pin.direction];
+    if !places.as_flattened().iter().all(|x| x.is_finite()) || pin.direction == [0.0; 3] {
+        return Err("its centre and direction must be finite, and the direction have a length");
+    }
+    if !sizes.iter().all(|size| size.is_finite() && *size > 0.0) {
+        return Err("its diameters, length and depth must be positive numbers, mm");
+    }
+    if !chamfers.iter().all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0) {
+        return Err("its chamfers must be zero or positive, mm");
+    }
+    if 2.0 * pin.chamfer_mm >= pin.diameter_mm || pin.chamfer_mm >= pin.length_mm {
+        return Err("its chamfer must be less than its radius and its length");
+    }
+    if pin.socket_chamfer_mm >= pin.socket_depth_mm {
+        return Err("its socket's chamfer must be less than the socket's depth");
+    }
+    if pin.socket_diameter_mm <= pin.diameter_mm || pin.socket_depth_mm < pin.length_mm {
+        return Err(
+            "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance",
+        );
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{
+        plan, plan_by,
+        scenes::{ball, request, with_balls},
+    };
+
+    fn planned() -> (crate::mesh::Hollowed, CutPlan) {
+        let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+        let plan = plan(&body, &request()).unwrap();
+        (body, plan)
+    }
+
+    #[test]
+    fn a_plan_written_as_an_order_and_read_again_is_made_again_to_the_bit() {
+        let (body, plan) = planned();
+        let text = CutOrder::of(&plan).to_toml().unwrap();
+        let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
+        assert_eq!(order, CutOrder::of(&plan));
+        let again = plan_by(&body, &request(), &order).unwrap();
+        assert_eq!((&again.cuts, &again.pins, &again.joints), (&plan.cuts, &plan.pins, &plan.joints));
+    }
+
+    #[test]
+    fn a_cut_keeps_the_name_it_was_given_wherever_the_plan_speaks_of_it() {
+        let (body, plan) = planned();
+        let text = CutOrder::of(&plan).to_toml().unwrap().replace("\"C1\"", "\"waist\"");
+        let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
+        let made = plan_by(&body, &request(), &order).unwrap();
+        assert_eq!(serde_json::to_string(&made).unwrap().replace("waist", "C1"), {
+            let notes = made.notes.clone();
+            serde_json::to_string(&CutPlan { notes, ..plan }).unwrap()
+        });
+    }
+
+    #[test]
+    fn pins_not_given_are_placed_and_an_empty_list_makes_none() {
+        let (body, plan) = planned();
+        let cuts = CutOrder { pins: None, ..CutOrder::of(&plan) };
+        assert_eq!(plan_by(&body, &request(), &cuts).unwrap().pins, plan.pins);
+        let none = CutOrder { pins: Some(Vec::new()), ..cuts };
+        assert!(plan_by(&body, &request(), &none).unwrap().pins.is_empty());
+    }
+
+    #[test]
+    fn two_equal_pins_of_ones_own_fit_in_two_ways_and_the_plan_says_so() {
+        let (body, plan) = planned();
+        let mut order = CutOrder::of(&plan);
+        let mut pins = plan.pins[..2].to_vec();
+        let first = pins[0].clone();
+        pins[1] = PinSite { id: "N2".into(), center_mm: pins[1].center_mm, ..first };
+        order.pins = Some(pins);
+        let made = plan_by(&body, &request(), &order).unwrap();
+        assert!(
+            !made.joints[0].one_way && made.notes.iter().any(|n| n.contains("more than one way")),
+            "{made:?}"
+        );
+    }
+
+    /// What to replace in a written order, by what, and what the message must say.
+    const BROKEN: [(&str, &str, &str); 9] = [
+        ("id = \"C1\"\npoint", "id = \"C2\"\npoint", "lies on cut C1, which is not there"),
+        ("id = \"N2\"", "id = \"N1\"", "pin N1 is there twice"),
+        ("normal = ", "normal = [0.0, 0.0, 0.0] # ", "cut C1 has no direction"),
+        (
+            "point_mm = ",
+            "point_mm = [nan, 0.0, 0.0] # ",
+            "cut C1 has no direction, or numbers that are not finite",
+        ),
+        ("diameter_mm = ", "diametre_mm = ", "did you mean `diameter_mm`"),
+        ("length_mm = ", "length_mm = -", "must be positive numbers"),
+        ("chamfer_mm = ", "chamfer_mm = 9 # ", "chamfer must be less than its radius"),
+        ("socket_diameter_mm = ", "socket_diameter_mm = 0.01 # ", "its socket must be wider"),
+        ("direction = ", "direction = [0.0, 1.0] # ", "array of length 3"),
+    ];
+
+    #[test]
+    fn every_broken_order_is_refused_with_its_reason() {
+        let whole = CutOrder::of(&planned().1).to_toml().unwrap();
+        for (from, to, reason) in BROKEN {
+            assert!(whole.contains(from), "{from} in\n{whole}");
+            let refused = CutOrder::from_toml("cuts.toml", &whole.replacen(from, to, 1));
+            let message = refused.expect_err(to).to_string();
+            assert!(message.starts_with("cuts.toml:") && message.contains(reason), "{to}: {message}");
+        }
+    }
+}
