@@ -81,3 +81,32 @@ fn orders_that_cannot_be_met_are_refused_with_a_remedy() {
         assert!(output.status.code() == Some(code) && told.contains(said), "{order}: {told}");
     }
 }
+
+/// The shipped ellipsoid as a top with something in its voids, coarse, which is quick.
+fn filled_top(out: &Path, fill: &str) -> Output {
+    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+    let usual =
+        ["--json", "prepare", model, "--printer", "objet-connex350", "--goal", "top", "--size", "60mm"];
+    equipoise(&[&usual[..], &["--pitch", "0.3mm", "--fill", fill, "--out", out.to_str().unwrap()]].concat())
+}
+
+#[test]
+fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
+    let folder = tempfile::tempdir().unwrap();
+    for (fill, density) in [("0.4", 0.4), ("5", 5.0)] {
+        let kit = folder.path().join(fill);
+        let made = filled_top(&kit, fill);
+        assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+        let sheet = json(&made.stdout);
+        let printed_g: f64 =
+            sheet["parts"].as_array().unwrap().iter().map(|part| part["mass_g"].as_f64().unwrap()).sum();
+        let void_cm3 = |void: &Value| void["volume_mm3"].as_f64().unwrap() / 1000.0;
+        let filled_g = density * sheet["voids"].as_array().unwrap().iter().map(void_cm3).sum::<f64>();
+        let mass_g = sheet["assembly"]["mass_g"].as_f64().unwrap();
+        // Files keep 24 bits of a coordinate.
+        assert!((mass_g - printed_g - filled_g).abs() < 1e-4 * mass_g, "{mass_g} {printed_g} {filled_g}");
+        assert_eq!(equipoise(&["verify", kit.to_str().unwrap()]).status.code(), Some(0));
+    }
+    let like_the_print = filled_top(&folder.path().join("none"), "1.175");
+    assert_eq!(like_the_print.status.code(), Some(2));
+}

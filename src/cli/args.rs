@@ -384,6 +384,7 @@ fn factor(text: &str) -> Result<f64, FactorError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::printers::PrintersAction;
     use super::*;
     use crate::job::CutMode;
     use clap::CommandFactory;

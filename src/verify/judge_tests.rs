@@ -276,3 +276,18 @@ fn ballast_beside_its_place_spoils_the_balance_or_has_no_room() {
         assert!(failures(&evidence).contains(&"ballast room".to_owned()), "{place:?}");
     }
 }
+
+#[test]
+fn a_filling_counts_by_the_volume_of_the_voids() {
+    let mut evidence = sound();
+    let bare = judge(&evidence);
+    evidence.promise.fill = Some(FillOrder { density_g_cm3: 2.4 });
+    let filled = judge(&evidence);
+    let void_cm3 = 54.0 * 34.0 * 6.0 / 1000.0;
+    assert!((filled.assembly.mass_g - bare.assembly.mass_g - 2.4 * void_cm3).abs() < 1e-9);
+    assert_eq!(filled.assembly.volume_mm3, bare.assembly.volume_mm3);
+    // Twice as dense as the print, the filling outweighs the box's inside: the box is a top still, about the same centre.
+    assert!(filled.passes() && (filled.assembly.center_mm[2] - 16.0).abs() < 1e-12);
+    evidence.promise.assembly = Some(bare.assembly);
+    assert_eq!(failures(&evidence), ["checklist"]);
+}
