@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
 
 use divan::{Bencher, black_box};
-use equipoise::goal::{Contact, GoalKind, Placement, Request, Up, place};
+use equipoise::goal::{Contact, GoalKind, Objective, Placement, Request, Up, place};
 use equipoise::hollow::{Problem, Settings, Solution, refine, solve};
 use equipoise::interior::Columns;
 use equipoise::io::stl;
@@ -67,6 +67,30 @@ static SCENES: LazyLock<Vec<Scene>> = LazyLock::new(|| {
     made.into_iter().chain([elephant, armadillo]).filter(|scene| scene.path.is_file()).collect()
 });
 
+/// Every goal once, with each of its objectives, on the larger models.
+static GOALS: LazyLock<Vec<Scene>> = LazyLock::new(|| {
+    let of = |name, file, request: Request| Scene::new(name, shared(file), request);
+    let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.0 };
+    let top =
+        |objective| Request { contact: Some(Contact::Center), objective, ..Request::new(GoalKind::Top) };
+    let yoyo = |objective| Request { objective, ..Request::new(GoalKind::Yoyo) };
+    let upright = |kind, objective| Request { up: Up::Y, objective, ..Request::new(kind) };
+    let rotor = |objective| Request { objective, ..Request::new(GoalKind::Balance) };
+    let goals = [
+        of("top-critical-speed", "elephant.obj", top(Objective::CriticalSpeed)),
+        of("top-inertia", "elephant.obj", top(spin_it(0.0))),
+        of("top-inertia-and-lever", "elephant.obj", top(spin_it(1.0))),
+        of("yoyo-inertia", "cheburashka.obj", yoyo(spin_it(0.0))),
+        of("yoyo-dominance", "cheburashka.obj", yoyo(Objective::Dominance)),
+        of("stand-toppling", "elephant.obj", upright(GoalKind::Stand, Objective::TopplingAngle)),
+        of("stand-lowest", "elephant.obj", upright(GoalKind::Stand, Objective::LowestCenter)),
+        of("float", "elephant.obj", Request::new(GoalKind::Float)),
+        of("balance-least-removed", "rocker-arm.obj", rotor(Objective::LeastRemoved)),
+        of("balance-least-unbalance", "rocker-arm.obj", rotor(Objective::LeastUnbalance)),
+    ];
+    goals.into_iter().filter(|scene| scene.path.is_file()).collect()
+});
+
 /// A model that is made by code, written where it can be read.
 fn made(name: &'static str) -> PathBuf {
     let (_, make) = models::MODELS.into_iter().find(|(known, _)| *known == name).unwrap();
@@ -87,8 +111,13 @@ fn names() -> Vec<&'static str> {
     SCENES.iter().map(|scene| scene.name).collect()
 }
 
+/// The names of the goals there are models for.
+fn goal_names() -> Vec<&'static str> {
+    GOALS.iter().map(|scene| scene.name).collect()
+}
+
 fn scene(name: &str) -> &'static Scene {
-    SCENES.iter().find(|scene| scene.name == name).unwrap()
+    SCENES.iter().chain(GOALS.iter()).find(|scene| scene.name == name).unwrap()
 }
 
 impl Scene {
@@ -186,6 +215,16 @@ fn solve_at_100_columns_a_side(bencher: Bencher, name: &str) {
     let scene = scene(name);
     let columns = scene.columns(scene.shell().coarse_pitch(COARSE));
     bencher.bench(|| scene.solved(black_box(&columns)));
+}
+
+#[divan::bench(args = goal_names(), sample_count = 20, sample_size = 1)]
+fn goal_at_100_columns_a_side(bencher: Bencher, name: &str) {
+    solve_at_100_columns_a_side(bencher, name);
+}
+
+#[divan::bench(args = goal_names(), sample_count = 3, sample_size = 1)]
+fn goal_at_native_pitch(bencher: Bencher, name: &str) {
+    solve_at_native_pitch(bencher, name);
 }
 
 #[divan::bench(args = names(), sample_count = 3, sample_size = 1)]

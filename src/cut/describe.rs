@@ -45,11 +45,10 @@ pub(crate) fn described(
 
 /// Pins for every joint, numbered through; each pattern is held against those before it.
 fn placed(scene: &PinScene, joints: &[Joint]) -> Vec<Placement> {
-    let (mut placements, mut patterns) = (Vec::new(), Vec::new());
+    let mut placements = Vec::new();
     let mut count = 0;
     for joint in joints {
-        let mut placement = place(scene, joint, &patterns);
-        patterns.push(placement.pegs.clone());
+        let mut placement = place(scene, joint, &placements);
         for site in &mut placement.sites {
             (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
             count += 1;

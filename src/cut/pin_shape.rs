@@ -82,8 +82,13 @@ impl PinSite {
         socket_diameter_mm / 2.0 / (std::f64::consts::PI / SIDES as f64).cos()
     }
 
+    /// How far the root of a pin of this diameter reaches into its own part, mm.
+    pub(crate) fn root_mm(diameter_mm: f64) -> f64 {
+        OVERLAP_RATIO * diameter_mm
+    }
+
     fn overlap_mm(&self) -> f64 {
-        OVERLAP_RATIO * self.diameter_mm
+        Self::root_mm(self.diameter_mm)
     }
 
     /// (radius, height) of the pin's outline from the cut face to the tip, mm.

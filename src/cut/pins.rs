@@ -9,7 +9,7 @@ use super::{
     section::{Chart, Point2},
     split::{Joint, Piece},
 };
-use crate::geom::{Bvh, Plane, Point, Vector};
+use crate::geom::{Bvh, Plane, Point, Vector, triangle::segment_segment_distance_squared};
 
 /// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns better, a thin
 /// one finds room in more places.
@@ -92,10 +92,11 @@ fn round_up(value: f64, step: f64) -> f64 {
     if step > 0.0 { (value / step - SLACK).ceil() * step } else { value }
 }
 
-/// The pins of a joint; `placed` are the patterns of the joints before it, which its own must not be confused with.
+/// The pins of a joint; `placed` are those of the joints before it, whose pins its own must keep off, and with whose patterns its
+/// own must not be confused.
 ///
 /// Both directions are tried, the normal's first; the one that aligns better wins.
-pub(crate) fn place(scene: &PinScene, joint: &Joint, placed: &[Vec<Peg>]) -> Placement {
+pub(crate) fn place(scene: &PinScene, joint: &Joint, placed: &[Placement]) -> Placement {
     let upward = place_along(scene, joint, (placed, true));
     if upward.sites.len() >= 2 && upward.is_one_way {
         return upward;
@@ -127,15 +128,14 @@ pub(crate) fn seated(
         let joint = joints.iter().position(is_under).ok_or_else(lost)?;
         of_joint[joint].push(pin);
     }
-    let mut patterns: Vec<Vec<Peg>> = Vec::new();
-    let placement = |(joint, pins): (&Joint, Vec<&PinSite>)| {
+    let mut placed: Vec<Placement> = Vec::new();
+    for (joint, pins) in joints.iter().zip(of_joint) {
         let pegs: Vec<Peg> = pins.iter().map(|pin| peg(&scene.planes[joint.cut], pin)).collect();
-        let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &patterns);
-        patterns.push(pegs.clone());
+        let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed);
         let widest_mm = face_points(scene, joint).1;
-        Placement { sites: pins.into_iter().cloned().collect(), pegs, is_one_way, widest_mm }
-    };
-    Ok(joints.iter().zip(of_joint).map(placement).collect())
+        placed.push(Placement { sites: pins.into_iter().cloned().collect(), pegs, is_one_way, widest_mm });
+    }
+    Ok(placed)
 }
 
 /// A pin's end view, looking along it: from below the plane left and right are swapped.
@@ -147,8 +147,8 @@ fn peg(plane: &Plane, pin: &PinSite) -> Peg {
 }
 
 /// The pins of a joint that stand out upward, or downward.
-fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[Vec<Peg>], bool)) -> Placement {
-    let face = Face::new(scene, joint, is_upward);
+fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[Placement], bool)) -> Placement {
+    let face = Face::new(scene, joint, (placed, is_upward));
     let mut fallback = Placement { widest_mm: face.widest_mm, ..Placement::default() };
     for diameters in diameter_pairs(scene.request) {
         let sizes = diameters.map(|d| Size::new(scene.request, d));
@@ -190,9 +190,30 @@ fn pegs(pattern: &[(Point2, Size)]) -> Vec<Peg> {
 }
 
 /// Whether the pattern fits itself in a second way, or another joint, or another joint fits it.
-fn is_confused(pattern: &[Peg], placed: &[Vec<Peg>]) -> bool {
-    let apart = placed.iter().filter(|other| other.len() >= 2);
+fn is_confused(pattern: &[Peg], placed: &[Placement]) -> bool {
+    let apart = placed.iter().map(|placement| &placement.pegs).filter(|other| other.len() >= 2);
     fits(pattern, pattern) || apart.into_iter().any(|other| fits(pattern, other) || fits(other, pattern))
+}
+
+/// What a pin and its socket take up: all within a distance of a segment.
+struct Taken {
+    ends: [Point; 2],
+    radius_mm: f64,
+}
+
+impl Taken {
+    fn of(site: &PinSite) -> Self {
+        let (center, along) = (Point::from(site.center_mm), Vector::from(site.direction));
+        let root = center - along * PinSite::root_mm(site.diameter_mm);
+        let radius_mm = PinSite::socket_corner_mm(site.socket_diameter_mm);
+        Self { ends: [root, center + along * site.socket_depth_mm], radius_mm }
+    }
+
+    /// Whether a segment keeps `distance_mm` from it.
+    fn is_clear_of(&self, segment: [&Point; 2], distance_mm: f64) -> bool {
+        let apart_mm = segment_segment_distance_squared(self.ends.each_ref(), segment).sqrt();
+        apart_mm >= self.radius_mm + distance_mm
+    }
 }
 
 /// The meeting faces of a joint, seen along the pins.
@@ -203,13 +224,15 @@ struct Face<'a> {
     /// +1 when pins stand out along the plane's normal, −1 against it.
     sign: f64,
     surface: Bvh,
+    /// What the pins of other joints take up.
+    taken: Vec<Taken>,
     /// Points of the faces, in the plane's own coordinates, with their distance from the edge.
     points: Vec<(Point2, f64)>,
     widest_mm: f64,
 }
 
 impl<'a> Face<'a> {
-    fn new(scene: &'a PinScene<'a>, joint: &'a Joint, is_upward: bool) -> Self {
+    fn new(scene: &'a PinScene<'a>, joint: &'a Joint, (placed, is_upward): (&[Placement], bool)) -> Self {
         let plane = scene.planes[joint.cut];
         let stoutest =
             DIAMETER_RATIOS[0] * round_up(scene.request.pins.min_diameter_mm, scene.request.pixel_mm);
@@ -221,7 +244,9 @@ impl<'a> Face<'a> {
         };
         let surface = Bvh::new(scene.material.iter_corners().filter(near));
         let (points, widest_mm) = face_points(scene, joint);
-        Self { scene, joint, plane, sign: if is_upward { 1.0 } else { -1.0 }, surface, points, widest_mm }
+        let sign = if is_upward { 1.0 } else { -1.0 };
+        let taken = placed.iter().flat_map(|placement| &placement.sites).map(Taken::of).collect();
+        Self { scene, joint, plane, sign, surface, taken, points, widest_mm }
     }
 
     /// The points where a pin and socket of this size keep the wall.
@@ -234,7 +259,9 @@ impl<'a> Face<'a> {
     /// Whether the socket at a point, with the wall around it, lies inside the material and clear of other cuts.
     fn has_meat(&self, p: &Point2, size: &Size) -> bool {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
-        let bottom = mouth + self.plane.normal * (self.sign * size.depth);
+        let along = self.plane.normal * self.sign;
+        let bottom = mouth + along * size.depth;
+        let root = mouth - along * PinSite::root_mm(size.diameter);
         let radius = size.corner() + self.scene.request.wall_mm;
         let others = (0..self.scene.planes.len()).filter(|&cut| cut != self.joint.cut);
         let is_clear = |cut: usize| {
@@ -242,6 +269,7 @@ impl<'a> Face<'a> {
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
         others.into_iter().all(is_clear)
+            && self.taken.iter().all(|taken| taken.is_clear_of([&root, &bottom], radius))
             && self.keeps_off([&mouth, &bottom], radius)
             && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
     }
@@ -253,7 +281,7 @@ impl<'a> Face<'a> {
 
     /// Up to three places, the first with the first size: the farthest apart that fit one way only; else the
     /// farthest apart.
-    fn pattern(&self, places: &[Point2], sizes: &[Size; 2], placed: &[Vec<Peg>]) -> Vec<(Point2, Size)> {
+    fn pattern(&self, places: &[Point2], sizes: &[Size; 2], placed: &[Placement]) -> Vec<(Point2, Size)> {
         let gap = room_mm(self.scene.request, &sizes[0]) - self.scene.request.wall_mm;
         let pairs = farthest_pairs(places, gap);
         let two = |&(i, j): &(usize, usize)| vec![(places[i], sizes[0]), (places[j], sizes[1])];

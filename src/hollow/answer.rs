@@ -29,15 +29,15 @@ pub(super) struct Answer {
     pub verdict: Option<Status>,
     /// A top's height, and its slope's growth.
     pub height: Option<Tangent>,
-    /// A top's mass, where it matters.
-    pub mass: Option<f64>,
+    /// A top's lever, where it matters.
+    pub lever: Option<Tangent>,
     /// A lower bound of the ratio over all heights.
     pub bound_over_heights: Option<f64>,
 }
 
 impl Answer {
     pub fn new(objective: Objective, climb: Climb) -> Self {
-        Self { objective, climb, verdict: None, height: None, mass: None, bound_over_heights: None }
+        Self { objective, climb, verdict: None, height: None, lever: None, bound_over_heights: None }
     }
 
     pub fn with_verdict(self, verdict: Status) -> Self {
@@ -55,7 +55,7 @@ impl Answer {
             certificate: self.certificate(&work),
             moments: scale.moments_to_mm(&best.extreme.s),
             passes: work.reach.passes(),
-            warm: Warm { point: best.point.clone(), height: self.height, mass: self.mass },
+            warm: Warm { point: best.point.clone(), height: self.height, lever: self.lever },
             log: work.into_log(),
         }
     }

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::programme::{DualPoint, HEIGHT_ROW, Programme, index};
+use super::programme::{DualPoint, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
 use crate::progress::Progress;
 
@@ -80,9 +80,25 @@ impl Visit {
         (self.value - self.bound) / self.value.abs().max(1e-3)
     }
 
-    /// The derivative of a top's ratio by the height of its centre, by the envelope theorem: −λ_ℓ s₁/(e·s).
-    pub fn height_slope(&self) -> f64 {
-        -self.point.lambda[HEIGHT_ROW] * self.extreme.s[index::ONE] / self.denominator
+    /// The extreme interior's mass.
+    pub fn mass(&self) -> f64 {
+        self.extreme.s[index::ONE]
+    }
+
+    /// Its lever s_z.
+    pub fn lever(&self) -> f64 {
+        self.extreme.s[index::Z]
+    }
+
+    /// The height of the extreme interior's centre.
+    pub fn center_height(&self) -> f64 {
+        self.extreme.s[index::Z] / self.extreme.s[index::ONE]
+    }
+
+    /// Whether the bound is good enough, where the next step promises this gain in D.
+    fn suffices(&self, gain: f64, slack: Slack) -> bool {
+        let promised = self.point.tau + (self.dual + gain) / self.denominator;
+        promised - self.bound <= slack.share * promised.abs() || self.bound >= slack.enough
     }
 
     fn is_within(&self, tolerance: f64) -> bool {
@@ -114,14 +130,23 @@ pub(super) enum End {
 pub(super) struct Climb {
     pub best: Visit,
     pub end: End,
-    /// The separating multipliers, where the rows cannot be met.
-    pub separator: Option<DVector<f64>>,
+}
+
+/// When a bound is good enough.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Slack {
+    /// It may still rise by this share of itself,
+    pub share: f64,
+    /// or it is this much.
+    pub enough: f64,
 }
 
 /// What an ascent may cost and whom it obeys.
 #[derive(Clone, Copy)]
 pub(super) struct Budget<'a> {
     pub tolerance: f64,
+    /// When the bound is good enough whatever the tolerance; none where it never is.
+    pub slack: Option<Slack>,
     pub passes: usize,
     pub first_damping: f64,
     pub progress: &'a Progress<'a>,
@@ -138,7 +163,7 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
     let mut here = Visit::new(reach, programme, start);
     let mut stride = Stride::first(programme, budget);
     loop {
-        let done = |end| Climb { best: here.clone(), end, separator: None };
+        let done = |end| Climb { best: here.clone(), end };
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
@@ -156,6 +181,9 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         if is_settled {
             stride = Stride::first(programme, budget);
             step = Step::from(&here, programme, &stride);
+        }
+        if budget.slack.is_some_and(|slack| here.suffices(step.gain(), slack)) {
+            return done(End::Converged);
         }
         let there = Visit::new(reach, programme, step.to.clone());
         if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
@@ -296,10 +324,10 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
         return None;
     }
-    let proof = climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, ..budget });
-    let separator = Some(proof.best.point.y.clone());
+    let proof =
+        climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
     let end = End::Infeasible(proof.best.bound);
-    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end, separator })
+    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end })
 }
 
 #[cfg(test)]
@@ -350,7 +378,13 @@ mod tests {
         let reach = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
         let programme = Programme::yoyo_dominance(&reach);
         let progress = Progress::silent();
-        let budget = Budget { tolerance: 1e-9, passes: 60, first_damping: COLD_DAMPING, progress: &progress };
+        let budget = Budget {
+            tolerance: 1e-9,
+            slack: None,
+            passes: 60,
+            first_damping: COLD_DAMPING,
+            progress: &progress,
+        };
         let best = climb(&reach, &programme, programme.cold_start(&reach), budget);
         assert_eq!(best.end, End::Converged);
         for i in 0..60 {

@@ -11,13 +11,15 @@ use crate::goal::{Objective, Spindle};
 
 /// The balanced interior with the most material, or, where none is balanced, the least unbalanced one; with the proof
 /// that none reaches the grade, where none does.
+///
+/// Whichever was asked for: no unbalance at all is the least, and of the interiors that have none the one with the most
+/// material is as good as any.
 pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
-    if objective == Objective::LeastRemoved {
-        let programme = Programme::balance_least_removed();
-        let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
-        if !matches!(climb.end, End::Infeasible(_)) {
-            return Answer::new(objective, climb);
-        }
+    let programme = Programme::balance_least_removed();
+    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let is_balanced = work.accepts(&climb) || objective == Objective::LeastRemoved;
+    if is_balanced && !matches!(climb.end, End::Infeasible(_)) {
+        return Answer::new(Objective::LeastRemoved, climb);
     }
     let Some(spindle) = &work.goal.spindle else { return least_unbalanced(work, [-1.0, 1.0], start) };
     let answer = least_unbalanced(work, spindle.ends_mm.map(|end| end / work.to_mm(1.0)), start);
@@ -85,6 +87,15 @@ mod tests {
         assert!(got.certificate.gap_ratio.abs() <= 1e-6 && got.certificate.residual <= 1e-7);
         let found = world.fixed.volume() - got.certificate.value;
         assert!((found / removed - 1.0).abs() < 2e-3, "{found} {removed}");
+        assert!(unbalance_mm(&got.moments, [-3.0, 3.0]) < 1e-6);
+    }
+
+    #[test]
+    fn where_it_can_be_balanced_the_least_unbalance_is_none() {
+        let mut world = worlds::coupled_rotor(60.0);
+        world.goal.objective = Objective::LeastUnbalance;
+        let got = solution(&world);
+        assert_eq!((got.status, got.objective), (Status::Solved, Objective::LeastRemoved));
         assert!(unbalance_mm(&got.moments, [-3.0, 3.0]) < 1e-6);
     }
 

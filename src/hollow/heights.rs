@@ -1,92 +1,112 @@
-//! A top's centre at one height after another: the range, the coarse look, the descent into each valley.
+//! A top's objective as a function of one number: the height at which its tensor is made linear.
 
 use super::answer::Answer;
-use super::ascent::{Climb, End};
-use super::mass;
+use super::ascent::{Climb, End, Slack, Visit};
+use super::lever::{Levers, Weighed};
 use super::programme::{DualPoint, Programme};
-use super::valley::{Bottom, Sample, Valley};
+use super::solution::Tangent;
+use super::valley::{Bottom, Place, Sample, Valley};
 use super::work::Work;
 use crate::goal::Objective;
 
-/// How exact the coarse look over all heights is. Ten times less, and the slopes point the wrong way near a bottom; ten
-/// times more costs a pass a height.
-const LOOK_TOLERANCE: f64 = 3e-3;
-/// How exact the ends of the range of heights are; their outer bounds are used.
-const RANGE_TOLERANCE: f64 = 1e-3;
+/// By which part of themselves the ends of the range of heights may be too far out. Less costs passes, and saves the proof
+/// none, which steps over what is out of reach in one or two.
+const RANGE_SLACK: Slack = Slack { share: 0.2, enough: f64::INFINITY };
+/// The least height of a centre, as a part of the greatest, that counts as above the contact. A top whose centre lies in
+/// its contact needs no spin at all.
+const LEAST_HEIGHT_RATIO: f64 = 1e-4;
 
-/// A dual point to start from, and the mass it belongs to.
-pub(super) type Start<'a> = Option<(&'a DualPoint, Option<f64>)>;
+/// A dual point to start from, and the best lever where it was found.
+pub(super) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 
-/// A top's objective as a function of the height of its centre.
+/// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
+///
+/// With h the height of an interior's centre, s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)². So the linear tensor is never too
+/// small and is right where h = ℓ: the least of T over ℓ is the optimum over all interiors, whatever their heights, and
+/// needs no row that fixes them. T is smooth: its slope is that of s₁(h − ℓ)².
 #[derive(Clone, Copy)]
 pub(super) struct Heights<'a> {
     pub work: &'a Work<'a>,
     pub objective: Objective,
+    /// No interior that meets the constraints has its centre lower or higher.
+    pub range: [f64; 2],
 }
 
-impl Heights<'_> {
+impl<'a> Heights<'a> {
+    /// The objective over the heights that can be had. Fails with the ascent that proves that there is none.
+    pub fn new(work: &'a Work<'a>, objective: Objective) -> Result<Self, Box<Climb>> {
+        Ok(Self { work, objective, range: Self::range(work)? })
+    }
+
     /// The heights the centre of an interior that meets the constraints can have: outer bounds, so that none is
     /// missed. Fails with the ascent that proves that no interior meets them.
     pub fn range(work: &Work) -> Result<[f64; 2], Box<Climb>> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
-            let climb = work.climb(&programme, programme.cold_start(&work.reach), RANGE_TOLERANCE);
+            let climb = work.climb_to_bound(&programme, programme.cold_start(&work.reach), RANGE_SLACK);
             match climb.end {
                 End::Infeasible(_) | End::Cancelled => Err(Box::new(climb)),
                 _ => Ok(sense * climb.best.bound),
             }
         };
-        Ok([end(1.0)?.max(0.0), end(-1.0)?])
+        let (low, high) = (end(1.0)?, end(-1.0)?);
+        Ok([low.max(LEAST_HEIGHT_RATIO * high), high])
     }
 
-    /// The lowest of all valleys over the range; none where no height could be solved.
-    pub fn lowest(&self, [low, high]: [f64; 2]) -> Option<Bottom> {
-        let samples = self.look_over([low, high]);
-        let bottoms = Valley::all_between(low, high, &samples).into_iter().filter_map(|valley| {
-            valley.bottom(|height, near| self.sample(height, near.map(Sample::start), 0.0))
-        });
-        bottoms.min_by(|a, b| a.sample.value.total_cmp(&b.sample.value))
+    /// The bottom of the valley that slopes away from a height; none where nothing could be solved.
+    pub fn bottom_from(&self, height: f64) -> Option<Bottom> {
+        self.bottom(Valley::from(height, self.range), None)
     }
 
-    /// A coarse look at heights spread evenly over the range, ascending.
-    fn look_over(&self, [low, high]: [f64; 2]) -> Vec<Sample> {
-        let count = self.work.settings.heights.max(2);
-        let mut samples: Vec<Sample> = Vec::with_capacity(count);
-        for i in 0..count {
-            let height = low + (high - low) * (i as f64 + 0.5) / count as f64;
-            let near = samples.last().map(Sample::start);
-            samples.extend(self.sample(height, near, LOOK_TOLERANCE));
-        }
-        samples
+    /// The bottom of a valley, from an answer nearby.
+    pub fn bottom(&self, valley: Valley, known: Start) -> Option<Bottom> {
+        valley.bottom(|Place { at, near, tolerance }| {
+            self.sample(at, near.map(Sample::start).or(known), tolerance)
+        })
     }
 
-    /// The objective and its slope at a height; none where the run was stopped or the height cannot be had.
+    /// The objective and its slope; none where the run was stopped or no interior meets the constraints.
     pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
-        if let Some(gammas) = mass::weighed(self.objective) {
-            return mass::Masses { work: self.work, gammas, height }.best(near, tolerance);
+        if let Some(weighed) = Weighed::of(self.objective, self.work) {
+            return Levers { heights: self, weighed, height }.best(near, tolerance);
         }
         let climb = self.work.climb_near(&self.programme(height), near.map(|(point, _)| point), tolerance)?;
-        let (ratio, slope) = (climb.best.value, climb.best.height_slope());
-        let (value, slope) = match self.objective {
-            Objective::SpinIt { gamma_i, .. } => (gamma_i * ratio * ratio, 2.0 * gamma_i * ratio * slope),
-            _ => (ratio, slope),
+        let (ratio, [slope, bend]) = (climb.best.value, self.slopes(height, &climb.best));
+        let (value, chain) = match self.objective {
+            Objective::SpinIt { gamma_i, .. } => (gamma_i * ratio * ratio, 2.0 * gamma_i * ratio),
+            _ => (ratio, 1.0),
         };
-        Some(Sample { at: height, value, slope, climb, mass: None })
+        Some(Sample { at: height, value, slope: chain * slope, bend: chain * bend, climb, lever: None })
     }
 
-    /// The quasi-convex programme with the centre at this height.
+    /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what it grows with ℓ at
+    /// most, 2κs₁/(e·s): the rest is what the interior does.
+    pub fn slopes(&self, height: f64, best: &Visit) -> [f64; 2] {
+        let bend = 2.0 * self.weight(&best.point) * best.mass() / best.denominator;
+        [bend * (height - best.center_height()), bend]
+    }
+
+    /// κ, how often s_z²/s₁ is taken from the numerator: from λ_max once, from y·(I_xx, √2 I_xy, I_yy) by two weights.
+    pub fn weight(&self, point: &DualPoint) -> f64 {
+        match self.objective {
+            Objective::SpinIt { .. } => point.y[0] + point.y[2],
+            _ => 1.0,
+        }
+    }
+
+    /// The quasi-convex programme whose tensor is linear at this height.
     pub fn programme(&self, height: f64) -> Programme {
         let reach = &self.work.reach;
         match self.objective {
             Objective::SpinIt { .. } => Programme::top_functional(reach, height),
             Objective::Dominance => Programme::top_dominance(reach, height),
-            _ => Programme::top_critical_speed(reach, height),
+            _ => Programme::top_critical_speed(reach, height, self.range),
         }
     }
 
-    /// What a run that found no height shows: how far it came at the middle one.
-    pub fn given_up(&self, [low, high]: [f64; 2]) -> Answer {
-        let programme = self.programme(0.5 * (low + high));
+    /// What a run that found nothing shows: how far it came at the middle height.
+    pub fn given_up(&self) -> Answer {
+        let programme = self.programme(0.5 * (self.range[0] + self.range[1]));
         let start = programme.cold_start(&self.work.reach);
         Answer::new(self.objective, self.work.climb(&programme, start, 0.0))
     }
@@ -105,8 +125,8 @@ mod tests {
             let world = worlds::egg_on_its_side(objective);
             let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
             let work = Work::new(&problem, &settings, &progress);
-            let heights = Heights { work: &work, objective };
-            let [low, high] = Heights::range(&work).unwrap();
+            let heights = Heights::new(&work, objective).unwrap();
+            let [low, high] = heights.range;
             let (height, step) = (0.6 * low + 0.4 * high, 3e-3 * (high - low));
             let at = |height| heights.sample(height, None, 0.0).unwrap();
             let difference = (at(height + step).value - at(height - step).value) / (2.0 * step);

@@ -91,19 +91,13 @@ fn mean_across(height: f64) -> Vector10 {
     (row(&I_XX) + row(&I_YY)) * 0.5 - steiner(height)
 }
 
-/// The rows that put a top's centre on the axis and make the axis principal, and fix the centre's height.
-fn top_rows(height: f64) -> DMatrix<f64> {
-    let mut rows = axis_rows();
-    rows.push(row(&[(Z, 1.0), (ONE, -height)]));
-    stack(&rows)
-}
+/// Which row of a top's programme fixes its lever s_z, where there is one.
+pub(super) const LEVER_ROW: usize = 4;
 
-/// Which row of a top's programme fixes the height of the centre, and which the mass.
-pub(super) const HEIGHT_ROW: usize = 4;
-pub(super) const MASS_ROW: usize = 5;
-
-fn axis_rows() -> Vec<Vector10> {
-    [X, Y, XZ, YZ].into_iter().map(|moment| row(&[(moment, 1.0)])).collect()
+/// The rows that put the centre on the axis and make the axis principal.
+fn axis_rows() -> DMatrix<f64> {
+    let row_of = |moment| row(&[(moment, 1.0)]);
+    stack(&[X, Y, XZ, YZ].map(row_of))
 }
 
 impl Programme {
@@ -154,54 +148,55 @@ impl Programme {
             .for_stage(Stage::Dominance)
     }
 
-    /// Top at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq. 1).
+    /// Top by the tensor that is linear at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq. 1).
     ///
-    /// Where the height row holds, s_z is ℓ s₁, and moving the row's multiplier turns the one into the other. So the
-    /// bounds of ℓ s₁, which is positive on all of K, serve for s_z, which need not be.
-    pub fn top_critical_speed(reach: &Reach, height: f64) -> Self {
+    /// The centre of every interior that meets the rows has its height in `range`, which bounds s_z by the mass.
+    pub fn top_critical_speed(reach: &Reach, height: f64, [lowest, highest]: [f64; 2]) -> Self {
         let numerator = mean_across(height) - row(&I_ZZ);
-        let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), top_rows(height));
-        programme.denominator_floor = height * reach.shell[ONE];
-        programme.denominator_ceiling = height * reach.fullest[ONE];
+        let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), axis_rows());
+        programme.denominator_floor = lowest * reach.shell[ONE];
+        programme.denominator_ceiling = highest * reach.fullest[ONE];
         programme.at_height(reach, height)
     }
 
-    /// Top at a height: λ_max(I′)/I_zz, below 1 only where some speed is enough.
+    /// Top by the tensor that is linear at a height: λ_max(I′)/I_zz, below 1 only where some speed is enough.
     pub fn top_dominance(reach: &Reach, height: f64) -> Self {
-        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), top_rows(height))
+        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), axis_rows())
             .bounded(reach)
             .at_height(reach, height)
     }
 
-    /// Top at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
+    /// Top by the tensor that is linear at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
     pub fn top_functional(reach: &Reach, height: f64) -> Self {
-        Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), top_rows(height))
+        Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), axis_rows())
             .bounded(reach)
             .at_height(reach, height)
     }
 
-    /// The same programme for interiors of this mass only, in units of the solid's.
-    pub fn with_mass(mut self, reach: &Reach, mass: f64) -> Self {
+    /// The same programme for interiors of this lever s_z only.
+    pub fn with_lever(mut self, reach: &Reach, lever: f64) -> Self {
         let last = self.rows.nrows();
         self.rows = self.rows.insert_row(last, 0.0);
-        self.rows[(last, ONE)] = 1.0;
-        self.rhs = self.rhs.insert_row(last, mass);
+        self.rows[(last, Z)] = 1.0;
+        self.rhs = self.rhs.insert_row(last, lever);
         if let Stage::AtHeight { height_mm } = self.stage {
-            self.stage = Stage::AtMass { height_mm, volume_mm3: mass * reach.scale.volume_mm3 };
+            let lever_mm4 = lever * reach.scale.volume_mm3 * reach.scale.length_mm;
+            self.stage = Stage::AtLever { height_mm, lever_mm4 };
         }
         self
     }
 
-    /// Top at a height: the least mass, in units of the solid's; no ratio.
-    pub fn top_lightest(reach: &Reach, height: f64) -> Self {
-        let mass = row(&[(ONE, 1.0)]);
-        Self::new(mass, DMatrix::zeros(0, 10), Vector10::zeros(), top_rows(height)).at_height(reach, height)
+    /// By how much an interior's ratio exceeds `target`, times denominator over mass: (n·s + max yᵀJs − target·e·s)/s₁.
+    pub fn margin(mut self, reach: &Reach, target: f64) -> Self {
+        self.numerator -= self.denominator * target;
+        self.denominator = row(&[(ONE, 1.0)]);
+        self.bounded(reach)
     }
 
     /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can have, as a ratio.
     pub fn top_height(reach: &Reach, sense: f64) -> Self {
         let nothing = DMatrix::zeros(0, 10);
-        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), stack(&axis_rows()))
+        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), axis_rows())
             .bounded(reach)
             .for_stage(Stage::HeightRange)
     }
@@ -256,7 +251,7 @@ impl Programme {
     /// Balance: the least material removed, as the most that stays; no ratio.
     pub fn balance_least_removed() -> Self {
         let kept = row(&[(ONE, -1.0)]);
-        Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), stack(&axis_rows()))
+        Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), axis_rows())
     }
 
     /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the axis, which together
@@ -346,7 +341,9 @@ fn over_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
 }
 
 fn yoyo_rows() -> DMatrix<f64> {
-    let mut rows = axis_rows();
-    rows.push(row(&[(Z, 1.0)]));
-    stack(&rows)
+    let rows = axis_rows();
+    let last = rows.nrows();
+    let mut rows = rows.insert_row(last, 0.0);
+    rows[(last, Z)] = 1.0;
+    rows
 }

@@ -12,18 +12,10 @@ pub struct Settings {
     pub accepted_residual: f64,
     /// The passes over the columns one ascent may take; a cold start takes about 15.
     pub passes_per_ascent: usize,
-    /// The heights of a top's centre that are tried before the best valley is refined. Fewer than 6 may miss a valley.
-    pub heights: usize,
 }
 
 impl Default for Settings {
     fn default() -> Self {
-        Self {
-            tolerance: 1e-9,
-            accepted_gap_ratio: 1e-6,
-            accepted_residual: 1e-7,
-            passes_per_ascent: 60,
-            heights: 9,
-        }
+        Self { tolerance: 1e-9, accepted_gap_ratio: 1e-6, accepted_residual: 1e-7, passes_per_ascent: 60 }
     }
 }

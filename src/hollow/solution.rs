@@ -33,7 +33,8 @@ pub enum Figure {
 /// What was reached, and the proof of how much better anything else could be.
 ///
 /// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is better than
-/// `bound`. A top's bound is for its centre at the solution's height; `bound_over_heights` is for every height.
+/// `bound`. A top's bound is for its centre at the solution's height (and lever, where that is weighed);
+/// `bound_over_heights` is for every height and lever.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// What is measured.
@@ -46,7 +47,8 @@ pub struct Certificate {
     pub gap_ratio: f64,
     /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
     pub residual: f64,
-    /// Tops: what no interior with its centre at any height can beat; none where that was not proved in this run.
+    /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the value or less. None where
+    /// that was not proved in this run: refined solutions are not, nor tops that no speed makes stable.
     pub bound_over_heights: Option<f64>,
 }
 
@@ -75,12 +77,12 @@ pub enum Stage {
         /// The height, mm.
         height_mm: f64,
     },
-    /// A top with its centre at this height and of this mass.
-    AtMass {
+    /// A top with its centre at this height and of this lever.
+    AtLever {
         /// The height, mm.
         height_mm: f64,
-        /// The volume of material, mm³.
-        volume_mm3: f64,
+        /// Volume times the height of the centre, mm⁴.
+        lever_mm4: f64,
     },
     /// The proof that no other height is better, for heights about this one.
     Cover {
@@ -144,8 +146,7 @@ impl Solution {
         }
     }
 
-    /// The multipliers of the constraints in the solver's units, in the order of THEORY §3's rows; the one of a top's
-    /// height row comes last and vanishes at the best height.
+    /// The multipliers of the constraints in the solver's units, in the order of the table of rows in [`super`].
     pub fn multipliers(&self) -> Vec<f64> {
         self.warm.point.lambda.iter().copied().collect()
     }
@@ -157,8 +158,8 @@ pub(super) struct Warm {
     pub point: DualPoint,
     /// A top's height, in the solver's units, and how the slope of the objective grows with it.
     pub height: Option<Tangent>,
-    /// A top's mass where Spin-It's functional weighs it.
-    pub mass: Option<f64>,
+    /// A top's lever where Spin-It's functional weighs it.
+    pub lever: Option<Tangent>,
 }
 
 /// Where a slope was last seen to vanish, and its derivative there.

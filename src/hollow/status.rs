@@ -248,9 +248,11 @@ impl Obstacle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds;
+    use super::super::{Settings, Solution, solve, worlds};
     use super::*;
-    use crate::goal::Objective;
+    use crate::goal::{Afloat, Objective, figures};
+    use crate::interior::moments_where_positive;
+    use crate::progress::Progress;
 
     #[test]
     fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
@@ -282,5 +284,70 @@ mod tests {
             assert!(!status.remedies(&goal).is_empty());
         }
         assert!(!Status::Solved.is_impossible() && Status::Solved.remedies(&goal).is_empty());
+    }
+
+    #[test]
+    fn every_impossibility_of_a_small_world_holds_for_many_interiors_of_it() {
+        let worlds = [worlds::long_egg(), worlds::tower(), far_from_support(), worlds::tank(120.0, [0.0; 2])];
+        let statuses = worlds.map(|mut world| {
+            world.goal.afloat = world.goal.afloat.map(|afloat| Afloat { metacenter_mm: 4.0, ..afloat });
+            let status = solve(&world.problem(), &Settings::default(), &Progress::silent()).status;
+            // Even in x and y, so that the rows hold where the world itself is.
+            for seed in 0..400 {
+                let Quadric([c, _, _, z, _, _, _, xx, _, zz]) = worlds::some_quadric(seed, 8.0);
+                let z = if world.goal.kind == GoalKind::Yoyo { 0.0 } else { z };
+                let even = Quadric([c, 0., 0., z, 0., 0., 0., xx, xx, zz]);
+                let moments = world.fixed - moments_where_positive(&world.columns, &even);
+                let figures = figures(&world.goal, &moments);
+                let (reached, limit) = match status {
+                    Status::NotDominant { least_ratio }
+                    | Status::UnstableForEveryInterior { least_ratio, .. } => {
+                        (figures.dominance_ratio, least_ratio)
+                    }
+                    Status::CannotStand { greatest_angle_rad } => {
+                        (-figures.toppling_angle_rad.unwrap(), -greatest_angle_rad)
+                    }
+                    // Of other masses than the water carries, it may be lower: those are not spoken of.
+                    Status::Capsizes { greatest_gm_mm } if (moments.volume() - 120.0).abs() < 0.5 => {
+                        (figures.center_height_mm, 4.0 - greatest_gm_mm)
+                    }
+                    Status::Capsizes { .. } => continue,
+                    _ => panic!("{status:?}"),
+                };
+                // Half a unit of mass at the tank's far end, 5 from its centre, moves the centre by 0.5·5/120.
+                let slack = if matches!(status, Status::Capsizes { .. }) { 0.021 } else { 1e-9 };
+                assert!(reached >= limit - slack, "{status:?}: {reached}");
+            }
+            std::mem::discriminant(&status)
+        });
+        assert!((0..4).all(|i| !statuses[..i].contains(&statuses[i])), "four different impossibilities");
+    }
+
+    fn far_from_support() -> worlds::World {
+        let mut world = worlds::blocks_on_a_slope();
+        world.goal.support.iter_mut().for_each(|corner| corner[0] -= 20.0);
+        world
+    }
+
+    #[test]
+    fn too_few_passes_end_as_almost_solved_or_unsolved_and_never_as_solved() {
+        let world = worlds::egg(Objective::Dominance);
+        let with = |passes| {
+            let settings = Settings { passes_per_ascent: passes, ..Settings::default() };
+            solve(&world.problem(), &settings, &Progress::silent())
+        };
+        let ends: Vec<Solution> = (1..12).map(with).collect();
+        let count = |is: fn(&Status) -> bool| ends.iter().filter(|end| is(&end.status)).count();
+        assert!(count(|status| matches!(status, Status::IterationLimit { .. })) > 0);
+        assert!(count(|status| *status == Status::AlmostSolved) > 0);
+        assert!(count(|status| *status == Status::Solved) > 0);
+        for Solution { status, certificate, .. } in &ends {
+            let met = certificate.residual <= 1e-7 && certificate.gap_ratio.abs() <= 1e-6;
+            assert_eq!(*status == Status::Solved, met, "{status:?} {certificate:?}");
+            if let Status::IterationLimit { gap_ratio, residual } = *status {
+                assert!(residual > 1e-3 || gap_ratio.abs() > 1e-2);
+                assert!(status.explain(&world.goal).contains("Allow more passes"));
+            }
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! The top: the best height of the centre, whether any is stable, and the proof over all of them.
 
 use super::answer::Answer;
-use super::cover::{Cover, can_cover};
+use super::cover::{Claim, Cover};
+use super::frontier::Frontier;
 use super::heights::Heights;
-use super::programme::Programme;
+use super::lever::Weighed;
+use super::programme::{Programme, index};
 use super::solution::Warm;
 use super::status::Status;
 use super::valley::{Bottom, Sample, Valley};
@@ -11,24 +13,25 @@ use super::work::Work;
 use crate::goal::Objective;
 
 /// By how much of the value another height might still be better than the bound over all heights says. A hundredth of
-/// it would cost ten times the intervals.
-const COVER_RATIO: f64 = 2e-3;
+/// it costs a quarter more posts; below 1e-8 the bottom itself is not known well enough.
+const COVER_RATIO: f64 = 5e-7;
+/// How often a better valley may be found by the proof that there is none.
+const MOST_VALLEYS: usize = 16;
 
 /// The best interior of a top, or the proof that no interior makes it stable.
 pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
-    let range = match Heights::range(work) {
-        Ok(range) => range,
+    let heights = match Heights::new(work, objective) {
+        Ok(heights) => heights,
         Err(climb) => return Answer::new(objective, *climb),
     };
-    let heights = Heights { work, objective };
-    let Some(bottom) = heights.lowest(range) else {
-        return heights.given_up(range);
+    let Some(found) = lowest(&heights) else {
+        return heights.given_up();
     };
-    if is_stable(work, &bottom.sample) {
-        return with_cover(work, range, answer(objective, bottom));
+    if is_stable(work, &found.bottom.sample) {
+        return found.answer(objective);
     }
     match objective {
-        Objective::CriticalSpeed => unstable(work, range, bottom),
+        Objective::CriticalSpeed => unstable(heights, found),
         _ => solve(work, Objective::CriticalSpeed),
     }
 }
@@ -36,50 +39,81 @@ pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
 /// The same search near a known answer, in a few passes: its dual point, height and curvature are aimed by. None where
 /// the ground has changed too much for that.
 pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
-    let heights = Heights { work, objective };
-    let bottom = Valley::near(warm.height?).bottom(|height, near| {
-        let known = near.map_or((&warm.point, warm.mass), Sample::start);
-        heights.sample(height, Some(known), 0.0)
-    })?;
+    let hint = warm.height?;
+    let heights = Heights { work, objective, range: [0.5 * hint.at, 2.0 * hint.at] };
+    let bottom = heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?;
     let usable = is_stable(work, &bottom.sample) && work.accepts(&bottom.sample.climb);
-    usable.then(|| answer(objective, bottom))
+    usable.then(|| Found { bottom, bound_over_heights: None }.answer(objective))
 }
 
-fn answer(objective: Objective, bottom: Bottom) -> Answer {
-    Answer {
-        height: Some(bottom.tangent()),
-        mass: bottom.sample.mass,
-        ..Answer::new(objective, bottom.sample.climb)
+/// The lowest valley, and what is proved of all the others.
+struct Found {
+    bottom: Bottom,
+    bound_over_heights: Option<f64>,
+}
+
+impl Found {
+    fn answer(self, objective: Objective) -> Answer {
+        Answer {
+            height: Some(self.bottom.tangent()),
+            lever: self.bottom.sample.lever,
+            bound_over_heights: self.bound_over_heights,
+            ..Answer::new(objective, self.bottom.sample.climb)
+        }
     }
+}
+
+/// The lowest of all valleys: down into one, then the proof that there is no lower one, which finds it if there is.
+fn lowest(heights: &Heights) -> Option<Found> {
+    let solid = &heights.work.reach.solid;
+    let mut bottom = heights.bottom_from(solid[index::Z] / solid[index::ONE])?;
+    for _ in 0..MOST_VALLEYS {
+        let (bound, claim) = claim(heights, &bottom);
+        match claim {
+            Claim::Proved => return Some(Found { bottom, bound_over_heights: Some(bound) }),
+            Claim::Open => break,
+            Claim::Refuted(height) => match heights.bottom_from(height) {
+                Some(lower) if lower.sample.value < bottom.sample.value => bottom = lower,
+                _ => break,
+            },
+        }
+    }
+    Some(Found { bottom, bound_over_heights: None })
+}
+
+/// A bound just below the bottom of a valley, and whether it holds at every height.
+fn claim(heights: &Heights, bottom: &Bottom) -> (f64, Claim) {
+    let best = &bottom.sample.climb.best;
+    let Some(weighed) = Weighed::of(heights.objective, heights.work) else {
+        let target = target_below(heights.objective, best.bound);
+        return (target, Cover::of_all(heights, target).claim(bottom));
+    };
+    let target = bottom.sample.value * (1.0 - COVER_RATIO);
+    // As the ratio with which the interior at hand would have this value.
+    let bound = ((target - weighed.lever * best.lever().powi(2)) / weighed.inertia).max(0.0).sqrt();
+    (bound, Frontier { heights, weighed, target }.claim(bottom))
+}
+
+/// What is claimed of all heights where the bottom of one valley is this low.
+fn target_below(objective: Objective, best: f64) -> f64 {
+    let target = best - COVER_RATIO * best.abs();
+    // Where 1 decides, a ratio just above it is compared with 1 itself.
+    let decides = objective == Objective::Dominance && best > 1.0;
+    if decides { target.max(1.0) } else { target }
 }
 
 /// Whether some speed is enough for the interior of a sample.
 fn is_stable(work: &Work, sample: &Sample) -> bool {
-    let programme = Programme::top_critical_speed(&work.reach, sample.at);
-    programme.numerator_at(&sample.climb.best.extreme.s) < 0.0
+    let best = &sample.climb.best;
+    let height = best.center_height();
+    Programme::top_critical_speed(&work.reach, height, [height; 2]).numerator_at(&best.extreme.s) < 0.0
 }
 
 /// No height has a stable interior: the least I_b/I_c over all of them is the number that says so.
-fn unstable(work: &Work, range: [f64; 2], tried: Bottom) -> Answer {
-    let heights = Heights { work, objective: Objective::Dominance };
-    let bottom = heights.lowest(range).unwrap_or(tried);
-    let answer = with_cover(work, range, answer(Objective::Dominance, bottom));
+fn unstable(heights: Heights, tried: Found) -> Answer {
+    let heights = Heights { objective: Objective::Dominance, ..heights };
+    let answer = lowest(&heights).unwrap_or(tried).answer(Objective::Dominance);
     let proved = answer.bound_over_heights.filter(|&bound| bound >= 1.0);
     let least_ratio = proved.unwrap_or(answer.climb.best.bound);
     answer.with_verdict(Status::UnstableForEveryInterior { least_ratio, proved: proved.is_some() })
-}
-
-/// The answer, with a bound over every height of the range where one can be proved.
-fn with_cover(work: &Work, range: [f64; 2], answer: Answer) -> Answer {
-    if !can_cover(answer.objective) {
-        return answer;
-    }
-    let best = answer.climb.best.bound;
-    let target = best - COVER_RATIO * best.abs();
-    // Where 1 decides, a ratio just above it is compared with 1 itself.
-    let decides = answer.objective == Objective::Dominance && best > 1.0;
-    let target = if decides { target.max(1.0) } else { target };
-    let cover = Cover { heights: Heights { work, objective: answer.objective }, target };
-    let bound_over_heights = cover.holds_over(range, &answer.climb.best.point).then_some(target);
-    Answer { bound_over_heights, ..answer }
 }

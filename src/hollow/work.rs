@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 
-use super::ascent::{Budget, COLD_DAMPING, Climb, End, WARM_DAMPING, climb};
+use super::ascent::{Budget, COLD_DAMPING, Climb, End, Slack, WARM_DAMPING, climb};
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Reach, Scale};
@@ -49,9 +49,24 @@ impl<'a> Work<'a> {
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
     pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
+        self.climb_within(programme, start, (tolerance, None))
+    }
+
+    /// The same until the bound is good enough, whatever the constraints are missed by.
+    pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: Slack) -> Climb {
+        self.climb_within(programme, start, (0.0, Some(slack)))
+    }
+
+    fn climb_within(
+        &self,
+        programme: &Programme,
+        start: DualPoint,
+        (tolerance, slack): (f64, Option<Slack>),
+    ) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
             tolerance: tolerance.max(self.settings.tolerance),
+            slack,
             passes: self.settings.passes_per_ascent,
             first_damping: self.first_damping,
             progress: self.progress,
@@ -83,10 +98,6 @@ impl<'a> Work<'a> {
         !matches!(climb.end, End::Infeasible(_))
             && climb.best.residual() <= self.settings.accepted_residual
             && climb.best.gap_ratio().abs() <= self.settings.accepted_gap_ratio
-    }
-
-    pub fn is_cancelled(&self) -> bool {
-        self.progress.is_cancelled()
     }
 
     /// A height in the solver's units, in mm.

@@ -18,6 +18,7 @@ pub use assembly::Assembly;
 pub use outcome::{Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};
 pub use solving::Solved;
+pub use written::WrittenPart;
 
 pub use crate::error::Error;
 use crate::job::Job;

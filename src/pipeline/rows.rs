@@ -360,8 +360,8 @@ fn stage_words(stage: hollow::Stage) -> String {
         Stage::Dominance => "dominance".to_owned(),
         Stage::HeightRange => "range of heights".to_owned(),
         Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
-        Stage::AtMass { height_mm, volume_mm3 } => {
-            format!("centre at {height_mm:.3} mm, {volume_mm3:.0} mm³ of material")
+        Stage::AtLever { height_mm, lever_mm4 } => {
+            format!("centre at {height_mm:.3} mm, lever {lever_mm4:.0} mm⁴")
         }
         Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
     }

@@ -183,9 +183,9 @@ fn other_heights(proof: &Certificate) -> String {
             .to_owned();
     };
     format!(
-        "At any other height of the centre of mass the {} could be lower by {:.1} % at most (proved on columns {} apart).",
+        "At any other height of the centre of mass the {} could be lower by {} of it at most (proved on columns {} apart).",
         proof.figure.name(),
-        100.0 * (1.0 - over.bound / over.value),
+        number(1.0 - over.bound / over.value),
         quantity(over.pitch_mm, "mm")
     )
 }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::super::method::MethodError;
 use super::super::problem::Problem;
-use super::super::programme::{HEIGHT_ROW, Programme, index};
+use super::super::programme::{Programme, index};
 use super::super::reach::{Reach, Scale, Vector10};
 use crate::goal::{Goal, GoalKind, Objective};
 use crate::mass::Moments;
@@ -113,17 +113,16 @@ impl<'a> Target<'a> {
         match self.formula {
             Formula::TopFunctional => Programme::top_functional(&self.reach, height),
             Formula::TopDominance => Programme::top_dominance(&self.reach, height),
-            Formula::TopCriticalSpeed => Programme::top_critical_speed(&self.reach, height),
+            Formula::TopCriticalSpeed => Programme::top_critical_speed(&self.reach, height, [height; 2]),
             Formula::YoyoDominance => Programme::yoyo_dominance(&self.reach),
             Formula::YoyoFunctional => Programme::yoyo_functional(&self.reach),
             Formula::StandLowestCenter => Programme::stand_lowest_center(&self.reach),
         }
     }
 
-    /// The rows of the goal's programme, but for the one that fixes a top's height.
+    /// The rows of the goal's programme.
     fn constraints(&self) -> DMatrix<f64> {
-        let rows = self.programme(&self.reach.solid).rows;
-        if self.goal.kind == GoalKind::Top { rows.rows(0, HEIGHT_ROW).into_owned() } else { rows }
+        self.programme(&self.reach.solid).rows
     }
 }
 

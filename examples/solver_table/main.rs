@@ -1,0 +1,24 @@
+//! The solver's figures as Markdown: the papers' tables beside the quadric, every goal at 100 columns a side and at the
+//! printers' finest pitch, and Spin-It's teapot, in one run on one machine:
+//!
+//! ```text
+//! cargo run --release --example solver_table
+//! ```
+//!
+//! `EQUIPOISE_MODELS` names a folder with the larger models; those that are not there are left out.
+
+#![allow(clippy::print_stdout, reason = "an example talks to the person who runs it")]
+
+#[path = "../make_models/models.rs"]
+mod models;
+
+mod goals;
+mod papers;
+mod scene;
+mod teapot;
+
+fn main() -> anyhow::Result<()> {
+    papers::print_tables()?;
+    goals::print_table()?;
+    teapot::print_table()
+}

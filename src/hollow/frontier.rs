@@ -1,0 +1,284 @@
+//! The proof over every height and lever, for Spin-It's functional where it weighs the lever.
+
+use super::cover::{Claim, Cover, Post};
+use super::heights::Heights;
+use super::lever::Weighed;
+use super::programme::{DualPoint, LEVER_ROW, index};
+use super::valley::Bottom;
+
+/// Half the angle of the first side, as a part of √(how far below the value the claim is).
+const FIRST_ANGLE_RATIO: f64 = 0.25;
+/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet there. Less takes more
+/// sides, more takes more posts.
+const LEVEL_RATIO: f64 = 0.5;
+/// What is left of an angle that was too wide.
+const SHRINKAGE: f64 = 0.5;
+/// The widest angle of a side, rad.
+const WIDEST: f64 = 0.4;
+/// The narrowest, at which the attempt is given up.
+const NARROWEST: f64 = 1e-7;
+/// Sides one way at most.
+const MOST_SIDES: usize = 80;
+
+/// A claim about all heights and levers: no interior has k s_z² + γ ρ² < V, with ρ the inertia's ratio.
+///
+/// (s_z, ρ) lies outside of that ellipse if it lies above a polygon drawn around it. Let (σ₁, t₁) and (σ₂, t₂) be the ends
+/// of one of its sides, σ₁ < σ₂. At each end the posts of a [`Cover`] with the row s_z = σᵢ prove, with the row's
+/// multiplier aᵢ, for *every* interior whose centre is at h within their reach,
+///
+/// ```text
+/// N − tᵢ I_zz ≥ mᵢ s₁ + aᵢ (σᵢ − s_z).
+/// ```
+///
+/// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. The same mixture of both says that it is above the side where
+/// (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z, which holds for all x if √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁).
+/// What the mixture loses is quadratic in the side's length, and m grows with the square of the distance from the best
+/// lever: so the number of sides, too, is about the logarithm of the precision.
+///
+/// From a corner (σ, t) on, t changes with the lever along the ellipse by less than |t′| = kσ/(γt) a unit below σ and by
+/// more above it. So the posts of a corner speak for all smaller levers where a ≥ |t′| times the greatest I_zz, and for
+/// all greater ones where a ≤ |t′| times the least I_zz, plus m/h.
+pub(super) struct Frontier<'a> {
+    pub heights: &'a Heights<'a>,
+    pub weighed: Weighed,
+    /// V
+    pub target: f64,
+}
+
+/// A corner of the polygon, and the posts on its line.
+#[derive(Clone)]
+struct Corner {
+    lever: f64,
+    target: f64,
+    posts: Vec<Post>,
+}
+
+/// A walk along the polygon.
+#[derive(Clone, Copy)]
+struct Walk {
+    /// 1 towards smaller levers, −1 towards greater.
+    side: f64,
+    /// Where the last side touches the ellipse, as an angle from the axis of levers.
+    touch: f64,
+    /// The angle from there on to the last corner, negative before it.
+    offset: f64,
+}
+
+impl Frontier<'_> {
+    /// Whether the claim holds, from the best height and lever on.
+    pub fn claim(&self, bottom: &Bottom) -> Claim {
+        self.prove(bottom).map_or_else(|claim| claim, |()| Claim::Proved)
+    }
+
+    fn prove(&self, bottom: &Bottom) -> Result<(), Claim> {
+        let sample = &bottom.sample;
+        let lever = sample.lever.ok_or(Claim::Open)?.at;
+        let best = &sample.climb.best;
+        let touch = (lever / self.greatest()).min(1.0).acos();
+        let mut half = FIRST_ANGLE_RATIO * (1.0 - self.target / sample.value).max(0.0).sqrt();
+        let start = Post {
+            at: sample.at,
+            margin: 0.0,
+            reach: 0.0,
+            point: DualPoint { tau: 0.0, ..best.point.clone() },
+        };
+        for _ in 0..MOST_SIDES {
+            let ends = [1.0, -1.0].map(|side| self.corner(self.at(touch, side * half), &start));
+            let [low, high] = ends;
+            let (low, high) = (low?, high?);
+            if self.is_above(&low, &high) {
+                self.walk(Walk { side: 1.0, touch, offset: half }, (&high, &low))?;
+                return self.walk(Walk { side: -1.0, touch, offset: half }, (&low, &high));
+            }
+            half *= SHRINKAGE;
+        }
+        Err(Claim::Open)
+    }
+
+    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what interiors can have.
+    fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<(), Claim> {
+        let Walk { side, mut touch, mut offset } = walk;
+        let (mut before, mut last) = (before.clone(), last.clone());
+        for _ in 0..MOST_SIDES {
+            if self.is_end(&last, side) {
+                return Ok(());
+            }
+            // From a corner beyond its point of contact another tangent goes on.
+            if offset > 0.0 {
+                touch += 2.0 * side * offset;
+                offset = -offset;
+            }
+            let distance = (touch + side * offset - walk.touch).abs();
+            let (next, stepped) = self.step(Walk { side, touch, offset }, (&before, &last), distance)?;
+            before = std::mem::replace(&mut last, next);
+            offset += stepped;
+        }
+        Err(Claim::Open)
+    }
+
+    /// The next corner on the same tangent, as far on as all interiors are above the side to it, and how far on.
+    fn step(
+        &self,
+        walk: Walk,
+        (before, last): (&Corner, &Corner),
+        distance: f64,
+    ) -> Result<(Corner, f64), Claim> {
+        let Walk { side, touch, offset } = walk;
+        let mut step = self.foreseen((before, last), distance);
+        let mut failed = Claim::Open;
+        while step > NARROWEST {
+            let at = self.at(touch, side * (offset + step));
+            let fits = |next: &Corner| {
+                if side > 0.0 { self.is_above(next, last) } else { self.is_above(last, next) }
+            };
+            match self.corner(at, &aimed(before, last, at[0])) {
+                Ok(next) if fits(&next) => return Ok((next, step)),
+                Ok(_) => {}
+                Err(claim) => failed = claim,
+            }
+            step *= SHRINKAGE;
+        }
+        Err(failed)
+    }
+
+    /// The angle at which the next side should just be above, from how margin and multiplier went before.
+    fn foreseen(&self, (before, last): (&Corner, &Corner), distance: f64) -> f64 {
+        let bend = ((last.multiplier() - before.multiplier()) / (last.lever - before.lever)).abs();
+        let loss = (bend * self.heights.range[1] / last.lever).sqrt() * self.greatest();
+        let margin = last.level().sqrt();
+        let angle = 2.0 * margin / (loss - margin / distance).max(margin / distance);
+        angle.min(WIDEST)
+    }
+
+    /// Whether every interior beyond this corner is as the claim says.
+    fn is_end(&self, last: &Corner, side: f64) -> bool {
+        let Weighed { lever: k, inertia: gamma } = self.weighed;
+        let fall = k * last.lever / (gamma * last.target);
+        let reach = &self.heights.work.reach;
+        let [least, greatest] = [&reach.shell, &reach.fullest].map(|s| fall * (s[index::XX] + s[index::YY]));
+        let speaks = |post: &Post| match side {
+            1.0 => multiplier(post) >= greatest,
+            _ => multiplier(post) <= least + level(post) / self.heights.range[1],
+        };
+        last.posts.iter().all(speaks)
+    }
+
+    /// The lever of an interior that has no inertia and is below the claim: the end of the ellipse.
+    fn greatest(&self) -> f64 {
+        (self.target / self.weighed.lever).sqrt()
+    }
+
+    /// The lever and the ratio at the corner of the tangent at `touch` with the one twice `half` further.
+    fn at(&self, touch: f64, half: f64) -> [f64; 2] {
+        let angle = touch + half;
+        let radius = self.target.sqrt() / half.cos();
+        [radius * angle.cos() / self.weighed.lever.sqrt(), radius * angle.sin() / self.weighed.inertia.sqrt()]
+    }
+
+    fn corner(&self, [lever, target]: [f64; 2], start: &Post) -> Result<Corner, Claim> {
+        let cover = Cover { heights: self.heights, target, lever: Some(lever), level_ratio: LEVEL_RATIO };
+        Ok(Corner { lever, target, posts: cover.posts(start.at, start.point.clone())? })
+    }
+
+    /// Whether every interior with a lever between those of two corners is above the side between them.
+    fn is_above(&self, low: &Corner, high: &Corner) -> bool {
+        low.posts.iter().all(|one| {
+            let beside = |other: &&Post| (one.at - other.at).abs() <= one.reach + other.reach;
+            high.posts
+                .iter()
+                .filter(beside)
+                .all(|other| self.is_above_at((low.lever, one), (high.lever, other)))
+        })
+    }
+
+    /// The same for the heights within the reach of two posts.
+    fn is_above_at(&self, (low, one): (f64, &Post), (high, other): (f64, &Post)) -> bool {
+        let height = (one.at + one.reach).min(other.at + other.reach).min(self.heights.range[1]);
+        let loss = (high - low) * (multiplier(one) - multiplier(other)) * height / low;
+        (level(one).sqrt() + level(other).sqrt()).powi(2) >= loss
+    }
+}
+
+impl Corner {
+    /// The lever's multiplier at the middle post.
+    fn multiplier(&self) -> f64 {
+        multiplier(&self.posts[0])
+    }
+
+    /// The margin that is left as far as the middle post reaches.
+    fn level(&self) -> f64 {
+        level(&self.posts[0])
+    }
+}
+
+fn multiplier(post: &Post) -> f64 {
+    post.point.lambda[LEVER_ROW]
+}
+
+/// The margin that is left as far as a post reaches.
+fn level(post: &Post) -> f64 {
+    LEVEL_RATIO * post.margin
+}
+
+/// The middle post on the line through two corners' middle posts.
+fn aimed(before: &Corner, last: &Corner, lever: f64) -> Post {
+    let ahead = (lever - last.lever) / (last.lever - before.lever);
+    let (one, other) = (&before.posts[0], &last.posts[0]);
+    let mut point = other.point.clone();
+    point.y += (&other.point.y - &one.point.y) * ahead;
+    point.lambda += (&other.point.lambda - &one.point.lambda) * ahead;
+    let length = point.y.norm();
+    if length > 1.0 {
+        point.y /= length;
+    }
+    // The square root of the margin grows with the distance from the best lever, evenly.
+    let root = other.margin.sqrt() + (other.margin.sqrt() - one.margin.sqrt()) * ahead;
+    point.tau = root * root;
+    Post { at: other.at + (other.at - one.at) * ahead, point, ..other.clone() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::work::Work;
+    use super::super::{Settings, worlds};
+    use super::*;
+    use crate::goal::Objective;
+    use crate::progress::Progress;
+
+    #[test]
+    fn a_true_claim_is_proved_to_the_last_digits_and_a_false_one_is_not() {
+        for (gamma_c, gamma_i) in [(1.0, 1.0), (0.3, 1.2)] {
+            let objective = Objective::SpinIt { gamma_c, gamma_i };
+            let world = worlds::egg_on_its_side(objective);
+            let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+            let work = Work::new(&problem, &settings, &progress);
+            let heights = Heights::new(&work, objective).unwrap();
+            let bottom = heights.bottom_from(heights.range[1]).unwrap();
+            for (share, expected) in [(0.9, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false), (1.1, false)] {
+                let target = share * bottom.sample.value;
+                let weighed = Weighed::of(objective, &work).unwrap();
+                let claim = Frontier { heights: &heights, weighed, target }.claim(&bottom);
+                assert_eq!(claim == Claim::Proved, expected, "{gamma_c} {share}: {claim:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_corners_of_a_side_lie_on_the_tangent_of_the_ellipse() {
+        let objective = Objective::SpinIt { gamma_c: 0.7, gamma_i: 1.3 };
+        let world = worlds::rings(objective);
+        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &progress);
+        let heights = Heights { work: &work, objective, range: [0.1, 1.0] };
+        let weighed = Weighed::of(objective, &work).unwrap();
+        let frontier = Frontier { heights: &heights, weighed, target: 0.9 };
+        let value =
+            |[lever, ratio]: [f64; 2]| weighed.lever * lever * lever + weighed.inertia * ratio * ratio;
+        let [low, high] = [0.05, -0.08].map(|half| frontier.at(1.1, half));
+        let along = |x: f64| [0, 1].map(|i| low[i] + x * (high[i] - low[i]));
+        // Least where it touches, which divides the side as the tangents of the two angles.
+        let touch = 0.05_f64.tan() / (0.05_f64.tan() + 0.08_f64.tan());
+        assert!((value(along(touch)) - 0.9).abs() < 1e-12);
+        assert!((0..=50).all(|i| value(along(f64::from(i) / 50.0)) >= 0.9 - 1e-12));
+    }
+}

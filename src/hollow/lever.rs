@@ -1,0 +1,90 @@
+//! Spin-It's functional where it weighs the lever: at each height also the best lever has to be found.
+
+use super::heights::{Heights, Start};
+use super::programme::{DualPoint, LEVER_ROW, index};
+use super::solution::Tangent;
+use super::valley::{Place, Sample, Valley};
+use super::work::Work;
+use crate::goal::Objective;
+
+/// How exactly the lever that the search begins at is found.
+const ROUGH_TOLERANCE: f64 = 1e-2;
+
+/// The longest step of a lever, as a part of it: far larger, and it leaves what interiors can have.
+const STEP_RATIO: f64 = 0.1;
+
+/// Spin-It's functional k s_z² + γ ρ² where it weighs the lever, in the solver's units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Weighed {
+    /// k = γ_c over the square of the solid's lever.
+    pub lever: f64,
+    /// γ = γ_I, of the square of the inertia's ratio.
+    pub inertia: f64,
+}
+
+impl Weighed {
+    /// The weights; none where only the inertia counts and the lever is free.
+    pub fn of(objective: Objective, work: &Work) -> Option<Self> {
+        let solid = work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
+        match objective {
+            Objective::SpinIt { gamma_c, gamma_i } if gamma_c > 0.0 => {
+                Some(Self { lever: gamma_c / (solid * solid), inertia: gamma_i })
+            }
+            _ => None,
+        }
+    }
+}
+
+/// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
+///
+/// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant and the second is.
+pub(super) struct Levers<'a> {
+    pub heights: &'a Heights<'a>,
+    pub weighed: Weighed,
+    pub height: f64,
+}
+
+impl Levers<'_> {
+    /// The least over the lever, and its slope by the height.
+    pub fn best(&self, near: Start, tolerance: f64) -> Option<Sample> {
+        let (start, hint) = match near {
+            Some((point, Some(hint))) => (Some(point.clone()), hint),
+            _ => (None, self.unweighed()?),
+        };
+        let valley =
+            Valley::from_tangent(hint, [0.0, self.greatest()]).in_steps_of(STEP_RATIO).within(tolerance);
+        let bottom = valley.bottom(|place: Place| {
+            let near = place.near.map(|sample| &sample.climb.best.point).or(start.as_ref());
+            self.sample(place.at, near, tolerance.max(place.tolerance))
+        })?;
+        let best = &bottom.sample.climb.best;
+        let chain = 2.0 * self.weighed.inertia * best.value;
+        let [slope, bend] = self.heights.slopes(self.height, best).map(|slope| chain * slope);
+        let lever = Some(bottom.tangent());
+        Some(Sample { at: self.height, slope, bend, lever, ..bottom.sample })
+    }
+
+    /// The lever of the interior whose inertia alone is best: the best one is less.
+    fn unweighed(&self) -> Option<Tangent> {
+        let free =
+            self.heights.work.climb_near(&self.heights.programme(self.height), None, ROUGH_TOLERANCE)?;
+        Some(Tangent { at: free.best.extreme.s[index::Z], curvature: 0.0 })
+    }
+
+    /// No interior has a greater lever.
+    fn greatest(&self) -> f64 {
+        self.heights.range[1] * self.heights.work.reach.fullest[index::ONE]
+    }
+
+    fn sample(&self, lever: f64, near: Option<&DualPoint>, tolerance: f64) -> Option<Sample> {
+        let work = self.heights.work;
+        let programme = self.heights.programme(self.height).with_lever(&work.reach, lever);
+        let climb = work.climb_near(&programme, near, tolerance)?;
+        let (Weighed { lever: k, inertia: gamma }, best) = (self.weighed, &climb.best);
+        let value = k * lever * lever + gamma * best.value * best.value;
+        // By the envelope theorem the least ratio falls by the row's multiplier.
+        let falling = 2.0 * gamma * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
+        let (slope, bend) = (2.0 * k * lever - falling, 2.0 * k);
+        Some(Sample { at: lever, value, slope, bend, climb, lever: None })
+    }
+}

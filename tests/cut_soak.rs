@@ -1,0 +1,258 @@
+//! Random cuts of random bodies at random sizes with random pins: every part a solid as written, no pin lost, nothing gained
+//! and nothing lost.
+//!
+//! By default a few cases on bodies of our own. `EQUIPOISE_SOAK_CASES=500 EQUIPOISE_SOAK_MODELS=folder` takes more, on the closed
+//! meshes of a folder too; `EQUIPOISE_SOAK_FIRST=n` begins at case n.
+
+#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(clippy::panic, reason = "a case that cannot be made has failed")]
+#![allow(clippy::print_stderr, reason = "a long run shows how far it is")]
+
+use std::path::Path;
+use std::time::Instant;
+
+use equipoise::cut::{
+    Cut, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PinSite, PlanRequest, PosePreference,
+    parts, plan_by,
+};
+use equipoise::geom::{Bvh, Point, Vector};
+use equipoise::io::read_model;
+use equipoise::mass::moments_of_mesh;
+use equipoise::mesh::{
+    Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, one_body, primitives, repair, weld,
+};
+use equipoise::pipeline::WrittenPart;
+
+/// Cases of a usual test run.
+const CASES: u64 = 24;
+/// What the volumes may miss: the rounding of files.
+const VOLUME_RATIO: f64 = 1e-6;
+/// How far from a pin's end its tip is felt for, mm.
+const FELT_MM: f64 = 0.02;
+
+/// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mixed = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        mixed ^ (mixed >> 31)
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn below(&mut self, count: usize) -> usize {
+        (self.next() % count as u64) as usize
+    }
+
+    fn direction(&mut self) -> Vector {
+        loop {
+            let v = Vector::from_fn(|_, _| self.between(-1.0, 1.0));
+            if (0.01..1.0).contains(&v.norm()) {
+                return v.normalize();
+            }
+        }
+    }
+
+    fn point_in(&mut self, mesh: &TriMesh) -> Point {
+        let (low, high) = (mesh.aabb().min, mesh.aabb().max);
+        Point::from(Vector::from_fn(|i, _| self.between(low[i], high[i])))
+    }
+}
+
+/// The bodies that are cut: ours, and the closed single bodies of the folder.
+fn bodies() -> Vec<(String, TriMesh)> {
+    let shaft = primitives::cuboid(&Point::new(-2.0, -3.0, -20.0), &Point::new(2.0, 3.0, 20.0));
+    let arm = primitives::cuboid(&Point::new(-12.0, -1.0, -4.0), &Point::new(12.0, 1.0, 4.0));
+    let cross = Csg::of_mesh(&shaft).unwrap().union(&Csg::of_mesh(&arm).unwrap()).unwrap();
+    let ours = [
+        ("ball", primitives::ball(&Point::origin(), 5.0, 4)),
+        ("ring", primitives::torus(10.0, 4.0, 60, 30)),
+        ("can", primitives::cylinder(5.0, 12.0, 64)),
+        ("cross", cross.to_mesh().unwrap()),
+        (
+            "ellipsoid",
+            read_model(Path::new(concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/examples/models/tilted-ellipsoid.stl"
+            )))
+            .unwrap(),
+        ),
+    ];
+    let mut all: Vec<(String, TriMesh)> = ours.map(|(name, mesh)| (name.to_owned(), repair(mesh).0)).to_vec();
+    if let Some(folder) = std::env::var_os("EQUIPOISE_SOAK_MODELS") {
+        let mut paths: Vec<_> =
+            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        paths.sort();
+        for path in paths {
+            let Ok(mesh) = read_model(&path) else { continue };
+            let mesh = repair(mesh).0;
+            if Solid::new(mesh.clone()).is_ok_and(|solid| one_body(&solid).is_ok()) {
+                all.push((path.file_name().unwrap().to_string_lossy().into_owned(), mesh));
+            }
+        }
+    }
+    all
+}
+
+/// A printer's say: from a fine display to a coarse nozzle.
+fn request(dice: &mut Dice) -> PlanRequest {
+    let pixel_mm = [0.019, 0.042, 0.1, 0.45][dice.below(4)];
+    let wall_mm = dice.between(0.4, 2.0);
+    PlanRequest {
+        min_opening_mm: dice.between(1.0, 5.0),
+        build_volume_mm: None,
+        wall_mm,
+        pins: PinSettings {
+            min_diameter_mm: dice.between(0.6, 3.0),
+            length_ratio: dice.between(0.8, 1.6),
+            clearance_mm: dice.between(0.03, 0.3),
+            chamfer_mm: dice.between(0.0, 0.5),
+            bottom_relief_mm: dice.between(0.0, 0.6),
+        },
+        axis: GoalAxis { point: Point::origin(), direction: dice.direction() },
+        pixel_mm,
+        layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
+        pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
+    }
+}
+
+/// Up to three balls of air, each a wall from the outside and from each other.
+fn voids(dice: &mut Dice, outer: &TriMesh, wall_mm: f64) -> Vec<Solid> {
+    let distance = MeshDistance::new(outer);
+    let mut balls: Vec<(Point, f64)> = Vec::new();
+    for _ in 0..dice.below(4) {
+        for _ in 0..40 {
+            let center = dice.point_in(outer);
+            let near = balls.iter().map(|(other, radius)| (other - center).norm() - radius);
+            let room_mm = near.fold(distance.signed(&center), f64::min) - wall_mm;
+            if room_mm > 1.0 {
+                balls.push((center, room_mm * dice.between(0.5, 1.0)));
+                break;
+            }
+        }
+    }
+    let ball = |(center, radius): (Point, f64)| Solid::new(primitives::ball(&center, radius, 3)).unwrap();
+    balls.into_iter().map(ball).collect()
+}
+
+/// One to three cuts: at random, along an axis, through a void, or through a corner of the mesh to be nasty.
+fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
+    let count = 1 + dice.below(3);
+    let cut = |i: usize| {
+        let mesh = body.outer.mesh();
+        let normal = if dice.below(3) == 0 { Vector::ith(dice.below(3), 1.0) } else { dice.direction() };
+        let point = match (dice.below(3), body.voids.get(i)) {
+            (0, _) => mesh.vertices()[dice.below(mesh.vertices().len())],
+            (_, Some(void)) => void.mesh().aabb().center(),
+            _ => dice.point_in(mesh),
+        };
+        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into() }
+    };
+    (0..count).map(cut).collect()
+}
+
+/// Makes one case and holds its parts to what must be true; the number of parts and pins, or why there are none.
+fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
+    let mut dice = Dice(case.wrapping_mul(0x1234_5678_9abc_def1));
+    let (name, mesh) = &bodies[dice.below(bodies.len())];
+    let size_mm = dice.between(30.0, 200.0);
+    let scale = size_mm / mesh.longest_side_mm();
+    let mesh = mesh.map_vertices(|p| p * scale);
+    let request = request(&mut dice);
+    let outer = Solid::new(mesh).unwrap();
+    let voids = voids(&mut dice, outer.mesh(), request.wall_mm);
+    let body = Hollowed { outer, voids };
+    let order = CutOrder { cuts: cuts(&mut dice, &body), ..CutOrder::default() };
+    let told =
+        format!("case {case}: {name} {size_mm:.0} mm, {} voids, {} cuts", body.voids.len(), order.cuts.len());
+    let plan = match plan_by(&body, &request, &order) {
+        Err(CutError::ClosedCavity { .. }) => return format!("{told}: a void stays closed"),
+        plan => plan.unwrap_or_else(|error| panic!("{told}: {error}")),
+    };
+    let made = parts(&body, &plan, &request).unwrap_or_else(|error| panic!("{told}: {error}"));
+    assert_nothing_is_lost(&told, &body, &plan, &made);
+    assert_written_parts_are_sound(&told, &made);
+    format!("{told}: {} parts, {} pins", made.len(), plan.pins.len())
+}
+
+fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[Part]) {
+    let whole = moments_of_mesh(&body.to_mesh()).volume();
+    let sum: f64 = made.iter().map(|part| moments_of_mesh(part.solid.mesh()).volume()).sum();
+    let pegs: f64 = made.iter().map(Part::added_volume_mm3).sum();
+    assert!((sum - pegs - whole).abs() <= VOLUME_RATIO * whole, "{told}: {sum} - {pegs} against {whole}");
+    for pin in &plan.pins {
+        let carrier = made.iter().filter(|part| part.pins.contains(pin)).collect::<Vec<_>>();
+        let receiver = made.iter().filter(|part| part.sockets.contains(pin)).collect::<Vec<_>>();
+        assert!(
+            carrier.len() == 1 && receiver.len() == 1,
+            "{told}: pin {} is in {} parts",
+            pin.id,
+            carrier.len()
+        );
+        let tip = |part: &Part, height_mm: f64| {
+            Bvh::new(part.solid.mesh().iter_corners()).winding(&along(pin, height_mm))
+        };
+        assert_eq!(
+            tip(carrier[0], pin.length_mm - FELT_MM),
+            1,
+            "{told}: pin {} does not reach its tip",
+            pin.id
+        );
+        assert_eq!(tip(carrier[0], pin.length_mm + FELT_MM), 0, "{told}: pin {} is too long", pin.id);
+        assert_eq!(
+            tip(receiver[0], pin.socket_depth_mm - FELT_MM),
+            0,
+            "{told}: socket {} is not deep enough",
+            pin.id
+        );
+        assert_eq!(
+            tip(receiver[0], pin.socket_depth_mm + FELT_MM),
+            1,
+            "{told}: socket {} has no bottom",
+            pin.id
+        );
+    }
+}
+
+/// A point beside the pin's axis so high over its cut, off the edges of its end.
+fn along(pin: &PinSite, height_mm: f64) -> Point {
+    let axis = Vector::from(pin.direction);
+    let aside = axis.cross(&Vector::new(0.36, 0.48, 0.8)) * (pin.diameter_mm / 9.0);
+    Point::from(pin.center_mm) + axis * height_mm + aside
+}
+
+fn assert_written_parts_are_sound(told: &str, made: &[Part]) {
+    for part in made {
+        let written = WrittenPart::of(part.clone(), "soak", made.len()).unwrap();
+        let surface = weld(&written.read_back);
+        let crossings = Crossings::of(&surface).pairs;
+        let defect = Solid::new(surface).err();
+        assert!(defect.is_none(), "{told}: {}: {}", part.id, defect.unwrap());
+        assert_eq!(crossings, 0, "{told}: {} passes through itself", part.id);
+    }
+}
+
+fn number(key: &str, default: u64) -> u64 {
+    std::env::var(key).map_or(default, |text| text.parse().unwrap())
+}
+
+#[test]
+fn random_cuts_of_random_bodies_give_sound_parts_with_all_their_pins() {
+    let bodies = bodies();
+    let (first, count) = (number("EQUIPOISE_SOAK_FIRST", 0), number("EQUIPOISE_SOAK_CASES", CASES));
+    let mut failed = Vec::new();
+    for case in first..first + count {
+        let start = Instant::now();
+        match std::panic::catch_unwind(|| tried(case, &bodies)) {
+            Ok(told) if count > CASES => eprintln!("{told} ({:.1} s)", start.elapsed().as_secs_f64()),
+            Ok(_) => (),
+            Err(_) => failed.push(case),
+        }
+    }
+    assert!(failed.is_empty(), "cases {failed:?} of {count} failed");
+}
