@@ -176,7 +176,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
         build_volume_mm: printer.build_volume_mm.as_ref().map(|volume| volume.value),
-        wall_mm: setup.wall.wall_mm,
+        wall_mm: printer.min_wall_mm.value,
         pins: PinSettings {
             min_diameter_mm: printer.pin_min_diameter_mm.value,
             length_ratio: printer.pin_length_ratio.value,
