@@ -118,6 +118,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         pixel_mm,
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
+        seats: Vec::new(),
     }
 }
 

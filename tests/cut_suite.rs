@@ -29,6 +29,7 @@ fn request() -> PlanRequest {
         pixel_mm: 0.05,
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
+        seats: Vec::new(),
     }
 }
 

@@ -11,8 +11,10 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 
+use super::ballast_args::BallastArgs;
 use super::cut_arg::CutArg;
 use super::goal_args::{HardwareArgs, RotorArgs, WaterArgs};
+use super::printers::PrintersArgs;
 use crate::{
     goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
     job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, PrinterChoice, Scaling, Solver},
@@ -130,6 +132,9 @@ pub struct PrepareArgs {
     /// cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
     pub cut: Option<CutArg>,
+    /// What is put into it.
+    #[command(flatten)]
+    pub load: BallastArgs,
 
     /// Write the kit to this folder [default: the model's name with -kit]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
@@ -146,7 +151,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 25] = [
+const DECIDED_BY_JOB: [&str; 27] = [
     "printer",
     "material",
     "wall",
@@ -172,6 +177,8 @@ const DECIDED_BY_JOB: [&str; 25] = [
     "pitch",
     "cut",
     "format",
+    "ballast",
+    "fill",
 ];
 
 /// How large the model is; one of them at most.
@@ -204,31 +211,6 @@ pub struct InspectArgs {
     /// The model's size.
     #[command(flatten)]
     pub scaling: ScalingArgs,
-}
-
-/// The arguments of `printers`.
-#[derive(Debug, Args)]
-pub struct PrintersArgs {
-    /// What about them; to list them where nothing is said.
-    #[command(subcommand)]
-    pub action: Option<PrintersAction>,
-}
-
-/// What to do about printers.
-#[derive(Debug, Clone, PartialEq, Eq, Subcommand)]
-pub enum PrintersAction {
-    /// List the known printers
-    List,
-    /// Show every number of a printer with its source
-    Show {
-        /// A known printer's id, or a profile file
-        id: String,
-    },
-    /// Tell whether a profile file can be used, and everything that is wrong with it
-    Check {
-        /// The profile file
-        file: PathBuf,
-    },
 }
 
 /// The arguments of `verify`.
@@ -292,6 +274,8 @@ impl PrepareArgs {
             cut,
             plan,
             format: self.format.unwrap_or(default.format),
+            ballast: self.load.ballast.unwrap_or(default.ballast),
+            fill: self.load.fill,
             ..default
         })
     }
@@ -357,6 +341,7 @@ pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::printers::PrintersAction;
     use super::*;
     use crate::job::CutMode;
     use clap::CommandFactory;

@@ -1,6 +1,7 @@
 //! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
 
 pub mod args;
+mod ballast_args;
 mod cut_arg;
 mod goal_args;
 pub mod inspect;

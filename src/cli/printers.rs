@@ -1,14 +1,41 @@
 //! The command `printers`: the known printers listed, one shown with its sources, a profile checked.
 
 use std::io::{self, Write};
+use std::path::PathBuf;
 
+use clap::{Args, Subcommand};
 use serde::Serialize;
 
-use super::{args::PrintersAction, show::table};
+use super::show::table;
 use crate::{
     printer::{Printer, ProfileError, Quantity, Sourced, Sure},
     units::{show_mm, show_percent},
 };
+
+/// The arguments of `printers`.
+#[derive(Debug, Args)]
+pub struct PrintersArgs {
+    /// What about them; to list them where nothing is said.
+    #[command(subcommand)]
+    pub action: Option<PrintersAction>,
+}
+
+/// What to do about printers.
+#[derive(Debug, Clone, PartialEq, Eq, Subcommand)]
+pub enum PrintersAction {
+    /// List the known printers
+    List,
+    /// Show every number of a printer with its source
+    Show {
+        /// A known printer's id, or a profile file
+        id: String,
+    },
+    /// Tell whether a profile file can be used, and everything that is wrong with it
+    Check {
+        /// The profile file
+        file: PathBuf,
+    },
+}
 
 /// Why printers could not be told about.
 #[derive(Debug, thiserror::Error)]

@@ -118,7 +118,8 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     for planes in found.plans.iter().take(TRIED_PLANS) {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
-        if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
+        let needed_mm = |void: &VoidAccess| scene.request.needed_mm(void.void, scene.hollowed.voids.len());
+        if voids.iter().all(|void| void.opening_mm >= needed_mm(void)) {
             return Layout::new(scene, planes, voids);
         }
         narrow = narrow.or(Some((planes, voids)));

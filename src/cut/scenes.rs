@@ -68,5 +68,6 @@ pub(crate) fn request() -> PlanRequest {
         pixel_mm: 0.042,
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
+        seats: Vec::new(),
     }
 }

@@ -24,5 +24,5 @@ pub use checklist::{
 pub use kit::{Existing, Kit, KitError};
 pub use page::page;
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
-pub use rows::{CutRow, JointRow, PartRow, VoidRow};
+pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 pub use timing::Timing;

@@ -66,6 +66,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         joints: vec![joint()],
         hardware: vec![],
         string_gap_mm: None,
+        ballast: Vec::new(),
+        fill: None,
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![
