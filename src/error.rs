@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use crate::ballast::{BallastError, Order};
 use crate::cut::CutError;
 use crate::goal::GoalError;
 use crate::hardware::FitError;
 use crate::interior::BuildError;
 use crate::io::{ReadError, StlError};
-use crate::job::JobError;
+use crate::job::{Filling, JobError};
 use crate::mesh::{ClipError, Defects, NotOneBody};
 use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
 use crate::report::{ChecklistError, KitError, PictureError};
@@ -64,6 +65,41 @@ pub enum Error {
     /// The columns cannot be built.
     #[error(transparent)]
     Columns(#[from] BuildError),
+    /// The ballast cannot be had.
+    #[error(transparent)]
+    Ballast(#[from] BallastError),
+    /// The ballast that was ordered does not fit.
+    #[error("--ballast={order} has no room inside; remedy: order fewer or smaller parts, or none")]
+    NoRoomForBallast {
+        /// What was ordered.
+        order: Order,
+    },
+    /// The filling changes nothing.
+    #[error(
+        "a filling of {fill} g/cm³ is as dense as the print, {density_g_cm3} g/cm³; remedy: take a lighter or a denser one, or none"
+    )]
+    FillLikePrint {
+        /// What was asked for.
+        fill: Filling,
+        /// The print's density, g/cm³.
+        density_g_cm3: f64,
+    },
+    /// A filling beside ballast.
+    #[error("--fill={fill} and --ballast={order} do not go together; remedy: leave one of them out")]
+    FillAndBallast {
+        /// The filling.
+        fill: Filling,
+        /// The ballast.
+        order: Order,
+    },
+    /// A heavy filling where the most material is best.
+    #[error(
+        "--fill={fill} is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in ballast (--ballast=auto)"
+    )]
+    HeavyFillInRotor {
+        /// The filling.
+        fill: Filling,
+    },
     /// The surface of the voids cannot be made.
     #[error(transparent)]
     Voids(#[from] VoidError),

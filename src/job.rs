@@ -1,14 +1,17 @@
 //! The whole input of a run as plain data: `job.toml` replays the run exactly.
 
 mod choices;
+mod filling;
 
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
 pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
+pub use filling::Filling;
 
 use crate::{
+    ballast::Order,
     cut::CutOrder,
     digest::sha256_hex,
     goal::Request,
@@ -41,6 +44,12 @@ pub struct Job {
     pub cut: CutMode,
     /// The file format of the parts.
     pub format: PartFormat,
+    /// The ballast asked for; none where the key is left out.
+    #[serde(default, skip_serializing_if = "Order::is_none")]
+    pub ballast: Order,
+    /// What the voids are filled with; air where the key is left out.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill: Option<Filling>,
     /// What is prepared.
     pub model: ModelChoice,
     /// What prints it.
@@ -165,6 +174,8 @@ impl Job {
             solver: Solver::Quadric,
             cut: CutMode::Auto,
             format: PartFormat::Stl,
+            ballast: Order::None,
+            fill: None,
             model,
             printer,
             goal,

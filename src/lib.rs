@@ -36,6 +36,7 @@
 #![forbid(unsafe_code)]
 
 pub mod advice;
+pub mod ballast;
 pub mod cli;
 pub mod coupon;
 pub mod cut;

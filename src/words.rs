@@ -85,7 +85,7 @@ macro_rules! choice {
 macro_rules! as_text {
     ($($name:ident)+) => { $(
         impl TryFrom<String> for $name {
-            type Error = $crate::words::ChoiceError;
+            type Error = <Self as std::str::FromStr>::Err;
 
             fn try_from(text: String) -> Result<Self, Self::Error> {
                 text.parse()

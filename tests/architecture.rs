@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 
 /// Who may see whom: a room and everything it may import. A new arrow is a decision, written down here.
 ///
-/// units, progress, words → geom → mesh → io | shell → mass → goal → job | printer → interior → hollow → voids → cut → report →
-/// pipeline → cli. `verify` sees nothing of shell, interior, hollow, voids and cut: the judge does not know the accused.
+/// units, progress, words → geom → mesh → io | shell → mass → goal | printer → interior → hollow → ballast → job | voids → cut →
+/// report → pipeline → cli. `verify` sees nothing of shell, interior, hollow, voids and cut: the judge does not know the accused.
 const ARROWS: &[(&str, &[&str])] = &[
     ("units", &[]),
     ("progress", &[]),
@@ -26,32 +26,49 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("printer", &["digest", "toml_text", "units"]),
     ("interior", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("hollow", &["geom", "goal", "interior", "mass", "mesh", "progress", "shell", "units"]),
+    (
+        "ballast",
+        &[
+            "geom",
+            "goal",
+            "hollow",
+            "interior",
+            "mass",
+            "mesh",
+            "printer",
+            "progress",
+            "shell",
+            "toml_text",
+            "words",
+        ],
+    ),
     ("advice", &["geom", "goal", "hollow", "interior", "mass", "mesh", "progress", "shell", "units"]),
     ("voids", &["geom", "mass", "mesh", "progress", "shell", "units"]),
     ("cut", &["geom", "mass", "mesh", "printer", "progress", "toml_text", "units", "voids"]),
     ("verify", &["digest", "geom", "goal", "io", "mass", "mesh", "printer", "units"]),
     ("report", &["geom", "goal", "mass", "mesh", "units", "verify"]),
     ("coupon", &["geom", "io", "mesh", "printer", "report", "units"]),
-    ("job", &["cut", "digest", "goal", "toml_text", "units", "words"]),
+    ("job", &["ballast", "cut", "digest", "goal", "toml_text", "units", "words"]),
     (
         "error",
         &[
-            "cut", "goal", "hardware", "hollow", "interior", "io", "job", "mesh", "printer", "report",
-            "shell", "verify", "voids",
+            "ballast", "cut", "goal", "hardware", "hollow", "interior", "io", "job", "mesh", "printer",
+            "report", "shell", "verify", "voids",
         ],
     ),
     (
         "pipeline",
         &[
-            "advice", "cut", "digest", "error", "geom", "goal", "hardware", "hollow", "interior", "io",
-            "job", "mass", "mesh", "printer", "progress", "report", "shell", "units", "verify", "voids",
+            "advice", "ballast", "cut", "digest", "error", "geom", "goal", "hardware", "hollow", "interior",
+            "io", "job", "mass", "mesh", "printer", "progress", "report", "shell", "units", "verify",
+            "voids",
         ],
     ),
     (
         "cli",
         &[
-            "advice", "coupon", "cut", "error", "geom", "goal", "io", "job", "mass", "mesh", "pipeline",
-            "printer", "progress", "report", "units", "verify", "words",
+            "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job", "mass", "mesh",
+            "pipeline", "printer", "progress", "report", "units", "verify", "words",
         ],
     ),
     ("guide", &[]),

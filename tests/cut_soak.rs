@@ -119,6 +119,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         hole_step_mm: if pixel_mm < 0.45 { pixel_mm } else { 0.0 },
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
+        seats: Vec::new(),
     }
 }
 

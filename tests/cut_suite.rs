@@ -30,6 +30,7 @@ fn request() -> PlanRequest {
         hole_step_mm: 0.05,
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
+        seats: Vec::new(),
     }
 }
 

@@ -39,7 +39,8 @@ pub(super) fn remedy(ground: &Ground) -> Remedy {
     let ball_mm = (6.0 * bought.volume_mm3 / std::f64::consts::PI).cbrt();
     let [x, y, z] = rounded(bought.center.into(), 0);
     let words = format!(
-        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({}, {}, {}) mm",
+        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({}, {}, {}) mm; --ballast=auto lays it in as \
+         balls where they fit",
         show_mm(ball_mm),
         x,
         y,

@@ -25,10 +25,7 @@ impl Reached {
 
     /// The value so that less is better.
     pub(super) fn score(&self) -> f64 {
-        match self.figure {
-            Figure::TopplingAngleRad | Figure::MetacentricHeightMm | Figure::VolumeMm3 => -self.value,
-            _ => self.value,
-        }
+        self.figure.cost(self.value)
     }
 }
 

@@ -11,6 +11,7 @@ use clap::{
     builder::{PossibleValuesParser, TypedValueParser},
 };
 
+use super::ballast_args::BallastArgs;
 use super::cut_arg::CutArg;
 use super::goal_args::{HardwareArgs, RotorArgs, WaterArgs};
 use crate::{
@@ -138,6 +139,9 @@ pub struct PrepareArgs {
     /// cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
     pub cut: Option<CutArg>,
+    /// What is put into it.
+    #[command(flatten)]
+    pub load: BallastArgs,
 
     /// Write the kit to this folder [default: the model's name with -kit]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
@@ -154,7 +158,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 25] = [
+const DECIDED_BY_JOB: [&str; 27] = [
     "printer",
     "material",
     "wall",
@@ -180,6 +184,8 @@ const DECIDED_BY_JOB: [&str; 25] = [
     "pitch",
     "cut",
     "format",
+    "ballast",
+    "fill",
 ];
 
 /// How large the model is; one of them at most.
@@ -284,6 +290,8 @@ impl PrepareArgs {
             cut,
             plan,
             format: self.format.unwrap_or(default.format),
+            ballast: self.load.ballast.unwrap_or(default.ballast),
+            fill: self.load.fill,
             ..default
         })
     }

@@ -2,6 +2,7 @@
 
 pub mod args;
 pub mod args_printers;
+mod ballast_args;
 pub mod coupon;
 mod cut_arg;
 mod goal_args;

@@ -31,7 +31,7 @@ pub(crate) fn described(
     };
     let told = joints.iter().zip(&placements);
     notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
-    notes.extend(voids.iter().filter_map(|void| narrow(scene.request, void)));
+    notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
     Ok(CutPlan {
         cuts: planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect(),
         joints: told.map(|(joint, placement)| joint_note(pieces, joint, placement)).collect(),
@@ -91,8 +91,9 @@ fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement) -> JointNo
 }
 
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.
-fn narrow(request: &PlanRequest, void: &VoidAccess) -> Option<String> {
-    let (index, opening, asked) = (void.void, void.opening_mm, request.min_opening_mm);
+fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
+    let (index, opening) = (void.void, void.opening_mm);
+    let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());
     let note =
         || format!("void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm");
     (opening < asked).then(note)

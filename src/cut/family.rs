@@ -2,7 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::{cover::VoidSet, request::PlanRequest};
+use super::{
+    cover::VoidSet,
+    request::PlanRequest,
+    seat::{self, Seat},
+};
 use crate::{
     geom::{Plane, Point, Vector},
     mass::{Body, moments_of_mesh},
@@ -54,7 +58,7 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
         .par_iter()
         .map(|normal| {
             let extents = hollowed.voids.iter().zip(&breadths).map(|(v, &b)| extent(v.mesh(), normal, b));
-            in_direction(normal, &extents.collect::<Vec<_>>())
+            in_direction(normal, &extents.collect::<Vec<_>>(), &request.seats)
         })
         .collect();
     rows.concat()
@@ -70,6 +74,7 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     directions.extend([axis, u, v]);
     let solids = std::iter::once(&hollowed.outer).chain(&hollowed.voids);
     directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
+    directions.extend(seat::normals(&request.seats));
     directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
     directions.extend(flattest(&centers(hollowed)));
     directions.retain(|d| d.iter().all(|c| c.is_finite()));
@@ -139,8 +144,8 @@ impl Extent {
     }
 }
 
-/// The candidates normal to one direction.
-fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
+/// The candidates normal to one direction: those through the middles of seats, then those of every cell.
+fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
     let cells = ends.windows(2).filter(|cell| cell[1] - cell[0] >= MIN_INTERVAL_MM);
@@ -148,13 +153,19 @@ fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
         let step = (cell[1] - cell[0]) / OFFSETS_PER_INTERVAL as f64;
         (0..OFFSETS_PER_INTERVAL).map(move |i| cell[0] + step * (i as f64 + 0.5))
     });
-    offsets.map(|offset_mm| candidate(normal, offset_mm, extents)).filter(|c| c.met != 0).collect()
+    let middles = seats.iter().map(|seat| seat.height_mm(normal));
+    let planes = middles.chain(offsets).map(|offset_mm| Plane { normal: *normal, offset_mm });
+    planes.map(|plane| candidate(plane, extents, seats)).filter(|c| c.met != 0).collect()
 }
 
-fn candidate(normal: &Vector, offset_mm: f64, extents: &[Extent]) -> Candidate {
-    let met = || extents.iter().enumerate().filter(|(_, e)| e.meets(offset_mm));
+/// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part into.
+fn candidate(plane: Plane, extents: &[Extent], seats: &[Seat]) -> Candidate {
+    let (offset_mm, first) = (plane.offset_mm, extents.len().saturating_sub(seats.len()));
+    let is_seat_opened =
+        |i: usize| i.checked_sub(first).and_then(|i| seats.get(i)).is_none_or(|s| s.is_opened_by(&plane));
+    let met = || extents.iter().enumerate().filter(|(i, e)| e.meets(offset_mm) && is_seat_opened(*i));
     Candidate {
-        plane: Plane { normal: *normal, offset_mm },
+        plane,
         met: met().fold(0, |set, (i, _)| set | 1 << i),
         guess_mm: met().map(|(_, e)| e.guess_mm(offset_mm)).fold(f64::INFINITY, f64::min),
     }

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     access::VoidAccess,
+    describe::described,
     error::CutError,
     plan::{CutPlan, cut_id, part_id},
     planner::{Layout, accesses},
@@ -15,7 +16,7 @@ use super::{
     split::{check_no_cavity, split},
 };
 use crate::{
-    geom::{Plane, Point, Vector},
+    geom::{Plane, Vector},
     mesh::off_vertices,
 };
 
@@ -52,9 +53,14 @@ struct Level {
     rest: Option<(usize, f64)>,
 }
 
-/// The plan with its cuts moved to layers, by half a layer at most; the plan itself where that would change more than a
-/// hair: the number of pieces, a cavity, or an opening below the least.
-pub(crate) fn at_layers(scene: &Scene, layout: &Layout, plan: CutPlan) -> Result<CutPlan, CutError> {
+/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the plan itself where that would
+/// change more than a hair: the number of pieces, a cavity, or an opening below the least.
+pub(crate) fn at_layers(
+    scene: &Scene,
+    layout: &Layout,
+    plan: CutPlan,
+    notes: Vec<String>,
+) -> Result<CutPlan, CutError> {
     let moves = moves(scene.request, layout, &plan);
     if moves.is_empty() {
         return Ok(plan);
@@ -65,13 +71,14 @@ pub(crate) fn at_layers(scene: &Scene, layout: &Layout, plan: CutPlan) -> Result
         planes[*cut] =
             off_vertices(&scene.material, &Plane { offset_mm: plane.offset_mm + moved_mm, ..plane });
     }
-    let Some(voids) = still_open(scene, layout, &planes)? else { return Ok(plan) };
     let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
         cut: cut_id(cut),
         part: part_id(part),
         moved_mm: planes[cut].offset_mm - layout.planes[cut].offset_mm,
     });
-    Ok(moved_plan(plan, moved.collect(), voids))
+    let moved = moved.collect();
+    let Some(layout) = still_open(scene, layout, planes)? else { return Ok(plan) };
+    Ok(CutPlan { moves: moved, ..described(scene, &layout, (&None, notes))? })
 }
 
 /// Which cuts are moved for which part, and how far along their normals, mm.
@@ -143,42 +150,21 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
     (0..layout.planes.len()).filter(|&cut| carries(cut)).collect()
 }
 
-/// How the moved planes open the voids, if they leave the same pieces and every opening as wide as it must be.
-fn still_open(scene: &Scene, layout: &Layout, planes: &[Plane]) -> Result<Option<Vec<VoidAccess>>, CutError> {
-    let Ok(pieces) = rejoined(split(&scene.material, planes)?, planes, &layout.bridges) else {
+/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
+fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Option<Layout>, CutError> {
+    let Ok(pieces) = rejoined(split(&scene.material, &planes)?, &planes, &layout.bridges) else {
         return Ok(None);
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
         return Ok(None);
     }
-    let voids = accesses(scene.hollowed, planes)?;
+    let voids = accesses(scene.hollowed, &planes)?;
     let least_mm = scene.request.min_opening_mm;
     let is_worse = |(now, before): (&VoidAccess, &VoidAccess)| {
         now.opening_mm < least_mm && now.opening_mm < before.opening_mm
     };
-    Ok((!voids.iter().zip(&layout.voids).any(is_worse)).then_some(voids))
-}
-
-/// The plan with its cuts, their pins and the faces left whole moved along.
-fn moved_plan(plan: CutPlan, moves: Vec<CutMove>, voids: Vec<VoidAccess>) -> CutPlan {
-    let normals: Vec<(String, Vector)> =
-        plan.cuts.iter().map(|cut| (cut.id.clone(), Vector::from(cut.normal))).collect();
-    let along = |cut: &str, point: [f64; 3]| -> [f64; 3] {
-        let moved_mm = moves.iter().find(|to| to.cut == cut).map_or(0.0, |to| to.moved_mm);
-        let normal = normals.iter().find(|(id, _)| id == cut).map_or(Vector::zeros(), |(_, normal)| *normal);
-        (Point::from(point) + normal * moved_mm).into()
-    };
-    let mut plan = CutPlan { voids, ..plan };
-    for cut in &mut plan.cuts {
-        cut.point_mm = along(&cut.id, cut.point_mm);
-    }
-    for pin in &mut plan.pins {
-        pin.center_mm = along(&pin.cut, pin.center_mm);
-    }
-    for face in &mut plan.uncut {
-        face.point_mm = along(&face.cut, face.point_mm);
-    }
-    CutPlan { moves, ..plan }
+    let is_open = !voids.iter().zip(&layout.voids).any(is_worse);
+    Ok(is_open.then(|| Layout { planes, voids, pieces, bridges: layout.bridges.clone() }))
 }
 
 #[cfg(test)]

@@ -264,8 +264,7 @@ impl<'a> Face<'a> {
         let along = self.plane.normal * self.sign;
         let bottom = mouth + along * size.depth;
         let root = mouth - along * PinSite::root_mm(size.diameter);
-        // The cut may still move by half a layer, and its pins with it.
-        let radius = size.corner() + self.scene.request.wall_mm + self.scene.request.layer_mm / 2.0;
+        let radius = size.corner() + self.scene.request.wall_mm;
         let others = (0..self.scene.planes.len()).filter(|&cut| cut != self.joint.cut);
         let is_clear = |cut: usize| {
             let [near, far] = [mouth, bottom].map(|end| self.scene.planes[cut].distance(&end));

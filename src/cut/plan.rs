@@ -24,8 +24,8 @@ pub struct CutPlan {
     /// Where a cut leaves the body whole.
     #[serde(default)]
     pub uncut: Vec<UncutFace>,
-    /// Which cuts were moved to a whole layer of the printer.
-    #[serde(default)]
+    /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part of its file.
+    #[serde(skip)]
     pub moves: Vec<CutMove>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,

@@ -40,8 +40,8 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    let plan = described(&scene, &layout, (&None, notes))?;
-    at_layers(&scene, &layout, plan)
+    let plan = described(&scene, &layout, (&None, notes.clone()))?;
+    at_layers(&scene, &layout, plan, notes)
 }
 
 /// The plan by a person's order: each cut through the whole model but for the faces that are to stay whole; pins as ordered,
@@ -121,7 +121,8 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     for planes in found.plans.iter().take(TRIED_PLANS) {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
         let voids = accesses(scene.hollowed, &planes)?;
-        if voids.iter().all(|void| void.opening_mm >= scene.request.min_opening_mm) {
+        let needed_mm = |void: &VoidAccess| scene.request.needed_mm(void.void, scene.hollowed.voids.len());
+        if voids.iter().all(|void| void.opening_mm >= needed_mm(void)) {
             return Layout::new(scene, planes, voids);
         }
         narrow = narrow.or(Some((planes, voids)));

@@ -69,5 +69,6 @@ pub(crate) fn request() -> PlanRequest {
         hole_step_mm: 0.042,
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
+        seats: Vec::new(),
     }
 }

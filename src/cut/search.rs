@@ -124,8 +124,10 @@ fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
 /// What the candidate opens, measured on its sections.
 fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     let openings = scene.openings(&candidate.plane, candidate.met);
-    let enough = |o: &Option<Opening>| o.is_some_and(|o| o.diameter_mm >= scene.request.min_opening_mm);
-    let opened = openings.iter().enumerate().filter(|(_, o)| enough(o)).fold(0, |set, (i, _)| set | 1 << i);
+    let enough =
+        |void: usize, o: &Option<Opening>| o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void));
+    let opened =
+        openings.iter().enumerate().filter(|(i, o)| enough(*i, o)).fold(0, |set, (i, _)| set | 1 << i);
     Exact { plane: candidate.plane, openings, opened }
 }
 
@@ -138,8 +140,10 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
     if covers.is_empty() {
         covers.push(known.to_vec());
     }
+    // A seat's opening is wide enough or not; more of it is of no use.
+    let plain = voids.saturating_sub(scene.request.seats.len());
     let by_opening = |cover: &Vec<usize>| {
-        opening_penalty(scene, openings_mm(exact, cover, voids))
+        opening_penalty(scene, openings_mm(exact, cover, plain))
             + CROSSED_WEIGHT * crossed(exact, cover, voids)
     };
     let mut covers: Vec<(f64, Vec<usize>)> = covers.into_iter().map(|c| (by_opening(&c), c)).collect();
@@ -193,8 +197,14 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
 /// Which voids none of the planes opens wide enough.
 fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
     let widest = |&void: &usize| widest_mm(exact.iter(), void);
-    let needed_mm = scene.request.min_opening_mm;
-    let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(|void| widest(void) < needed_mm).collect();
+    let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
+    let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
+    let needed_mm = voids.first().map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
     CutError::Unopenable { voids, widest_mm, needed_mm }
+}
+
+/// Diameter of the disc that must pass through the opening of a void, mm.
+fn needed_mm(scene: &Scene, void: usize) -> f64 {
+    scene.request.needed_mm(void, scene.hollowed.voids.len())
 }

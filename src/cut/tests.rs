@@ -292,3 +292,38 @@ fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
     };
     assert_eq!(ids(12.0), ids(12.02));
 }
+
+/// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of room.
+fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
+    let voids = [
+        &[[15.0, 15.0, 15.0, 9.0]][..],
+        &pockets.iter().map(|&[x, y, z]| [x, y, z, 2.7]).collect::<Vec<_>>(),
+    ];
+    let body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &voids.concat());
+    let seat = |&center: &[f64; 3]| Seat {
+        center: Point::from(center),
+        axis: None,
+        radius_mm: 2.7,
+        opening_mm: 5.0,
+    };
+    (body, PlanRequest { seats: pockets.iter().map(seat).collect(), ..request() })
+}
+
+#[test]
+fn one_cut_opens_a_void_and_lets_a_ball_into_its_pocket() {
+    let (body, request) = with_pockets(&[[50.0, 22.0, 8.0]]);
+    let (plan, _) = kit(&body, &request);
+    assert_eq!(plan.cuts.len(), 1);
+    assert!(plan.voids[1].opening_mm >= 5.0, "{:?}", plan.voids);
+    let plane = plan.cuts[0].plane().unwrap();
+    // √(2.7² − 2.5²) of its middle.
+    assert!(plane.distance(&Point::new(50.0, 22.0, 8.0)).abs() <= 1.02);
+}
+
+#[test]
+fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
+    let (body, request) = with_pockets(&[[40.0, 6.0, 22.0], [54.0, 24.0, 7.0], [36.0, 22.0, 11.0]]);
+    let (plan, _) = kit(&body, &request);
+    assert!(plan.cuts.len() <= 2, "{:?}", plan.notes);
+    assert!(plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0), "{:?}", plan.voids);
+}

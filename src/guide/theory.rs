@@ -50,6 +50,17 @@
 //! hand the reachable set is still convex: a grain at x is emptied where g·m > 0 and replaced where g·m is so far below
 //! zero that it is worth the price, two level sets of one quadric ([`crate::hollow::least_ballast`]).
 //!
+//! # Ballast and fillings
+//! A stock part of mass m at x adds (m/ρ) φ(x), φ = (1, x, y, z, …), to the moments of the print and takes its pocket away from
+//! them; with the parts at their places this is one more known constant, and the interior around them is solved for with the
+//! same certificate. The places are found by descent: to first order a part changes the value by g·(part − pocket), so the
+//! quadric g of the answer at hand, or of the proof that there is none, tells where the next part acts most
+//! ([`crate::ballast`]). That other places may do better is not excluded; that less steel cannot do is, by the bound of
+//! [`crate::hollow::least_ballast`].
+//!
+//! A filling of density ρ_f in the voids gives s = s_fixed − (1 − ρ_f/ρ) ∫ β m: K is stretched by that factor, and turned over
+//! where the filling is the heavier material. Nothing else changes ([`crate::hollow::Fill`]).
+//!
 //! # From the solution to the print
 //! What is printed is a triangle mesh with pins, sockets and clearances, not the solver's columns. It is measured exactly,
 //! δ = s(mesh) − s(columns), and the problem is solved again with δ added to the material that stays. δ hardly

@@ -9,9 +9,10 @@ use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Vector10};
 use super::settings::Settings;
+use super::solution::{Figure, Solution};
 use super::work::Work;
 use crate::geom::Quadric;
-use crate::goal::{Afloat, GoalKind, Objective, Spindle};
+use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
 use crate::progress::Progress;
 
 /// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an ascent starts with; far
@@ -84,6 +85,24 @@ pub fn least_ballast(
         (GoalKind::Balance, _) => shop.least_to_balance(&problem.goal.spindle?),
     }?;
     shop.ballast(&bought)
+}
+
+/// Whether a solution is possible with as much to spare as [`least_ballast`] asks for: at the very border of the possible a
+/// top has no least speed, and what stands falls over when breathed at.
+pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
+    let value = solution.certificate.value;
+    let is_enough = match (goal.kind, solution.certificate.figure) {
+        (GoalKind::Top | GoalKind::Yoyo, _) => {
+            figures(goal, &solution.moments).dominance_ratio <= STABLE_RATIO
+        }
+        (_, Figure::TopplingAngleRad) => value >= STANDING_RAD,
+        (_, Figure::MetacentricHeightMm) => value >= RIGHTING_MM,
+        (_, Figure::BalanceGradeMmS) => {
+            goal.spindle.is_none_or(|spindle| value <= GRADE_SHARE * spindle.rotor.grade_mm_s)
+        }
+        _ => true,
+    };
+    solution.is_usable() && is_enough
 }
 
 /// The interior with the least ballast that was found.
@@ -278,7 +297,7 @@ mod tests {
         let found = ballast(&world, density_ratio).unwrap();
         let mut least = f64::INFINITY;
         worlds::each_mixture(&world, density_ratio, |moments, blocks| {
-            let figures = crate::goal::figures(&world.goal, moments);
+            let figures = figures(&world.goal, moments);
             if figures.toppling_angle_rad.is_some_and(|angle| angle >= STANDING_RAD) {
                 least = least.min(f64::from(blocks) * block_mm3);
             }

@@ -95,7 +95,7 @@
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
 //! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `lever` the search
 //! over heights · `cover`, `frontier` the proof over all of them · `answer` back to mm, with a status · `ballast` the least of a
-//! denser material where hollowing is not enough · `method` one trait for this
+//! denser material where hollowing is not enough · `fill` voids that are filled · `method` one trait for this
 //! solver and the papers' own, which live in `papers`.
 //!
 //! # The papers' own methods
@@ -134,6 +134,7 @@ mod ascent;
 mod balance;
 mod ballast;
 mod cover;
+mod fill;
 mod float;
 mod frontier;
 mod golden;
@@ -159,7 +160,8 @@ mod yoyo;
 use crate::goal::GoalKind;
 use crate::progress::Progress;
 
-pub use ballast::{Ballast, least_ballast};
+pub use ballast::{Ballast, has_spare, least_ballast};
+pub use fill::Fill;
 pub use golden::golden_section;
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};

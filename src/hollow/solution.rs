@@ -52,6 +52,16 @@ pub struct Certificate {
     pub bound_over_heights: Option<f64>,
 }
 
+impl Figure {
+    /// The value so that less is better.
+    pub fn cost(self, value: f64) -> f64 {
+        match self {
+            Self::TopplingAngleRad | Self::MetacentricHeightMm | Self::VolumeMm3 => -value,
+            _ => value,
+        }
+    }
+}
+
 /// Which search an ascent belonged to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -120,6 +130,20 @@ impl Solution {
     /// Whether there is a void worth making.
     pub fn is_usable(&self) -> bool {
         matches!(self.status, Status::Solved | Status::AlmostSolved)
+    }
+
+    /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`, its void is where the
+    /// quadric was negative.
+    pub(super) fn stretched(self, factor: f64, is_turned: bool) -> Self {
+        let Certificate { figure, value, bound, .. } = self.certificate;
+        let stretch = if figure == Figure::VolumeMm3 { factor } else { 1.0 };
+        let turned = Quadric(self.quadric.0.map(|coefficient| -coefficient));
+        Self {
+            moments: self.moments * factor,
+            quadric: if is_turned { turned } else { self.quadric },
+            certificate: Certificate { value: value * stretch, bound: bound * stretch, ..self.certificate },
+            ..self
+        }
     }
 
     /// The multipliers of the constraints in the solver's units, in the order of the table of rows in [`super`].

@@ -2,6 +2,7 @@
 
 mod bar;
 mod body;
+mod lump;
 mod moments;
 mod of_mesh;
 mod submerged;
@@ -10,6 +11,8 @@ mod tests;
 
 pub use bar::RoundBar;
 pub use body::{Body, Principal};
+pub(crate) use lump::rims;
+pub use lump::{Lump, LumpShape};
 pub use moments::Moments;
 pub use of_mesh::moments_of_mesh;
 pub use submerged::{Section, Submerged, submerged};

@@ -55,6 +55,10 @@ impl<'a> Means<'a> {
 
 /// The answer that the goal is impossible, with what would help.
 pub fn advised(setup: &Setup, impossible: Impossible, progress: &Progress) -> Impossible {
+    if setup.job.fill.is_some() {
+        // The searches know of air only.
+        return impossible;
+    }
     progress.report(phase::ADVISE, 0.0);
     if setup.fitted.is_some() {
         let hints = impossible.hints.into_iter().chain([BARE.to_owned()]).collect();

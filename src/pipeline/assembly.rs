@@ -3,10 +3,12 @@
 use rayon::prelude::*;
 
 use super::{
-    Error, Setup, Solved, phase,
+    Error, Setup, Solved,
+    ballasting::seats,
+    phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
-    tuner::{Tuner, Voids},
+    tuner::{Tuner, Voids, inside},
     tuning::is_tuned,
     written::WrittenPart,
 };
@@ -70,7 +72,7 @@ impl Assembly {
         Ok(assembly)
     }
 
-    /// The moments of the written parts put together, without hardware, model frame.
+    /// The moments of the written parts put together, without hardware and ballast, model frame.
     pub fn written_moments(&self) -> Moments {
         written_moments(&self.parts)
     }
@@ -95,12 +97,20 @@ fn planned(
 ) -> Result<(Voids, CutPlan), Error> {
     for _ in 0..MAX_PLANS {
         match planned_once(setup, &voids, request) {
-            Err(CutError::Unopenable { voids: refused, .. }) => voids = tuner.without(&voids, &refused)?,
+            Err(CutError::Unopenable { voids: refused, .. }) if are_plain(setup, &voids, &refused) => {
+                voids = tuner.without(&voids, &refused)?;
+            }
             plan => return Ok((voids, plan?)),
         }
     }
     let plan = planned_once(setup, &voids, request)?;
     Ok((voids, plan))
+}
+
+/// Whether none of these voids is a pocket of ballast, which cannot be left solid.
+fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
+    let plain = voids.hollowed.voids.len() - setup.load.parts.len();
+    refused.iter().all(|&void| void < plain)
 }
 
 fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
@@ -125,7 +135,7 @@ fn assembled(
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
-        let whole = written + setup.hardware_moments();
+        let whole = written + inside(setup, &voids.hollowed);
         attempts += 1;
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
@@ -182,5 +192,6 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
             PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
             PrintPose::CutFaceDown => PosePreference::CutFaceDown,
         },
+        seats: seats(&setup.load),
     }
 }

@@ -104,6 +104,8 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         hardware: setup.hardware(),
         string_gap_mm: setup.string_gap_mm(),
         joints: rows::promised_joints(setup, &assembly.plan),
+        ballast: rows::ballast_orders(setup),
+        fill: rows::fill_order(setup),
         assembly: None,
         files: Default::default(),
     }

@@ -2,6 +2,7 @@
 
 mod advising;
 mod assembly;
+mod ballasting;
 mod fitting;
 mod grid_rows;
 mod kit;
@@ -54,7 +55,8 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     watch.lap(phase::LOAD);
     let setup = waterline::chosen(setup, &mut watch)?;
     let setup = fitting::equipped(setup, &mut watch)?;
-    let solved = match Solved::of(&setup, progress, &mut watch)? {
+    let (setup, solved) = ballasting::solved(setup, progress, &mut watch)?;
+    let solved = match solved {
         Ok(solved) => solved,
         Err(impossible) => {
             let advised = advising::advised(&setup, impossible, progress);

@@ -6,15 +6,20 @@ use super::fitting::{half_of, halves, shallow_axle};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, written::WrittenPart};
+use crate::ballast::Placed;
 use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
 use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, VoidRow, WallRow,
+    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, VoidRow,
+    WallRow,
 };
-use crate::verify::{Aim, FigureName, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder, WaterOrder};
+use crate::verify::{
+    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
+    WaterOrder,
+};
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
@@ -62,6 +67,8 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         grid: super::grid_rows::grid_rows(sheet),
         hardware: setup.hardware(),
         string_gap_mm: setup.string_gap_mm(),
+        ballast: ballast_rows(sheet),
+        fill: fill_order(setup),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -169,7 +176,7 @@ fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
 fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
     let plan = &sheet.assembly.plan;
     let row = |access: &crate::cut::VoidAccess| VoidRow {
-        id: format!("V{}", access.void + 1),
+        id: void_id(access.void),
         volume_mm3: access.volume_mm3,
         opened_by: access.opened_by.clone(),
         opening_mm: access.opening_mm,
@@ -178,6 +185,10 @@ fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
         clean: sheet.setup.printer.cleaning.clone(),
     };
     plan.voids.iter().map(row).collect()
+}
+
+fn void_id(void: usize) -> String {
+    format!("V{}", void + 1)
 }
 
 fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
@@ -266,6 +277,35 @@ fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
             note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
         })
         .collect()
+}
+
+/// The ballast as the judge sees it.
+pub fn ballast_orders(setup: &Setup) -> Vec<BallastOrder> {
+    let order =
+        |(index, placed): (usize, &Placed)| BallastOrder { id: format!("B{}", index + 1), lump: placed.lump };
+    setup.load.parts.iter().enumerate().map(order).collect()
+}
+
+/// The filling as the judge sees it.
+pub fn fill_order(setup: &Setup) -> Option<FillOrder> {
+    setup.job.fill.map(|filling| FillOrder { density_g_cm3: filling.density_g_cm3() })
+}
+
+fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
+    let (load, voids) = (&sheet.setup.load, &sheet.assembly.plan.voids);
+    let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
+    let rows = ballast_orders(sheet.setup).into_iter().zip(&load.parts).zip(pockets);
+    rows.map(|((order, Placed { part, .. }), pocket)| BallastRow {
+        order,
+        part: part.id.clone(),
+        name: part.name.clone(),
+        void: void_id(pocket.void),
+        opened_by: pocket.opened_by.clone(),
+        clearance_mm: load.fit.clearance_mm,
+        mass_spread_ratio: part.mass_spread_ratio,
+        sources: [&part.size, &part.mass].map(|known| format!("{}: {}", known.sure, known.source)),
+    })
+    .collect()
 }
 
 fn warnings(sheet: &Sheet) -> Vec<String> {

@@ -2,11 +2,14 @@
 
 use super::Error;
 use super::advising::Means;
+use crate::ballast::Load;
 use crate::digest::sha256_hex;
-use crate::goal::{Placement, Request, Stock, place_made_of};
+use crate::goal::{GoalKind, Placement, Request, Stock, place_made_of};
 use crate::hardware::Fitted;
+use crate::hollow::Fill;
 use crate::io;
 use crate::job::Job;
+use crate::mass::Moments;
 use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
 use crate::printer::{Material, Printer, WallChoice, leaves_room};
 use crate::progress::Progress;
@@ -49,6 +52,10 @@ pub struct Setup {
     pub fitted: Option<Fitted>,
     /// The model as it was before its hardware was put in; none without hardware.
     pub bare: Option<Solid>,
+    /// The ballast that is laid in.
+    pub load: Load,
+    /// What is in the voids.
+    pub fill: Fill,
 }
 
 impl Setup {
@@ -66,8 +73,28 @@ impl Setup {
         let (request, choice) = means.settled(&job.goal);
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
-        let (fitted, bare) = (None, None);
-        Ok(Self { job, model, printer, material, wall, pitch_mm, request, choice, placement, fitted, bare })
+        let fill = fill(&job, stock.density_g_cm3)?;
+        Ok(Self {
+            job,
+            model,
+            printer,
+            material,
+            wall,
+            pitch_mm,
+            request,
+            choice,
+            placement,
+            fitted: None,
+            bare: None,
+            load: Load::default(),
+            fill,
+        })
+    }
+
+    /// The moments of nothing emptied, goal frame: the solid's, and the ballast's less its pockets'.
+    pub fn fixed(&self) -> Moments {
+        let goal = &self.placement.goal;
+        goal.solid + self.load.excess().in_frame(&goal.frame)
     }
 
     /// The name of the job in file names: the model's file name without its ending.
@@ -76,6 +103,20 @@ impl Setup {
         let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
         stem.unwrap_or_default().chars().map(|c| if is_plain(c) { c } else { '-' }).collect()
     }
+}
+
+/// What is in the voids of a job's print.
+fn fill(job: &Job, density_g_cm3: f64) -> Result<Fill, Error> {
+    let Some(filling) = job.fill else { return Ok(Fill::AIR) };
+    if !job.ballast.is_none() {
+        return Err(Error::FillAndBallast { fill: filling, order: job.ballast.clone() });
+    }
+    let fill = Fill::new(filling.density_g_cm3() / density_g_cm3)
+        .ok_or(Error::FillLikePrint { fill: filling, density_g_cm3 })?;
+    if fill.is_heavier() && job.goal.kind == GoalKind::Balance {
+        return Err(Error::HeavyFillInRotor { fill: filling });
+    }
+    Ok(fill)
 }
 
 /// The model of a job, and the job bound to it.

@@ -1,7 +1,7 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
-use crate::hollow::{Certificate, Problem, Settings, Solution, refine, solve};
+use crate::hollow::{Certificate, Problem, Solution};
 use crate::interior::Columns;
 use crate::mass::Moments;
 use crate::progress::Progress;
@@ -42,8 +42,9 @@ impl Solved {
         for (done, pitch_mm) in pitches.into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
             let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent())?;
+            let columns = setup.load.carved(columns, &goal.frame);
             watch.lap("columns");
-            let solution = solution_on(setup, &columns, level.as_ref(), goal.solid);
+            let solution = solution_on(setup, &columns, level.as_ref(), setup.fixed());
             watch.lap("solve");
             if progress.is_cancelled() {
                 return Err(Error::Cancelled);
@@ -84,11 +85,7 @@ fn pitches(setup: &Setup, shell: &Shell) -> Vec<[f64; 2]> {
 
 fn solution_on(setup: &Setup, columns: &Columns, from: Option<&Solved>, fixed: Moments) -> Solution {
     let problem = Problem { goal: &setup.placement.goal, fixed, columns };
-    let settings = Settings::default();
-    match from.filter(|level| level.solution.is_usable()) {
-        Some(level) => refine(&problem, &settings, &level.solution, &Progress::silent()),
-        None => solve(&problem, &settings, &Progress::silent()),
-    }
+    setup.fill.solve(&problem, from.map(|level| &level.solution), &Progress::silent())
 }
 
 /// The answer for a goal that no hollowing meets.

@@ -4,12 +4,11 @@ use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::is_tuned};
 use crate::hollow::Solution;
-use crate::interior::moments_where_positive;
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Hollowed, TriMesh};
+use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::progress::Progress;
 use crate::report::HeightProof;
-use crate::voids::{Cavity, CavitySpec, grown, without_slivers};
+use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
 /// each may find another void too small; more than a few mean that voids come and go.
@@ -33,7 +32,7 @@ pub struct Voids {
     pub solution: Solution,
     /// The moments of nothing emptied that the solution was found with, goal frame.
     pub fixed: Moments,
-    /// The body with the voids in it.
+    /// The body with the voids in it; the ballast's pockets are the last of them.
     pub hollowed: Hollowed,
     /// The volume of voids that were too small to clean and stay solid, mm³.
     pub refused_mm3: f64,
@@ -63,7 +62,8 @@ pub struct Tuner<'a> {
 impl<'a> Tuner<'a> {
     /// Draws what may be emptied.
     pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
-        let cavity = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
+        let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
+        let cavity = setup.load.jackets().try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
         Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
     }
 
@@ -74,7 +74,7 @@ impl<'a> Tuner<'a> {
 
     /// The voids whose uncut mesh meets the goal's constraints before cuts and pins.
     pub fn first(&mut self) -> Result<Voids, Error> {
-        let voids = self.voids(self.solved.solution.clone(), self.setup.placement.goal.solid, 0)?;
+        let voids = self.voids(self.solved.solution.clone(), self.setup.fixed(), 0)?;
         self.tuned(voids, Moments::default())
     }
 
@@ -83,8 +83,8 @@ impl<'a> Tuner<'a> {
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
-            let written = (moments_of_mesh(&voids.hollowed.to_mesh()) + self.setup.hardware_moments() + more)
-                .in_frame(&goal.frame);
+            let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
+            let written = (printed + inside(self.setup, &voids.hollowed)).in_frame(&goal.frame);
             if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }
@@ -106,7 +106,7 @@ impl<'a> Tuner<'a> {
     /// to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
         // What was refused since the voids were solved for is known to the columns now.
-        let planned = voids.fixed - moments_where_positive(&self.solved.columns, &voids.solution.quadric);
+        let planned = self.setup.fill.filled(voids.fixed, &self.solved.columns, &voids.solution.quadric);
         let fixed = voids.fixed + (written - planned);
         self.solved.solution = self.solved.corrected(self.setup, fixed);
         self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
@@ -122,7 +122,10 @@ impl<'a> Tuner<'a> {
             bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > least_mm3).collect();
         let refused_mm3 = self.refused_mm3 + crumbs_mm3;
         self.refuse(&significant)?;
-        let hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        let mut hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        for pocket in self.setup.load.pockets() {
+            hollowed.voids.push(Solid::new(pocket.mesh()).map_err(VoidError::from)?);
+        }
         Ok(Voids { solution, fixed, hollowed, refused_mm3, rounds })
     }
 
@@ -144,6 +147,13 @@ impl<'a> Tuner<'a> {
         self.solved.columns = columns;
         Ok(())
     }
+}
+
+/// The moments, model frame, of what is put into the print: ballast, hardware, a filling of the voids.
+pub fn inside(setup: &Setup, hollowed: &Hollowed) -> Moments {
+    let voids = hollowed.voids.iter().map(|void| moments_of_mesh(void.mesh()));
+    let volume = voids.fold(Moments::default(), |sum, void| sum + void);
+    setup.load.moments() + setup.hardware_moments() + volume * setup.fill.density_ratio()
 }
 
 /// What the surface of the voids is made to.

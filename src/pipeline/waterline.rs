@@ -2,7 +2,7 @@
 
 use super::{Error, Setup, solving::COARSE_COLUMNS, stopwatch::Stopwatch};
 use crate::goal::{Afloat, Hydrostatics, Waterline};
-use crate::hollow::{Problem, Settings, Status, golden_section, solve};
+use crate::hollow::{Problem, Status, golden_section};
 use crate::interior::Columns;
 use crate::progress::Progress;
 use crate::shell::Shell;
@@ -62,7 +62,7 @@ impl Search<'_> {
         let afloat = self.hydrostatics.at(waterline_mm);
         let goal = crate::goal::Goal { afloat: Some(afloat), ..self.setup.placement.goal.clone() };
         let problem = Problem { goal: &goal, fixed: goal.solid, columns: &self.columns };
-        let solution = solve(&problem, &Settings::default(), &Progress::silent());
+        let solution = self.setup.fill.solve(&problem, None, &Progress::silent());
         let rate = match solution.status {
             Status::Capsizes { greatest_gm_mm } => (false, greatest_gm_mm),
             Status::CannotTrim { least_offset_mm, .. } => {

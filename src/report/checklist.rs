@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::grid::GridRow;
-use super::rows::{CutRow, JointRow, PartRow, VoidRow};
+use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
-use crate::verify::{Aim, Check, FigureName, Figures, Hardware, PromisedFigure, SCHEMA};
+use crate::verify::{Aim, Check, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
@@ -60,6 +60,12 @@ pub struct Checklist {
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,
+    /// The stock parts that are laid in before gluing.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub ballast: Vec<BallastRow>,
+    /// What the voids are filled with; none for air.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fill: Option<FillOrder>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.

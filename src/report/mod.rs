@@ -26,5 +26,5 @@ pub use grid::GridRow;
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
 pub use page::page;
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
-pub use rows::{CutRow, JointRow, PartRow, VoidRow};
+pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 pub use timing::Timing;

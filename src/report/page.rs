@@ -62,7 +62,7 @@ fn header(sheet: &Checklist) -> Markup {
             tr { th { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
             tr { th { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
             tr { th { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
-            tr { th { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr { th { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (counted(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
             tr { th { "Wall" } td { "ordered " (quantity(sheet.wall.required_mm, "mm")) ", thinnest measured " (quantity_or_dash(sheet.wall.measured_min_mm, "mm")) } }
         }
     }
@@ -143,13 +143,23 @@ fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
 pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
     html! {
         (quantity(mass_g, "g"))
-        @if let Some(spread) = sheet.material.density_spread_ratio {
-            br;
-            span class="small" { (number(mass_g * (1.0 - spread))) "–" (quantity(mass_g * (1.0 + spread), "g")) }
-        } @else {
+        @if let Some(spread) = sheet.material.density_spread_ratio { (window(mass_g, spread)) }
+        @else {
             br;
             span class="small" { (number(100.0 * mass_g / sheet.assembly.mass_g)) " % of the whole" }
         }
+    }
+}
+
+/// A mass, and what a sound piece of it may weigh.
+pub(super) fn mass_window(mass_g: f64, spread_ratio: f64) -> Markup {
+    html! { (quantity(mass_g, "g")) (window(mass_g, spread_ratio)) }
+}
+
+fn window(mass_g: f64, spread_ratio: f64) -> Markup {
+    html! {
+        br;
+        span class="small" { (number(mass_g * (1.0 - spread_ratio))) "–" (quantity(mass_g * (1.0 + spread_ratio), "g")) }
     }
 }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{Peg, Pose};
+use crate::verify::{BallastOrder, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -85,4 +85,26 @@ pub struct JointRow {
     /// What to mind, such as where a joint has no room for pins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
+}
+
+/// One stock part that is laid into its pocket.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct BallastRow {
+    /// Its name on the sheet, its shape, mass and place.
+    #[serde(flatten)]
+    pub order: BallastOrder,
+    /// What it is ordered by, such as `ball-4`.
+    pub part: String,
+    /// What it is called in a shop.
+    pub name: String,
+    /// The void that is its pocket.
+    pub void: String,
+    /// The ids of the cuts that open the pocket.
+    pub opened_by: Vec<String>,
+    /// The gap around it, mm.
+    pub clearance_mm: f64,
+    /// By how much of it the mass of a good part may differ.
+    pub mass_spread_ratio: f64,
+    /// Where its sizes and its mass are from.
+    pub sources: [String; 2],
 }

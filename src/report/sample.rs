@@ -67,6 +67,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         grid: vec![grid_row()],
         hardware: vec![],
         string_gap_mm: None,
+        ballast: Vec::new(),
+        fill: None,
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![

@@ -3,32 +3,90 @@
 use maud::{Markup, html};
 
 use super::hardware::fitting;
-use super::page::{figure, mass_with_window};
-use super::words::quantity;
-use super::{Checklist, JointRow, PartRow, Picture, VoidRow};
+use super::page::{figure, mass_window, mass_with_window};
+use super::words::{coordinates, quantity};
+use super::{BallastRow, Checklist, JointRow, PartRow, Picture, VoidRow};
 use crate::goal::GoalKind;
 use crate::units::counted;
+use crate::verify::FillOrder;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// Every step: print, clean, dry fit, glue, put in what is not printed, weigh, test.
+/// Every step: print, clean, dry fit, fill the voids or lay in the ballast where that is asked for, glue, put in what is not
+/// printed, weigh, test.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
-    let mut steps = vec![
-        ("Print", print(sheet, pictures)),
-        ("Clean every void", clean(sheet)),
-        ("Dry fit", dry_fit(sheet)),
-        ("Glue", glue(sheet)),
+    let steps = [
+        Some(("Print", print(sheet, pictures))),
+        Some(("Clean every void", clean(sheet))),
+        Some(("Dry fit", dry_fit(sheet))),
+        sheet.fill.map(|fill| ("Fill every void", filling(sheet, fill))),
+        (!sheet.ballast.is_empty()).then(|| ("Lay in the ballast", ballast(sheet))),
+        Some(("Glue", glue(sheet))),
+        (!sheet.hardware.is_empty()).then(|| ("Put in the hardware", fitting(sheet))),
+        Some(("Weigh", weigh(sheet))),
+        Some(("Test", test(sheet))),
     ];
-    if !sheet.hardware.is_empty() {
-        steps.push(("Put in the hardware", fitting(sheet)));
-    }
-    steps.extend([("Weigh", weigh(sheet)), ("Test", test(sheet))]);
     html! {
-        @for (index, (name, step)) in steps.iter().enumerate() {
+        @for (index, (name, step)) in steps.iter().flatten().enumerate() {
             section { h2 { (index + 1) ". " (name) } (step) }
         }
     }
+}
+
+fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
+    html! {
+        p {
+            "With the cut faces up and level, fill every piece of a void flush with its cut face with a material of "
+            (quantity(fill.density_g_cm3, "g/cm³")) ", without bubbles, and let it set. Keep sockets and cut faces clean."
+        }
+        table {
+            tr { th { "Done" } th { "Void" } th class="n" { "Filling, in all its pieces" } th { "Weighed, g" } }
+            @for void in &sheet.voids {
+                tr {
+                    td { "☐" } td { strong { (void.id) } }
+                    td class="n" { (quantity(void.volume_mm3 / 1000.0, "cm³")) ", " (quantity(void.volume_mm3 / 1000.0 * fill.density_g_cm3, "g")) }
+                    td { (blank()) }
+                }
+            }
+        }
+    }
+}
+
+fn ballast(sheet: &Checklist) -> Markup {
+    html! {
+        p { "Weigh each piece first: one outside its window spoils the balance. Glue it into its pocket so that it cannot rattle." }
+        table {
+            tr {
+                th { "Done" } th { "Piece" } th class="n" { "Mass" } th { "Weighed, g" } th { "Into" } th { "Centre, model frame" }
+            }
+            @for row in &sheet.ballast { (ballast_line(row)) }
+        }
+        p class="small" { "What the sizes and masses rest on:" }
+        @for source in ballast_sources(sheet) { p class="small" { (source) } }
+    }
+}
+
+fn ballast_line(row: &BallastRow) -> Markup {
+    let lump = &row.order.lump;
+    html! {
+        tr {
+            td { "☐" }
+            td { strong { (row.order.id) } ": " (row.name) " (" code { (row.part) } ")" }
+            td class="n" { (mass_window(lump.mass_g, row.mass_spread_ratio)) }
+            td { (blank()) }
+            td { "pocket " (row.void) ", open along " (row.opened_by.join(", ")) ", " (quantity(row.clearance_mm, "mm")) " of room all around" }
+            td { (coordinates(&lump.center_mm)) @if !lump.shape.is_ball() { ", axis " (coordinates(&lump.axis)) } }
+        }
+    }
+}
+
+/// The sources of the ballast's numbers, each once.
+fn ballast_sources(sheet: &Checklist) -> Vec<&String> {
+    let mut sources: Vec<&String> = sheet.ballast.iter().flat_map(|row| &row.sources).collect();
+    sources.sort();
+    sources.dedup();
+    sources
 }
 
 fn print(sheet: &Checklist, pictures: &[Picture]) -> Markup {
@@ -152,7 +210,7 @@ fn weigh(sheet: &Checklist) -> Markup {
                 tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
             }
             tr {
-                td { strong { (all_glued(sheet)) } } td class="n" { (mass_with_window(sheet, sheet.assembly.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) }
+                td { strong { (all_glued(sheet)) } } td class="n" { (assembled_mass(sheet)) } td { (blank()) } td { (tick_or_blank(sheet)) }
             }
         }
         p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
@@ -170,6 +228,18 @@ fn tick_or_blank(sheet: &Checklist) -> Markup {
 
 fn all_glued(sheet: &Checklist) -> &'static str {
     if sheet.hardware.is_empty() { "all, glued" } else { "all, glued, with the hardware" }
+}
+
+/// The mass of everything, with the window that the print's density and the pieces of ballast leave.
+fn assembled_mass(sheet: &Checklist) -> Markup {
+    let printed_g: f64 = sheet.parts.iter().map(|part| part.mass_g).sum();
+    let spread_g: f64 = sheet.ballast.iter().map(|row| row.order.lump.mass_g * row.mass_spread_ratio).sum();
+    let mass_g = sheet.assembly.mass_g;
+    match sheet.material.density_spread_ratio {
+        // A filling is as heavy as it was mixed: its own spread is not known here.
+        Some(ratio) => mass_window(mass_g, (ratio * printed_g + spread_g) / mass_g),
+        None => mass_with_window(sheet, mass_g),
+    }
 }
 
 fn test(sheet: &Checklist) -> Markup {

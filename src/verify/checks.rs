@@ -2,7 +2,7 @@
 
 use super::{
     Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, RotorOrder,
-    WaterOrder,
+    WaterOrder, ballast,
 };
 use crate::goal::GoalKind;
 
@@ -52,6 +52,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
     checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
     checks.extend(fit_checks(promise, found));
+    checks.extend(found.ballast_room_mm.map(ballast::room_check));
     checks.extend(surface_checks(found));
     checks.extend(plate_checks(&found.parts));
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));

@@ -66,11 +66,24 @@ pub struct Figures {
     pub afloat: Option<Afloat>,
 }
 
+impl Setting {
+    /// The density, g/mm³.
+    pub fn density_g_mm3(&self) -> f64 {
+        self.density_g_cm3 / MM3_PER_CM3
+    }
+}
+
 impl Figures {
+    /// The figures of a printed region with a load inside, both as moments of the print's density (model frame); the
+    /// volume is that of the print alone.
+    pub fn loaded(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
+        Self { volume_mm3: printed.volume(), ..Self::new(&(*printed + *load), setting) }
+    }
+
     /// The figures of the region with these moments (model frame), with the setting's hardware in it. As exact as the
     /// moments: nothing is sampled.
     pub fn new(printed: &Moments, setting: &Setting) -> Self {
-        let density_g_mm3 = setting.density_g_cm3 / MM3_PER_CM3;
+        let density_g_mm3 = setting.density_g_mm3();
         let moments = &(*printed + setting.hardware * density_g_mm3.recip());
         let body = Body::new(moments, density_g_mm3);
         let frame = setting.aim.frame();
@@ -151,7 +164,7 @@ impl Figures {
     }
 
     fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
-        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_cm3 / MM3_PER_CM3);
+        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_mm3());
         let center = local.centroid();
         let unbalance = setting.aim.rotor.zip(setting.ends_mm);
         Self {

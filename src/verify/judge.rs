@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
     Check, Figures, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support,
-    SurfaceFacts, assembly_moments, checks,
+    SurfaceFacts, assembly_moments,
+    ballast::{ballast_moments, fill_moments, least_room_mm},
+    checks,
     hardware::{fit, mass_moments},
     rotor::ends_mm,
     smallest_wall_mm,
@@ -30,9 +32,9 @@ pub struct Evidence {
 pub struct Judgement {
     /// The figures of the outer surface filled solid.
     pub solid: Figures,
-    /// The figures of the uncut result.
+    /// The figures of the uncut result with its ballast.
     pub hollowed: Figures,
-    /// The figures of the parts put together.
+    /// The figures of the parts put together with the ballast.
     pub assembly: Figures,
     /// What is true of the uncut result's surface.
     pub surface: SurfaceFacts,
@@ -42,6 +44,8 @@ pub struct Judgement {
     pub wall_min_mm: Option<f64>,
     /// How the hardware sits in the outer surface; none without hardware.
     pub fit: Option<Fit>,
+    /// The least gap around a part of ballast, mm; none without ballast.
+    pub ballast_room_mm: Option<f64>,
     /// Every pin and its socket, as found in the files.
     pub pegs: Vec<PegFacts>,
     /// How many of a sample of places just under the parts' surfaces lie in another part too.
@@ -67,16 +71,19 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let shells = Shells::of_mesh(&welded);
     let outer = shells.outer_mesh();
     let setting = setting(promise, &outer);
+    let load = ballast_moments(&promise.ballast, setting.density_g_mm3())
+        + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
+    let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
-    let figures_of = |moments| Figures::new(&moments, &setting);
     let mut judgement = Judgement {
-        solid: figures_of(moments_of_mesh(&outer)),
+        solid: Figures::new(&moments_of_mesh(&outer), &setting),
         hollowed: figures_of(moments_of_mesh(&welded)),
         assembly: figures_of(assembly_moments(&evidence.parts)),
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
         fit: fit(&promise.hardware, &promise.goal, (&outer, promise.wall.required_mm)),
+        ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
         checks: Vec::new(),

@@ -3,6 +3,7 @@
 use super::*;
 use crate::geom::{Matrix, Point, Vector};
 use crate::goal::GoalKind;
+use crate::mass::{Lump, LumpShape};
 use crate::mesh::TriMesh;
 use test_meshes::{block, tray};
 
@@ -46,6 +47,8 @@ fn promise(poses: &[Pose]) -> Promise {
         parts: poses.iter().enumerate().map(part).collect(),
         hardware: Vec::new(),
         string_gap_mm: None,
+        ballast: Vec::new(),
+        fill: None,
         joints: vec![],
         assembly: None,
         files: Default::default(),
@@ -236,4 +239,61 @@ fn a_box_with_a_heavy_side_does_not_float_upright() {
     let mut evidence = boat(6.0);
     evidence.parts[0].pose.rows[0][3] -= 0.5;
     assert!(failures(&evidence).contains(&"upright".to_owned()));
+}
+
+/// The sound kit with a ball of steel hung on the axis in the middle of its void.
+fn ballasted() -> Evidence {
+    let mut evidence = sound();
+    let shape = LumpShape::Ball { diameter_mm: 4.0 };
+    let lump = Lump { shape, mass_g: 0.2624, center_mm: [0.0, 0.0, 16.0], axis: [0.0, 0.0, 1.0] };
+    evidence.promise.ballast = vec![BallastOrder { id: "B1".into(), lump }];
+    evidence
+}
+
+#[test]
+fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
+    let [bare, loaded] = [sound(), ballasted()].map(|evidence| judge(&evidence));
+    assert!(loaded.passes());
+    assert!((loaded.assembly.mass_g - bare.assembly.mass_g - 0.2624).abs() < 1e-12);
+    assert_eq!((loaded.assembly.volume_mm3, &loaded.solid), (bare.assembly.volume_mm3, &bare.solid));
+    // A ball of 4 mm in the middle of a void 6 mm high.
+    assert!((loaded.ballast_room_mm.unwrap() - 1.0).abs() < 1e-9);
+    let added = |i: usize| loaded.assembly.inertia_g_mm2[i][i] - bare.assembly.inertia_g_mm2[i][i];
+    // About its own middle, which is the box's: 2/5 m r².
+    assert!((added(2) - 0.4 * 0.2624 * 4.0).abs() < 1e-9);
+}
+
+#[test]
+fn a_wrong_mass_of_ballast_is_found() {
+    let mut evidence = ballasted();
+    evidence.promise.assembly = Some(judge(&evidence).assembly);
+    assert_eq!(failures(&evidence), Vec::<String>::new());
+    evidence.promise.ballast[0].lump.mass_g *= 1.01;
+    assert_eq!(failures(&evidence), ["checklist"]);
+}
+
+#[test]
+fn ballast_beside_its_place_spoils_the_balance_or_has_no_room() {
+    let mut evidence = ballasted();
+    evidence.promise.ballast[0].lump.center_mm[0] = 20.0;
+    assert!(failures(&evidence).contains(&"axis offset".to_owned()));
+    for place in [[0.0, 0.0, 17.5], [0.0, 0.0, 21.0], [0.0, 0.0, 40.0]] {
+        evidence.promise.ballast[0].lump.center_mm = place;
+        assert!(failures(&evidence).contains(&"ballast room".to_owned()), "{place:?}");
+    }
+}
+
+#[test]
+fn a_filling_counts_by_the_volume_of_the_voids() {
+    let mut evidence = sound();
+    let bare = judge(&evidence);
+    evidence.promise.fill = Some(FillOrder { density_g_cm3: 2.4 });
+    let filled = judge(&evidence);
+    let void_cm3 = 54.0 * 34.0 * 6.0 / 1000.0;
+    assert!((filled.assembly.mass_g - bare.assembly.mass_g - 2.4 * void_cm3).abs() < 1e-9);
+    assert_eq!(filled.assembly.volume_mm3, bare.assembly.volume_mm3);
+    // Twice as dense as the print, the filling outweighs the box's inside: the box is a top still, about the same centre.
+    assert!(filled.passes() && (filled.assembly.center_mm[2] - 16.0).abs() < 1e-12);
+    evidence.promise.assembly = Some(bare.assembly);
+    assert_eq!(failures(&evidence), ["checklist"]);
 }

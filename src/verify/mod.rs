@@ -1,5 +1,6 @@
 //! The independent judge: it sees the written files, the goal and the printer, and nothing of how they were made.
 
+mod ballast;
 mod check;
 mod checks;
 mod figures;
@@ -24,6 +25,7 @@ pub(crate) mod test_meshes;
 mod wall;
 mod water;
 
+pub use ballast::{BallastOrder, FillOrder};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,

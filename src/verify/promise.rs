@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Figures, Hardware, Pose, RotorOrder, WaterOrder};
+use super::{BallastOrder, Figures, FillOrder, Hardware, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -37,6 +37,12 @@ pub struct Promise {
     /// How far the halves of a yo-yo are to be apart, mm; none where there is one body.
     #[serde(default)]
     pub string_gap_mm: Option<f64>,
+    /// The stock parts that are laid into its voids.
+    #[serde(default)]
+    pub ballast: Vec<BallastOrder>,
+    /// What the voids are filled with; none for air.
+    #[serde(default)]
+    pub fill: Option<FillOrder>,
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,

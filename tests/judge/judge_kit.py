@@ -3,8 +3,9 @@
 
     python3 tests/judge/judge_kit.py KIT [KIT ...]
 
-Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the goal,
-the density, the wall, the build volume, the volumes of pins and sockets, the rods of hardware, and what was promised. Puts the parts together,
+Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
+(shape, mass and place of each part), the rods of hardware, the goal, the density, the wall, the build volume, the volumes of
+pins and sockets, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
 """
 
@@ -101,6 +102,68 @@ def moments(corners):
     second = np.array([[math.fsum(squares[:, i, j]) for j in range(3)] for i in range(3)]) / 120
     moved = second + np.outer(first, middle) + np.outer(middle, first) + volume * np.outer(middle, middle)
     return volume, first + volume * middle, moved
+
+
+def mean_squares(shape):
+    """The mean squares across and along the axis of a homogeneous ball, disc or bored hexagon, mm²."""
+    if shape["kind"] == "ball":
+        return shape["diameter_mm"] ** 2 / 20, shape["diameter_mm"] ** 2 / 20
+    along = shape["thickness_mm"] ** 2 / 12
+    if shape["kind"] == "disc":
+        return shape["diameter_mm"] ** 2 / 16, along
+    flats, bore = shape["across_flats_mm"], shape["bore_mm"]
+    # A hexagon is six triangles with their apex in the middle: height flats/2, base flats/√3.
+    height, base = flats / 2, flats / math.sqrt(3)
+    hexagon = 6 * base * height / 2, 6 * (base * height**3 / 4 + height * base**3 / 48) / 2
+    hole = math.pi * bore**2 / 4, math.pi * bore**4 / 64
+    return (hexagon[1] - hole[1]) / (hexagon[0] - hole[0]), along
+
+
+def loaded(body, ballast):
+    """A body with parts of ballast in it: the tensors add about the common centre (Steiner)."""
+    volume, mass, center, inertia = body
+    pieces = [(mass, center, inertia)]
+    for part in ballast:
+        axis = np.array(part["axis"], float) / np.linalg.norm(part["axis"])
+        across, along = mean_squares(part["shape"])
+        tensor = part["mass_g"] * ((across + along) * np.eye(3) + (across - along) * np.outer(axis, axis))
+        pieces.append((part["mass_g"], np.array(part["center_mm"], float), tensor))
+    return volume, *together(pieces)
+
+
+def ballast_room(part, material, voids):
+    """The gap between a part of ballast and the material, mm; negative where it does not lie in a void."""
+    center, shape = np.array(part["center_mm"], float), part["shape"]
+    if shape["kind"] == "ball":
+        points, reach = center[None], shape["diameter_mm"] / 2
+    else:
+        radius = shape["diameter_mm"] / 2 if shape["kind"] == "disc" else shape["across_flats_mm"] / math.sqrt(3)
+        _, axes = frame({"axis": part["axis"], "origin_mm": [0, 0, 0]})
+        angles = np.linspace(0, 2 * math.pi, 97)[:-1]
+        rim = radius * (np.cos(angles)[:, None] * axes[0] + np.sin(angles)[:, None] * axes[1])
+        points = np.concatenate([center + rim + h * axes[2] for h in (-shape["thickness_mm"] / 2, shape["thickness_mm"] / 2)])
+        reach = 0.0
+    gap = trimesh.proximity.closest_point(material, points)[1].min() - reach
+    inside = any(welded(void[:, ::-1]).contains(points).all() for void in voids)
+    return gap if inside else -abs(gap)
+
+
+def filled(body, voids, density_g_mm3):
+    """A body whose voids (turned inward) are full of another material."""
+    volume, mass, center, inertia = body
+    v, first, second = (-sum(part) for part in zip(*map(moments, voids)))
+    middle = first / v
+    central = (second - v * np.outer(middle, middle)) * density_g_mm3
+    pieces = [(mass, center, inertia), (v * density_g_mm3, middle, np.trace(central) * np.eye(3) - central)]
+    return volume, *together(pieces)
+
+
+def together(pieces):
+    """Mass, centre and inertia of pieces of known mass, centre and inertia (Steiner)."""
+    total = math.fsum(m for m, _, _ in pieces)
+    middle = sum(m * c for m, c, _ in pieces) / total
+    moved = lambda m, d: m * (d @ d * np.eye(3) - np.outer(d, d))
+    return total, middle, sum(t + moved(m, c - middle) for m, c, t in pieces)
 
 
 def rod_moments(rod):
@@ -487,12 +550,19 @@ def judge(kit):
     table.none("hollowed.stl self-intersections", self_intersections(hollowed))
     outer, voids = split(whole)
     density = sheet["material"]["density_g_cm3"] / 1000
-    volume, mass, center, inertia = body(parts, density, sheet.get("hardware", []))
+    ballast = sheet.get("ballast", [])
+    volume, mass, center, inertia = loaded(body(parts, density, sheet.get("hardware", [])), ballast)
+    if "fill" in sheet:
+        # A kit has ballast in pockets or a filling in its voids, never both.
+        unfilled = volume, mass, center, inertia
+        volume, mass, center, inertia = filled(unfilled, voids, sheet["fill"]["density_g_cm3"] / 1000)
     found = figures(goal, mass, center, inertia, np.concatenate(outer).reshape(-1, 3))
     judge_body(table, promised, (volume, mass, center, inertia), found)
     judge_goal(table, goal, sheet.get("promise"), found)
     judge_whole(table, sheet, volume, moments(hollowed)[0])
     judge_hardware(table, sheet, outer)
+    for part in ballast:
+        table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
     if voids:
         wall = smallest_wall(outer, voids)

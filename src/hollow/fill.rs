@@ -1,0 +1,143 @@
+//! Voids that are filled: what is emptied of the print gets another material in its place.
+//!
+//! A grain that is filled weighs ρ_fill instead of ρ, so the moments are s = s_fixed − κ ∫β m with the relief
+//! κ = 1 − ρ_fill/ρ: the same convex set for air (κ = 1), stretched by κ, and turned over where the filling is the heavier
+//! material (κ < 0). Dividing all moments by |κ| makes it the very problem of [`super::solve`]: ratios and equations without a
+//! constant do not change, the mass of what floats is divided with the rest. Where κ < 0, what the solver empties of the body
+//! filled everywhere is what must not be filled, so the void is where its quadric is negative.
+//!
+//! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same equations.
+
+use super::{Problem, Settings, Solution, refine, solve};
+use crate::geom::Quadric;
+use crate::goal::Goal;
+use crate::interior::{Columns, moments_where_positive};
+use crate::mass::Moments;
+use crate::progress::Progress;
+
+/// What is in the voids.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fill {
+    density_ratio: f64,
+}
+
+/// A filling this near to the print's density changes nothing: what little it did would take voids of any size.
+const LEAST_RELIEF: f64 = 0.02;
+
+impl Fill {
+    /// Nothing.
+    pub const AIR: Self = Self { density_ratio: 0.0 };
+
+    /// A filling `density_ratio` times as dense as the print; none where that is negative, not finite, or within two per cent
+    /// of the print's own density.
+    pub fn new(density_ratio: f64) -> Option<Self> {
+        let is_filling = density_ratio.is_finite() && density_ratio >= 0.0;
+        (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF).then_some(Self { density_ratio })
+    }
+
+    /// Its density over the print's.
+    pub fn density_ratio(&self) -> f64 {
+        self.density_ratio
+    }
+
+    /// Whether it is heavier than the print.
+    pub fn is_heavier(&self) -> bool {
+        self.density_ratio > 1.0
+    }
+
+    /// How much lighter a filled grain is, as a share of a printed one; negative where it is heavier.
+    fn relief(&self) -> f64 {
+        1.0 - self.density_ratio
+    }
+
+    /// The moments with the void { quadric > 0 } filled, of what has `fixed` with no void.
+    pub fn filled(&self, fixed: Moments, columns: &Columns, quadric: &Quadric) -> Moments {
+        fixed - moments_where_positive(columns, quadric) * self.relief()
+    }
+
+    /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution is in the print's own
+    /// moments and its void is where the quadric is positive, like one with air; the certificate is for this filling.
+    pub fn solve(&self, problem: &Problem, known: Option<&Solution>, progress: &Progress) -> Solution {
+        let weight = self.relief().abs();
+        let goal = scaled(problem.goal, 1.0 / weight);
+        let whole = if self.is_heavier() { problem.columns.moments() * weight } else { Moments::default() };
+        let fixed = (problem.fixed + whole) * (1.0 / weight);
+        let problem = Problem { goal: &goal, fixed, columns: problem.columns };
+        let settings = Settings::default();
+        let solution = match known.filter(|known| known.is_usable()) {
+            Some(known) => refine(&problem, &settings, known, progress),
+            None => solve(&problem, &settings, progress),
+        };
+        solution.stretched(weight, self.is_heavier())
+    }
+}
+
+/// The goal with every moment and mass scaled.
+fn scaled(goal: &Goal, factor: f64) -> Goal {
+    let mut goal = goal.clone();
+    goal.solid = goal.solid * factor;
+    if let Some(afloat) = &mut goal.afloat {
+        afloat.material_mm3 *= factor;
+    }
+    goal
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::worlds::{self, World};
+    use super::*;
+    use crate::goal::{Objective, figures};
+
+    fn filled(world: &World, density_ratio: f64) -> Solution {
+        let fill = Fill::new(density_ratio).unwrap();
+        fill.solve(&world.problem(), None, &Progress::silent())
+    }
+
+    #[test]
+    fn a_filling_of_nothing_is_a_void() {
+        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let air = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        assert_eq!(filled(&world, 0.0), air);
+        assert_eq!(Fill::AIR.solve(&world.problem(), Some(&air), &Progress::silent()).status, air.status);
+    }
+
+    #[test]
+    fn the_moments_of_a_filled_body_are_those_of_its_void_and_its_filling() {
+        for density_ratio in [0.4, 3.0] {
+            let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+            let solution = filled(&world, density_ratio);
+            assert!(solution.is_usable(), "{:?}", solution.status);
+            let fill = Fill::new(density_ratio).unwrap();
+            let moments = fill.filled(world.fixed, &world.columns, &solution.quadric);
+            for (got, want) in solution.moments.0.iter().zip(moments.0) {
+                assert!((got - want).abs() <= 1e-9 * world.fixed.0[0], "{density_ratio}: {got} {want}");
+            }
+        }
+    }
+
+    #[test]
+    fn of_all_65536_ways_to_fill_sixteen_blocks_none_stands_better_than_the_bound() {
+        for density_ratio in [0.5, 4.0] {
+            let world = worlds::blocks_on_a_slope();
+            let solution = filled(&world, density_ratio);
+            assert!(solution.is_usable() && solution.certificate.gap_ratio.abs() < 1e-6);
+            let relief = 1.0 - density_ratio;
+            let (mut best, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
+            worlds::each_choice(&world, &worlds::single_blocks(16), |emptied| {
+                // What a choice takes away, times the relief.
+                let moments = world.fixed + (*emptied - world.fixed) * relief;
+                let angle = figures(&world.goal, &moments).toppling_angle_rad.unwrap();
+                (best, least) = (f64::max(best, angle), f64::min(least, angle));
+            });
+            assert!(best <= solution.certificate.bound + 1e-12, "{density_ratio}");
+            // Whole blocks come close to the one plane that is free to cut them.
+            assert!(best > least + 0.8 * (solution.certificate.value - least), "{best} {least}");
+        }
+    }
+
+    #[test]
+    fn a_filling_like_the_print_is_none() {
+        assert!([1.0, 1.01, -0.1, f64::NAN, f64::INFINITY].iter().all(|&ratio| Fill::new(ratio).is_none()));
+        assert!([0.0, 0.5, 1.5, 7.0].iter().all(|&ratio| Fill::new(ratio).is_some()));
+    }
+}
