@@ -233,7 +233,11 @@ fn a_plan_survives_being_written_and_read() {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     let plan = plan(&body, &request()).unwrap();
     let read: CutPlan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
-    assert_eq!(read, plan);
+    assert_eq!(
+        read,
+        CutPlan { moves: Vec::new(), ..plan.clone() },
+        "how its cuts were moved is not in the file"
+    );
     assert_eq!(parts(&body, &read, &request()), parts(&body, &plan, &request()));
 }
 
