@@ -32,7 +32,7 @@ pub(super) fn fitted(workshop: &Workshop, tip: Option<Rod>, stem: Option<Rod>) -
     for rod in &rods {
         body = bored(workshop, &body, rod)?;
     }
-    let solid = Solid::new(body.to_mesh()?)?;
+    let solid = Solid::new(body.without_slivers().to_mesh()?)?;
     let pieces = rods.iter().map(|rod| piece(workshop, rod)).collect();
     Ok(Fitted { solid, pieces, gap_mm: 0.0 })
 }

@@ -23,7 +23,7 @@ pub(super) fn fitted(workshop: &Workshop, axle: Rod, gap_mm: f64, ring_g: f64) -
     let bored = prism(frame, radius_mm, [-depth_mm, depth_mm])?;
     let apart = |half: &Csg, side: f64| -> Result<_, FitError> {
         let shift = frame.axis() * (0.5 * side * gap_mm);
-        Ok(half.subtract(&bored)?.to_mesh()?.map_vertices(|p| p + shift))
+        Ok(half.subtract(&bored)?.without_slivers().to_mesh()?.map_vertices(|p| p + shift))
     };
     let (upper, lower) = rayon::join(|| apart(&upper, 1.0), || apart(&lower, -1.0));
     let solid = Solid::new(upper?.joined(&lower?))?;

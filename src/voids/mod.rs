@@ -100,10 +100,6 @@ pub enum VoidError {
     Cancelled,
 }
 
-/// Slivers this thin, left where the quadric grazes the cavity's vertices, are closed up, mm. Below 1e-5 the single
-/// precision of a written file folds some of them; above 6e-5 sheets are drawn together that the apex of a cone keeps apart.
-const SLIVER_MM: f64 = 2e-5;
-
 /// The whole region that may be emptied: extracted once for a model, a wall and its keeps, whatever the quadric.
 ///
 /// Holds: its surface is closed, 2-manifold and free of self-intersection, leaves the wall and the keeps but for
@@ -160,7 +156,7 @@ impl Cavity {
 /// The void with the slivers closed up that the rounding of a file would fold: no point of its surface moves by more
 /// than 2e-5 mm.
 pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
-    Ok(Solid::new(Csg::of_solid(void)?.simplify(SLIVER_MM).to_mesh()?)?)
+    Ok(Solid::new(Csg::of_solid(void)?.without_slivers().to_mesh()?)?)
 }
 
 #[cfg(test)]
