@@ -37,7 +37,7 @@ impl Rod {
         0.5 * self.diameter.mm()
     }
 
-    /// The length of a tip or stem, mm; zero where none was said, which [`Hardware::checked`] refuses.
+    /// The length of a tip or stem, mm; zero where none was said, which checking the request refuses.
     pub fn length_mm(&self) -> f64 {
         self.length.map_or(0.0, Length::mm)
     }

@@ -130,7 +130,7 @@ impl Printer {
     }
 
     /// The pitch of the solver's columns along x and y for a model so long, mm: the printer's own pixel, or a quarter of the
-    /// wall where that is finer. Where that would be more columns than [`MOST_COLUMNS`], so many whole pixels that it is
+    /// wall where that is finer. Where that would be more columns than six million, so many whole pixels that it is
     /// not, unless they were more than a quarter of the wall. `asked_mm` (positive) overrides all.
     pub fn solve_pitch_mm(&self, wall_mm: f64, size_mm: f64, asked_mm: Option<f64>) -> [f64; 2] {
         let own = [self.pixel_x_mm.value, self.pixel_y_mm.value];
