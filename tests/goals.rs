@@ -2,38 +2,19 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test whose input cannot be had has failed")]
 
-use std::path::Path;
-use std::process::Output;
+mod common;
 
-use assert_cmd::Command;
+use common::{equipoise, number, prepared};
 use serde_json::Value;
 
-/// The shipped model, an ellipsoid that leans in its axes.
-const ELLIPSOID: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
-
-fn equipoise(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipoise")).args(arguments).output().unwrap()
-}
-
-/// Prepares the shipped model small and coarse, which is quick; what is printed as JSON.
-fn prepared(out: &Path, goal: &[&str]) -> (Option<i32>, Value) {
-    let usual = ["--json", "prepare", ELLIPSOID, "--printer", "objet-connex350", "--size", "60mm"];
-    let coarse = ["--wall", "1.5mm", "--pitch", "0.3mm", "--out", out.to_str().unwrap()];
-    let output = equipoise(&[&usual[..], &coarse[..], goal].concat());
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    (output.status.code(), serde_json::from_str(&printed).unwrap_or_else(|_| panic!("{printed}{said}")))
-}
-
-fn number(sheet: &Value, path: &str) -> f64 {
-    sheet.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} is missing"))
-}
+/// The wall of these kits.
+const WALL: &str = "1.5mm";
 
 #[test]
 fn a_leaning_ellipsoid_becomes_a_rotor_of_its_grade_and_its_kit_is_judged_so_again() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("rotor");
-    let (code, sheet) = prepared(&kit, &["--goal", "balance", "--speed", "6000", "--bore", "4mm"]);
+    let (code, sheet) = prepared(&kit, WALL, &["--goal", "balance", "--speed", "6000", "--bore", "4mm"]);
     assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
     assert!(number(&sheet, "/solid/unbalance/grade_mm_s") > 100.0, "solid it shakes");
     assert!(number(&sheet, "/assembly/unbalance/grade_mm_s") <= 2.5);
@@ -48,7 +29,7 @@ fn a_leaning_ellipsoid_becomes_a_rotor_of_its_grade_and_its_kit_is_judged_so_aga
 fn it_floats_upright_where_solid_it_would_sink_and_the_sheet_says_to_seal_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("boat");
-    let (code, sheet) = prepared(&kit, &["--goal", "float", "--liquid", "seawater"]);
+    let (code, sheet) = prepared(&kit, WALL, &["--goal", "float", "--liquid", "seawater"]);
     assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
     assert!(sheet["solid"].get("afloat").is_none(), "solid it sinks");
     assert!(number(&sheet, "/assembly/afloat/metacentric_height_mm") > 0.0);
@@ -69,7 +50,7 @@ fn what_cannot_be_is_proved_and_ends_with_exit_code_1() {
     for (goal, says) in cases {
         let folder = tempfile::tempdir().unwrap();
         let kit = folder.path().join("none");
-        let (code, why) = prepared(&kit, goal);
+        let (code, why) = prepared(&kit, WALL, goal);
         assert_eq!((code, &why["verdict"]), (Some(1), &Value::from("impossible")), "{goal:?}");
         assert!(why["reason"].as_str().unwrap().contains(says), "{goal:?}: {}", why["reason"]);
         assert!(!why["remedies"].as_array().unwrap().is_empty() && !kit.exists(), "{goal:?}");

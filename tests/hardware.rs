@@ -2,34 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test whose input cannot be had has failed")]
 
-use std::path::Path;
-use std::process::Output;
+mod common;
 
-use assert_cmd::Command;
+use common::{ELLIPSOID, equipoise, number, prepared};
 use equipoise::geom::{Quadric, Vector};
 use equipoise::interior::{Columns, moments_where_positive};
-use serde_json::Value;
 
-/// The shipped model, an ellipsoid that leans in its axes.
-const ELLIPSOID: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
-
-fn equipoise(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipoise")).args(arguments).output().unwrap()
-}
-
-/// Prepares the shipped model small and coarse, which is quick; what is printed as JSON.
-fn prepared(out: &Path, goal: &[&str]) -> (Option<i32>, Value) {
-    let usual = ["--json", "prepare", ELLIPSOID, "--printer", "objet-connex350", "--size", "60mm"];
-    let coarse = ["--wall", "1mm", "--pitch", "0.3mm", "--out", out.to_str().unwrap()];
-    let output = equipoise(&[&usual[..], &coarse[..], goal].concat());
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    (output.status.code(), serde_json::from_str(&printed).unwrap_or_else(|_| panic!("{printed}{said}")))
-}
-
-fn number(sheet: &Value, path: &str) -> f64 {
-    sheet.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} is missing"))
-}
+/// The wall of these kits.
+const WALL: &str = "1mm";
 
 const YOYO: [&str; 8] = ["--goal", "yoyo", "--up", "y", "--string-gap", "3mm", "--axle", "4mmx15mm"];
 
@@ -37,7 +17,7 @@ const YOYO: [&str; 8] = ["--goal", "yoyo", "--up", "y", "--string-gap", "3mm", "
 fn a_yoyo_on_its_axle_keeps_its_promises_and_its_job_makes_the_same_kit_again() {
     let folder = tempfile::tempdir().unwrap();
     let [kit, again] = ["yoyo", "again"].map(|name| folder.path().join(name));
-    let (code, sheet) = prepared(&kit, &YOYO);
+    let (code, sheet) = prepared(&kit, WALL, &YOYO);
     assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
     // A steel cylinder of 4 × 15 mm.
     let mass = 7.85e-3 * std::f64::consts::PI * 4.0 * 15.0;
@@ -60,7 +40,7 @@ fn a_yoyo_on_its_axle_keeps_its_promises_and_its_job_makes_the_same_kit_again() 
 fn a_checklist_that_lies_about_its_hardware_is_found_out() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("yoyo");
-    let (code, _) = prepared(&kit, &YOYO);
+    let (code, _) = prepared(&kit, WALL, &YOYO);
     assert_eq!(code, Some(0));
     let sheet = kit.join("checklist.json");
     let text = std::fs::read_to_string(&sheet).unwrap();
@@ -87,7 +67,7 @@ fn a_top_with_a_tip_and_a_stem_keeps_its_promises_and_a_denser_tip_costs_speed()
     let speed = |name: &str, tip: &str| {
         let goal =
             ["--goal", "top", "--up", "y", "--contact", "center", "--stem", "4mmx15mmx6mm", "--tip", tip];
-        let (code, sheet) = prepared(&folder.path().join(name), &goal);
+        let (code, sheet) = prepared(&folder.path().join(name), WALL, &goal);
         assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
         assert_eq!(sheet["hardware"].as_array().unwrap().len(), 2);
         assert_eq!(number(&sheet, "/goal/contact_gap_mm"), 0.0);

@@ -9,7 +9,7 @@ use crate::goal::Placement;
 use crate::hollow::{Problem, Settings, least_ballast, solve};
 use crate::interior::{Columns, moments_where_positive};
 use crate::progress::Progress;
-use crate::units::show_mm;
+use crate::units::{MM3_PER_CM3, show_mm};
 
 /// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between 7.7 and 7.9.
 const STEEL_G_CM3: f64 = 7.85;
@@ -17,7 +17,6 @@ const STEEL_G_CM3: f64 = 7.85;
 const SEARCHING_COLUMNS: usize = 60;
 /// Passes an ascent may take: with a price to pay it bends more sharply than without.
 const PASSES: usize = 150;
-const MM3_PER_CM3: f64 = 1000.0;
 /// Halvings of the level at which a region has a given volume; what is left is far below what can be weighed.
 const LEVEL_ROUNDS: usize = 40;
 

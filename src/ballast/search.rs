@@ -10,6 +10,7 @@ use crate::interior::Columns;
 use crate::mesh::Solid;
 use crate::progress::Progress;
 use crate::shell::Shell;
+use crate::units::MM3_PER_CM3;
 
 /// Columns a side while places are looked for: each place takes a solve.
 const SEARCHING_COLUMNS: usize = 60;
@@ -24,8 +25,6 @@ const SWEEPS: usize = 2;
 /// Shares of the way to the place that acts most. A part heavier than needed overshoots there; with less than an eighth of
 /// the way nothing is gained that the interior could not do as well.
 const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
-const MM3_PER_CM3: f64 = 1000.0;
-
 /// What ballast is looked for in.
 #[derive(Debug, Clone, Copy)]
 pub struct Shop<'a> {

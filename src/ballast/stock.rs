@@ -6,6 +6,7 @@ use super::{BallastError, StockFault};
 use crate::mass::LumpShape;
 use crate::printer::Sure;
 use crate::toml_text::{self, nearest};
+use crate::units::MM3_PER_CM3;
 
 /// Where a part's sizes, or its mass, are from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -78,8 +79,6 @@ const BUILT_IN: &[(&str, &str)] = built_in!("balls" "nuts" "coins");
 
 /// Between wood and gold, g/cm³: what is lighter or heavier than that for its size has a misprint.
 const PLAUSIBLE_G_CM3: [f64; 2] = [0.5, 20.0];
-const MM3_PER_CM3: f64 = 1000.0;
-
 /// Every stock part: balls, then nuts, then coins, each from small to large.
 pub fn catalogue() -> Result<Vec<Part>, StockFault> {
     let families: Vec<Vec<Part>> =

@@ -1,36 +1,23 @@
 //! The sheet that goes with coupons: what to print, what to try and measure, and what to type then.
 
-use maud::{DOCTYPE, Markup, PreEscaped, html};
+use maud::{Markup, html};
 
 use super::{Coupon, CouponSet};
-use crate::units::show_mm;
-
-/// The look of the job sheet.
-const STYLE: &str = include_str!("../report/page.css");
+use crate::report::document;
+use crate::units::{MM3_PER_CM3, show_mm};
 
 /// The sheet as a page without anything from outside.
 pub(super) fn page(set: &CouponSet, coupons: &[Coupon]) -> String {
-    html! {
-        (DOCTYPE)
-        html lang="en" {
-            head {
-                meta charset="utf-8";
-                meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Coupons: " (set.printer_name) }
-                style { (PreEscaped(STYLE)) }
-            }
-            body {
-                h1 { "Coupons for " (set.printer_name) ", " (set.material_name) }
-                p { "Machine " (blank()) " Lot " (blank()) " Date " (blank()) " Name " (blank()) }
-                (print(set, coupons))
-                (weigh(set))
-                (fits(set))
-                (ladders(set))
-                (then(set))
-            }
-        }
-    }
-    .into_string()
+    let body = html! {
+        h1 { "Coupons for " (set.printer_name) ", " (set.material_name) }
+        p { "Machine " (blank()) " Lot " (blank()) " Date " (blank()) " Name " (blank()) }
+        (print(set, coupons))
+        (weigh(set))
+        (fits(set))
+        (ladders(set))
+        (then(set))
+    };
+    document(&format!("Coupons: {}", set.printer_name), &body)
 }
 
 fn print(set: &CouponSet, coupons: &[Coupon]) -> Markup {
@@ -56,7 +43,7 @@ fn weigh(set: &CouponSet) -> Markup {
         h2 { "2. Weigh the density coupons" }
         p {
             "Each is drawn " (format!("{x:.3} × {y:.3} × {z:.3} mm = {:.2} mm³", set.density_volume_mm3))
-            "; at the profile's density it weighs " (format!("{:.2} g", set.density_volume_mm3 / 1000.0 * set.profile_density_g_cm3))
+            "; at the profile's density it weighs " (format!("{:.2} g", set.density_volume_mm3 / MM3_PER_CM3 * set.profile_density_g_cm3))
             ". Write down the masses, not their mean: how far they differ becomes the weighing window of kits. Two at least, better five."
         }
         p { @for _ in 0..5 { (blank()) " g  " } }

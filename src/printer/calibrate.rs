@@ -10,6 +10,7 @@ use super::{
     profile::{ProfileText, Reader},
 };
 use crate::toml_text::TextFault;
+use crate::units::MM3_PER_CM3;
 
 /// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any table of statistics).
 const STUDENT_T: [f64; 9] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262];
@@ -58,7 +59,6 @@ const MOST_DIFFERENCE_RATIO: f64 = 0.2;
 impl Measured {
     /// The density, mean mass over drawn volume, g/cm³; none where nothing was weighed.
     pub fn density_g_cm3(&self) -> Option<f64> {
-        const MM3_PER_CM3: f64 = 1000.0;
         let mean_g = self.weighed_g.iter().sum::<f64>() / self.weighed_g.len() as f64;
         (!self.weighed_g.is_empty()).then(|| mean_g / self.coupon_mm3 * MM3_PER_CM3)
     }

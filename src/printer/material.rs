@@ -3,9 +3,7 @@
 use serde::Serialize;
 
 use super::{Sourced, Sure};
-
-/// Cubic millimetres in a cubic centimetre.
-const MM3_PER_CM3: f64 = 1000.0;
+use crate::units::MM3_PER_CM3;
 
 /// A material.
 #[derive(Debug, Clone, PartialEq, Serialize)]

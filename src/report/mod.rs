@@ -24,7 +24,7 @@ pub use checklist::{
 };
 pub use grid::GridRow;
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
-pub use page::page;
+pub use page::{document, page};
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
 pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 pub use timing::Timing;

@@ -7,7 +7,7 @@ use super::grid;
 use super::steps::steps;
 use super::words::{self, coordinates, extent, number, quantity, quantity_or_dash};
 use super::{Checklist, PartRow, Picture, Verdict};
-use crate::units::counted;
+use crate::units::{MM3_PER_CM3, counted};
 use crate::verify::{Check, Figures};
 
 /// How the page looks; part of the page, so that it is one file.
@@ -17,27 +17,33 @@ const SHORT_HASH: usize = 12;
 
 /// The checklist as a self-contained HTML page with the pictures inside it.
 pub fn page(sheet: &Checklist, pictures: &[Picture]) -> String {
+    let body = html! {
+        (header(sheet))
+        (warnings(sheet))
+        (overview(sheet, pictures))
+        (parts(sheet))
+        (steps(sheet, pictures))
+        (grid::table(&sheet.grid))
+        (checks(&sheet.checks))
+        (proof(sheet))
+        (sign_off())
+        (small_print(sheet))
+    };
+    document(&format!("Job sheet: {}", sheet.job), &body)
+}
+
+/// A page of the shop's papers, with their look and nothing from outside.
+pub fn document(title: &str, body: &Markup) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {
             head {
                 meta charset="utf-8";
                 meta name="viewport" content="width=device-width, initial-scale=1";
-                title { "Job sheet: " (sheet.job) }
+                title { (title) }
                 style { (PreEscaped(STYLE)) }
             }
-            body {
-                (header(sheet))
-                (warnings(sheet))
-                (overview(sheet, pictures))
-                (parts(sheet))
-                (steps(sheet, pictures))
-                (grid::table(&sheet.grid))
-                (checks(&sheet.checks))
-                (proof(sheet))
-                (sign_off())
-                (small_print(sheet))
-            }
+            body { (body) }
         }
     }
     .into_string()
@@ -58,7 +64,7 @@ fn header(sheet: &Checklist) -> Markup {
             p class="promise" { (words::promise(sheet)) }
         }
         table class="facts" {
-            tr { th { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / 1000.0, "cm³")) " solid" } }
+            tr { th { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
             tr { th { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
             tr { th { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
             tr { th { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
@@ -130,7 +136,7 @@ fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
                 span class="small" { code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) } }
             }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
-            td class="n" { (quantity(part.volume_mm3 / 1000.0, "cm³")) }
+            td class="n" { (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) }
             td { (extent(&part.size_mm)) }
             td { (part.lies) }
             td { (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket")) }

@@ -7,7 +7,7 @@ use super::page::{figure, mass_window, mass_with_window};
 use super::words::{coordinates, quantity};
 use super::{BallastRow, Checklist, JointRow, PartRow, Picture, VoidRow};
 use crate::goal::GoalKind;
-use crate::units::counted;
+use crate::units::{MM3_PER_CM3, counted};
 use crate::verify::FillOrder;
 
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
@@ -45,7 +45,7 @@ fn filling(sheet: &Checklist, fill: FillOrder) -> Markup {
             @for void in &sheet.voids {
                 tr {
                     td { "☐" } td { strong { (void.id) } }
-                    td class="n" { (quantity(void.volume_mm3 / 1000.0, "cm³")) ", " (quantity(void.volume_mm3 / 1000.0 * fill.density_g_cm3, "g")) }
+                    td class="n" { (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (quantity(void.volume_mm3 / MM3_PER_CM3 * fill.density_g_cm3, "g")) }
                     td { (blank()) }
                 }
             }
@@ -120,10 +120,10 @@ fn clean(sheet: &Checklist) -> Markup {
 }
 
 fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
-    let full_g = void.volume_mm3 / 1000.0 * sheet.material.density_g_cm3;
+    let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     html! {
         li {
-            strong { (void.id) } ", " (quantity(void.volume_mm3 / 1000.0, "cm³")) ", "
+            strong { (void.id) } ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
             @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
             @else {
                 "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across, "

@@ -8,9 +8,8 @@ use super::Aim;
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Moments, RoundBar};
 use crate::mesh::{TriMesh, winding_number};
+use crate::units::MM3_PER_CM3;
 
-/// Cubic millimetres in one cubic centimetre.
-const MM3_PER_CM3: f64 = 1000.0;
 /// The ends of a rod are left out over so much, mm: they touch the bottoms of their sockets.
 const END_MM: f64 = 1e-3;
 /// Lines along the axis on which the string gap is measured.
