@@ -157,6 +157,7 @@ fn show_number(quantity: Quantity, value: f64) -> String {
     match quantity {
         _ if quantity.is_grid_step() => show_step(value),
         _ if quantity.is_ratio() => value.to_string(),
+        _ if quantity.is_angle() => format!("{value}°"),
         _ => show_mm(value),
     }
 }

@@ -3,6 +3,7 @@
 mod advising;
 mod assembly;
 mod ballasting;
+mod cleaning;
 mod fitting;
 mod grid_rows;
 mod kit;
@@ -18,6 +19,7 @@ mod waterline;
 mod written;
 
 pub use assembly::Assembly;
+pub use cleaning::CleaningRound;
 pub use outcome::{Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};
 pub use solving::Solved;
