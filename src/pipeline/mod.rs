@@ -15,6 +15,7 @@ mod solving;
 mod stopwatch;
 mod tuner;
 mod tuning;
+mod void_rows;
 mod waterline;
 mod written;
 

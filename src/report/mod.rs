@@ -3,6 +3,7 @@
 mod album;
 mod base64;
 mod checklist;
+mod cleaning;
 mod grid;
 mod hardware;
 mod kit;
@@ -22,6 +23,7 @@ pub use checklist::{
     Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
     Tool, Verdict, WallRow,
 };
+pub use cleaning::{CleaningRow, KeptRow, is_clean};
 pub use grid::GridRow;
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
 pub use page::{document, page};

@@ -3,6 +3,7 @@
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::base64::base64;
+use super::cleaning::cost;
 use super::grid;
 use super::steps::steps;
 use super::words::{self, coordinates, extent, number, quantity, quantity_or_dash};
@@ -192,6 +193,7 @@ fn proof(sheet: &Checklist) -> Markup {
     html! {
         h2 { "How good it is" }
         @for sentence in words::certificate(sheet) { p { (sentence) } }
+        (cost(sheet))
         (bodies(sheet))
     }
 }

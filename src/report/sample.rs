@@ -5,7 +5,16 @@ use crate::geom::Plane;
 use crate::geom::{Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
-use crate::verify::{Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
+use crate::verify::{Cleaning, Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
+
+/// The rule of a water jet.
+const CLEANING: Cleaning = Cleaning {
+    rule: crate::verify::CleaningRule::InSight,
+    sight_ratio: 0.95,
+    reach_mm: Some(150.0),
+    pair_opening_mm: None,
+    overhang_deg: None,
+};
 
 /// The checklist of a sound kit, and what it was judged on.
 pub fn sample() -> (Checklist, Evidence) {
@@ -56,6 +65,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             bound: speed,
             gap_ratio: 1e-9,
             kept_solid_mm3: 0.0,
+            value_before_cleaning: Some(speed),
+            cleaning_rounds: vec![],
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
         },
@@ -93,6 +104,7 @@ fn printer() -> PrinterRow {
         support: "water-jet".into(),
         minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
+        cleaning: CLEANING,
         sources: vec!["layer: read: user guide".into()],
     }
 }
@@ -128,8 +140,11 @@ fn the_void() -> VoidRow {
         volume_mm3: 54.0 * 34.0 * 6.0,
         opened_by: vec!["C1".into()],
         opening_mm: 34.0,
+        least_opening_mm: 4.0,
         depth_mm: 3.0,
         sight_ratio: Some(0.9),
+        method: CLEANING.rule.words().into(),
+        is_clean: true,
         clean: "Flush with the water jet.".into(),
     }
 }
