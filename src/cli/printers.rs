@@ -273,7 +273,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 19 numbers, 13 of them process defaults, 5 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 21 numbers, 15 of them process defaults, 6 recalled or own choices\n"
         );
         let mut out = Vec::new();
         let error =

@@ -11,7 +11,7 @@ use super::{
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
-    score::Scene,
+    score::{Scene, burden},
     search::{Found, smallest_plans},
     split::{Piece, check_no_cavity, split},
 };
@@ -21,9 +21,12 @@ use crate::{
     units::counted,
 };
 
-/// How many of the best plans are cut for trial before the best is taken as it is: two planes may leave a pocket between them
-/// where they meet in a void. The first nearly always does; each costs a cut of every void.
-const TRIED_PLANS: usize = 12;
+/// How many of the best plans are cut for trial before further cuts are made: two planes may leave a pocket between them
+/// where they meet in a void, or a corner out of sight. The first nearly always does where nothing must be seen; each costs a
+/// cut of every void, a twentieth of a second, and a further cut costs a joint.
+const TRIED_PLANS: usize = 48;
+/// Terms of a score below this are not told.
+const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
@@ -127,7 +130,17 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     }
     let best = best.map_or_else(|| Tried::new(scene, &[]), Ok)?;
     let Tried { planes, voids, .. } = furthered(scene, best, notes)?;
+    notes.extend(planes.iter().enumerate().map(|(i, plane)| score_note(scene, (i, plane))));
     Layout::new(scene, planes, voids)
+}
+
+/// The named terms of a cut's score.
+fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
+    let terms = burden(scene, plane).terms(scene);
+    let told = terms.iter().filter(|(_, value)| *value >= SHOWN_PENALTY);
+    let told: Vec<String> = told.map(|(name, value)| format!("{name} {value:.2}")).collect();
+    let sum: f64 = terms.iter().map(|(_, value)| value).sum();
+    format!("cut {}: score {sum:.2}, 0 at best ({})", cut_id(cut), told.join(", "))
 }
 
 fn proof_note(found: &Found) -> String {

@@ -6,7 +6,7 @@ use crate::geom::{Plane, Point, Vector};
 use crate::mesh::TriMesh;
 
 /// Places across the box of a mouth, along each of two directions.
-const ACROSS: usize = 12;
+const ACROSS: usize = 16;
 /// The places with most room from which the widest is climbed to.
 const CLIMBS: usize = 3;
 /// The climb to the widest place ends at steps of this share of the mouth's box.
