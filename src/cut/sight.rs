@@ -16,8 +16,12 @@ use crate::{
 const SAMPLES: f64 = 2000.0;
 /// Of a small piece at least so many points are looked at.
 const LEAST_SAMPLES: usize = 24;
-/// Places across a mouth, along each of two directions, that are looked from: what only the places between see is slivers.
-const EYES_ACROSS: usize = 7;
+/// Places across a mouth, along each of two directions, that are looked from.
+const EYES_ACROSS: usize = 5;
+/// So many where little is hidden from those: what is seen only from between them is slivers, a few thousandths of a wall.
+const CLOSER_EYES_ACROSS: usize = 16;
+/// Where more than this share of a piece is hidden, no closer look will find it clean.
+const HIDDEN_RATIO: f64 = 0.15;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
 const LOOKED_RATIO: f64 = 0.999;
 
@@ -37,7 +41,7 @@ impl<'a> Look<'a> {
 
     /// The places that a piece is looked into from: of every mouth that lets the tool in those where it finds room; the
     /// middle of the widest mouth where none lets it in.
-    fn eyes(&self, piece: &Piece) -> Vec<Point> {
+    fn eyes(&self, piece: &Piece, count: usize) -> Vec<Point> {
         let discs = piece.caps.iter().filter_map(|cap| Some((cap, cap.outline.largest_disc(0.0)?)));
         let mut discs: Vec<_> = discs.collect();
         discs.sort_by(|a, b| b.1.radius_mm.total_cmp(&a.1.radius_mm));
@@ -46,7 +50,7 @@ impl<'a> Look<'a> {
         let wide = discs.iter().filter(|(_, disc)| is_wide(disc.radius_mm)).count();
         let mut eyes: Vec<Point> = middles.take(wide.max(1)).collect();
         for (cap, _) in &discs[..wide] {
-            let places = across(cap).into_iter().filter(|at| is_wide(cap.outline.signed_distance(at)));
+            let places = across(cap, count).into_iter().filter(|at| is_wide(cap.outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.lifted(cap, &at)));
         }
         eyes
@@ -58,15 +62,15 @@ impl<'a> Look<'a> {
     }
 }
 
-/// Places spread over the box of a mouth.
-fn across(cap: &Cap) -> Vec<Point2> {
+/// Places spread over the box of a mouth, so many along each of two directions.
+fn across(cap: &Cap, count: usize) -> Vec<Point2> {
     let Some((min, max)) = cap.outline.bounds() else { return Vec::new() };
-    let step = (max - min) / EYES_ACROSS as f64;
+    let step = (max - min) / count as f64;
     let at = |i: usize| {
-        let (column, row) = ((i % EYES_ACROSS) as f64, (i / EYES_ACROSS) as f64);
+        let (column, row) = ((i % count) as f64, (i / count) as f64);
         min + nalgebra::Vector2::new(step.x * (column + 0.5), step.y * (row + 0.5))
     };
-    (0..EYES_ACROSS * EYES_ACROSS).map(at).collect()
+    (0..count * count).map(at).collect()
 }
 
 /// The wall of a piece of a void, and what is not seen of it.
@@ -101,18 +105,30 @@ impl Walls {
     pub(crate) fn seen(&self, piece: &Piece, look: &Look) -> Seen {
         let wall = wall(piece);
         let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
-        let eyes = look.eyes(piece);
         let count = (wall_mm2 / self.share_mm2).ceil() as usize;
         let points = spread_points(&wall, count.max(LEAST_SAMPLES));
+        let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
+        let total = points.len().max(1) as f64;
+        let (mut hidden, mut visible) = self.parted(points, &look.eyes(piece, EYES_ACROSS), look.reach_mm);
+        if hidden.len() as f64 <= HIDDEN_RATIO * total {
+            let closer = look.eyes(piece, CLOSER_EYES_ACROSS);
+            let (still, more) = self.parted(hidden, &closer, look.reach_mm);
+            hidden = still;
+            visible.extend(more);
+        }
+        let share_mm2 = wall_mm2 / total;
+        Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
+    }
+}
+
+impl Walls {
+    /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
+    fn parted(&self, points: Vec<Point>, eyes: &[Point], reach_mm: f64) -> (Vec<Point>, Vec<Point>) {
         let sees = |eye: &Point, at: &Point| {
             let line = at - eye;
-            line.norm() <= look.reach_mm && !self.bvh.is_crossed_by(eye, &(eye + line * LOOKED_RATIO))
+            line.norm() <= reach_mm && !self.bvh.is_crossed_by(eye, &(eye + line * LOOKED_RATIO))
         };
-        let is_hidden = |at: &Point| !eyes.iter().any(|eye| sees(eye, at));
-        let (hidden, visible): (Vec<Point>, Vec<Point>) =
-            points.par_iter().map(|point| point.at).partition(is_hidden);
-        let share_mm2 = wall_mm2 / points.len().max(1) as f64;
-        Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
+        points.into_par_iter().partition(|at| !eyes.iter().any(|eye| sees(eye, at)))
     }
 }
 
