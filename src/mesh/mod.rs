@@ -23,8 +23,8 @@ mod unstitch;
 mod weld;
 
 pub use bodies::{bodies, shells, winding_number};
-pub(crate) use clip::off_vertices;
 pub use clip::{ClipError, Csg};
+pub(crate) use clip::{off_faces, off_vertices};
 pub use crossings::Crossings;
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
