@@ -36,7 +36,8 @@ pub struct VoidAccess {
     pub depth_mm: f64,
     /// The share of its wall that is in sight of the mouths of its own piece and within the tool's reach; of a sample of points.
     pub sight_ratio: f64,
-    /// Whether every piece of it can be cleaned by the printer's rule.
+    /// Whether every piece of it can be cleaned by the printer's rule. Of filament, too, the planner asks for sight: how parts will
+    /// lie, and so what needs no support, is settled after the cuts.
     pub is_clean: bool,
 }
 

@@ -30,7 +30,7 @@ const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
-/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms ([`super::score`]) with
+/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms with
 /// which every void can be cleaned by the printer's rule; further cuts where none of them does, or where a part would not
 /// fit the build volume; and pins for every joint. Voids that no cut lets be cleaned are told by [`VoidAccess::is_clean`].
 ///

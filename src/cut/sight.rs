@@ -119,9 +119,7 @@ impl Walls {
         let share_mm2 = wall_mm2 / total;
         Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
     }
-}
 
-impl Walls {
     /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
     fn parted(&self, points: Vec<Point>, eyes: &[Point], reach_mm: f64) -> (Vec<Point>, Vec<Point>) {
         let sees = |eye: &Point, at: &Point| {

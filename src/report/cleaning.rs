@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
-use super::words::{number, quantity};
+use super::words::quantity;
 use super::{Checklist, VoidRow};
 use crate::units::MM3_PER_CM3;
 use crate::verify::Check;
@@ -63,7 +63,7 @@ fn verdict(check: &Check) -> Markup {
 
 /// What is in sight of a void's wall, where that counts.
 fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
-    let percent = |ratio: f64| number(100.0 * ratio);
+    let percent = |ratio: f64| format!("{:.0}", 100.0 * ratio);
     match void.sight_ratio {
         Some(sight) if sheet.printer.cleaning.rule.needs_sight() => {
             let reach = sheet.printer.cleaning.reach_mm;
