@@ -78,6 +78,8 @@ pub(crate) struct Opened<'a> {
     pub(crate) request: &'a PlanRequest,
     /// The least opening, mm.
     pub(crate) needed_mm: f64,
+    /// Whether the share in sight is to be told, not only held against what is asked.
+    pub(crate) is_told: bool,
 }
 
 /// How the cuts open each void.
@@ -89,6 +91,16 @@ pub(crate) fn accesses(
     (0..hollowed.voids.len()).into_par_iter().map(|void| access(hollowed, void, planes, request)).collect()
 }
 
+/// How the cuts open each void, the shares in sight as they are told of a finished plan.
+pub(crate) fn told(
+    hollowed: &Hollowed,
+    planes: &[Plane],
+    request: &PlanRequest,
+) -> Result<Vec<VoidAccess>, CutError> {
+    let of = |void| Opened { is_told: true, ..Opened::new(hollowed, void, planes, request) }.access();
+    (0..hollowed.voids.len()).into_par_iter().map(of).collect()
+}
+
 /// How the planes open one void.
 pub(crate) fn access(
     hollowed: &Hollowed,
@@ -96,11 +108,21 @@ pub(crate) fn access(
     planes: &[Plane],
     request: &PlanRequest,
 ) -> Result<VoidAccess, CutError> {
-    let needed_mm = request.needed_mm(void, hollowed.voids.len());
-    Opened { void, solid: &hollowed.voids[void], planes, request, needed_mm }.access()
+    Opened::new(hollowed, void, planes, request).access()
 }
 
-impl Opened<'_> {
+impl<'a> Opened<'a> {
+    /// A void of a body under these cuts.
+    pub(crate) fn new(
+        hollowed: &'a Hollowed,
+        void: usize,
+        planes: &'a [Plane],
+        request: &'a PlanRequest,
+    ) -> Self {
+        let needed_mm = request.needed_mm(void, hollowed.voids.len());
+        Self { void, solid: &hollowed.voids[void], planes, request, needed_mm, is_told: false }
+    }
+
     /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
         let pieces = split(self.solid.mesh(), self.planes)?;
@@ -139,6 +161,7 @@ impl Opened<'_> {
     /// What is seen of each piece.
     pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
         let (walls, look) = (Walls::of(self.solid), Look::new(self.planes, self.request));
+        let look = if self.is_told { look.thorough() } else { look };
         pieces.iter().map(|piece| walls.seen(piece, &look)).collect()
     }
 

@@ -108,7 +108,7 @@ fn note(before: &Tried, after: &Tried) -> String {
 fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
     let Some(worst) = tried.voids.iter().max_by(|a, b| lack(a).total_cmp(&lack(b))) else { return Ok(None) };
-    let hidden = opened(scene, worst.void, &tried.planes).hidden()?;
+    let hidden = Opened::new(scene.hollowed, worst.void, &tried.planes, scene.request).hidden()?;
     let planes = through(scene, worst.void, &hidden);
     let more = planes.par_iter().map(|plane| tried.with(scene, off_vertices(&scene.material, plane)));
     let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
@@ -119,12 +119,6 @@ fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let penalty = |next: &Tried| next.planes.last().map_or(0.0, |plane| burden(scene, plane).penalty(scene));
     let weighed = near.map(|next| (penalty(&next), next));
     Ok(weighed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, next)| next))
-}
-
-/// A void of the scene under these cuts.
-pub(crate) fn opened<'a>(scene: &Scene<'a>, void: usize, planes: &'a [Plane]) -> Opened<'a> {
-    let needed_mm = scene.request.needed_mm(void, scene.hollowed.voids.len());
-    Opened { void, solid: &scene.hollowed.voids[void], planes, request: scene.request, needed_mm }
 }
 
 /// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those of the points.

@@ -49,10 +49,9 @@ pub fn unclean(
     let is_plain = |void: usize| request.seat_of(void, count).is_none();
     let dirty: Vec<_> = plan.voids.iter().filter(|void| !void.is_clean && is_plain(void.void)).collect();
     let of = |access: &&super::access::VoidAccess| {
-        let (void, solid) = (access.void, &hollowed.voids[access.void]);
-        let (needed_mm, asked) = (request.needed_mm(void, count), asked_ratio(request));
-        let opened = Opened { void, solid, planes: &planes, request, needed_mm };
-        let lumps = if whole { vec![solid.mesh().clone()] } else { lumps(&opened)? };
+        let opened = Opened::new(hollowed, access.void, &planes, request);
+        let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
+        let lumps = if whole { vec![opened.solid.mesh().clone()] } else { lumps(&opened)? };
         let why = if access.sight_ratio < asked {
             let (seen, asked) = (100.0 * access.sight_ratio, 100.0 * request.cleaning.sight_ratio);
             format!("{seen:.1} % of its wall in sight, asked are {asked:.0} %")

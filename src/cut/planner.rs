@@ -1,7 +1,7 @@
 //! The planner: the fewest planes that open every void, or the planes that were ordered.
 
 use super::{
-    access::{VoidAccess, accesses},
+    access::{VoidAccess, accesses, told},
     describe::{described, named_as},
     error::CutError,
     further::{Tried, furthered},
@@ -78,7 +78,7 @@ fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
 /// sights. Cuts, pins and joints stay.
 pub fn plan_of(hollowed: &Hollowed, plan: CutPlan, request: &PlanRequest) -> Result<CutPlan, CutError> {
     let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    Ok(CutPlan { voids: accesses(hollowed, &planes, request)?, ..plan })
+    Ok(CutPlan { voids: told(hollowed, &planes, request)?, ..plan })
 }
 
 /// Cuts, how they open the voids, and the pieces they leave.

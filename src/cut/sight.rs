@@ -31,12 +31,20 @@ pub(crate) struct Look<'a> {
     /// The radius of the least opening: nearer to a rim no tool enters.
     tool_radius_mm: f64,
     reach_mm: f64,
+    /// Pieces of which more than this share is hidden from few places are not looked at from more.
+    given_up_ratio: f64,
 }
 
 impl<'a> Look<'a> {
     pub(crate) fn new(planes: &'a [Plane], request: &PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
-        Self { planes, tool_radius_mm: request.min_opening_mm / 2.0, reach_mm }
+        let tool_radius_mm = request.min_opening_mm / 2.0;
+        Self { planes, tool_radius_mm, reach_mm, given_up_ratio: HIDDEN_RATIO }
+    }
+
+    /// The same, but from many places however much is hidden: slower, and right for what is told of a plan.
+    pub(crate) fn thorough(self) -> Self {
+        Self { given_up_ratio: 1.0, ..self }
     }
 
     /// The places that a piece is looked into from: of every mouth that lets the tool in those where it finds room; the
@@ -110,7 +118,7 @@ impl Walls {
         let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
         let total = points.len().max(1) as f64;
         let (mut hidden, mut visible) = self.parted(points, &look.eyes(piece, EYES_ACROSS), look.reach_mm);
-        if hidden.len() as f64 <= HIDDEN_RATIO * total {
+        if hidden.len() as f64 <= look.given_up_ratio * total {
             let closer = look.eyes(piece, CLOSER_EYES_ACROSS);
             let (still, more) = self.parted(hidden, &closer, look.reach_mm);
             hidden = still;
