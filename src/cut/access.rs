@@ -18,7 +18,7 @@ use crate::{
 
 /// More of the wall than asked must be in sight by this share, so that a judge who looks at other points, and voids solved
 /// for once more, still find enough. Less, and kits at the limit fail now and then; more costs cuts that nobody needs.
-const SIGHT_MARGIN_RATIO: f64 = 0.003;
+const SIGHT_MARGIN_RATIO: f64 = 0.005;
 
 /// How a void is opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -158,20 +158,32 @@ fn excess_turn_rad(ring: &Ring) -> f64 {
 
 /// How many of the two halves are larger than the build volume, each side against the side of its rank.
 fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
-    let (u, v) = plane.basis();
-    let extent = |is_above: bool| {
-        let half = scene.hollowed.outer.mesh().vertices().iter();
-        let half = half.filter(|p| (plane.distance(p) >= 0.0) == is_above);
-        let turned = half.map(|p| Point::new(u.dot(&p.coords), v.dot(&p.coords), plane.distance(p)));
-        turned.fold(Aabb::EMPTY, |aabb, p| aabb.grown_over(&p))
-    };
+    let mut halves = [Aabb::EMPTY; 2];
+    for corners in scene.hollowed.outer.mesh().iter_corners() {
+        for i in 0..3 {
+            grow(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
+        }
+    }
     room_mm.sort_by(f64::total_cmp);
-    let is_over = |half: Aabb| {
+    let is_over = |half: &Aabb| {
         let mut size: [f64; 3] = if half.is_empty() { [0.0; 3] } else { half.size().into() };
         size.sort_by(f64::total_cmp);
         size.iter().zip(room_mm).any(|(size, room)| *size > room)
     };
-    [true, false].map(extent).into_iter().filter(|half| is_over(*half)).count()
+    halves.iter().filter(|half| is_over(half)).count()
+}
+
+/// Grows the boxes of the halves above and below a plane, in its own coordinates, over an edge.
+fn grow(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
+    let (u, v) = plane.basis();
+    let [low, high] = [plane.distance(&from), plane.distance(&to)];
+    let turned = |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
+    let side = usize::from(low < 0.0);
+    halves[side] = halves[side].grown_over(&turned(&from, low));
+    if (low < 0.0) != (high < 0.0) {
+        let met = turned(&(from + (to - from) * (low / (low - high))), 0.0);
+        *halves = halves.map(|half| half.grown_over(&met));
+    }
 }
 
 /// The share of the material's surface that leans less than 45° over the plate, both halves lying on their cut faces, or with

@@ -18,7 +18,7 @@ const NEAR_MM: f64 = 1e-3;
 /// Points of each void's wall that are looked at: a share of 5 % is then known to four thousandths.
 const SAMPLES: f64 = 3000.0;
 /// Places of a piece's mouths that are looked from, at most.
-const EYES: usize = 96;
+const EYES: usize = 400;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
 const LOOKED_RATIO: f64 = 0.999;
 /// Pieces of a wall below this share of it are what rounding leaves of triangles along a rim.
