@@ -3,6 +3,7 @@
 mod advising;
 mod assembly;
 mod ballasting;
+mod faces;
 mod fitting;
 mod grid_rows;
 mod kit;

@@ -13,8 +13,8 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, VoidRow,
-    WallRow,
+    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow,
+    PassRow, SpeedRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
@@ -160,7 +160,17 @@ fn certificate(sheet: &Sheet) -> Certificate {
         kept_solid_mm3: sheet.assembly.refused_mm3,
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
+        course: course(&sheet.assembly.course, shown),
     }
+}
+
+/// How the answer came about, in the units of the sheet.
+fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
+    let pass = |pass: &hollow::Pass| PassRow { value: shown(pass.value), bound: shown(pass.bound) };
+    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow { height_mm, critical_speed_rpm };
+    let (passes, speeds) =
+        (found.passes.iter().map(pass).collect(), found.speeds.iter().map(speed).collect());
+    (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
 /// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.

@@ -19,8 +19,16 @@ pub fn sample_album(evidence: &Evidence) -> Vec<Picture> {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
     let (aim, parts) = (evidence.promise.goal, &evidence.parts);
-    album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware: &evidence.promise.hardware })
-        .unwrap()
+    let promised = &evidence.promise.parts;
+    album(&Sitting {
+        shells: &shells,
+        parts,
+        promised,
+        cuts: &cuts,
+        aim,
+        hardware: &evidence.promise.hardware,
+    })
+    .unwrap()
 }
 
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
@@ -58,6 +66,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             kept_solid_mm3: 0.0,
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
+            course: Some(course(speed)),
         },
         wall: WallRow { required_mm: 3.0, measured_min_mm: found.wall_min_mm },
         voids: vec![the_void()],
@@ -81,9 +90,17 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     }
 }
 
+/// Three passes to a speed, and the speeds about its height.
+fn course(speed: f64) -> Course {
+    let pass = |share: f64| PassRow { value: speed * (1.0 + share), bound: speed * (1.0 - share) };
+    let at = |height_mm: f64| SpeedRow { height_mm, critical_speed_rpm: speed + (height_mm - 16.0).powi(2) };
+    Course { passes: [0.5, 0.1, 0.0].map(pass).into(), speeds: [12.0, 16.0, 20.0].map(at).into() }
+}
+
 fn printer() -> PrinterRow {
     PrinterRow {
         id: "objet-connex350".into(),
+        profile_sha256: "ef".repeat(32),
         name: "Objet Connex350".into(),
         process: "polyjet".into(),
         pixel_mm: [0.0423, 0.0423],
