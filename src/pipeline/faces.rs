@@ -1,9 +1,10 @@
 //! The sections at the cuts, for the drawings of the job sheet.
 
+use super::rows::void_id;
 use super::{Assembly, Error};
-use crate::cut::{Ring, Section, UncutFace};
+use crate::cut::{Point2, Ring, Section, UncutFace, VoidAccess};
 use crate::geom::{Plane, Point};
-use crate::report::CutFace;
+use crate::report::{CutFace, Mouth};
 
 /// The section of the uncut body at every cut.
 pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
@@ -13,9 +14,25 @@ pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
         let plane = cut.plane()?;
         let rings: Vec<Vec<[f64; 2]>> = Section::of_mesh(&body, &plane).rings.iter().map(flat_ring).collect();
         let whole = plan.uncut.iter().filter(|face| face.cut == cut.id).map(|face| flat_point(&plane, face));
-        Ok(CutFace { cut: cut.id.clone(), wall: thinnest(&rings), whole: whole.collect(), rings, plane })
+        let (wall, whole, mouths) = (thinnest(&rings), whole.collect(), mouths(assembly, &plane));
+        Ok(CutFace { cut: cut.id.clone(), plane, rings, wall, whole, mouths })
     };
     plan.cuts.iter().map(face).collect()
+}
+
+/// Where the plane opens voids, each with the largest disc that passes there.
+fn mouths(assembly: &Assembly, plane: &Plane) -> Vec<Mouth> {
+    let of_void = |access: &VoidAccess| {
+        let body = assembly.hollowed.voids.get(access.void);
+        let discs = body.map_or(Vec::new(), |body| Section::of_mesh(body.mesh(), plane).largest_discs());
+        let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
+            void: void_id(access.void),
+            at: [at.x, at.y],
+            diameter_mm,
+        };
+        discs.into_iter().map(mouth).collect::<Vec<Mouth>>()
+    };
+    assembly.plan.voids.iter().flat_map(of_void).collect()
 }
 
 fn flat_ring(ring: &Ring) -> Vec<[f64; 2]> {

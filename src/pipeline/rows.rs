@@ -197,7 +197,8 @@ fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
     plan.voids.iter().map(row).collect()
 }
 
-fn void_id(void: usize) -> String {
+/// The name of a void on the sheet.
+pub fn void_id(void: usize) -> String {
     format!("V{}", void + 1)
 }
 

@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::figure::{Role, figures};
 use super::page::{Papers, blank};
 use super::qr::JobId;
-use super::running::code;
+use super::running::{code, on_screen};
 use super::steps::step_names;
 use super::words::{self, extent, number, quantity, quantity_or_dash};
 use super::{Checklist, Verdict};
@@ -16,6 +16,7 @@ pub(super) fn cover(papers: &Papers, job: &JobId) -> Markup {
     let sheet = papers.sheet;
     html! {
         header class="cover" {
+            (on_screen(job))
             div class="title" {
                 p class="small" { "Job sheet" }
                 h1 { (sheet.job) }

@@ -8,12 +8,14 @@ use super::words::{number, quantity};
 use crate::geom::{Plane, Point, Vector};
 use crate::verify::Peg;
 
-/// Width and height, pixels.
-const SIZE_PX: [usize; 2] = [1000, 620];
+/// Width, pixels.
+const WIDTH_PX: usize = 1000;
+/// What is left below the section for its width, pixels.
+const BELOW_PX: f64 = 75.0;
 /// Height of words, pixels: 8 points at the width of an A4 page.
 const TEXT_PX: f64 = 19.0;
 /// The room of the section inside the drawing: left, top, right, bottom, pixels; beside it stand names and lengths.
-const FRAME_PX: [f64; 4] = [250.0, 30.0, 750.0, 540.0];
+const FRAME_PX: [f64; 4] = [230.0, 40.0, 770.0, 540.0];
 /// How far the lengths over all lie from the section, pixels.
 const ASIDE_PX: f64 = 34.0;
 /// Where up is less than this share of the plane's directions, the plane is level and nothing in it is up.
@@ -33,6 +35,19 @@ pub struct CutFace {
     pub wall: Option<[[f64; 2]; 2]>,
     /// A point of every face that the cut leaves whole, same coordinates.
     pub whole: Vec<[f64; 2]>,
+    /// The voids it opens.
+    pub mouths: Vec<Mouth>,
+}
+
+/// Where a cut opens a void.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mouth {
+    /// The void's id.
+    pub void: String,
+    /// The middle of the largest disc that passes, in the plane's coordinates, mm.
+    pub at: [f64; 2],
+    /// The diameter of that disc, mm.
+    pub diameter_mm: f64,
 }
 
 /// From the plane to the drawing.
@@ -53,10 +68,7 @@ impl Sheet {
         let [left, top, right, bottom] = FRAME_PX;
         let fit = |from: f64, to: f64, pixels: f64| pixels / (to - from).max(f64::MIN_POSITIVE);
         let scale = fit(low[0], high[0], right - left).min(fit(low[1], high[1], bottom - top));
-        let offset = [
-            0.5 * (left + right - scale * (low[0] + high[0])),
-            0.5 * (top + bottom - scale * (low[1] + high[1])),
-        ];
+        let offset = [0.5 * (left + right - scale * (low[0] + high[0])), top - scale * low[1]];
         Self { turn, scale, offset }
     }
 
@@ -87,7 +99,8 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
         caption: format!(
-            "Cut {}, seen against its normal {}. Orange: material; blue: open void. Full circle: pin; dashed circle: socket (diameters in mm).",
+            "Cut {}, seen against its normal {}. Orange: material; blue: open void, with the widest disc that passes. N: pins (full circle) in their \
+             sockets (dashed). Diameters in mm.",
             face.cut,
             super::words::coordinates(&face.plane.normal.into())
         ),
@@ -109,9 +122,10 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     let (u, v) = face.plane.basis();
     let axis = Vector::from(sheet.goal.aim.axis).normalize();
     let paper = Sheet::of(face, [u.dot(&axis), v.dot(&axis)]);
-    let mut drawing = Drawing::new(SIZE_PX, TEXT_PX);
     let rings: Vec<Vec<Spot>> =
         face.rings.iter().map(|ring| ring.iter().map(|p| paper.at(*p)).collect()).collect();
+    let [_, [_, bottom]] = bounds(rings.iter().flatten().copied());
+    let mut drawing = Drawing::new([WIDTH_PX, (bottom + BELOW_PX) as usize], TEXT_PX);
     let outer: Vec<Vec<Spot>> = rings
         .iter()
         .zip(&face.rings)
@@ -122,6 +136,11 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     drawing.path(&rings, true, (Some(&hex(HATCH)), Stroke { width: 2.0, ..Stroke::THIN }));
     draw_size(&mut drawing, &rings, paper.scale);
     let mut marks = Vec::new();
+    for mouth in &face.mouths {
+        let at = paper.at(mouth.at);
+        drawing.circle(at, 0.5 * paper.scale * mouth.diameter_mm, (None, Stroke::DASHED));
+        marks.push((at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
+    }
     for (pin, socket) in pegs {
         let at = paper.at(flat(&face.plane, &pin.center_mm));
         draw_peg(
@@ -194,8 +213,14 @@ mod tests {
     #[test]
     fn a_section_fills_the_frame_with_up_up_and_right_right() {
         let plane = Plane::through(&Point::origin(), &Vector::z());
-        let face =
-            CutFace { cut: "C1".into(), plane, rings: vec![square(0.0, 10.0)], wall: None, whole: vec![] };
+        let face = CutFace {
+            cut: "C1".into(),
+            plane,
+            rings: vec![square(0.0, 10.0)],
+            wall: None,
+            whole: vec![],
+            mouths: vec![],
+        };
         for up in [[0.0, 1.0], [1.0, 0.0], [-0.6, 0.8]] {
             let paper = Sheet::of(&face, up);
             let [origin, above] = [[0.0, 0.0], up].map(|point| paper.at(point));

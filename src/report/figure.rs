@@ -24,6 +24,13 @@ pub enum Role {
     Proof,
 }
 
+impl Role {
+    /// Whether its pictures are shown one below the other, large.
+    fn is_wide(self) -> bool {
+        matches!(self, Self::Cut | Self::Exploded)
+    }
+}
+
 /// What a picture is made of.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drawn {
@@ -77,7 +84,7 @@ pub(super) fn figure(picture: &Picture) -> Markup {
 pub(super) fn figures(pictures: &[Picture], role: Role) -> Markup {
     html! {
         @if pictures.iter().any(|picture| picture.role == role) {
-            div class="pictures" { @for picture in pictures.iter().filter(|p| p.role == role) { (figure(picture)) } }
+            div class=(if role.is_wide() { "pictures wide" } else { "pictures" }) { @for picture in pictures.iter().filter(|p| p.role == role) { (figure(picture)) } }
         }
     }
 }

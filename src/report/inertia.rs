@@ -149,7 +149,9 @@ fn axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
         let length = (to[0] - from[0]).hypot(to[1] - from[1]);
         if length > 4.0 * CENTER_PX {
             let beyond = 0.8 * TEXT_PX / length;
-            drawing.text([0, 1].map(|i| to[i] + beyond * (to[i] - from[i])), Anchor::Middle, name);
+            let size = drawing.size_px();
+            let inside = |i: usize| (to[i] + beyond * (to[i] - from[i])).clamp(TEXT_PX, size[i] - TEXT_PX);
+            drawing.text([inside(0), inside(1)], Anchor::Middle, name);
         }
     }
 }

@@ -41,7 +41,7 @@ pub use checklist::{
     Tool, Verdict, WallRow,
 };
 pub use course::{Course, PassRow, SpeedRow};
-pub use cut_drawing::CutFace;
+pub use cut_drawing::{CutFace, Mouth};
 pub use drawings::drawings;
 pub use figure::{Drawn, Picture, Role};
 pub use grid::GridRow;

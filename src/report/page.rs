@@ -7,7 +7,7 @@ use super::figure::Picture;
 use super::parts_table::parts;
 use super::proof;
 use super::qr::JobId;
-use super::running::{running, style};
+use super::running::style;
 use super::steps::steps;
 use super::view::{View, viewer};
 use super::words::{number, quantity};
@@ -37,16 +37,15 @@ pub fn page(papers: &Papers) -> String {
     let (sheet, pictures) = (papers.sheet, papers.pictures);
     let job = JobId { name: &sheet.job, sha256: papers.sha256 };
     let body = html! {
-        (running(&job))
         (cover(papers, &job))
         main {
             @if let Some(view) = papers.view { (viewer(view)) }
             (parts(sheet, pictures))
             (steps(sheet, pictures))
+            (sign_off())
             (grid::table(&sheet.grid))
             (proof::checks(&sheet.checks))
             (proof::proof(sheet, pictures))
-            (sign_off())
             (proof::files(papers))
         }
     };

@@ -14,11 +14,13 @@ const TEXT_PX: f64 = 22.0;
 /// The room of the curves between the axes' words: left, top, right, bottom, pixels.
 const FRAME_PX: [f64; 4] = [110.0, 40.0, 690.0, 380.0];
 /// Steps between two numbers at an axis, of which the one is taken that leaves about this many.
-const TICKS: f64 = 5.0;
+const TICKS: f64 = 7.0;
 /// How much room is left beyond the least and the greatest value, as a share of their difference.
 const ROOM_RATIO: f64 = 0.08;
 /// Curves reach no more than this many times the best value above it: what is worse only flattens the rest.
 const WORST_RATIO: f64 = 4.0;
+/// How wide a letter is about, in the height of the words.
+const LETTER_RATIO: f64 = 0.55;
 /// The colours of the two curves (Okabe and Ito): blue and vermilion, of different lightness and with different marks.
 const LINES: [Color; 2] = [[0, 114, 178], [213, 94, 0]];
 
@@ -56,7 +58,7 @@ fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
         across: "pass over the columns".to_owned(),
         up: with_unit(figure.name(), figure.unit()),
         curves: vec![
-            Curve { name: "reached", points: pick(|row| row.value), color: LINES[0], is_second: false },
+            Curve { name: "found", points: pick(|row| row.value), color: LINES[0], is_second: false },
             Curve { name: "proved bound", points: pick(|row| row.bound), color: LINES[1], is_second: true },
         ],
         mark: None,
@@ -66,10 +68,10 @@ fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
         file: "pictures/certificate.svg".to_owned(),
         role: Role::Proof,
         caption: format!(
-            "The search and its proof meet at {met}: what is reached, and what nothing can beat, pass by pass on coarse columns."
+            "The search and its proof meet at {met}: what was found, and what nothing can beat, pass by pass on coarse columns. Until it is balanced, what is found may look better than it can be."
         ),
         alt: format!(
-            "Plot of the {} reached and of its proved bound over {} passes; both end at {met}.",
+            "Plot of the {} found and of its proved bound over {} passes; both end at {met}.",
             figure.name(),
             course.passes.len()
         ),
@@ -84,7 +86,7 @@ fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
     let plot = Plot {
         across: "height ℓ of the centre of mass over the contact, mm".to_owned(),
         up: "least critical speed, rpm".to_owned(),
-        curves: vec![Curve { name: "the best at each height", points, color: LINES[0], is_second: false }],
+        curves: vec![Curve { name: "best at that height", points, color: LINES[0], is_second: false }],
         mark: written.map(|at| (at, "this kit".to_owned())),
     };
     let [height, speed] = [quantity(best[0], "mm"), quantity(best[1], "rpm")];
@@ -109,6 +111,7 @@ impl Plot {
         for curve in &self.curves {
             draw_curve(&mut drawing, curve, &scales);
         }
+        legend(&mut drawing, &self.curves);
         if let Some((at, words)) = &self.mark {
             let [x, y] = scales.each_ref().map(|scale| scale.clamped(at[scale.axis]));
             drawing.circle([x, y], 8.0, (Some(&hex(PAPER)), Stroke::THICK));
@@ -201,9 +204,14 @@ fn axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&
 
 fn draw_curve(drawing: &mut Drawing, curve: &Curve, [across, up]: &[Scale; 2]) {
     let spots: Vec<Spot> = curve.points.iter().map(|[x, y]| [across.clamped(*x), up.clamped(*y)]).collect();
+    draw_line(drawing, &spots, curve);
+}
+
+/// A line with its marks.
+fn draw_line(drawing: &mut Drawing, spots: &[Spot], curve: &Curve) {
     let dashes = if curve.is_second { "10 6" } else { "" };
-    drawing.path(&[spots.clone()], false, (None, Stroke { color: curve.color, width: 3.0, dashes }));
-    for &[x, y] in &spots {
+    drawing.path(&[spots.to_vec()], false, (None, Stroke { color: curve.color, width: 3.0, dashes }));
+    for &[x, y] in spots {
         let color = hex(curve.color);
         if curve.is_second {
             let square = vec![[x - 5.0, y - 5.0], [x + 5.0, y - 5.0], [x + 5.0, y + 5.0], [x - 5.0, y + 5.0]];
@@ -216,9 +224,17 @@ fn draw_curve(drawing: &mut Drawing, curve: &Curve, [across, up]: &[Scale; 2]) {
             drawing.circle([x, y], 5.0, (Some(&color), Stroke::NONE));
         }
     }
-    if let Some(&[x, y]) = spots.get(spots.len() / 3) {
-        let aside = if curve.is_second { TEXT_PX } else { -TEXT_PX };
-        drawing.text([x + 10.0, y + aside], Anchor::Start, curve.name);
+}
+
+/// The names of the curves at the upper right, each with a piece of its line.
+fn legend(drawing: &mut Drawing, curves: &[Curve]) {
+    let mut right = FRAME_PX[2];
+    for curve in curves.iter().rev() {
+        let y = 0.6 * TEXT_PX;
+        drawing.text([right, y], Anchor::End, curve.name);
+        let start = right - LETTER_RATIO * TEXT_PX * curve.name.chars().count() as f64 - 46.0;
+        draw_line(drawing, &[[start, y], [start + 36.0, y]], curve);
+        right = start - 30.0;
     }
 }
 
@@ -229,8 +245,11 @@ mod tests {
     #[test]
     fn ticks_are_round_and_lie_on_the_scale() {
         let scale = Scale { axis: 0, from: [0.13, 1.21], to: [0.0, 100.0] };
-        // A fifth of 1.08 rounds up to a half.
-        assert_eq!(scale.ticks(), [0.5, 1.0]);
+        // A seventh of 1.08 rounds up to a fifth.
+        assert_eq!(
+            scale.ticks().iter().map(|tick| (tick * 10.0).round()).collect::<Vec<_>>(),
+            [2.0, 4.0, 6.0, 8.0, 10.0, 12.0]
+        );
         assert_eq!([0.21, 3.0, 70.0].map(round_step), [0.5, 5.0, 100.0]);
     }
 

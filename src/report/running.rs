@@ -40,10 +40,10 @@ pub(super) fn code(job: &JobId) -> Markup {
     }
 }
 
-/// What a screen shows above the sheet: how to print it.
-pub(super) fn running(job: &JobId) -> Markup {
+/// What a screen shows above the sheet in place of the margins of paper.
+pub(super) fn on_screen(job: &JobId) -> Markup {
     html! {
-        p class="screen-only small" role="note" {
+        p class="screen-only on-screen small" {
             "Job " strong { (job.short()) } ". " (UNITS) " Print this page on A4 or Letter, or work from the screen."
         }
     }

@@ -5,7 +5,7 @@ use crate::geom::Plane;
 use crate::geom::{Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
-use crate::verify::{Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
+use crate::verify::{Evidence, FigureName, Judgement, PartFacts, Promise, PromisedFigure, Shells, judge};
 
 /// The checklist of a sound kit, and what it was judged on.
 pub fn sample() -> (Checklist, Evidence) {
@@ -14,21 +14,25 @@ pub fn sample() -> (Checklist, Evidence) {
     (checklist(&evidence, &found), evidence)
 }
 
-/// Its pictures.
-pub fn sample_album(evidence: &Evidence) -> Vec<Picture> {
+/// Its pictures and its view.
+pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
-    let (aim, parts) = (evidence.promise.goal, &evidence.parts);
-    let promised = &evidence.promise.parts;
-    album(&Sitting {
-        shells: &shells,
-        parts,
-        promised,
-        cuts: &cuts,
-        aim,
-        hardware: &evidence.promise.hardware,
-    })
-    .unwrap()
+    let Promise { goal: aim, parts: promised, hardware, .. } = &evidence.promise;
+    let sitting =
+        Sitting { shells: &shells, parts: &evidence.parts, promised, cuts: &cuts, aim: *aim, hardware };
+    let frame = |[x, y]: [f64; 2]| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
+    let face = CutFace {
+        cut: "C1".into(),
+        plane: cuts[0],
+        rings: vec![frame([30.0, 20.0]), frame([27.0, 17.0]).into_iter().rev().collect()],
+        wall: Some([[27.0, 0.0], [30.0, 0.0]]),
+        whole: vec![],
+        mouths: vec![Mouth { void: "V1".into(), at: [0.0, 0.0], diameter_mm: 34.0 }],
+    };
+    let mut pictures = album(&sitting).unwrap();
+    pictures.extend(drawings(sheet, &sitting, &[face]).unwrap());
+    (pictures, View::of(&sitting).unwrap())
 }
 
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {

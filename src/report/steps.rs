@@ -36,7 +36,7 @@ pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     let steps = [
         Some(print(sheet)),
-        Some(clean(sheet)),
+        Some(html! { (clean(sheet)) (mouths_note(sheet)) }),
         Some(html! { (dry_fit(sheet)) (figures(pictures, Role::Cut)) }),
         sheet.fill.map(|fill| filling(sheet, fill)),
         (!sheet.ballast.is_empty()).then(|| ballast(sheet)),
@@ -47,7 +47,16 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     ];
     html! {
         @for (index, (name, step)) in step_names(sheet).into_iter().zip(steps.into_iter().flatten()).enumerate() {
-            section { h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) } (step) }
+            section class="step" { h2 id=(format!("step-{}", index + 1)) { (index + 1) ". " (name) } (step) }
+        }
+    }
+}
+
+/// Where to see what opens the voids.
+fn mouths_note(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.voids.is_empty() && !sheet.cuts.is_empty() {
+            p class="small" { "Where each void opens is drawn below, under “Dry fit”; what it looks like inside is on the first page." }
         }
     }
 }

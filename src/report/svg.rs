@@ -16,6 +16,9 @@ pub const INK: Color = [26, 28, 31];
 /// Paper.
 pub const PAPER: Color = [255, 255, 255];
 
+/// A line is upright where it goes aside less than this share of its height.
+const UPRIGHT_RATIO: f64 = 0.1;
+
 /// How a line looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
@@ -160,6 +163,11 @@ impl Drawing {
             self.circle(end, 3.0, (Some(&hex(INK)), Stroke::NONE));
         }
         let length = aside[0].hypot(aside[1]).max(f64::MIN_POSITIVE);
+        if (from[0] - to[0]).abs() < UPRIGHT_RATIO * (from[1] - to[1]).abs() {
+            // Beside an upright line there may be no room.
+            let top = if from[1] < to[1] { from } else { to };
+            return self.text([top[0], top[1] - 0.8 * self.text_px], Anchor::Middle, words);
+        }
         let out = 1.0 + 0.75 * self.text_px / length;
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let anchor = match aside[0] / length {

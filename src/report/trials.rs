@@ -4,8 +4,15 @@ use maud::{Markup, html};
 
 use super::Checklist;
 use super::page::{blank, mass_window, mass_with_window};
-use super::words::quantity;
+use super::words::{extent, number, quantity};
 use crate::goal::GoalKind;
+
+/// Pictures a second of a slow-motion film: most telephones take it. With 30 a top above 900 rpm turns twice in a picture.
+const FILM_PER_S: f64 = 240.0;
+/// Seconds in a minute.
+const S_PER_MIN: f64 = 60.0;
+/// The length of the board of the tilt test, mm: long enough to measure a degree (5 mm), short enough to be at hand.
+const BOARD_MM: f64 = 300.0;
 
 /// Every part and the whole on the scales.
 pub(super) fn weigh(sheet: &Checklist) -> Markup {
@@ -17,7 +24,7 @@ pub(super) fn weigh(sheet: &Checklist) -> Markup {
             }
         }
         table {
-            tr { th { "What" } th class="n" { "Expected" } th { "Weighed, g" } th { @if sheet.material.density_spread_ratio.is_some() { "In the window" } @else { "Share of the whole, %" } } }
+            tr { th scope="col" { "What" } th scope="col" class="n" { "Expected" } th scope="col" { "Weighed, g" } th scope="col" { @if sheet.material.density_spread_ratio.is_some() { "In the window" } @else { "Share of the whole, %" } } }
             @for part in &sheet.parts {
                 tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
             }
@@ -66,37 +73,64 @@ pub(super) fn test(sheet: &Checklist) -> Markup {
 
 /// What to try, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
-    let body = &sheet.assembly;
-    let height = quantity(body.center_height_mm, "mm");
-    match sheet.goal.aim.kind {
-        GoalKind::Top => {
-            let speed = body.critical_speed_rpm.map(|rpm| {
-                format!(
-                    "Spin it on its contact point faster than {}: it stays upright, and falls below that.",
-                    quantity(rpm, "rpm")
-                )
-            });
-            let hang = format!("Its centre of mass lies {height} above the contact point, on the axis.");
-            tip(sheet).into_iter().chain(speed).chain([hang]).collect()
-        }
-        GoalKind::Yoyo => vec![
-            "Held between two points on its axis it stays however it is turned: its centre of mass lies on the axis."
-                .to_owned(),
-            "Spun up about its axis and let go in the air, it goes on turning about it and does not wobble.".to_owned(),
-        ],
-        GoalKind::Stand => {
-            let tilt = body.topples_deg.map(|deg| {
-                format!(
-                    "Set on a tilted board it stands up to {}, whichever way it is turned.",
-                    quantity(deg, "°")
-                )
-            });
-            let height = format!("Its centre of mass lies {height} above the ground.");
-            tilt.into_iter().chain([height]).collect()
-        }
+    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&sheet.model.size_mm));
+    let own = match sheet.goal.aim.kind {
+        GoalKind::Top => top_lines(sheet),
+        GoalKind::Yoyo => yoyo_lines(),
+        GoalKind::Stand => standing_lines(sheet),
         GoalKind::Float => floating_lines(sheet),
         GoalKind::Balance => rotor_lines(sheet),
-    }
+    };
+    [size].into_iter().chain(own).collect()
+}
+
+/// How to find a centre of mass with a thread, and where it must be.
+fn hang(place: &str) -> String {
+    format!(
+        "Find its balance point: hang it by a thread from two places, one after the other. The line of the thread, carried on through it, \
+         passes through the centre of mass both times: {place}."
+    )
+}
+
+/// How to try a top.
+fn top_lines(sheet: &Checklist) -> Vec<String> {
+    let height = quantity(sheet.assembly.center_height_mm, "mm");
+    let spin = sheet.assembly.critical_speed_rpm.map(|rpm| {
+        format!(
+            "Spin it upright on its contact point, on a hard smooth table, faster than {}, which is {} turns a second. It stays upright; \
+             as friction slows it below that speed it leans over and falls. To see its speed, put a mark on its side and film it with \
+             {FILM_PER_S} pictures a second: at that speed a turn takes {} pictures.",
+            quantity(rpm, "rpm"),
+            number(rpm / S_PER_MIN),
+            number((FILM_PER_S * S_PER_MIN / rpm).round())
+        )
+    });
+    let hang = hang(&format!("on the spin axis, {height} above the contact point"));
+    tip(sheet).into_iter().chain([hang]).chain(spin).collect()
+}
+
+/// How to try a yo-yo.
+fn yoyo_lines() -> Vec<String> {
+    vec![
+        hang("in the spin point, on the axis"),
+        "Hold it between two points on its axis: it stays however it is turned, as its centre of mass lies on the axis.".to_owned(),
+        "Spin it up about its axis and let go in the air: it goes on turning about that axis and does not wobble.".to_owned(),
+    ]
+}
+
+/// How to try what stands.
+fn standing_lines(sheet: &Checklist) -> Vec<String> {
+    let height = quantity(sheet.assembly.center_height_mm, "mm");
+    let tilt = sheet.assembly.topples_deg.map(|deg| {
+        format!(
+            "Set it on a rough board, {} long, and raise one end slowly: it stands until the board leans by {}, when that end is {} up, \
+             whichever way it is turned.",
+            quantity(BOARD_MM, "mm"),
+            quantity(deg, "°"),
+            quantity(BOARD_MM * deg.to_radians().sin(), "mm")
+        )
+    });
+    [hang(&format!("{height} above the ground"))].into_iter().chain(tilt).collect()
 }
 
 /// How to try what floats.
