@@ -216,7 +216,7 @@ impl Canvas {
 
     /// The sample at the right of one and the one below it.
     fn neighbours(&self, at: usize) -> impl Iterator<Item = usize> + use<> {
-        let right = ((at + 1) % self.width != 0).then_some(at + 1);
+        let right = Some(at + 1).filter(|next| !next.is_multiple_of(self.width));
         let below = Some(at + self.width).filter(|next| *next < self.samples.len());
         right.into_iter().chain(below)
     }
