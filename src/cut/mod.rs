@@ -6,6 +6,7 @@ mod describe;
 mod error;
 mod family;
 mod layers;
+mod mirror;
 mod opening;
 mod order;
 mod outline;
