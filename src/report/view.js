@@ -31,8 +31,8 @@
     void main() {
       if (isCut && dot(model, plane.xyz) > plane.w) discard;
       if (isCut && !gl_FrontFacing) {   // the inside of material, seen through the cut
-        float stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 9.0);
-        pixel = vec4(stripe < 3.0 ? hatchColor : cutColor, 1.0);
+        float stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 10.0);
+        pixel = vec4(stripe < 2.5 ? hatchColor : cutColor, 1.0);
         return;
       }
       vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
@@ -72,7 +72,7 @@
   const [low, high] = data.box;
   const size = high.map((value, axis) => value - low[axis]);
   const middle = high.map((value, axis) => 0.5 * (value + low[axis]));
-  const START = { yaw: -0.5, pitch: 0.35, zoom: 1 };
+  const START = { yaw: -0.5, pitch: 0.35, zoom: 1.3 };
   const view = { ...START, apart: 0, axis: -1, share: 0.5 };
   const clamp = (value, least, most) => Math.min(Math.max(value, least), most);
 
