@@ -22,6 +22,7 @@ use equipoise::mesh::{
     Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, one_body, primitives, repair, weld,
 };
 use equipoise::pipeline::WrittenPart;
+use equipoise::printer::Cleaning;
 
 /// Cases of a usual test run.
 const CASES: u64 = 24;
@@ -104,6 +105,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
     let pixel_mm = [0.019, 0.042, 0.1, 0.45][dice.below(4)];
     let wall_mm = dice.between(0.4, 2.0);
     PlanRequest {
+        cleaning: Cleaning::MELT_OUT,
         min_opening_mm: dice.between(1.0, 5.0),
         build_volume_mm: None,
         wall_mm,

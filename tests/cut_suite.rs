@@ -9,6 +9,7 @@
 use equipoise::cut::{GoalAxis, PinSettings, PlanRequest, PosePreference, plan};
 use equipoise::geom::{Point, Vector};
 use equipoise::mesh::{Csg, Hollowed, Solid, TriMesh, primitives};
+use equipoise::printer::Cleaning;
 
 /// The disc that must pass through every opening, mm.
 const OPENING_MM: f64 = 3.0;
@@ -16,6 +17,7 @@ const OPENING_MM: f64 = 3.0;
 fn request() -> PlanRequest {
     PlanRequest {
         min_opening_mm: OPENING_MM,
+        cleaning: Cleaning::MELT_OUT,
         build_volume_mm: None,
         wall_mm: 1.0,
         pins: PinSettings {

@@ -1,15 +1,24 @@
 //! How a finished plan opens each void.
 
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
     error::CutError,
     opening::is_dimple,
     plan::cut_id,
-    sight::{Seen, Walls},
-    split::{Piece, split},
+    request::PlanRequest,
+    sight::{Look, Seen, Walls},
+    split::{Cap, Piece, split},
 };
-use crate::{geom::Plane, mesh::Solid};
+use crate::{
+    geom::{Plane, Point},
+    mesh::{Hollowed, Solid},
+};
+
+/// More of the wall than asked must be in sight by this share, so that a judge who looks at other points, and voids solved
+/// for once more, still find enough. Less, and kits at the limit fail now and then; more costs cuts that nobody needs.
+const SIGHT_MARGIN_RATIO: f64 = 0.003;
 
 /// How a void is opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -25,54 +34,169 @@ pub struct VoidAccess {
     pub opening_mm: f64,
     /// The greatest distance of a point of its surface from the mouth of its piece, mm.
     pub depth_mm: f64,
-    /// The share of its wall that is in sight from the middle of the widest mouth of each piece; of a sample of triangles.
+    /// The share of its wall that is in sight of the mouths of its own piece and within the tool's reach; of a sample of points.
     pub sight_ratio: f64,
+    /// Whether every piece of it can be cleaned by the printer's rule. Of filament, too, the planner asks for sight: how parts will
+    /// lie, and so what needs no support, is settled after the cuts.
+    pub is_clean: bool,
 }
 
 impl VoidAccess {
     /// A void that no cut opens.
     pub(crate) fn closed(void: usize, solid: &Solid) -> Self {
-        let volume_mm3 = solid.mesh().signed_volume_mm3();
-        Self { void, volume_mm3, opened_by: Vec::new(), opening_mm: 0.0, depth_mm: 0.0, sight_ratio: 0.0 }
+        Self {
+            void,
+            volume_mm3: solid.mesh().signed_volume_mm3(),
+            opened_by: Vec::new(),
+            opening_mm: 0.0,
+            depth_mm: 0.0,
+            sight_ratio: 0.0,
+            is_clean: false,
+        }
+    }
+
+    /// How far the void is from clean, mm²: 0 where it is; else the area that is missing in sight, and all of it where
+    /// something cannot get out. Areas are those of a ball of its volume.
+    pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
+        let asked = asked_ratio(request);
+        let closed = if self.is_clean { 0.0 } else { f64::from(u8::from(self.sight_ratio >= asked)) };
+        self.volume_mm3.abs().powf(2.0 / 3.0) * ((asked - self.sight_ratio).max(0.0) + closed)
     }
 }
 
-/// How the planes open a void: it is cut into its pieces, and each piece's mouths are measured.
-pub(crate) fn access(void: usize, solid: &Solid, planes: &[Plane]) -> Result<VoidAccess, CutError> {
-    let pieces = split(solid.mesh(), planes)?;
-    let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
-    let mouths: Vec<Mouth> = pieces.iter().map(|piece| widest_mouth(piece, planes)).collect();
-    let walls = Walls::of(solid);
-    let widest_mm = mouths.iter().map(|mouth| mouth.diameter_mm).fold(0.0, f64::max);
-    let hidden = mouths.iter().filter(|mouth| !is_dimple(mouth.depth_mm, mouth.diameter_mm));
-    Ok(VoidAccess {
-        void,
-        volume_mm3: solid.mesh().signed_volume_mm3(),
-        opened_by: (0..planes.len()).filter(met).map(cut_id).collect(),
-        opening_mm: hidden.map(|mouth| mouth.diameter_mm).fold(widest_mm, f64::min),
-        depth_mm: mouths.iter().map(|mouth| mouth.depth_mm).fold(0.0, f64::max),
-        sight_ratio: pieces
-            .iter()
-            .map(|piece| walls.seen(piece, planes))
-            .fold(Seen::default(), Seen::and)
-            .ratio(),
-    })
+/// The share of a wall that the planner wants in sight.
+pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
+    let least = request.cleaning.sight_ratio;
+    if least > 0.0 { (least + SIGHT_MARGIN_RATIO).min(1.0) } else { 0.0 }
 }
 
-/// The widest mouth of a piece of a void.
-struct Mouth {
-    diameter_mm: f64,
-    /// The greatest distance of the piece's surface from the mouth's plane, mm.
+/// A void and what is asked of its openings.
+pub(crate) struct Opened<'a> {
+    pub(crate) void: usize,
+    pub(crate) solid: &'a Solid,
+    pub(crate) planes: &'a [Plane],
+    pub(crate) request: &'a PlanRequest,
+    /// The least opening, mm.
+    pub(crate) needed_mm: f64,
+    /// Whether the share in sight is to be told, not only held against what is asked.
+    pub(crate) is_told: bool,
+}
+
+/// How the cuts open each void.
+pub(crate) fn accesses(
+    hollowed: &Hollowed,
+    planes: &[Plane],
+    request: &PlanRequest,
+) -> Result<Vec<VoidAccess>, CutError> {
+    (0..hollowed.voids.len()).into_par_iter().map(|void| access(hollowed, void, planes, request)).collect()
+}
+
+/// How the cuts open each void, the shares in sight as they are told of a finished plan.
+pub(crate) fn told(
+    hollowed: &Hollowed,
+    planes: &[Plane],
+    request: &PlanRequest,
+) -> Result<Vec<VoidAccess>, CutError> {
+    let of = |void| Opened { is_told: true, ..Opened::new(hollowed, void, planes, request) }.access();
+    (0..hollowed.voids.len()).into_par_iter().map(of).collect()
+}
+
+/// How the planes open one void.
+pub(crate) fn access(
+    hollowed: &Hollowed,
+    void: usize,
+    planes: &[Plane],
+    request: &PlanRequest,
+) -> Result<VoidAccess, CutError> {
+    Opened::new(hollowed, void, planes, request).access()
+}
+
+impl<'a> Opened<'a> {
+    /// A void of a body under these cuts.
+    pub(crate) fn new(
+        hollowed: &'a Hollowed,
+        void: usize,
+        planes: &'a [Plane],
+        request: &'a PlanRequest,
+    ) -> Self {
+        let needed_mm = request.needed_mm(void, hollowed.voids.len());
+        Self { void, solid: &hollowed.voids[void], planes, request, needed_mm, is_told: false }
+    }
+
+    /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
+    fn access(&self) -> Result<VoidAccess, CutError> {
+        let pieces = split(self.solid.mesh(), self.planes)?;
+        let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
+        let mouths: Vec<Mouths> = pieces.iter().map(|piece| Mouths::of(piece, self.planes)).collect();
+        let widest_mm = mouths.iter().map(Mouths::widest_mm).fold(0.0, f64::max);
+        let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
+        let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
+            && mouths.iter().any(|mouths| self.is_wide(mouths));
+        let sight_ratio = self.seen(&pieces).ratio();
+        Ok(VoidAccess {
+            void: self.void,
+            volume_mm3: self.solid.mesh().signed_volume_mm3(),
+            opened_by: (0..self.planes.len()).filter(met).map(cut_id).collect(),
+            opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
+            depth_mm: mouths.iter().map(|mouths| mouths.depth_mm).fold(0.0, f64::max),
+            sight_ratio,
+            is_clean: lets_out && sight_ratio >= asked_ratio(self.request),
+        })
+    }
+
+    /// Whether what is in a piece gets out of its mouths, or lies open in a dimple.
+    pub(crate) fn lets_out(&self, mouths: &Mouths) -> bool {
+        mouths.is_dimple() || self.is_wide(mouths)
+    }
+
+    fn is_wide(&self, mouths: &Mouths) -> bool {
+        self.request.cleaning.lets_out(&mouths.diameters_mm, self.needed_mm)
+    }
+
+    /// What is seen of all pieces together.
+    fn seen(&self, pieces: &[Piece]) -> Seen {
+        self.seen_each(pieces).into_iter().fold(Seen::default(), Seen::and)
+    }
+
+    /// What is seen of each piece.
+    pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
+        let (walls, look) = (Walls::of(self.solid), Look::new(self.planes, self.request));
+        let look = if self.is_told { look.thorough() } else { look };
+        pieces.iter().map(|piece| walls.seen(piece, &look)).collect()
+    }
+
+    /// The points of the wall that are out of sight or reach.
+    pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
+        Ok(self.seen(&split(self.solid.mesh(), self.planes)?).hidden)
+    }
+}
+
+/// The mouths of a piece of a void.
+pub(crate) struct Mouths {
+    /// The diameters of the largest discs through them, the widest first, mm.
+    diameters_mm: Vec<f64>,
+    /// The greatest distance of the piece's surface from the widest mouth's plane, mm.
     depth_mm: f64,
 }
 
-fn widest_mouth(piece: &Piece, planes: &[Plane]) -> Mouth {
-    let disc_mm =
-        |cap: &super::split::Cap| cap.outline.largest_disc(0.0).map_or(0.0, |disc| 2.0 * disc.radius_mm);
-    let widest = piece.caps.iter().map(|cap| (cap.cut, disc_mm(cap))).max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((cut, diameter_mm)) = widest else {
-        return Mouth { diameter_mm: 0.0, depth_mm: piece.mesh.aabb().size().norm() };
-    };
-    let heights = piece.mesh.vertices().iter().map(|p| planes[cut].distance(p).abs());
-    Mouth { diameter_mm, depth_mm: heights.fold(0.0, f64::max) }
+impl Mouths {
+    pub(crate) fn of(piece: &Piece, planes: &[Plane]) -> Self {
+        let disc_mm = |cap: &Cap| cap.outline.largest_disc(0.0).map_or(0.0, |disc| 2.0 * disc.radius_mm);
+        let mut mouths: Vec<(usize, f64)> = piece.caps.iter().map(|cap| (cap.cut, disc_mm(cap))).collect();
+        mouths.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let Some(&(cut, _)) = mouths.first() else {
+            return Self { diameters_mm: Vec::new(), depth_mm: piece.mesh.aabb().size().norm() };
+        };
+        let heights = piece.mesh.vertices().iter().map(|p| planes[cut].distance(p).abs());
+        let diameters_mm = mouths.into_iter().map(|(_, mm)| mm).collect();
+        Self { diameters_mm, depth_mm: heights.fold(0.0, f64::max) }
+    }
+
+    fn is_dimple(&self) -> bool {
+        is_dimple(self.depth_mm, self.widest_mm())
+    }
+
+    fn widest_mm(&self) -> f64 {
+        self.diameters_mm.first().copied().unwrap_or(0.0)
+    }
 }

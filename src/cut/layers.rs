@@ -3,11 +3,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    access::VoidAccess,
+    access::{VoidAccess, accesses},
     describe::described,
     error::CutError,
     plan::{CutPlan, cut_id, part_id},
-    planner::{Layout, accesses},
+    planner::Layout,
     pose::{apply, laid, sides_down},
     rejoin::rejoined,
     request::PlanRequest,
@@ -158,10 +158,11 @@ fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Opti
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
         return Ok(None);
     }
-    let voids = accesses(scene.hollowed, &planes)?;
+    let voids = accesses(scene.hollowed, &planes, scene.request)?;
     let least_mm = scene.request.min_opening_mm;
     let is_worse = |(now, before): (&VoidAccess, &VoidAccess)| {
-        now.opening_mm < least_mm && now.opening_mm < before.opening_mm
+        let is_narrower = now.opening_mm < least_mm && now.opening_mm < before.opening_mm;
+        is_narrower || (before.is_clean && !now.is_clean)
     };
     let is_open = !voids.iter().zip(&layout.voids).any(is_worse);
     Ok(is_open.then(|| Layout { planes, voids, pieces, bridges: layout.bridges.clone() }))

@@ -1,18 +1,17 @@
 //! The planner: the fewest planes that open every void, or the planes that were ordered.
 
-use rayon::prelude::*;
-
 use super::{
-    access::{VoidAccess, access},
+    access::{VoidAccess, accesses, told},
     describe::{described, named_as},
     error::CutError,
+    further::{Tried, furthered},
     layers::at_layers,
     order::CutOrder,
     plan::{Cut, CutPlan, bridges_on, cut_id},
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
-    score::Scene,
+    score::{Scene, burden},
     search::{Found, smallest_plans},
     split::{Piece, check_no_cavity, split},
 };
@@ -22,15 +21,18 @@ use crate::{
     units::counted,
 };
 
-/// How many of the best plans are cut for trial before the best is taken as it is: two planes may leave a pocket between them
-/// where they meet in a void. The first nearly always does; each costs a cut of every void.
-const TRIED_PLANS: usize = 12;
+/// How many of the best plans are cut for trial before further cuts are made: two planes may leave a pocket between them
+/// where they meet in a void, or a corner out of sight. The first nearly always does where nothing must be seen; each costs a
+/// cut of every void, a twentieth of a second, and a further cut costs a joint.
+const TRIED_PLANS: usize = 48;
+/// Terms of a score below this are not told.
+const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
-/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms (opening, room for
-/// pins, smallest part, distance from the contact point, seam), further cuts where a part would not fit
-/// the build volume, and pins for every joint.
+/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms with
+/// which every void can be cleaned by the printer's rule; further cuts where none of them does, or where a part would not
+/// fit the build volume; and pins for every joint. Voids that no cut lets be cleaned are told by [`VoidAccess::is_clean`].
 ///
 /// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how many. About a
 /// second for 200k triangles and ten voids.
@@ -55,7 +57,7 @@ pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> 
     let own = order.numbered();
     let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
     let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
-    let voids = accesses(hollowed, &planes)?;
+    let voids = accesses(hollowed, &planes, request)?;
     let plan = described(&scene, &Layout { planes, voids, pieces, bridges }, (&own.pins, Vec::new()))?;
     Ok(named_as(plan, &cuts))
 }
@@ -74,9 +76,9 @@ fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
 
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
 /// sights. Cuts, pins and joints stay.
-pub fn plan_of(hollowed: &Hollowed, plan: CutPlan) -> Result<CutPlan, CutError> {
+pub fn plan_of(hollowed: &Hollowed, plan: CutPlan, request: &PlanRequest) -> Result<CutPlan, CutError> {
     let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    Ok(CutPlan { voids: accesses(hollowed, &planes)?, ..plan })
+    Ok(CutPlan { voids: told(hollowed, &planes, request)?, ..plan })
 }
 
 /// Cuts, how they open the voids, and the pieces they leave.
@@ -131,18 +133,28 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
-    let mut narrow = None;
+    let mut best: Option<Tried> = None;
     for planes in found.plans.iter().take(TRIED_PLANS) {
-        let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let voids = accesses(scene.hollowed, &planes)?;
-        let needed_mm = |void: &VoidAccess| scene.request.needed_mm(void.void, scene.hollowed.voids.len());
-        if voids.iter().all(|void| void.opening_mm >= needed_mm(void)) {
-            return Layout::new(scene, planes, voids);
+        let tried = Tried::new(scene, planes)?;
+        let is_clean = tried.is_clean();
+        best = Some(best.map_or(tried.clone(), |best| best.or_cleaner(tried)));
+        if is_clean {
+            break;
         }
-        narrow = narrow.or(Some((planes, voids)));
     }
-    let (planes, voids) = narrow.unwrap_or_default();
+    let best = best.map_or_else(|| Tried::new(scene, &[]), Ok)?;
+    let Tried { planes, voids, .. } = furthered(scene, best, notes)?;
+    notes.extend(planes.iter().enumerate().map(|(i, plane)| score_note(scene, (i, plane))));
     Layout::new(scene, planes, voids)
+}
+
+/// The named terms of a cut's score.
+fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
+    let terms = burden(scene, plane).terms(scene);
+    let told = terms.iter().filter(|(_, value)| *value >= SHOWN_PENALTY);
+    let told: Vec<String> = told.map(|(name, value)| format!("{name} {value:.2}")).collect();
+    let sum: f64 = terms.iter().map(|(_, value)| value).sum();
+    format!("cut {}: score {sum:.2}, 0 at best ({})", cut_id(cut), told.join(", "))
 }
 
 fn proof_note(found: &Found) -> String {
@@ -169,14 +181,9 @@ fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>)
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         let middle = off_vertices(&scene.material, &middle);
         let planes: Vec<Plane> = layout.planes.iter().copied().chain([middle]).collect();
-        let voids = accesses(scene.hollowed, &planes)?;
+        let voids = accesses(scene.hollowed, &planes, scene.request)?;
         *layout = Layout::new(scene, planes, voids)?;
         notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
     }
     Ok(())
-}
-
-/// How the cuts open each void.
-pub(crate) fn accesses(hollowed: &Hollowed, planes: &[Plane]) -> Result<Vec<VoidAccess>, CutError> {
-    hollowed.voids.par_iter().enumerate().map(|(i, void)| access(i, void, planes)).collect()
 }

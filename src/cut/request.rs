@@ -3,13 +3,18 @@
 use serde::{Deserialize, Serialize};
 
 use super::seat::Seat;
-use crate::geom::{Point, Vector};
+use crate::{
+    geom::{Point, Vector},
+    printer::Cleaning,
+};
 
 /// What the printer, the material and the goal ask of cuts, pins and parts.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlanRequest {
     /// Diameter of the disc that must pass through the opening of every void, mm.
     pub min_opening_mm: f64,
+    /// When a void counts as clean, besides its opening.
+    pub cleaning: Cleaning,
     /// What fits into the printer: x, y and z, mm. Unset: anything fits.
     pub build_volume_mm: Option<[f64; 3]>,
     /// Least thickness of material around a socket and under a pin, mm.

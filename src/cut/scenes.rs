@@ -4,6 +4,7 @@ use super::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 use crate::{
     geom::{Point, Vector},
     mesh::{Hollowed, Solid, TriMesh},
+    printer::Cleaning,
 };
 
 /// A solid box.
@@ -55,6 +56,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
 pub(crate) fn request() -> PlanRequest {
     PlanRequest {
         min_opening_mm: 3.0,
+        cleaning: Cleaning::MELT_OUT,
         build_volume_mm: None,
         wall_mm: 1.0,
         pins: PinSettings {

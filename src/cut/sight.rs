@@ -1,67 +1,163 @@
-//! How much of a void's wall is in sight of its opening.
+//! How much of a void's wall is in sight of its openings.
 
 use rayon::prelude::*;
 
-use super::{section::Chart, split::Piece};
+use super::{
+    request::PlanRequest,
+    section::{Chart, Point2},
+    split::{Cap, Piece},
+};
 use crate::{
     geom::{Bvh, Plane, Point},
-    mesh::Solid,
+    mesh::{Solid, area_mm2, spread_points},
 };
 
-/// Triangles of a piece that are looked at, at most: more resolve shares below a percent, which no brush feels.
-const SAMPLES: usize = 1500;
+/// Points of a void's wall that are looked at: a share of 5 % is then known to half a per cent.
+const SAMPLES: f64 = 2000.0;
+/// Of a small piece at least so many points are looked at.
+const LEAST_SAMPLES: usize = 24;
+/// Places across a mouth, along each of two directions, that are looked from.
+const EYES_ACROSS: usize = 5;
+/// So many where little is hidden from those: what is seen only from between them is slivers, a few thousandths of a wall.
+const CLOSER_EYES_ACROSS: usize = 16;
+/// Where more than this share of a piece is hidden, no closer look will find it clean.
+const HIDDEN_RATIO: f64 = 0.15;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
 const LOOKED_RATIO: f64 = 0.999;
-/// A triangle whose corners lie this near to a cut is part of the mouth, mm; rounding leaves 1e-12.
-const MOUTH_MM: f64 = 1e-9;
 
-/// The area of a piece's wall and how much of it is seen, mm², of a sample of its triangles.
-#[derive(Debug, Clone, Copy, Default)]
+/// How a void is looked into.
+pub(crate) struct Look<'a> {
+    planes: &'a [Plane],
+    /// The radius of the least opening: nearer to a rim no tool enters.
+    tool_radius_mm: f64,
+    reach_mm: f64,
+    /// Pieces of which more than this share is hidden from few places are not looked at from more.
+    given_up_ratio: f64,
+}
+
+impl<'a> Look<'a> {
+    pub(crate) fn new(planes: &'a [Plane], request: &PlanRequest) -> Self {
+        let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
+        let tool_radius_mm = request.min_opening_mm / 2.0;
+        Self { planes, tool_radius_mm, reach_mm, given_up_ratio: HIDDEN_RATIO }
+    }
+
+    /// The same, but from many places however much is hidden: slower, and right for what is told of a plan.
+    pub(crate) fn thorough(self) -> Self {
+        Self { given_up_ratio: 1.0, ..self }
+    }
+
+    /// The places that a piece is looked into from: of every mouth that lets the tool in those where it finds room; the
+    /// middle of the widest mouth where none lets it in.
+    fn eyes(&self, piece: &Piece, count: usize) -> Vec<Point> {
+        let discs = piece.caps.iter().filter_map(|cap| Some((cap, cap.outline.largest_disc(0.0)?)));
+        let mut discs: Vec<_> = discs.collect();
+        discs.sort_by(|a, b| b.1.radius_mm.total_cmp(&a.1.radius_mm));
+        let middles = discs.iter().map(|(cap, disc)| self.lifted(cap, &disc.center));
+        let is_wide = |radius_mm: f64| radius_mm >= self.tool_radius_mm;
+        let wide = discs.iter().filter(|(_, disc)| is_wide(disc.radius_mm)).count();
+        let mut eyes: Vec<Point> = middles.take(wide.max(1)).collect();
+        for (cap, _) in &discs[..wide] {
+            let places = across(cap, count).into_iter().filter(|at| is_wide(cap.outline.signed_distance(at)));
+            eyes.extend(places.map(|at| self.lifted(cap, &at)));
+        }
+        eyes
+    }
+
+    fn lifted(&self, cap: &Cap, at: &Point2) -> Point {
+        let plane = &self.planes[cap.cut];
+        Chart::of_plane(plane).lift(plane, at)
+    }
+}
+
+/// Places spread over the box of a mouth, so many along each of two directions.
+fn across(cap: &Cap, count: usize) -> Vec<Point2> {
+    let Some((min, max)) = cap.outline.bounds() else { return Vec::new() };
+    let step = (max - min) / count as f64;
+    let at = |i: usize| {
+        let (column, row) = ((i % count) as f64, (i / count) as f64);
+        min + nalgebra::Vector2::new(step.x * (column + 0.5), step.y * (row + 0.5))
+    };
+    (0..count * count).map(at).collect()
+}
+
+/// The wall of a piece of a void, and what is not seen of it.
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Seen {
-    wall_mm2: f64,
-    seen_mm2: f64,
+    /// The area of the wall, mm².
+    pub(crate) wall_mm2: f64,
+    /// The area in sight and within reach, mm²; of a sample.
+    pub(crate) seen_mm2: f64,
+    /// The points of the sample that are not.
+    pub(crate) hidden: Vec<Point>,
+    /// The points of the sample that are.
+    pub(crate) visible: Vec<Point>,
+    /// The area that each of its points stands for, mm².
+    pub(crate) share_mm2: f64,
 }
 
 /// The walls of one void.
-pub(crate) struct Walls(Bvh);
+pub(crate) struct Walls {
+    bvh: Bvh,
+    /// The area that a point of the sample stands for, mm².
+    share_mm2: f64,
+}
 
 impl Walls {
     pub(crate) fn of(void: &Solid) -> Self {
-        Self(Bvh::new(void.mesh().iter_corners()))
+        let area: f64 = void.mesh().iter_corners().map(|corners| area_mm2(&corners)).sum();
+        Self { bvh: Bvh::new(void.mesh().iter_corners()), share_mm2: area / SAMPLES }
     }
 
-    /// What an eye in the middle of the widest mouth of the piece sees of it; nothing if the piece has no mouth.
-    pub(crate) fn seen(&self, piece: &Piece, planes: &[Plane]) -> Seen {
-        let stride = piece.mesh.triangles().len().div_ceil(SAMPLES).max(1);
-        let eye = eye(piece, planes);
-        let looks: Vec<Seen> = (0..piece.mesh.triangles().len())
-            .into_par_iter()
-            .step_by(stride)
-            .map(|index| self.look(&piece.mesh.corners(index), eye, planes))
-            .collect();
-        looks.into_iter().fold(Seen::default(), Seen::and)
-    }
-
-    fn look(&self, corners: &[Point; 3], eye: Option<Point>, planes: &[Plane]) -> Seen {
-        let [a, b, c] = corners;
-        let area_mm2 = (b - a).cross(&(c - a)).norm() / 2.0;
-        let is_mouth = planes.iter().any(|plane| corners.iter().all(|p| plane.distance(p).abs() < MOUTH_MM));
-        let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
-        let is_seen = |eye: Point| {
-            let end = eye + (middle - eye) * LOOKED_RATIO;
-            !self.0.is_crossed_by(&eye, &end)
-        };
-        match eye {
-            _ if is_mouth => Seen::default(),
-            Some(eye) if is_seen(eye) => Seen { wall_mm2: area_mm2, seen_mm2: area_mm2 },
-            _ => Seen { wall_mm2: area_mm2, seen_mm2: 0.0 },
+    /// What is in sight of the piece's own mouths and within reach; nothing if the piece has none.
+    pub(crate) fn seen(&self, piece: &Piece, look: &Look) -> Seen {
+        let wall = wall(piece);
+        let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
+        let count = (wall_mm2 / self.share_mm2).ceil() as usize;
+        let points = spread_points(&wall, count.max(LEAST_SAMPLES));
+        let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
+        let total = points.len().max(1) as f64;
+        let (mut hidden, mut visible) = self.parted(points, &look.eyes(piece, EYES_ACROSS), look.reach_mm);
+        if hidden.len() as f64 <= look.given_up_ratio * total {
+            let closer = look.eyes(piece, CLOSER_EYES_ACROSS);
+            let (still, more) = self.parted(hidden, &closer, look.reach_mm);
+            hidden = still;
+            visible.extend(more);
         }
+        let share_mm2 = wall_mm2 / total;
+        Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
+    }
+
+    /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
+    fn parted(&self, points: Vec<Point>, eyes: &[Point], reach_mm: f64) -> (Vec<Point>, Vec<Point>) {
+        let sees = |eye: &Point, at: &Point| {
+            let line = at - eye;
+            line.norm() <= reach_mm && !self.bvh.is_crossed_by(eye, &(eye + line * LOOKED_RATIO))
+        };
+        points.into_par_iter().partition(|at| !eyes.iter().any(|eye| sees(eye, at)))
     }
 }
 
+/// The triangles of a piece but for its mouths.
+fn wall(piece: &Piece) -> Vec<[Point; 3]> {
+    let mut is_wall = vec![true; piece.mesh.triangles().len()];
+    for &face in piece.caps.iter().flat_map(|cap| &cap.faces) {
+        is_wall[face] = false;
+    }
+    piece
+        .mesh
+        .iter_corners()
+        .zip(is_wall)
+        .filter_map(|(corners, is_wall)| is_wall.then_some(corners))
+        .collect()
+}
+
 impl Seen {
-    pub(crate) fn and(self, other: Self) -> Self {
-        Self { wall_mm2: self.wall_mm2 + other.wall_mm2, seen_mm2: self.seen_mm2 + other.seen_mm2 }
+    pub(crate) fn and(mut self, other: Self) -> Self {
+        self.hidden.extend(other.hidden);
+        self.visible.extend(other.visible);
+        let (wall_mm2, seen_mm2) = (self.wall_mm2 + other.wall_mm2, self.seen_mm2 + other.seen_mm2);
+        Self { wall_mm2, seen_mm2, share_mm2: self.share_mm2.max(other.share_mm2), ..self }
     }
 
     /// The share that is seen; 0 of nothing.
@@ -70,28 +166,33 @@ impl Seen {
     }
 }
 
-/// The middle of the widest mouth of a piece.
-fn eye(piece: &Piece, planes: &[Plane]) -> Option<Point> {
-    let discs = piece.caps.iter().filter_map(|cap| Some((cap.cut, cap.outline.largest_disc(0.0)?)));
-    let (cut, disc) = discs.max_by(|a, b| a.1.radius_mm.total_cmp(&b.1.radius_mm))?;
-    Some(Chart::of_plane(&planes[cut]).lift(&planes[cut], &disc.center))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::split::split;
+    use crate::cut::{scenes::request, split::split};
     use crate::geom::Vector;
     use crate::mesh::{Csg, primitives};
 
-    fn seen_ratio(void: &Solid, planes: &[Plane]) -> f64 {
+    fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
+        let look = Look { reach_mm, ..Look::new(planes, &request()) };
         let pieces = split(void.mesh(), planes).unwrap();
-        pieces.iter().map(|piece| walls.seen(piece, planes)).fold(Seen::default(), Seen::and).ratio()
+        pieces.iter().map(|piece| walls.seen(piece, &look)).fold(Seen::default(), Seen::and).ratio()
+    }
+
+    fn seen_ratio(void: &Solid, planes: &[Plane]) -> f64 {
+        seen_within(void, planes, f64::INFINITY)
     }
 
     fn level(z: f64) -> Plane {
         Plane { normal: Vector::z(), offset_mm: z }
+    }
+
+    /// A shaft of 4 × 4 mm from z = 2 down to −20 with an arm of 20 mm at its foot.
+    fn bend() -> Solid {
+        let shaft = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(2.0, 2.0, 2.0));
+        let arm = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(18.0, 2.0, -16.0));
+        Csg::of_mesh(&shaft).unwrap().union(&Csg::of_mesh(&arm).unwrap()).unwrap().to_solid().unwrap()
     }
 
     #[test]
@@ -102,14 +203,24 @@ mod tests {
 
     #[test]
     fn the_far_arm_of_a_bend_is_out_of_sight() {
-        // A shaft of 4 × 4 mm down to z = −20 with an arm of 20 mm at its foot: the arm's 16 mm beyond the
-        // shaft are seen only where the line from the middle of the mouth slips in under the corner.
-        let shaft = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(2.0, 2.0, 2.0));
-        let arm = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(18.0, 2.0, -16.0));
-        let bend = Csg::of_mesh(&shaft).unwrap().union(&Csg::of_mesh(&arm).unwrap()).unwrap();
-        let bend = bend.to_solid().unwrap();
-        let ratio = seen_ratio(&bend, &[level(0.0)]);
-        assert!(ratio > 0.3 && ratio < 0.8, "{ratio}");
-        assert_eq!(seen_ratio(&bend, &[]), 0.0);
+        // A line from the mouth slips in under the corner at most 16/4 times as steep as deep: it meets the arm's floor
+        // 1 mm beyond the shaft. Of 32·20 + 2·16 (shaft and its foot) + 16·16 (arm) mm² all of the arm but that is hidden.
+        let ratio = seen_ratio(&bend(), &[level(0.0)]);
+        assert!(ratio > 0.5 && ratio < 0.75, "{ratio}");
+        assert_eq!(seen_ratio(&bend(), &[]), 0.0);
+        let lengthwise = Plane { normal: Vector::y(), offset_mm: 0.01 };
+        assert_eq!(seen_ratio(&bend(), &[lengthwise]), 1.0);
+    }
+
+    #[test]
+    fn what_the_tool_does_not_reach_is_not_in_sight() {
+        // A straight shaft of 40 mm cut off near its top: of 4·6·38 + 36 mm² of wall below the cut a tool of 20 mm
+        // reaches half; the 2 mm above the cut are all seen.
+        let shaft = primitives::cuboid(&Point::new(-3.0, -3.0, -38.0), &Point::new(3.0, 3.0, 2.0));
+        let shaft = Solid::new(shaft).unwrap();
+        assert_eq!(seen_ratio(&shaft, &[level(0.0)]), 1.0);
+        let ratio = seen_within(&shaft, &[level(0.0)], 20.0);
+        let expected = (24.0 * 20.0 + 24.0 * 2.0 + 36.0) / (24.0 * 40.0 + 72.0);
+        assert!((ratio - expected).abs() < 0.02, "{ratio} {expected}");
     }
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::{
     Error, Setup, Solved,
     ballasting::seats,
+    cleaning::{Cleaned, CleaningRound, cleaned, planned_once},
     phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
@@ -12,11 +13,8 @@ use super::{
     tuning::is_tuned,
     written::WrittenPart,
 };
-use crate::cut::{
-    self, CutError, CutOrder, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_by,
-};
+use crate::cut::{self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts};
 use crate::hollow::{Solution, TopCourse};
-use crate::job::CutMode;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
 use crate::printer::{Grid, PrintPose, Quantity};
@@ -27,8 +25,6 @@ use crate::verify::{PartEvidence, assembly_moments};
 /// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right but for the rounding of
 /// their files, unless the plan had to be changed.
 const MAX_ASSEMBLIES: usize = 3;
-/// How often voids that no cut opens are refused and the rest planned again.
-const MAX_PLANS: usize = 4;
 
 /// The parts of a kit, tuned so that what is written meets the goal.
 #[derive(Debug, Clone)]
@@ -49,6 +45,10 @@ pub struct Assembly {
     pub parts: Vec<WrittenPart>,
     /// How many times it was solved again.
     pub rounds: usize,
+    /// The figure of the certificate before anything was kept solid so that voids can be cleaned.
+    pub value_before_cleaning: f64,
+    /// What was kept solid so that voids can be cleaned.
+    pub cleaning: Vec<CleaningRound>,
 }
 
 impl Assembly {
@@ -61,17 +61,18 @@ impl Assembly {
         watch: &mut Stopwatch,
     ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
+        let value_before_cleaning = solved.solution.certificate.value;
         let mut tuner = Tuner::new(setup, solved, progress)?;
         watch.lap("shell");
         let voids = tuner.first()?;
         watch.lap("voids");
         progress.report(phase::PARTS, 0.0);
         let request = plan_request(setup);
-        let (voids, plan) = planned(setup, &mut tuner, voids, &request)?;
+        let Cleaned { voids, plan, rounds } = cleaned(setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
         let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
         watch.lap("parts");
-        Ok(assembly)
+        Ok(Self { value_before_cleaning, cleaning: rounds, ..assembly })
     }
 
     /// The moments of the written parts put together, without hardware and ballast, model frame.
@@ -88,39 +89,6 @@ impl Assembly {
 fn written_moments(parts: &[WrittenPart]) -> Moments {
     let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
     assembly_moments(&evidence)
-}
-
-/// The cuts and pins for the voids. Those that no cut opens are refused, and the rest solved for again.
-fn planned(
-    setup: &Setup,
-    tuner: &mut Tuner,
-    mut voids: Voids,
-    request: &PlanRequest,
-) -> Result<(Voids, CutPlan), Error> {
-    for _ in 0..MAX_PLANS {
-        match planned_once(setup, &voids, request) {
-            Err(CutError::Unopenable { voids: refused, .. }) if are_plain(setup, &voids, &refused) => {
-                voids = tuner.without(&voids, &refused)?;
-            }
-            plan => return Ok((voids, plan?)),
-        }
-    }
-    let plan = planned_once(setup, &voids, request)?;
-    Ok((voids, plan))
-}
-
-/// Whether none of these voids is a pocket of ballast, which cannot be left solid.
-fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
-    let plain = voids.hollowed.voids.len() - setup.load.parts.len();
-    refused.iter().all(|&void| void < plain)
-}
-
-fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    match (&setup.job.plan, setup.job.cut) {
-        (Some(order), _) => plan_by(&voids.hollowed, request, order),
-        (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),
-        (None, CutMode::Never) => plan_by(&voids.hollowed, request, &CutOrder::default()),
-    }
 }
 
 /// The parts by a plan, of voids solved for again with what the pins and sockets change.
@@ -141,9 +109,10 @@ fn assembled(
         attempts += 1;
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
-            let plan = cut::plan_of(&voids.hollowed, plan)?;
+            let plan = cut::plan_of(&voids.hollowed, plan, request)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
             let (height_proof, course) = (tuner.height_proof(), tuner.course().clone());
+            let value_before_cleaning = solution.certificate.value;
             return Ok(Assembly {
                 solution,
                 height_proof,
@@ -153,6 +122,8 @@ fn assembled(
                 plan,
                 parts,
                 rounds,
+                value_before_cleaning,
+                cleaning: Vec::new(),
             });
         }
         more = written - moments_of_mesh(&voids.hollowed.to_mesh());
@@ -185,6 +156,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     PlanRequest {
         min_opening_mm: printer.min_opening_mm.value,
+        cleaning: printer.cleaning_rule(),
         build_volume_mm: printer.usable_volume_mm(),
         wall_mm: minimum_wall_mm(setup),
         pins: PinSettings {

@@ -1,6 +1,6 @@
 //! The sections at the cuts, for the drawings of the job sheet.
 
-use super::rows::void_id;
+use super::void_rows::void_id;
 use super::{Assembly, Error};
 use crate::cut::{Point2, Ring, Section, UncutFace, VoidAccess};
 use crate::geom::{Plane, Point};

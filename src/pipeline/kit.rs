@@ -3,6 +3,7 @@
 use super::faces::faces;
 use super::printer_rows;
 use super::rows::{self, Sheet};
+use super::void_rows;
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
 use crate::cut::{CutOrder, CutPlan};
 use crate::digest::sha256_hex;
@@ -102,12 +103,16 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
             build_volume_mm: setup.printer.usable_volume_mm(),
             print_scale_ratio: printer_rows::scaled(setup.printer.print_scale_ratio()),
             minimum_wall_mm: printer_rows::minimum_wall_mm(setup),
+            minimum_opening_mm: Some(setup.printer.min_opening_mm.value),
+            cleaning: Some(setup.printer.cleaning_rule()),
         },
         material: Density { density_g_cm3: rows::density_g_cm3(setup) },
         goal: rows::aim(setup),
         promise: None,
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
+        cuts: void_rows::promised_cuts(&assembly.plan),
+        voids: void_rows::promised_voids(setup, &assembly.plan),
         hardware: setup.hardware(),
         string_gap_mm: setup.string_gap_mm(),
         joints: rows::promised_joints(setup, &assembly.plan),

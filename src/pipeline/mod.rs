@@ -3,6 +3,7 @@
 mod advising;
 mod assembly;
 mod ballasting;
+mod cleaning;
 mod faces;
 mod fitting;
 mod grid_rows;
@@ -15,10 +16,12 @@ mod solving;
 mod stopwatch;
 mod tuner;
 mod tuning;
+mod void_rows;
 mod waterline;
 mod written;
 
 pub use assembly::Assembly;
+pub use cleaning::CleaningRound;
 pub use outcome::{Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};
 pub use solving::Solved;

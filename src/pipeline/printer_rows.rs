@@ -19,6 +19,7 @@ pub fn printer_row(setup: &Setup) -> PrinterRow {
         support: support_word(printer.support).to_owned(),
         minimum_wall_mm: minimum_wall_mm(setup),
         minimum_opening_mm: printer.min_opening_mm.value,
+        cleaning: printer.cleaning_rule(),
         sources: sources(setup),
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::fitting::{half_of, halves, shallow_axle};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
-use super::{Assembly, Setup, written::WrittenPart};
+use super::{Assembly, Setup, void_rows, written::WrittenPart};
 use crate::ballast::Placed;
 use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
@@ -14,7 +14,7 @@ use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
     BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow,
-    PassRow, SpeedRow, Tool, VoidRow, WallRow,
+    PassRow, SpeedRow, Tool, WallRow,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
@@ -60,7 +60,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         assembly: judgement.assembly.clone(),
         certificate: certificate(sheet),
         wall: WallRow { required_mm: setup.wall.wall_mm, measured_min_mm: judgement.wall_min_mm },
-        voids: void_rows(sheet),
+        voids: void_rows::void_rows(sheet),
         cuts: cut_rows(sheet),
         parts: part_rows(sheet),
         joints: joint_rows(sheet),
@@ -158,6 +158,8 @@ fn certificate(sheet: &Sheet) -> Certificate {
         bound: shown(certificate.bound),
         gap_ratio: certificate.gap_ratio,
         kept_solid_mm3: sheet.assembly.refused_mm3,
+        value_before_cleaning: Some(shown(sheet.assembly.value_before_cleaning)),
+        cleaning_rounds: void_rows::cleaning_rows(&sheet.assembly.cleaning, shown),
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
         course: course(&sheet.assembly.course, shown),
@@ -181,25 +183,6 @@ fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
     }
     let whole = sheet.assembly.written_moments() + setup.hardware_moments();
     figures(goal, &whole.in_frame(&goal.frame)).spin_it
-}
-
-fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
-    let plan = &sheet.assembly.plan;
-    let row = |access: &crate::cut::VoidAccess| VoidRow {
-        id: void_id(access.void),
-        volume_mm3: access.volume_mm3,
-        opened_by: access.opened_by.clone(),
-        opening_mm: access.opening_mm,
-        depth_mm: access.depth_mm,
-        sight_ratio: Some(access.sight_ratio),
-        clean: sheet.setup.printer.cleaning.clone(),
-    };
-    plan.voids.iter().map(row).collect()
-}
-
-/// The name of a void on the sheet.
-pub fn void_id(void: usize) -> String {
-    format!("V{}", void + 1)
 }
 
 fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
@@ -310,7 +293,7 @@ fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
         order,
         part: part.id.clone(),
         name: part.name.clone(),
-        void: void_id(pocket.void),
+        void: void_rows::void_id(pocket.void),
         opened_by: pocket.opened_by.clone(),
         clearance_mm: load.fit.clearance_mm,
         mass_spread_ratio: part.mass_spread_ratio,
@@ -326,7 +309,7 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
     let small =
-        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids too small to be cleaned stay solid"));
+        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids that could not be cleaned stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());

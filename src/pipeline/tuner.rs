@@ -50,6 +50,7 @@ impl Voids {
 }
 
 /// Makes voids, measures them and solves again.
+#[derive(Clone)]
 pub struct Tuner<'a> {
     setup: &'a Setup,
     /// The columns of what may be emptied, without what was refused, and the last solution on them.
@@ -88,8 +89,7 @@ impl<'a> Tuner<'a> {
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
         for _ in 0..MAX_ROUNDS {
-            let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
-            let written = (printed + inside(self.setup, &voids.hollowed)).in_frame(&goal.frame);
+            let written = self.written(&voids, more);
             if is_tuned(goal, &voids.solution.moments, &written) {
                 break;
             }
@@ -98,12 +98,18 @@ impl<'a> Tuner<'a> {
         Ok(voids)
     }
 
-    /// The voids without these of them, and solved for again.
-    pub fn without(&mut self, voids: &Voids, refused: &[usize]) -> Result<Voids, Error> {
-        let bodies: Vec<TriMesh> =
-            refused.iter().filter_map(|&i| voids.hollowed.voids.get(i)).map(|s| s.mesh().clone()).collect();
-        self.refuse(&bodies)?;
+    /// The moments (goal frame) of the uncut mesh and what is in it, and of `more` (model frame).
+    fn written(&self, voids: &Voids, more: Moments) -> Moments {
+        let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
+        (printed + inside(self.setup, &voids.hollowed)).in_frame(&self.setup.placement.goal.frame)
+    }
+
+    /// The voids with these bodies and what lies near them kept solid, and solved for again.
+    pub fn without(&mut self, voids: &Voids, refused: &[TriMesh]) -> Result<Voids, Error> {
+        self.refuse(refused)?;
         let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
+        let written = self.written(&less, Moments::default());
+        let less = self.again(&less, written)?;
         self.tuned(less, Moments::default())
     }
 

@@ -27,6 +27,7 @@
 //! ```
 
 mod calibrate;
+mod cleaning;
 mod complete;
 mod error;
 pub mod import;
@@ -45,6 +46,7 @@ mod sourced;
 mod wall;
 
 pub use calibrate::{CalibrateError, Measured, calibrated};
+pub use cleaning::{Cleaning, CleaningRule};
 pub use error::{Fault, Faults, Problem, ProfileError};
 pub use machine::{Grid, PrintPose, Printer, Support, Tolerance};
 pub use material::{Material, MaterialError};

@@ -14,6 +14,10 @@ const LARGEST_DETAIL_MM: f64 = 20.0;
 const LARGEST_GAP_MM: f64 = 5.0;
 /// The largest extra depth or tolerance, mm.
 const LARGEST_ERROR_MM: f64 = 10.0;
+/// How far a tool can reach, mm: from a pick to a lance; above it micrometres were given.
+const REACH_MM: RangeInclusive<f64> = 1.0..=2000.0;
+/// Leans from the level at which something prints without support, degrees; below it radians were given.
+const OVERHANG_DEG: RangeInclusive<f64> = 5.0..=89.0;
 /// Shares of a length that tolerances and shrinkages can be; above it per cent were given.
 const SHARES: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -43,6 +47,12 @@ pub enum Quantity {
     MinHoleMm,
     /// The narrowest opening through which a void can be cleaned.
     MinOpeningMm,
+    /// The narrowest of two or more openings through which powder escapes.
+    PairOpeningMm,
+    /// How far into an opening a tool or a jet reaches.
+    CleaningReachMm,
+    /// The least lean from the level at which a surface that looks down prints without support.
+    OverhangDeg,
     /// The thinnest pin that holds.
     PinMinDiameterMm,
     /// A pin's length over its diameter.
@@ -73,7 +83,7 @@ pub enum Quantity {
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 27] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -85,6 +95,9 @@ impl Quantity {
         Self::MinFeatureMm,
         Self::MinHoleMm,
         Self::MinOpeningMm,
+        Self::PairOpeningMm,
+        Self::CleaningReachMm,
+        Self::OverhangDeg,
         Self::PinMinDiameterMm,
         Self::PinLengthRatio,
         Self::ClearancePerSideMm,
@@ -114,6 +127,9 @@ impl Quantity {
             Self::MinFeatureMm => "min_feature_mm",
             Self::MinHoleMm => "min_hole_mm",
             Self::MinOpeningMm => "min_opening_mm",
+            Self::PairOpeningMm => "pair_opening_mm",
+            Self::CleaningReachMm => "cleaning_reach_mm",
+            Self::OverhangDeg => "overhang_deg",
             Self::PinMinDiameterMm => "pin_min_diameter_mm",
             Self::PinLengthRatio => "pin_length_ratio",
             Self::ClearancePerSideMm => "clearance_per_side_mm",
@@ -139,6 +155,9 @@ impl Quantity {
                 | Self::SupportedWallMm
                 | Self::HorizontalWallMm
                 | Self::MinHoleMm
+                | Self::PairOpeningMm
+                | Self::CleaningReachMm
+                | Self::OverhangDeg
                 | Self::ClearancePressPerSideMm
                 | Self::ClearanceLoosePerSideMm
                 | Self::ElephantFootMm
@@ -160,7 +179,9 @@ impl Quantity {
             | Self::HorizontalWallMm
             | Self::MinFeatureMm
             | Self::MinHoleMm => FINEST_MM..=LARGEST_DETAIL_MM,
-            Self::MinOpeningMm => FINEST_MM..=100.0,
+            Self::MinOpeningMm | Self::PairOpeningMm => FINEST_MM..=100.0,
+            Self::CleaningReachMm => REACH_MM,
+            Self::OverhangDeg => OVERHANG_DEG,
             Self::PinMinDiameterMm => FINEST_MM..=50.0,
             Self::PinLengthRatio => 0.1..=10.0,
             Self::ClearancePerSideMm
@@ -178,6 +199,11 @@ impl Quantity {
     /// Whether the number is a step of the machine's grid, which may be given as `dpi`.
     pub fn is_grid_step(self) -> bool {
         matches!(self, Self::PixelXMm | Self::PixelYMm | Self::LayerMm)
+    }
+
+    /// Whether the number is an angle, not a length.
+    pub fn is_angle(self) -> bool {
+        self.key().ends_with("_deg")
     }
 
     /// Whether the number is a share, not a length.

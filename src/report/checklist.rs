@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::cleaning::CleaningRow;
 use super::course::Course;
 use super::grid::GridRow;
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
-use crate::verify::{Aim, Check, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
+use crate::verify::{Aim, Check, Cleaning, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
@@ -138,6 +139,8 @@ pub struct PrinterRow {
     pub minimum_wall_mm: f64,
     /// The least opening through which a void can be cleaned, mm.
     pub minimum_opening_mm: f64,
+    /// When a void counts as clean.
+    pub cleaning: Cleaning,
     /// What each of these numbers rests on, in words: sources, and what is only assumed.
     pub sources: Vec<String>,
 }
@@ -192,6 +195,12 @@ pub struct Certificate {
     /// The volume of voids that could not have been cleaned: those places, and what lies a minimum opening around them,
     /// were taken out of what may be emptied, mm³.
     pub kept_solid_mm3: f64,
+    /// The optimum before anything was kept solid for that; none in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub value_before_cleaning: Option<f64>,
+    /// The rounds in which voids were made smaller because no plan let them be cleaned.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cleaning_rounds: Vec<CleaningRow>,
     /// |value − bound| / |bound|.
     pub gap_ratio: f64,
     /// Tops: what is proved for every height of the centre of mass; none where that was not proved.

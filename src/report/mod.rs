@@ -4,6 +4,7 @@ mod album;
 mod apart;
 mod base64;
 mod checklist;
+mod cleaning;
 mod course;
 mod cover;
 mod cut_drawing;
@@ -40,6 +41,7 @@ pub use checklist::{
     Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
     Tool, Verdict, WallRow,
 };
+pub use cleaning::{CleaningRow, KeptRow, is_clean};
 pub use course::{Course, PassRow, SpeedRow};
 pub use cut_drawing::{CutFace, Mouth};
 pub use drawings::drawings;

@@ -13,12 +13,19 @@ pub struct VoidRow {
     pub volume_mm3: f64,
     /// The ids of the cuts that open it.
     pub opened_by: Vec<String>,
-    /// The diameter of the largest disc that passes its widest opening, mm.
+    /// The diameter of the largest disc that passes the opening of each of its pieces, mm.
     pub opening_mm: f64,
+    /// The least opening it needs, mm.
+    pub least_opening_mm: f64,
     /// How far its deepest point lies from the opening, mm.
     pub depth_mm: f64,
-    /// The share of its surface in sight of an opening; none where it was not measured.
+    /// The share of its wall in sight of the openings of its own piece and within the tool's reach; none where it was not
+    /// measured.
     pub sight_ratio: Option<f64>,
+    /// The printer's cleaning rule, in words.
+    pub method: String,
+    /// Whether it is open and clean by that rule, as the judge found in the written parts.
+    pub is_clean: bool,
     /// How to clean it, in a sentence.
     pub clean: String,
 }

@@ -5,11 +5,36 @@ use crate::geom::Plane;
 use crate::geom::{Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
-use crate::verify::{Evidence, FigureName, Judgement, PartFacts, Promise, PromisedFigure, Shells, judge};
+use crate::verify::{
+    Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure, PromisedVoid,
+    Shells, judge,
+};
+
+/// The rule of a water jet.
+const CLEANING: Cleaning = Cleaning {
+    rule: crate::verify::CleaningRule::InSight,
+    sight_ratio: 0.95,
+    reach_mm: Some(150.0),
+    pair_opening_mm: None,
+    overhang_deg: None,
+};
+
+/// What the sheet says of the void's wall: less than is found, within what two samples may differ.
+const SIGHT_RATIO: f64 = 0.96;
+
+/// The promise of a kit whose void is cut at z = 16 and to be cleaned.
+fn order_cleaning(promise: &mut Promise) {
+    promise.printer.minimum_opening_mm = Some(4.0);
+    promise.printer.cleaning = Some(CLEANING);
+    promise.cuts = vec![PromisedCut { point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }];
+    let sight_ratio = Some(SIGHT_RATIO);
+    promise.voids = vec![PromisedVoid { id: "V1".into(), sight_ratio, least_opening_mm: Some(4.0) }];
+}
 
 /// The checklist of a sound kit, and what it was judged on.
 pub fn sample() -> (Checklist, Evidence) {
-    let evidence = sound();
+    let mut evidence = sound();
+    order_cleaning(&mut evidence.promise);
     let found = judge(&evidence);
     (checklist(&evidence, &found), evidence)
 }
@@ -68,6 +93,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             bound: speed,
             gap_ratio: 1e-9,
             kept_solid_mm3: 0.0,
+            value_before_cleaning: Some(speed),
+            cleaning_rounds: vec![],
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
             course: Some(course(speed)),
@@ -114,6 +141,7 @@ fn printer() -> PrinterRow {
         support: "water-jet".into(),
         minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
+        cleaning: CLEANING,
         sources: vec!["layer: read: user guide".into()],
     }
 }
@@ -149,8 +177,11 @@ fn the_void() -> VoidRow {
         volume_mm3: 54.0 * 34.0 * 6.0,
         opened_by: vec!["C1".into()],
         opening_mm: 34.0,
+        least_opening_mm: 4.0,
         depth_mm: 3.0,
-        sight_ratio: Some(0.9),
+        sight_ratio: Some(SIGHT_RATIO),
+        method: CLEANING.rule.words().into(),
+        is_clean: true,
         clean: "Flush with the water jet.".into(),
     }
 }

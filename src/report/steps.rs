@@ -2,18 +2,16 @@
 
 use maud::{Markup, html};
 
+use super::cleaning::clean_one;
 use super::figure::{Picture, Role, figures};
 use super::hardware::fitting;
 use super::page::{blank, mass_window};
 use super::trials::{test, weigh};
 use super::words::{coordinates, quantity};
-use super::{BallastRow, Checklist, JointRow, VoidRow};
+use super::{BallastRow, Checklist, JointRow};
 use crate::goal::GoalKind;
 use crate::units::{MM3_PER_CM3, counted};
 use crate::verify::FillOrder;
-
-/// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
-const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
 /// The names of the steps in their order: print, clean, dry fit, fill the voids or lay in the ballast where that is asked for,
 /// glue, put in what is not printed, weigh, test.
@@ -139,31 +137,6 @@ fn clean(sheet: &Checklist) -> Markup {
             @for void in &sheet.voids { (clean_one(sheet, void)) }
         }
     }
-}
-
-fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
-    let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
-    html! {
-        li {
-            strong { (void.id) } ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
-            @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
-            @else {
-                "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across, "
-                (quantity(void.depth_mm, "mm")) " deep"
-            }
-            ". " (void.clean)
-            @if let Some(hidden) = hidden_ratio(sheet, void) {
-                " " (format!("{:.0} %", hidden * 100.0)) " of its wall is out of sight of the opening: reach it with a bent tool."
-            }
-            " Left full of support, it adds about " (quantity(full_g, "g")) "."
-        }
-    }
-}
-
-/// The share of a void's wall that is out of sight, if there is one and support must be seen to be removed.
-fn hidden_ratio(sheet: &Checklist, void: &VoidRow) -> Option<f64> {
-    let needs_sight = matches!(sheet.printer.support.as_str(), "breakaway" | "water-jet");
-    void.sight_ratio.filter(|sight| needs_sight && *sight < ALL_IN_SIGHT_RATIO).map(|sight| 1.0 - sight)
 }
 
 fn dry_fit(sheet: &Checklist) -> Markup {

@@ -131,7 +131,7 @@ fn the_page_says_what_to_do_in_order() {
         "no room for pins",
         "all promises kept",
         "Flush with the water",
-        "10 % of its wall is out of sight",
+        "96 % of the wall within 150\u{a0}mm (reach the other 4 % with a bent tool): ✓ open ✓ clean",
         "glue on a tip of that length",
         "hang it by a thread",
         "turns a second",

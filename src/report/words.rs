@@ -181,7 +181,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
 
 /// What the proof takes as solid besides the wall.
 fn kept_solid(proof: &Certificate) -> &'static str {
-    if proof.kept_solid_mm3 > 0.0 { ", solid where voids would be too small to be cleaned," } else { "" }
+    if proof.kept_solid_mm3 > 0.0 { ", solid where voids could not be cleaned," } else { "" }
 }
 
 /// What is known of a top's centre of mass at other heights.
@@ -226,7 +226,7 @@ mod tests {
     fn the_proof_says_that_it_holds_with_solid_places_where_there_are_any() {
         let (mut sheet, _) = crate::report::sample::sample();
         let is_said =
-            |sheet: &Checklist| certificate(sheet)[0].contains("solid where voids would be too small");
+            |sheet: &Checklist| certificate(sheet)[0].contains("solid where voids could not be cleaned");
         assert!(!is_said(&sheet));
         sheet.certificate.kept_solid_mm3 = 12.0;
         assert!(is_said(&sheet));

@@ -2,7 +2,7 @@
 
 use super::{
     Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, RotorOrder,
-    WaterOrder, ballast,
+    WaterOrder, ballast, cleaning::cleaning_checks,
 };
 use crate::goal::GoalKind;
 
@@ -56,6 +56,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(surface_checks(found));
     checks.extend(plate_checks(&found.parts));
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
+    checks.extend(cleaning_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
     checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));

@@ -5,9 +5,10 @@ use rayon::prelude::*;
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
     Check, Figures, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support,
-    SurfaceFacts, assembly_moments,
+    SurfaceFacts, VoidFacts, assembly_moments,
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
+    cleaning::voids,
     hardware::{fit, mass_moments},
     rotor::ends_mm,
     smallest_wall_mm,
@@ -50,6 +51,8 @@ pub struct Judgement {
     pub pegs: Vec<PegFacts>,
     /// How many of a sample of places just under the parts' surfaces lie in another part too.
     pub overlaps: usize,
+    /// How every void lies open in the parts; none where no cleaning was ordered.
+    pub voids: Vec<VoidFacts>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -86,6 +89,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
+        voids: voids(promise, &shells.inward, &felt),
         checks: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);

@@ -3,6 +3,9 @@
 mod ballast;
 mod check;
 mod checks;
+mod cleaning;
+#[cfg(test)]
+mod cleaning_tests;
 mod figures;
 mod hardware;
 mod judge;
@@ -12,6 +15,7 @@ mod kit;
 #[cfg(test)]
 mod kit_tests;
 mod measure;
+mod mouths;
 mod pegs;
 #[cfg(test)]
 mod pegs_tests;
@@ -25,6 +29,7 @@ pub(crate) mod test_meshes;
 mod wall;
 mod water;
 
+pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
@@ -33,6 +38,7 @@ pub use checks::{
     SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
     WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
 };
+pub use cleaning::{PromisedCut, PromisedVoid, SIGHT_TOLERANCE_RATIO, VoidFacts};
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, Hardware, mass_moments};
 pub use judge::{Evidence, Judgement, judge, setting};

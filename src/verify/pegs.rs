@@ -40,13 +40,19 @@ pub struct PegFacts {
 
 /// A part's surface, ready for rays.
 pub(super) struct Felt<'a> {
-    part: &'a PartEvidence,
+    pub(super) part: &'a PartEvidence,
     surface: Bvh,
 }
 
 impl<'a> Felt<'a> {
     pub(super) fn of(part: &'a PartEvidence) -> Self {
         Self { part, surface: Bvh::new(part.mesh.iter_corners()) }
+    }
+
+    /// Whether nothing of the part is between two points of the model.
+    pub(super) fn is_clear(&self, from: &Point, to: &Point) -> bool {
+        let [from, to] = [from, to].map(|p| self.part.pose.to_print(p));
+        !self.surface.is_crossed_by(&from, &to)
     }
 
     /// Whether a point of the model lies in the part's material.

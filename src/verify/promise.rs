@@ -4,7 +4,10 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{BallastOrder, Figures, FillOrder, Hardware, Pose, RotorOrder, WaterOrder};
+use super::{
+    BallastOrder, Cleaning, Figures, FillOrder, Hardware, Pose, PromisedCut, PromisedVoid, RotorOrder,
+    WaterOrder,
+};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -31,6 +34,12 @@ pub struct Promise {
     pub wall: WallOrder,
     /// The parts, in the order of the checklist.
     pub parts: Vec<PromisedPart>,
+    /// The cuts between them.
+    #[serde(default)]
+    pub cuts: Vec<PromisedCut>,
+    /// The voids, in the order of the cavities of the uncut result.
+    #[serde(default)]
+    pub voids: Vec<PromisedVoid>,
     /// What is put into them that is not printed.
     #[serde(default)]
     pub hardware: Vec<Hardware>,
@@ -64,6 +73,12 @@ pub struct PrinterLimits {
     pub print_scale_ratio: Option<[f64; 3]>,
     /// The least wall the process prints, mm: what must stay around sockets.
     pub minimum_wall_mm: f64,
+    /// The least opening through which a void can be cleaned, mm.
+    #[serde(default)]
+    pub minimum_opening_mm: Option<f64>,
+    /// When a void counts as clean; none where that is not judged.
+    #[serde(default)]
+    pub cleaning: Option<Cleaning>,
 }
 
 /// The density the masses rest on.

@@ -39,8 +39,8 @@ fn join(meshes: &[TriMesh]) -> TriMesh {
     meshes.iter().fold(TriMesh::default(), TriMesh::joined)
 }
 
-/// The pieces of a mesh, each with its own vertices.
-fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
+/// The pieces of a mesh that hang together through shared edges, each with its own vertices.
+pub(super) fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
     let mut groups: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     for (&triangle, root) in mesh.triangles().iter().zip(roots(mesh)) {
         groups.entry(root).or_default().push(triangle);

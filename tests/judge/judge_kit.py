@@ -5,7 +5,7 @@
 
 Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
 (shape, mass and place of each part), the rods of hardware, the goal, the density, the wall, the build volume, the volumes of
-pins and sockets, and what was promised. Puts the parts together,
+pins and sockets, the cuts and the cleaning rule, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
 """
 
@@ -42,6 +42,9 @@ LONG = 4
 PAIRS_AT_ONCE = 4_000_000
 # More pairs than this are not looked at: minutes and gigabytes, and a surface made of slivers.
 PAIRS_LIMIT = 40_000_000
+# How many points of a void's wall are looked at, from so many places across each mouth in two directions.
+SIGHT_SAMPLES = 400
+SIGHT_ACROSS = 5
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
@@ -512,6 +515,125 @@ def judge_pins(table, sheet, parts):
             table.at_least(f"{pin['id']} gap, mm", gaps[pin["joint"]] - GAP_TOLERANCE_MM, (bores - radii).min())
 
 
+def rings_of(mesh, heights, flat):
+    """The closed lines in which a plane meets a welded mesh, a corner on the plane counting as above it."""
+    edge_after, above = {}, heights >= 0
+    for triangle in mesh.faces[above[mesh.faces].any(axis=1) & ~above[mesh.faces].all(axis=1)]:
+        edges = [(triangle[i], triangle[(i + 1) % 3]) for i in range(3)]
+        down = next(e for e in edges if above[e[0]] and not above[e[1]])
+        up = next(e for e in edges if not above[e[0]] and above[e[1]])
+        edge_after[tuple(sorted(down))] = tuple(sorted(up))
+    rings = []
+    while edge_after:
+        start, edge = edge_after.popitem()
+        ring = [start]
+        while edge != start and edge in edge_after:
+            ring.append(edge)
+            edge = edge_after.pop(edge)
+        at = lambda p, q: flat[p] + (flat[q] - flat[p]) * (heights[p] / (heights[p] - heights[q]))
+        rings.append([at(p, q) for p, q in ring])
+    return [ring for ring in rings if len(ring) > 2]
+
+
+def mouths_of(cavity, plane, tool):
+    """For each mouth that a cut leaves in a void: its widest disc, and the places where a disc of the tool's diameter finds
+    room, the widest first."""
+    from shapely import MultiPolygon, Point, Polygon
+    from shapely.ops import polylabel
+
+    origin, axes = frame({"axis": plane["normal"], "origin_mm": plane["point_mm"]})
+    local = (cavity.vertices - origin) @ axes.T
+    region = MultiPolygon()
+    for ring in rings_of(cavity, local[:, 2], local[:, :2]):
+        region = region.symmetric_difference(Polygon(ring).buffer(0))
+    mouths = []
+    for mouth in getattr(region, "geoms", [region]):
+        if mouth.geom_type != "Polygon" or mouth.area < 1e-4:
+            continue
+        middle = polylabel(mouth, 0.01)
+        room = mouth.boundary.distance(middle)
+        low_x, low_y, high_x, high_y = mouth.bounds
+        roomy = mouth.buffer(-tool / 2)
+        steps = (np.arange(SIGHT_ACROSS) + 0.5) / SIGHT_ACROSS
+        grid = [Point(low_x + (high_x - low_x) * i, low_y + (high_y - low_y) * j) for i in steps for j in steps]
+        at = [middle] + [p for p in grid if room >= tool / 2 and roomy.contains(p)]
+        mouths.append((2 * room, origin + np.array([[p.x, p.y] for p in at]) @ axes[:2]))
+    return mouths
+
+
+def in_the_way(surface, start, end):
+    """Whether any triangle of a surface (its corners, and its triangles' boxes) stands between two points."""
+    corners, low, high = surface
+    near = (low <= np.maximum(start, end)).all(axis=1) & (high >= np.minimum(start, end)).all(axis=1)
+    length = np.linalg.norm(end - start)
+    return bool(near.any() and first_hits(corners[near], [start], [(end - start) / length])[0] < length)
+
+
+def sight(cavity, cuts, parts, printer, rotations):
+    """The shares of a void's wall that are in sight of the mouths in the cuts about them and within reach, and in sight or
+    printed without support; of a random sample, with the parts' own triangles in the way."""
+    rule, tool = printer["cleaning"], printer["minimum_opening_mm"]
+    planes = [(np.array(c["point_mm"], float), np.array(c["normal"], float) / np.linalg.norm(c["normal"])) for c in cuts]
+    mouths = [mouths_of(cavity, cut, tool) for cut in cuts]
+    points, faces = trimesh.sample.sample_surface(cavity, SIGHT_SAMPLES, seed=7)
+    box = cavity.bounds + np.array([[-1.0], [1.0]])
+    near = [c[(c.min(axis=1) <= box[1]).all(axis=1) & (c.max(axis=1) >= box[0]).all(axis=1)] for c in parts]
+    all_near, owners = np.concatenate(near), np.concatenate([np.full(len(c), i) for i, c in enumerate(near)])
+    surfaces = [(c, c.min(axis=1), c.max(axis=1)) for c in near]
+    owner_of = owners[trimesh.proximity.closest_point(welded_soup(all_near), points)[2]]
+    heights = np.array([[(p - o) @ n for o, n in planes] for p in points]).reshape(len(points), len(planes))
+    seen = needless = 0
+    for index, point in enumerate(points):
+        eyes = []
+        for k, cut_mouths in enumerate(mouths):
+            for width, at in cut_mouths:
+                # On the point's side of every other cut: else it would look through a piece that is not its own.
+                other = [j for j in range(len(planes)) if j != k]
+                beside = np.array([[(e - planes[j][0]) @ planes[j][1] for j in other] for e in at]).reshape(len(at), len(other))
+                own = (beside * heights[index, other] >= -1e-6).all(axis=1) if other else np.ones(len(at), bool)
+                eyes += [e for e in at[own]]
+        eyes.sort(key=lambda e: np.linalg.norm(e - point))
+        surface = surfaces[owner_of[index]]
+        reach = rule.get("reach_mm", math.inf)
+        visible = any(
+            np.linalg.norm(point - e) <= reach and not in_the_way(surface, e, e + (point - e) * 0.998) for e in eyes)
+        # The cavity's own normals look into it, as the material's do.
+        upright = rotations[owner_of[index]] @ cavity.face_normals[faces[index]]
+        lean = rule.get("overhang_deg")
+        free = lean is not None and -upright[2] <= math.cos(math.radians(lean))
+        seen, needless = seen + visible, needless + (free and not visible)
+    return seen / len(points), (seen + needless) / len(points)
+
+
+def welded_soup(corners):
+    return trimesh.Trimesh(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3), process=False)
+
+
+def judge_voids(table, sheet, voids, parts):
+    """Every void is open as the sheet says, and as much of it in sight as the sheet says and the rule asks."""
+    printer, rule = sheet["printer"], sheet["printer"].get("cleaning")
+    if rule is None:
+        return
+    rotations = [np.array(part["print_from_model"], float)[:3, :3] for part in sheet["parts"]]
+    table.line("voids on the sheet", len(sheet["voids"]), len(voids), len(sheet["voids"]) == len(voids))
+    for row, corners in zip(sheet["voids"], voids):
+        cavity = welded(corners)
+        widest = max([width for cut in sheet["cuts"] for width, _ in mouths_of(cavity, cut, 0.0)], default=0.0)
+        # The stated opening is that of the piece where it is least: no mouth need be wider than the widest.
+        table.at_most(f"{row['id']} stated opening, widest found", widest * 1.01, row["opening_mm"])
+        table.at_least(f"{row['id']} widest opening, mm", min(row["least_opening_mm"], rule.get("pair_opening_mm", math.inf)) * 0.995, widest)
+        if rule["sight_ratio"] == 0:
+            continue
+        in_sight, clean = sight(cavity, sheet["cuts"], parts, printer, rotations)
+        # Four standard deviations of this sample and that of the program, and a hundredth for eyes at other places.
+        spread = lambda p: 0.01 + 4 * math.sqrt(max(p * (1 - p), 0.002) * (1 / SIGHT_SAMPLES + 1 / 2000))
+        off = abs(in_sight - row["sight_ratio"])
+        table.line(f"{row['id']} in sight, as stated", row["sight_ratio"], in_sight, off <= spread(in_sight))
+        asked = rule["sight_ratio"]
+        counted = clean if rule["rule"] == "in-sight-or-self-supporting" else in_sight
+        table.at_least(f"{row['id']} clean", asked - spread(asked), counted)
+
+
 def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
     path, room = kit / part["file"], printer.get("build_volume_mm")
@@ -564,6 +686,7 @@ def judge(kit):
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
+    judge_voids(table, sheet, voids, parts)
     if voids:
         wall = smallest_wall(outer, voids)
         table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)

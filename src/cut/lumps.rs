@@ -1,0 +1,190 @@
+//! What of a void is better kept solid, because a plan does not let it be cleaned.
+
+use rayon::prelude::*;
+
+use super::{
+    access::{Mouths, Opened, asked_ratio},
+    error::CutError,
+    plan::{Cut, CutPlan},
+    request::PlanRequest,
+    sight::Seen,
+    split::{Piece, split},
+};
+use crate::{
+    geom::{Plane, Point, Vector},
+    mesh::{Csg, Hollowed, TriMesh, bodies, union_find::UnionFind},
+};
+
+/// Hidden points nearer to each other than this many times their spacing are one place.
+const LINK_RATIO: f64 = 3.0;
+/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all around, so it may
+/// begin a little behind the first.
+const BEGIN_SHARE: f64 = 0.25;
+/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved again.
+const LEFT_HIDDEN_RATIO: f64 = 0.6;
+/// What is to be kept solid beyond this share of a piece is all of it.
+const WHOLE_RATIO: f64 = 0.5;
+
+/// A void that the plan does not let be cleaned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unclean {
+    /// The void's index in the hollowed body.
+    pub void: usize,
+    /// Why, in words with numbers.
+    pub why: String,
+    /// What of it is to be kept solid, as bodies.
+    pub lumps: Vec<TriMesh>,
+}
+
+/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are not asked. With `whole` all
+/// of such a void must go.
+pub fn unclean(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+    whole: bool,
+) -> Result<Vec<Unclean>, CutError> {
+    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<Plane>, _>>()?;
+    let count = hollowed.voids.len();
+    let is_plain = |void: usize| request.seat_of(void, count).is_none();
+    let dirty: Vec<_> = plan.voids.iter().filter(|void| !void.is_clean && is_plain(void.void)).collect();
+    let of = |access: &&super::access::VoidAccess| {
+        let opened = Opened::new(hollowed, access.void, &planes, request);
+        let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
+        let lumps = if whole { vec![opened.solid.mesh().clone()] } else { lumps(&opened)? };
+        let why = if access.sight_ratio < asked {
+            let (seen, asked) = (100.0 * access.sight_ratio, 100.0 * request.cleaning.sight_ratio);
+            format!("{seen:.1} % of its wall in sight, asked are {asked:.0} %")
+        } else {
+            format!("it opens by {:.2} mm, asked are {needed_mm:.2} mm", access.opening_mm)
+        };
+        Ok(Unclean { void, why, lumps })
+    };
+    dirty.par_iter().map(of).collect()
+}
+
+/// The pieces that let nothing out, and of the others the ends that are hidden, the largest first, until enough is seen.
+fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
+    let pieces = split(opened.solid.mesh(), opened.planes)?;
+    let seen = opened.seen_each(&pieces);
+    let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
+    let (mut lumps, mut ends) = (Vec::new(), Vec::new());
+    for (piece, seen) in pieces.iter().zip(&seen) {
+        if opened.lets_out(&Mouths::of(piece, opened.planes)) {
+            ends.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
+        } else {
+            lumps.push(piece.mesh.clone());
+        }
+    }
+    ends.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
+    let mut hidden_mm2: f64 = ends.iter().map(|(place, ..)| place.area_mm2).sum();
+    let left_mm2 = LEFT_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
+    for (place, piece, seen) in ends {
+        if hidden_mm2 <= left_mm2 {
+            break;
+        }
+        hidden_mm2 -= place.area_mm2;
+        lumps.extend(end(piece, seen, &place)?);
+    }
+    Ok(lumps)
+}
+
+/// A place of a piece's wall that is hidden.
+struct Place {
+    points: Vec<Point>,
+    area_mm2: f64,
+}
+
+/// The places of a wall that are hidden: points of the sample near each other.
+fn places(seen: &Seen) -> Vec<Place> {
+    let hidden = &seen.hidden;
+    let link_mm = LINK_RATIO * seen.share_mm2.sqrt();
+    let mut sets = UnionFind::new(hidden.len());
+    for i in 0..hidden.len() {
+        for j in 0..i {
+            if (hidden[i] - hidden[j]).norm() <= link_mm {
+                sets.merge(i as u32, j as u32);
+            }
+        }
+    }
+    let (labels, count) = sets.labels();
+    let mut places: Vec<Place> = (0..count).map(|_| Place { points: Vec::new(), area_mm2: 0.0 }).collect();
+    for (point, label) in hidden.iter().zip(labels) {
+        places[label as usize].points.push(*point);
+        places[label as usize].area_mm2 += seen.share_mm2;
+    }
+    places
+}
+
+/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in sight; all of it where that
+/// is most of it.
+fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutError> {
+    let middle = |points: &[Point]| {
+        points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / points.len().max(1) as f64
+    };
+    let whole = || vec![piece.mesh.clone()];
+    let away = middle(&place.points) - middle(&seen.visible);
+    let Some(normal) = away.try_normalize(f64::EPSILON) else { return Ok(whole()) };
+    let mut heights: Vec<f64> = place.points.iter().map(|p| normal.dot(&p.coords)).collect();
+    heights.sort_by(f64::total_cmp);
+    let offset_mm = heights[(BEGIN_SHARE * heights.len() as f64) as usize];
+    let (beyond, _) = Csg::of_mesh(&piece.mesh)?.split_by_plane(&Plane { normal, offset_mm })?;
+    let holds = |body: &TriMesh| {
+        let room = body.aabb().inflated(seen.share_mm2.sqrt());
+        place.points.iter().any(|p| room.distance_squared(p) == 0.0)
+    };
+    let ends: Vec<TriMesh> = bodies(&beyond.to_mesh()?).into_iter().filter(holds).collect();
+    let volume_mm3: f64 = ends.iter().map(TriMesh::signed_volume_mm3).sum();
+    Ok(if volume_mm3 > WHOLE_RATIO * piece.volume_mm3 { whole() } else { ends })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::{CutOrder, plan_by, scenes::request};
+    use crate::mesh::{Solid, primitives};
+    use crate::printer::{Cleaning, CleaningRule};
+
+    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked of it.
+    fn bent() -> (Hollowed, PlanRequest, CutOrder) {
+        let cuboid = |low: [f64; 3], high: [f64; 3]| primitives::cuboid(&low.into(), &high.into());
+        let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
+        let arm = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [40.0, 6.0, -22.0])).unwrap();
+        let outer = Solid::new(cuboid([-15.0, -15.0, -40.0], [50.0, 15.0, 20.0])).unwrap();
+        let hollowed = Hollowed { outer, voids: vec![shaft.union(&arm).unwrap().to_solid().unwrap()] };
+        let cleaning = Cleaning { rule: CleaningRule::InSight, sight_ratio: 0.95, ..Cleaning::MELT_OUT };
+        let cut = Cut { id: "C1".into(), point_mm: [0.0, 0.0, 5.0], normal: [0.0, 0.0, 1.0] };
+        let order = CutOrder { cuts: vec![cut], ..CutOrder::default() };
+        (hollowed, PlanRequest { cleaning, ..request() }, order)
+    }
+
+    #[test]
+    fn the_far_end_of_an_arm_is_what_must_go() {
+        let (hollowed, request, order) = bent();
+        let plan = plan_by(&hollowed, &request, &order).unwrap();
+        let found = unclean(&hollowed, &plan, &request, false).unwrap();
+        assert_eq!((found.len(), found[0].lumps.len()), (1, 1), "{:?}", plan.voids);
+        let lump = found[0].lumps[0].aabb();
+        assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
+        assert!(found[0].why.contains("in sight"));
+        let all = unclean(&hollowed, &plan, &request, true).unwrap();
+        assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
+    }
+
+    #[test]
+    fn where_any_opening_does_nothing_must_go() {
+        let (hollowed, request, order) = bent();
+        let request = PlanRequest { cleaning: Cleaning::MELT_OUT, ..request };
+        let plan = plan_by(&hollowed, &request, &order).unwrap();
+        assert!(plan.voids[0].is_clean);
+        assert_eq!(unclean(&hollowed, &plan, &request, false).unwrap(), vec![]);
+    }
+
+    #[test]
+    fn the_planner_cuts_along_the_bend_so_that_all_is_seen() {
+        let (hollowed, request, _) = bent();
+        let plan = crate::cut::plan(&hollowed, &request).unwrap();
+        assert!(plan.voids[0].is_clean, "{:?}", plan.voids);
+        assert_eq!(plan.cuts.len(), 1, "{:?}", plan.cuts);
+    }
+}

@@ -1,0 +1,201 @@
+//! The mouths of a void: the open places in which a cut passes through its wall, on the surface as written.
+
+use std::collections::BTreeMap;
+
+use crate::geom::{Plane, Point, Vector};
+use crate::mesh::TriMesh;
+
+/// Places across the box of a mouth, along each of two directions.
+const ACROSS: usize = 16;
+/// The places with most room from which the widest is climbed to.
+const CLIMBS: usize = 3;
+/// The climb to the widest place ends at steps of this share of the mouth's box.
+const CLIMB_RATIO: f64 = 5e-4;
+
+/// A place in a mouth.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Place {
+    /// Where it is, model frame.
+    pub at: Point,
+    /// The distance to the nearest rim, mm.
+    pub room_mm: f64,
+    /// The nearest point of a rim.
+    pub rim: Point,
+    /// Which mouth of this void and cut it belongs to.
+    pub mouth: usize,
+}
+
+type Flat = nalgebra::Point2<f64>;
+
+/// A closed line of the section.
+struct Ring {
+    segments: Vec<[Flat; 2]>,
+    low: Flat,
+    high: Flat,
+}
+
+/// The section of a closed surface by a plane, in coordinates of the plane.
+struct Rims {
+    rings: Vec<Ring>,
+}
+
+/// Places spread over the mouths of a void's shell (turned either way) in a plane, with the widest place of each.
+pub(super) fn places(shell: &TriMesh, plane: &Plane) -> Vec<Place> {
+    let (u, v) = plane.basis();
+    let rims = Rims::of(shell, plane, [u, v]);
+    let lift = |p: &Flat| plane.foot() + u * p.x + v * p.y;
+    let mut places = Vec::new();
+    for ring in &rims.rings {
+        let mut flat = rims.spread(ring);
+        flat.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let starts: Vec<(Flat, f64)> = flat.iter().copied().take(CLIMBS).collect();
+        flat.extend(starts.into_iter().map(|start| rims.climbed(ring, start)));
+        places.extend(flat.into_iter().filter_map(|(at, room_mm)| {
+            let (_, rim) = rims.nearest(&at)?;
+            Some(Place { at: lift(&at), room_mm, rim: lift(&rim), mouth: rims.mouth(&at)? })
+        }));
+    }
+    places
+}
+
+impl Rims {
+    fn of(shell: &TriMesh, plane: &Plane, [u, v]: [Vector; 2]) -> Self {
+        let heights: Vec<f64> = shell.vertices().iter().map(|p| plane.distance(p)).collect();
+        let flat = |p: Point| Flat::new(u.dot(&p.coords), v.dot(&p.coords));
+        let at = |[a, b]: [u32; 2]| {
+            let [p, q] = [a, b].map(|i| shell.vertices()[i as usize]);
+            let [g, h] = [a, b].map(|i| heights[i as usize]);
+            flat(p + (q - p) * (g / (g - h)))
+        };
+        let mut next: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
+        next.extend(shell.triangles().iter().filter_map(|t| crossed(t, &heights)));
+        let mut rings = Vec::new();
+        while let Some((mut from, mut to)) = next.pop_first() {
+            let mut segments = vec![[at(from), at(to)]];
+            while let Some(after) = next.remove(&to) {
+                (from, to) = (to, after);
+                segments.push([at(from), at(to)]);
+            }
+            rings.extend(Ring::of(segments));
+        }
+        Self { rings }
+    }
+
+    /// The nearest point of a rim and its distance, mm.
+    fn nearest(&self, p: &Flat) -> Option<(f64, Flat)> {
+        let on = self.rings.iter().flat_map(|ring| &ring.segments).map(|[a, b]| {
+            let (along, to_p) = (b - a, p - a);
+            let square = along.norm_squared();
+            let share = if square > 0.0 { (to_p.dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
+            a + along * share
+        });
+        on.map(|q| ((q - p).norm(), q)).min_by(|a, b| a.0.total_cmp(&b.0))
+    }
+
+    /// The room about a point, mm; negative outside the void.
+    fn room_mm(&self, p: &Flat) -> f64 {
+        let is_inside = self.rings.iter().filter(|ring| ring.holds(p)).count() % 2 == 1;
+        let distance = self.nearest(p).map_or(0.0, |(distance, _)| distance);
+        if is_inside { distance } else { -distance }
+    }
+
+    /// The mouth a point of the void lies in: the smallest ring around it is that mouth's outer rim.
+    fn mouth(&self, p: &Flat) -> Option<usize> {
+        let around = self.rings.iter().enumerate().filter(|(_, ring)| ring.holds(p));
+        let size = |ring: &Ring| (ring.high - ring.low).norm();
+        around.min_by(|a, b| size(a.1).total_cmp(&size(b.1))).map(|(index, _)| index)
+    }
+
+    /// Points of the void over the box of a ring, with their room.
+    fn spread(&self, ring: &Ring) -> Vec<(Flat, f64)> {
+        let step = (ring.high - ring.low) / ACROSS as f64;
+        let at = |i: usize| {
+            let (column, row) = ((i % ACROSS) as f64 + 0.5, (i / ACROSS) as f64 + 0.5);
+            ring.low + nalgebra::Vector2::new(step.x * column, step.y * row)
+        };
+        let points = (0..ACROSS * ACROSS).map(at).map(|p| (p, self.room_mm(&p)));
+        points.filter(|(_, room_mm)| *room_mm > 0.0).collect()
+    }
+
+    /// The roomiest point that steps to the eight sides lead to, the steps halved where none does.
+    fn climbed(&self, ring: &Ring, (mut at, mut room_mm): (Flat, f64)) -> (Flat, f64) {
+        let size = (ring.high - ring.low).norm();
+        let mut step = size / ACROSS as f64;
+        while step > CLIMB_RATIO * size {
+            let sides = (0..8).map(|i| (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos());
+            let around = sides.map(|(sin, cos)| at + nalgebra::Vector2::new(cos, sin) * step);
+            let best = around.map(|p| (p, self.room_mm(&p))).max_by(|a, b| a.1.total_cmp(&b.1));
+            match best {
+                Some((better, more_mm)) if more_mm > room_mm => (at, room_mm) = (better, more_mm),
+                _ => step /= 2.0,
+            }
+        }
+        (at, room_mm)
+    }
+}
+
+impl Ring {
+    fn of(segments: Vec<[Flat; 2]>) -> Option<Self> {
+        let first = segments.first()?[0];
+        let ends = segments.iter().flatten();
+        let (low, high) = ends.fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+        Some(Self { segments, low, high })
+    }
+
+    /// Whether a point lies inside, by even and odd.
+    fn holds(&self, p: &Flat) -> bool {
+        let crosses = |[a, b]: &&[Flat; 2]| {
+            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
+        };
+        self.segments.iter().filter(crosses).count() % 2 == 1
+    }
+}
+
+/// The two edges in which a triangle crosses the plane, from the one that goes down to the one that comes up, each by its
+/// ends ascending; a corner on the plane counts as above it.
+fn crossed(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<([u32; 2], [u32; 2])> {
+    let above = |i: u32| heights[i as usize] >= 0.0;
+    let edges = [[a, b], [b, c], [c, a]];
+    let down = edges.into_iter().find(|&[p, q]| above(p) && !above(q))?;
+    let up = edges.into_iter().find(|&[p, q]| !above(p) && above(q))?;
+    let named = |[p, q]: [u32; 2]| [p.min(q), p.max(q)];
+    Some((named(down), named(up)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::test_meshes::block;
+
+    fn level(z: f64) -> Plane {
+        Plane { normal: Vector::z(), offset_mm: z }
+    }
+
+    #[test]
+    fn the_mouth_of_a_box_is_as_wide_as_its_shorter_side() {
+        for turned in [false, true] {
+            let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
+            let shell = if turned { shell.reversed() } else { shell };
+            let widest =
+                places(&shell, &level(4.0)).into_iter().max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
+            let widest = widest.unwrap();
+            assert!((widest.room_mm - 2.5).abs() < 0.01, "{widest:?}");
+            assert!((widest.at.z - 4.0).abs() < 1e-12 && (widest.rim - widest.at).norm() > 2.49);
+        }
+        assert!(places(&block(Point::origin(), [8.0, 5.0, 6.0]), &level(7.0)).is_empty());
+    }
+
+    #[test]
+    fn two_mouths_of_one_cut_are_told_apart_and_a_hole_is_none() {
+        let two = block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
+        let mouths: std::collections::BTreeSet<usize> =
+            places(&two, &level(2.0)).iter().map(|place| place.mouth).collect();
+        assert_eq!(mouths.len(), 2);
+        // A square frame: 1 mm of room all around a column of material.
+        let frame =
+            block(Point::origin(), [10.0; 3]).joined(&block(Point::new(2.0, 2.0, 0.0), [6.0; 3]).reversed());
+        let found = places(&frame, &level(2.0));
+        let first = found[0].mouth;
+        assert!(found.iter().all(|place| place.mouth == first && place.room_mm < 1.2), "{found:?}");
+    }
+}
