@@ -149,7 +149,7 @@ pub struct PrepareArgs {
     /// Replace the folder if it is there
     #[arg(long, help_heading = "Kit")]
     pub force: bool,
-    /// The file format of the parts [default: stl]
+    /// The file format of the parts; 3mf also for the assembly and the build plates [default: both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
     pub format: Option<PartFormat>,
     /// Replay the run that this job.toml describes; MODEL, if given, stands for its model
@@ -411,7 +411,7 @@ mod tests {
             (Up::Z, Some(Contact::Lowest), None)
         );
         assert_eq!((job.wall, job.pitch, job.printer.material), (None, None, None));
-        assert_eq!((job.solver, job.cut, job.format), (Solver::Quadric, CutMode::Auto, PartFormat::Stl));
+        assert_eq!((job.solver, job.cut, job.format), (Solver::Quadric, CutMode::Auto, PartFormat::Both));
     }
 
     #[test]

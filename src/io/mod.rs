@@ -7,6 +7,7 @@ mod sniff;
 pub mod stl;
 #[cfg(test)]
 mod tests;
+pub mod threemf;
 
 pub use obj::ObjError;
 pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};

@@ -1,5 +1,6 @@
 //! The kit in memory: files, judgement, checklist and page.
 
+use super::packages;
 use super::printer_rows;
 use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
@@ -45,6 +46,9 @@ pub fn prepared(
     kit.add(HOLLOWED, hollowed);
     for part in &assembly.parts {
         kit.add(&part.file, part.bytes.clone());
+    }
+    for (file, bytes) in packages::packages(setup, assembly)? {
+        kit.add(&file, bytes);
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());
     kit.add(CUTS, CutOrder::of(&assembly.plan).to_toml().map_err(JobError::from)?.into_bytes());

@@ -187,6 +187,7 @@ fn part_shot(index: usize, part: &PartEvidence) -> Shot<'_> {
     }
 }
 
-fn part_color(index: usize) -> Color {
+/// The colour of the part at that index, wherever it is drawn.
+pub fn part_color(index: usize) -> Color {
     PARTS[index % PARTS.len()]
 }

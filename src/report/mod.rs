@@ -17,7 +17,7 @@ mod tests;
 mod timing;
 mod words;
 
-pub use album::{Picture, Sitting, album, part_picture_file};
+pub use album::{Picture, Sitting, album, part_color, part_picture_file};
 pub use checklist::{
     Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
     Tool, Verdict, WallRow,
