@@ -111,7 +111,10 @@ fn the_consortiums_own_library_takes_every_package_of_a_kit_in_strict_mode_and_f
         assert!(prepared.status.success(), "{}", String::from_utf8_lossy(&prepared.stderr));
         let (code, said) = judged_by(JUDGE_3MF, &python, &kit);
         assert_eq!(code, Some(0), "{said}");
-        assert!(said.contains("assembly.3mf") && said.contains("plate.3mf") && said.contains("parts/"), "{said}");
+        assert!(
+            said.contains("assembly.3mf") && said.contains("plate.3mf") && said.contains("parts/"),
+            "{said}"
+        );
         if let Some(python) = python_with("numpy, rtree, scipy, shapely, trimesh") {
             let (code, said) = judged(&python, &kit);
             assert_eq!(code, Some(0), "{said}");

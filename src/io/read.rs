@@ -61,7 +61,7 @@ pub enum ContentError {
     Obj(#[from] ObjError),
     /// The content is 3MF, with a fault.
     #[error("3MF: {0}")]
-    ThreeMf(#[from] ThreeMfError),
+    ThreeMf(#[from] Box<ThreeMfError>),
 }
 
 /// The triangles of the STL (binary or ASCII), OBJ or 3MF file at `path`.
@@ -93,7 +93,7 @@ pub fn decode_model(bytes: &[u8]) -> Result<TriMesh, ContentError> {
         Format::Empty => Err(ContentError::Empty),
         Format::Stl => Ok(stl::decode(bytes)?),
         Format::Obj => Ok(obj::decode(bytes)?),
-        Format::ThreeMf => Ok(threemf::decode(bytes)?),
+        Format::ThreeMf => Ok(threemf::decode(bytes).map_err(Box::new)?),
         Format::Foreign(looks_like) => Err(ContentError::Foreign { looks_like }),
     }
 }

@@ -121,6 +121,7 @@ fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> Promi
         id: part.id.clone(),
         file: written.file.clone(),
         sha256: sha256_hex(&[&written.bytes]),
+        mark: None,
         print_from_model: written.evidence().pose,
         pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
         sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),

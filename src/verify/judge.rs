@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support,
-    SurfaceFacts, assembly_moments,
+    Check, Figures, FileChange, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells,
+    Support, SurfaceFacts, assembly_moments,
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     hardware::{fit, mass_moments},
@@ -52,6 +52,8 @@ pub struct Judgement {
     pub overlaps: usize,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
+    /// What became of the files since the kit was made; empty while it is made.
+    pub changes: Vec<FileChange>,
 }
 
 impl Judgement {
@@ -87,6 +89,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
         checks: Vec::new(),
+        changes: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
     judgement

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{BallastOrder, Figures, FillOrder, Hardware, Pose, RotorOrder, WaterOrder};
+use super::{BallastOrder, Figures, FillOrder, Hardware, Mark, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -196,6 +196,9 @@ pub struct PromisedPart {
     pub file: String,
     /// The SHA-256 of that file, in hex.
     pub sha256: String,
+    /// What its shape is known by; none in kits of before there were marks.
+    #[serde(default)]
+    pub mark: Option<Mark>,
     /// Model coordinates to print coordinates.
     pub print_from_model: Pose,
     /// The pins that stand out of the hollowed body.

@@ -87,8 +87,8 @@ fn a_written_package_holds_the_triangles_of_the_stl_file_of_the_same_mesh_bit_fo
 #[test]
 fn the_same_package_has_the_same_bytes_and_tells_nothing_of_when_it_was_made() {
     let (_, object) = placed_ball("P01");
-    let [first, second] =
-        [(); 2].map(|()| encoded(&[object.clone()], Build::Apart(vec![(0, Transform::default())])));
+    let [first, second] = [(); 2]
+        .map(|()| encoded(std::slice::from_ref(&object), Build::Apart(vec![(0, Transform::default())])));
     assert_eq!(first, second);
     // Bytes 10 to 14 of an entry are its time and day: the first that the format knows, 1980-01-01.
     assert_eq!(first[10..14], [0, 0, 0x21, 0]);
@@ -101,7 +101,7 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
     let map = Transform { linear: turn, shift: Vector::new(10.0, -20.0, 30.5) };
     let places = vec![(0, map), (0, Transform::shift(Vector::new(0.0, 0.0, 99.0)))];
     for build in [Build::Apart(places.clone()), Build::Together("whole".into(), places.clone())] {
-        let objects = decode_objects(&encoded(&[object.clone()], build)).unwrap();
+        let objects = decode_objects(&encoded(std::slice::from_ref(&object), build)).unwrap();
         assert_eq!(objects.len(), 2);
         for (found, (_, map)) in objects.iter().zip(&places) {
             let center = found.mesh.aabb().center();

@@ -90,14 +90,15 @@ impl<'a> Scanner<'a> {
         opened: &Tag,
         mut child: impl FnMut(&mut Self, Tag<'a>) -> Result<(), ThreeMfError>,
     ) -> Result<(), ThreeMfError> {
-        while opened.kind == Kind::Open {
-            let tag = self.next_tag()?.ok_or_else(|| self.cut())?;
-            if tag.kind == Kind::Close {
-                break;
-            }
-            child(self, tag)?;
+        if opened.kind != Kind::Open {
+            return Ok(());
         }
-        Ok(())
+        loop {
+            match self.next_tag()?.ok_or_else(|| self.cut())? {
+                tag if tag.kind == Kind::Close => return Ok(()),
+                tag => child(self, tag)?,
+            }
+        }
     }
 
     /// The text ends within an element.
