@@ -28,3 +28,4 @@ pub use page::{document, page};
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
 pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 pub use timing::Timing;
+pub use words::{promise, quantity};
