@@ -7,6 +7,11 @@ use crate::report::{Checklist, LogRow, promise, quantity as figure};
 use crate::units::counted;
 use crate::verify::Check;
 
+/// Shares below this are not told by their number, %: nobody prints so exactly.
+const SHOWN_PERCENT: f64 = 0.01;
+/// The order in which a person reads the solver's numbers.
+const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
+
 /// The kit in ten lines, what failed in full below them.
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
@@ -23,7 +28,8 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     ];
     let rows: Vec<[String; 2]> =
         lines.into_iter().flatten().map(|(name, words)| [name.to_owned(), words]).collect();
-    table(&rows) + &broken(&checklist.checks, manner)
+    // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in the way of a search.
+    table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 
 /// The figure that was optimised, of the model filled solid.
@@ -40,9 +46,12 @@ fn filled_solid(checklist: &Checklist) -> String {
 fn proved(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let (name, bound) = (proof.figure.name(), figure(proof.bound, proof.figure.unit()));
-    let written = proof.written_value.map_or(String::new(), |written| {
-        format!("; this kit is {:.2} % away", ((written - proof.bound) / proof.bound).abs() * 100.0)
-    });
+    let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
+    let written = match proof.written_value.map(away) {
+        Some(percent) if percent < SHOWN_PERCENT => format!("; this kit is less than {SHOWN_PERCENT} % away"),
+        Some(percent) => format!("; this kit is {percent:.2} % away"),
+        None => String::new(),
+    };
     format!("no hollowing has a better {name} than {bound}{written}")
 }
 
@@ -161,6 +170,9 @@ fn iterations(log: &[LogRow]) -> String {
             names.push(name);
         }
     }
+    names.sort_by_key(|name| {
+        STEP_NUMBERS.iter().position(|known| known == name).unwrap_or(STEP_NUMBERS.len())
+    });
     let head = std::iter::once("step").chain(names.iter().copied()).map(str::to_owned).collect();
     let row = |row: &LogRow| -> Vec<String> {
         let cells = names

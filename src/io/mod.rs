@@ -2,6 +2,7 @@
 
 mod ear_clip;
 mod obj;
+mod ply;
 mod read;
 mod sniff;
 pub mod stl;
@@ -10,5 +11,6 @@ mod tests;
 pub mod threemf;
 
 pub use obj::ObjError;
+pub use ply::PlyError;
 pub use read::{ContentError, ReadError, decode_model, read_bytes, read_model};
 pub use stl::{StlError, WriteError};

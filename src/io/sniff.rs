@@ -11,6 +11,8 @@ pub(super) enum Format {
     Stl,
     /// Wavefront OBJ, perhaps damaged.
     Obj,
+    /// PLY, perhaps damaged.
+    Ply,
     /// A ZIP archive, most likely a 3MF package.
     ThreeMf,
     /// Something else, in words.
@@ -18,8 +20,7 @@ pub(super) enum Format {
 }
 
 /// First bytes of formats people take for STL or OBJ, and what to call them.
-const SIGNATURES: [(&[u8], &str); 8] = [
-    (b"ply", "a PLY file"),
+const SIGNATURES: [(&[u8], &str); 7] = [
     (b"glTF", "a binary glTF file"),
     (b"ISO-10303", "a STEP file"),
     (b"OFF", "an OFF file"),
@@ -40,6 +41,8 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
         Format::Stl
     } else if bytes.starts_with(ZIP) {
         Format::ThreeMf
+    } else if is_ply(bytes) {
+        Format::Ply
     } else if let Some((_, name)) = SIGNATURES.iter().find(|(start, _)| bytes.starts_with(start)) {
         Format::Foreign(name)
     } else if looks_like_obj(bytes) {
@@ -49,6 +52,11 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
     } else {
         Format::Stl
     }
+}
+
+/// Whether the first line is that of a PLY file.
+fn is_ply(bytes: &[u8]) -> bool {
+    bytes.strip_prefix(b"ply").is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
 /// Whether some line is a vertex or a face, and the content is text.
@@ -76,7 +84,7 @@ mod tests {
             (b"\tv\t0 0 0\r", Format::Obj),
             (b"a letter to a friend", Format::Foreign("a text file")),
             (b"PK\x03\x04\x14\x00", Format::ThreeMf),
-            (b"ply\nformat ascii 1.0\n", Format::Foreign("a PLY file")),
+            (b"ply\nformat ascii 1.0\n", Format::Ply),
             (b"\x00\x01\x02", Format::Stl),
         ];
         for (bytes, format) in cases {

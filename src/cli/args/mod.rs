@@ -67,16 +67,20 @@ pub enum Command {
     Coupon(CouponArgs),
     /// Read a kit's written files again, tell what became of them, and judge them without the solver
     Verify(VerifyArgs),
-    /// Print the completions of a shell: equipoise completions bash > ~/.local/share/bash-completion/completions/equipoise
+    /// Print the completions of a shell
+    ///
+    /// For bash: equipoise completions bash > ~/.local/share/bash-completion/completions/equipoise
     Completions(CompletionsArgs),
-    /// Print the manual's page, of the program or of one of its commands: equipoise man prepare | man -l -
+    /// Print the manual's page of the program, or of one of its commands
+    ///
+    /// To read one: equipoise man prepare | man -l -
     Man(ManArgs),
 }
 
 /// The arguments of `inspect`.
 #[derive(Debug, Args)]
 pub struct InspectArgs {
-    /// The model: an STL, OBJ or 3MF file
+    /// The model: an STL, OBJ, PLY or 3MF file
     pub model: PathBuf,
     /// Tell what it could become on this printer: a known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]

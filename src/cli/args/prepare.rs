@@ -27,7 +27,7 @@ use crate::{
 #[derive(Debug, Args)]
 #[command(after_help = EXIT_CODES)]
 pub struct PrepareArgs {
-    /// The model: an STL, OBJ or 3MF file that bounds a solid
+    /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid
     #[arg(required_unless_present = "job")]
     pub model: Option<PathBuf>,
 
@@ -143,7 +143,7 @@ pub struct ScalingArgs {
     /// Multiply the file's numbers by this to get mm
     #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
     pub scale: Option<f64>,
-    /// The unit of the numbers in an STL or OBJ file; a 3MF file says its own [default: mm]
+    /// The unit of the numbers in an STL, OBJ or PLY file; a 3MF file says its own [default: mm]
     #[arg(long, value_parser = words::<ModelUnit>(ModelUnit::WORDS))]
     pub unit: Option<ModelUnit>,
 }
