@@ -29,7 +29,7 @@ pub struct Mark {
 pub enum Likeness {
     /// The same triangles.
     Same,
-    /// The same shape within [`TOLERANCE_RATIO`], in the same place.
+    /// The same shape but for the last digits of a file, in the same place.
     Near,
     /// The same shape elsewhere, by so many mm.
     Moved(f64),

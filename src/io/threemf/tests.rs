@@ -112,6 +112,15 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
 }
 
 #[test]
+fn objects_that_are_placed_nowhere_are_left_out() {
+    let objects = ["P01", "P02"].map(|name| placed_ball(name).1);
+    let one = encoded(&objects, Build::Apart(vec![(1, Transform::default())]));
+    let both = encoded(&objects, Build::Apart(vec![(0, Transform::default()), (1, Transform::default())]));
+    assert!(5 * one.len() < 3 * both.len(), "{} of {} bytes", one.len(), both.len());
+    assert_eq!(decode_objects(&one).unwrap()[0].name, "P02");
+}
+
+#[test]
 fn every_unit_is_turned_into_millimetres() {
     let build = "<item objectid=\"1\"/>";
     let volume = |unit: &str| {

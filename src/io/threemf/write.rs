@@ -19,7 +19,7 @@ pub struct Package<'a> {
     pub description: String,
     /// The job it belongs to.
     pub job: String,
-    /// The objects.
+    /// The objects; those that are placed nowhere are left out.
     pub objects: &'a [Object],
     /// Where each of them lies.
     pub build: Build,
@@ -32,6 +32,14 @@ pub enum Build {
     Apart(Vec<(usize, Transform)>),
     /// All of them as the components of one object of that name.
     Together(String, Vec<(usize, Transform)>),
+}
+
+impl Build {
+    fn places(&self) -> &[(usize, Transform)] {
+        match self {
+            Self::Apart(places) | Self::Together(_, places) => places,
+        }
+    }
 }
 
 /// An object of a package, its triangles already written.
@@ -82,7 +90,8 @@ impl Package<'_> {
     }
 
     fn model_xml(&self) -> String {
-        let objects: String = self.objects.iter().enumerate().map(object_xml).collect();
+        let is_placed = |(index, _): &(usize, &Object)| self.build.places().iter().any(|(at, _)| at == index);
+        let objects: String = self.objects.iter().enumerate().filter(is_placed).map(object_xml).collect();
         let (joined, build) = self.build_xml();
         let colors: String = self.objects.iter().map(color_xml).collect();
         let head = format!(
