@@ -1,6 +1,7 @@
 //! The kit in memory: files, judgement, checklist and page.
 
 use super::faces::faces;
+use super::packages;
 use super::printer_rows;
 use super::rows::{self, Sheet};
 use super::void_rows;
@@ -53,6 +54,9 @@ pub fn prepared(
     kit.add(HOLLOWED, hollowed);
     for part in &assembly.parts {
         kit.add(&part.file, part.bytes.clone());
+    }
+    for (file, bytes) in packages::packages(setup, assembly)? {
+        kit.add(&file, bytes);
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());
     kit.add(CUTS, CutOrder::of(&assembly.plan).to_toml().map_err(JobError::from)?.into_bytes());
@@ -129,6 +133,7 @@ fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> Promi
         id: part.id.clone(),
         file: written.file.clone(),
         sha256: sha256_hex(&[&written.bytes]),
+        mark: None,
         print_from_model: written.evidence().pose,
         pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
         sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),

@@ -17,8 +17,8 @@ use crate::report::{
     PassRow, SpeedRow, Tool, WallRow,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
-    WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Judgement, Mark, Peg, PromisedFigure, PromisedJoint,
+    RotorOrder, WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -204,6 +204,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 id: part.id.clone(),
                 file: written.file.clone(),
                 sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                mark: Some(Mark::of(&written.read_back)),
                 triangles: facts.surface.triangles,
                 volume_mm3: facts.surface.volume_mm3,
                 mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),

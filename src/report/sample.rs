@@ -203,6 +203,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         id: promised.id.clone(),
         file: promised.file.clone(),
         sha256: "cd".repeat(32),
+        mark: None,
         triangles: facts.surface.triangles,
         volume_mm3: facts.surface.volume_mm3,
         mass_g: facts.surface.volume_mm3 * 1.2e-3,
