@@ -7,7 +7,8 @@ use crate::cut::CutError;
 use crate::goal::GoalError;
 use crate::hardware::FitError;
 use crate::interior::BuildError;
-use crate::io::{ReadError, StlError};
+use crate::io::threemf::PackageError;
+use crate::io::{ContentError, ReadError, StlError};
 use crate::job::{Filling, JobError};
 use crate::mesh::{ClipError, Defects, NotOneBody};
 use crate::printer::{MaterialError, ProfileError, SizeError, WallError};
@@ -112,6 +113,12 @@ pub enum Error {
     /// A written STL does not read back.
     #[error(transparent)]
     Stl(#[from] StlError),
+    /// A written file does not read back.
+    #[error("a written part does not read back: {0}; this is a fault of the program, please report it")]
+    ReadBack(#[from] ContentError),
+    /// A package cannot be written.
+    #[error(transparent)]
+    Package(#[from] PackageError),
     /// A picture cannot be encoded.
     #[error(transparent)]
     Picture(#[from] PictureError),

@@ -173,7 +173,7 @@ impl Job {
             pitch: None,
             solver: Solver::Quadric,
             cut: CutMode::Auto,
-            format: PartFormat::Stl,
+            format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
             model,

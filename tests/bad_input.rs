@@ -95,7 +95,7 @@ fn a_truncated_stl_says_how_many_triangles_are_missing() {
 #[test]
 fn a_text_called_stl_is_said_to_be_no_model() {
     let said = refused("letter.stl", b"Dear shop, please print the attached elephant.\n");
-    assert!(said.contains("neither STL nor OBJ"), "{said}");
+    assert!(said.contains("not STL, OBJ, PLY or 3MF"), "{said}");
 }
 
 #[test]

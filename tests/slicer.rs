@@ -25,20 +25,37 @@ const REPAIRS: [&str; 6] = [
     "backwards_edges",
 ];
 
-/// What `prusa-slicer --info` says of a file; none without the slicer.
-fn sliced(file: &Path) -> Option<BTreeMap<String, String>> {
+/// What the slicer says of an object, by key.
+type Said = BTreeMap<String, String>;
+
+/// What `prusa-slicer --info` says of the only object of a file; none without the slicer.
+fn sliced(file: &Path) -> Option<Said> {
+    let mut objects = objects_sliced(file)?;
+    assert_eq!(objects.len(), 1, "{}: {objects:?}", file.display());
+    objects.pop()
+}
+
+/// What `prusa-slicer --info` says of each object of a file; none without the slicer.
+fn objects_sliced(file: &Path) -> Option<Vec<Said>> {
     let output = match Command::new("prusa-slicer").arg("--info").arg(file).output() {
         Err(absent) if absent.kind() == std::io::ErrorKind::NotFound => return None,
         output => output.unwrap(),
     };
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(output.status.success(), "{}: {said}", file.display());
-    let line = |line: &str| line.split_once('=').map(|(key, value)| (key.trim().into(), value.trim().into()));
-    Some(said.lines().filter_map(line).collect())
+    let mut objects: Vec<Said> = Vec::new();
+    for line in said.lines() {
+        if line.starts_with('[') && line.ends_with(']') {
+            objects.push(Said::new());
+        } else if let (Some(object), Some((key, value))) = (objects.last_mut(), line.split_once('=')) {
+            object.insert(key.trim().into(), value.trim().into());
+        }
+    }
+    Some(objects)
 }
 
 /// Asserts that the slicer takes a part and agrees with the checklist on its triangles and its volume.
-fn assert_taken(part: &Value, said: &BTreeMap<String, String>) {
+fn assert_taken(part: &Value, said: &Said) {
     let number = |key: &str| said[key].parse::<f64>().unwrap();
     assert_eq!(said["manifold"], "yes", "{said:?}");
     let repaired: Vec<_> = REPAIRS.iter().filter(|key| said.contains_key(**key)).collect();
@@ -48,7 +65,11 @@ fn assert_taken(part: &Value, said: &BTreeMap<String, String>) {
     let volume_mm3 = part["volume_mm3"].as_f64().unwrap();
     let off_ratio = number("volume") / volume_mm3 - 1.0;
     assert!(off_ratio.abs() < VOLUME_RATIO, "{off_ratio:e}: {said:?}");
-    assert!(number("min_z").abs() < 1e-4, "it does not rest on the plate: {said:?}");
+}
+
+fn assert_rests(said: &Said) {
+    let lowest = said["min_z"].parse::<f64>().unwrap();
+    assert!(lowest.abs() < 1e-4, "it does not rest on the plate: {said:?}");
 }
 
 #[test]
@@ -72,7 +93,17 @@ fn a_slicer_takes_every_part_of_a_kit_without_repair() {
     let parts = checklist["parts"].as_array().unwrap();
     assert!(parts.len() > 1, "{parts:?}");
     for part in parts {
-        assert_taken(part, &sliced(&kit.join(part["file"].as_str().unwrap())).unwrap());
+        let file = kit.join(part["file"].as_str().unwrap());
+        for file in [file.clone(), file.with_extension("3mf")] {
+            let said = sliced(&file).unwrap();
+            assert_taken(part, &said);
+            assert_rests(&said);
+        }
+    }
+    for package in ["assembly.3mf", "plate.3mf"] {
+        let said = objects_sliced(&kit.join(package)).unwrap();
+        assert_eq!(said.len(), parts.len(), "{package}: {said:?}");
+        parts.iter().zip(&said).for_each(|(part, said)| assert_taken(part, said));
     }
 }
 

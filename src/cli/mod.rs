@@ -3,16 +3,19 @@
 pub mod args;
 pub mod args_printers;
 mod ballast_args;
+pub mod bars;
 pub mod coupon;
 mod cut_arg;
 mod goal_args;
 pub mod inspect;
+pub mod manual;
 pub mod prepare;
 pub mod printers;
 pub mod printers_markdown;
 pub mod profiles;
 pub mod shop;
 pub mod show;
+mod summary;
 pub mod verify;
 
 use std::error::Error;
@@ -72,5 +75,13 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
             Ok(Exit::Kept)
         }
         Command::Verify(args) => Ok(verify::verify(&args.kit, voice, out)?),
+        Command::Completions(args) => {
+            manual::completions(args.shell, out)?;
+            Ok(Exit::Kept)
+        }
+        Command::Man(args) => {
+            manual::page(args.command.as_deref(), out)?;
+            Ok(Exit::Kept)
+        }
     }
 }

@@ -1,134 +1,40 @@
-//! What a person sees on a terminal: progress, tables, errors with their remedies.
+//! What a person sees on a terminal: colours where they may be, tables, errors with their remedies.
 
 use std::{
     error::Error,
     io::{IsTerminal, Write},
-    sync::{Arc, Mutex, PoisonError},
-    time::{Duration, Instant},
 };
-
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 /// How much is said, and whether in colour; decided once, at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
     /// Whether anything but errors is said.
     pub quiet: bool,
-    /// 0: the result; 1: also each phase and its time; 2: everything.
+    /// 0: the result in a few lines; more: every check, the stages' times and the solver's steps.
     pub verbose: u8,
     /// Whether the standard error is a terminal.
     pub is_terminal: bool,
-    /// Whether colours may be used.
+    /// Whether colours may be used on the standard error.
     pub is_coloured: bool,
+    /// Whether colours may be used on the standard output.
+    pub is_output_coloured: bool,
 }
 
 impl Manner {
     /// The manner for this process: bars on a terminal only; no colours where `NO_COLOR` is set to anything
-    /// (no-color.org), where the terminal is dumb, or where there is none.
+    /// (no-color.org), where the terminal is dumb, or where what is written does not go to one.
     pub fn of_process(quiet: bool, verbose: u8) -> Self {
         let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
         let is_terminal = std::io::stderr().is_terminal();
-        let is_coloured = is_terminal && !is_set("NO_COLOR") && !is_dumb;
-        Self { quiet, verbose, is_terminal, is_coloured }
+        let may = !is_set("NO_COLOR") && !is_dumb;
+        let is_output_coloured = may && std::io::stdout().is_terminal();
+        Self { quiet, verbose, is_terminal, is_coloured: may && is_terminal, is_output_coloured }
     }
 
-    fn shows_bars(self) -> bool {
+    /// Whether the progress of a run is drawn.
+    pub fn shows_bars(self) -> bool {
         self.is_terminal && !self.quiet
-    }
-
-    fn lists_phases(self) -> bool {
-        self.verbose > 0 && !self.quiet
-    }
-}
-
-/// Steps of a bar; finer than any terminal is wide.
-const BAR_STEPS: u64 = 1000;
-
-/// How often a bar is drawn anew while nothing is reported. Slower looks stuck, faster costs time.
-const TICK: Duration = Duration::from_millis(120);
-
-/// The progress of a run: a bar on a terminal, or a line for each phase, or nothing.
-///
-/// ```
-/// # use equipoise::{cli::show::{Bars, Manner}, progress::Progress};
-/// let bars = Bars::new(Manner::of_process(true, 0));
-/// let observer = bars.observer();
-/// let progress = Progress::observed(&observer);
-/// progress.report("solve", 0.5);
-/// bars.finish();
-/// ```
-#[derive(Debug, Clone)]
-pub struct Bars {
-    manner: Manner,
-    current: Arc<Mutex<Option<Phase>>>,
-}
-
-#[derive(Debug)]
-struct Phase {
-    name: String,
-    since: Instant,
-    bar: ProgressBar,
-}
-
-impl Bars {
-    /// Nothing drawn yet.
-    pub fn new(manner: Manner) -> Self {
-        Self { manner, current: Arc::new(Mutex::new(None)) }
-    }
-
-    /// What a [`Progress`](crate::progress::Progress) is to call: it advances these bars.
-    pub fn observer(&self) -> impl Fn(&str, f64) + Sync + 'static {
-        let bars = self.clone();
-        move |phase, done_ratio| bars.advance(phase, done_ratio)
-    }
-
-    /// Shows that the named phase is done so far, 0 to 1; a new name ends the phase before it.
-    pub fn advance(&self, phase: &str, done_ratio: f64) {
-        if !self.manner.shows_bars() && !self.manner.lists_phases() {
-            return;
-        }
-        let mut current = self.current.lock().unwrap_or_else(PoisonError::into_inner);
-        if current.as_ref().is_none_or(|shown| shown.name != phase) {
-            self.end(current.take());
-            *current = Some(Phase { name: phase.to_owned(), since: Instant::now(), bar: self.bar(phase) });
-        }
-        if let Some(shown) = &*current {
-            shown.bar.set_position((done_ratio.clamp(0.0, 1.0) * BAR_STEPS as f64) as u64);
-        }
-    }
-
-    /// Ends the last phase and clears its bar.
-    pub fn finish(&self) {
-        self.end(self.current.lock().unwrap_or_else(PoisonError::into_inner).take());
-    }
-
-    fn end(&self, phase: Option<Phase>) {
-        let Some(Phase { name, since, bar }) = phase else {
-            return;
-        };
-        bar.finish_and_clear();
-        if self.manner.lists_phases() {
-            say(&format!("{name}: {:.2} s", since.elapsed().as_secs_f64()));
-        }
-    }
-
-    fn bar(&self, phase: &str) -> ProgressBar {
-        if !self.manner.shows_bars() {
-            return ProgressBar::hidden();
-        }
-        let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::stderr());
-        let template = if self.manner.is_coloured {
-            "{msg:>16} {bar:40.green} {elapsed}"
-        } else {
-            "{msg:>16} {bar:40} {elapsed}"
-        };
-        bar.set_style(
-            ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar()),
-        );
-        bar.set_message(phase.to_owned());
-        bar.enable_steady_tick(TICK);
-        bar
     }
 }
 
@@ -184,14 +90,14 @@ fn chain<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn 
 }
 
 /// Terminal escape for bold red.
-const RED: &str = "\x1b[1;31m";
+pub(super) const RED: &str = "\x1b[1;31m";
 /// Terminal escape for green.
-const GREEN: &str = "\x1b[32m";
+pub(super) const GREEN: &str = "\x1b[32m";
 /// Terminal escape that ends a colour.
 const PLAIN: &str = "\x1b[0m";
 
 /// The text in a colour, if colours may be used.
-fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
+pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
     if is_coloured { format!("{colour}{text}{PLAIN}") } else { text.to_owned() }
 }
 
@@ -204,10 +110,12 @@ pub fn verdict(passes: bool, is_coloured: bool) -> String {
 const COLUMN_GAP: usize = 2;
 
 /// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of colours take no room.
-pub fn table<const COLUMNS: usize>(rows: &[[String; COLUMNS]]) -> String {
-    let widths: [usize; COLUMNS] =
-        std::array::from_fn(|column| rows.iter().map(|row| width(&row[column])).max().unwrap_or(0));
-    rows.iter().map(|row| table_line(row, &widths) + "\n").collect()
+pub fn table<Row: AsRef<[String]>>(rows: &[Row]) -> String {
+    let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
+    let widest =
+        |column: usize| rows.iter().filter_map(|row| row.as_ref().get(column)).map(|cell| width(cell)).max();
+    let widths: Vec<usize> = (0..columns).map(|column| widest(column).unwrap_or(0)).collect();
+    rows.iter().map(|row| table_line(row.as_ref(), &widths) + "\n").collect()
 }
 
 fn table_line(row: &[String], widths: &[usize]) -> String {
@@ -226,9 +134,7 @@ fn width(text: &str) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{job::JobError, printer::Printer, progress::Progress};
-
-    const SILENT: Manner = Manner { quiet: true, verbose: 0, is_terminal: false, is_coloured: false };
+    use crate::{job::JobError, printer::Printer};
 
     fn unreadable() -> JobError {
         let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
@@ -284,28 +190,6 @@ mod tests {
         let text = table(&rows);
         let plain = [RED, GREEN, PLAIN].iter().fold(text, |text, escape| text.replace(escape, ""));
         assert_eq!(plain, "axis tilt  pass  ≤ 0.05°\nµ          no    1\n");
-        assert_eq!(table::<2>(&[]), "");
-    }
-
-    #[test]
-    fn bars_take_any_report_and_end_twice_without_harm() {
-        let bars = Bars::new(Manner { quiet: false, is_terminal: true, ..SILENT });
-        let observer = bars.observer();
-        let progress = Progress::observed(&observer);
-        for ratio in [0.0, 0.5, 2.0, f64::NAN, -1.0] {
-            progress.report("solve", ratio);
-        }
-        progress.report("cut", 0.0);
-        assert_eq!(bars.current.lock().unwrap().as_ref().unwrap().name, "cut");
-        bars.finish();
-        bars.finish();
-        assert!(bars.current.lock().unwrap().is_none());
-    }
-
-    #[test]
-    fn a_quiet_run_draws_nothing() {
-        let bars = Bars::new(SILENT);
-        bars.advance("solve", 0.5);
-        assert!(bars.current.lock().unwrap().is_none());
+        assert_eq!(table::<[String; 2]>(&[]), "");
     }
 }

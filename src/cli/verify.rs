@@ -4,7 +4,8 @@ use std::io::Write;
 use std::path::Path;
 
 use super::Exit;
-use super::prepare::{Voice, checks_table, summary};
+use super::prepare::Voice;
+use super::summary::{checks_table, summary};
 use crate::verify::{VerifyError, verify_kit};
 
 /// Why `verify` could not run.
@@ -28,7 +29,7 @@ pub fn verify(folder: &Path, voice: Voice, out: &mut dyn Write) -> Result<Exit, 
         writeln!(out, "{}", serde_json::to_string_pretty(&judgement.checks)?)?;
     } else if !voice.manner.quiet {
         write!(out, "{}", checks_table(&judgement.checks, voice.manner))?;
-        writeln!(out, "{}", summary(&judgement.checks))?;
+        writeln!(out, "{}", summary(&judgement.checks, voice.manner))?;
     }
     Ok(if judgement.passes() { Exit::Kept } else { Exit::NotKept })
 }

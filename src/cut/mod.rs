@@ -8,6 +8,7 @@ mod family;
 mod further;
 mod layers;
 mod lumps;
+mod mirror;
 mod opening;
 mod order;
 mod outline;

@@ -4,7 +4,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::sniff::{Format, sniff};
-use super::{ObjError, StlError, obj, stl};
+use super::threemf::{self, ThreeMfError};
+use super::{ObjError, PlyError, StlError, obj, ply, stl};
 use crate::mesh::TriMesh;
 
 /// Why a file does not give a mesh. The message names the file, its source the place in it.
@@ -17,7 +18,7 @@ pub enum ReadError {
         path: PathBuf,
     },
     /// The path is a directory.
-    #[error("{}: this is a directory; name the STL or OBJ file in it", path.display())]
+    #[error("{}: this is a directory; name the STL, OBJ, PLY or 3MF file in it", path.display())]
     Directory {
         /// The path asked for.
         path: PathBuf,
@@ -47,7 +48,7 @@ pub enum ContentError {
     #[error("it is empty (0 bytes); export the model again")]
     Empty,
     /// The content is of another kind.
-    #[error("it is {looks_like}, neither STL nor OBJ; export the model as STL or OBJ")]
+    #[error("it is {looks_like}, not STL, OBJ, PLY or 3MF; export the model as one of them")]
     Foreign {
         /// What the content looks like.
         looks_like: &'static str,
@@ -58,11 +59,18 @@ pub enum ContentError {
     /// The content is OBJ, with a fault.
     #[error("OBJ: {0}")]
     Obj(#[from] ObjError),
+    /// The content is PLY, with a fault.
+    #[error("PLY: {0}")]
+    Ply(#[from] Box<PlyError>),
+    /// The content is 3MF, with a fault.
+    #[error("3MF: {0}")]
+    ThreeMf(#[from] Box<ThreeMfError>),
 }
 
-/// The triangles of the STL (binary or ASCII) or OBJ file at `path`.
+/// The triangles of the STL (binary or ASCII), OBJ, PLY or 3MF file at `path`.
 ///
-/// The format is told from the content, not from the name. Coordinates are taken as they stand, without unit.
+/// The format is told from the content, not from the name. Coordinates are taken as they stand, without unit, but
+/// for 3MF, which has one: they are in mm.
 /// Every coordinate of the result is finite and there is at least one triangle. The triangles of an
 /// STL file come back as a soup, three vertices each: see [`crate::mesh::weld`] and [`crate::mesh::repair`].
 pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
@@ -82,12 +90,14 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     })
 }
 
-/// The triangles in the bytes of an STL or OBJ file; see [`read_model`].
+/// The triangles in the bytes of an STL, OBJ, PLY or 3MF file; see [`read_model`].
 pub fn decode_model(bytes: &[u8]) -> Result<TriMesh, ContentError> {
     match sniff(bytes) {
         Format::Empty => Err(ContentError::Empty),
         Format::Stl => Ok(stl::decode(bytes)?),
         Format::Obj => Ok(obj::decode(bytes)?),
+        Format::Ply => Ok(ply::decode(bytes).map_err(Box::new)?),
+        Format::ThreeMf => Ok(threemf::decode(bytes).map_err(Box::new)?),
         Format::Foreign(looks_like) => Err(ContentError::Foreign { looks_like }),
     }
 }

@@ -11,14 +11,16 @@ pub(super) enum Format {
     Stl,
     /// Wavefront OBJ, perhaps damaged.
     Obj,
+    /// PLY, perhaps damaged.
+    Ply,
+    /// A ZIP archive, most likely a 3MF package.
+    ThreeMf,
     /// Something else, in words.
     Foreign(&'static str),
 }
 
 /// First bytes of formats people take for STL or OBJ, and what to call them.
-const SIGNATURES: [(&[u8], &str); 9] = [
-    (b"PK\x03\x04", "a ZIP archive (perhaps a 3MF file)"),
-    (b"ply", "a PLY file"),
+const SIGNATURES: [(&[u8], &str); 7] = [
     (b"glTF", "a binary glTF file"),
     (b"ISO-10303", "a STEP file"),
     (b"OFF", "an OFF file"),
@@ -28,12 +30,19 @@ const SIGNATURES: [(&[u8], &str); 9] = [
     (b"<", "a web page or XML file"),
 ];
 
+/// The first bytes of a ZIP archive.
+const ZIP: &[u8] = b"PK\x03\x04";
+
 /// The format of these bytes.
 pub(super) fn sniff(bytes: &[u8]) -> Format {
     if bytes.is_empty() {
         Format::Empty
     } else if is_binary_stl(bytes) || is_ascii_stl(bytes) {
         Format::Stl
+    } else if bytes.starts_with(ZIP) {
+        Format::ThreeMf
+    } else if is_ply(bytes) {
+        Format::Ply
     } else if let Some((_, name)) = SIGNATURES.iter().find(|(start, _)| bytes.starts_with(start)) {
         Format::Foreign(name)
     } else if looks_like_obj(bytes) {
@@ -43,6 +52,11 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
     } else {
         Format::Stl
     }
+}
+
+/// Whether the first line is that of a PLY file.
+fn is_ply(bytes: &[u8]) -> bool {
+    bytes.strip_prefix(b"ply").is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
 /// Whether some line is a vertex or a face, and the content is text.
@@ -69,8 +83,8 @@ mod tests {
             (b"# made by hand\nv 0 0 0\n", Format::Obj),
             (b"\tv\t0 0 0\r", Format::Obj),
             (b"a letter to a friend", Format::Foreign("a text file")),
-            (b"PK\x03\x04\x14\x00", Format::Foreign("a ZIP archive (perhaps a 3MF file)")),
-            (b"ply\nformat ascii 1.0\n", Format::Foreign("a PLY file")),
+            (b"PK\x03\x04\x14\x00", Format::ThreeMf),
+            (b"ply\nformat ascii 1.0\n", Format::Ply),
             (b"\x00\x01\x02", Format::Stl),
         ];
         for (bytes, format) in cases {

@@ -52,9 +52,9 @@ fn every_bad_file_is_refused_in_words_that_name_the_place_and_the_remedy() {
     let facet = "solid x\nfacet normal 0 0 1\nouter loop\n";
     let cases: Vec<(Vec<u8>, &str)> = vec![
         (b"".to_vec(), "empty (0 bytes)"),
-        (b"Dear friend,\nhere is my model.\n".to_vec(), "a text file, neither STL nor OBJ"),
-        (b"PK\x03\x04abc".to_vec(), "a ZIP archive (perhaps a 3MF file)"),
-        (b"ply\nformat ascii 1.0\n".to_vec(), "a PLY file"),
+        (b"Dear friend,\nhere is my model.\n".to_vec(), "a text file, not STL, OBJ, PLY or 3MF"),
+        (b"PK\x03\x04abc".to_vec(), "3MF: the archive: "),
+        (b"ply\nformat ascii 1.0\n".to_vec(), "PLY: line 2 of the header: expected end_header"),
         (b"<html></html>".to_vec(), "a web page"),
         (vec![0; 50], "ends after 50 bytes, within the header of 84"),
         (binary()[..84].to_vec(), "promises 12 triangles, but there are bytes for 0;"),

@@ -51,5 +51,9 @@ choice! {
     PartFormat, "format" {
         /// Binary STL.
         Stl = "stl",
+        /// 3MF: the parts, the assembly and the plates.
+        ThreeMf = "3mf",
+        /// Everything in both; the parts' STL files are those that are judged.
+        Both = "both",
     }
 }

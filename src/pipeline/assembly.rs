@@ -14,7 +14,7 @@ use super::{
     written::WrittenPart,
 };
 use crate::cut::{self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts};
-use crate::hollow::Solution;
+use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
 use crate::printer::{Grid, PrintPose, Quantity};
@@ -33,6 +33,8 @@ pub struct Assembly {
     pub solution: Solution,
     /// Tops: the proof for other heights of the centre.
     pub height_proof: Option<HeightProof>,
+    /// How the first answer came about.
+    pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
     /// The volume of voids that could not be cleaned and stay solid, mm³.
@@ -109,11 +111,12 @@ fn assembled(
         {
             let plan = cut::plan_of(&voids.hollowed, plan, request)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
-            let height_proof = tuner.height_proof();
+            let (height_proof, course) = (tuner.height_proof(), tuner.course().clone());
             let value_before_cleaning = solution.certificate.value;
             return Ok(Assembly {
                 solution,
                 height_proof,
+                course,
                 hollowed,
                 refused_mm3,
                 plan,

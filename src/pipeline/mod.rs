@@ -4,10 +4,12 @@ mod advising;
 mod assembly;
 mod ballasting;
 mod cleaning;
+mod faces;
 mod fitting;
 mod grid_rows;
 mod kit;
 mod outcome;
+mod packages;
 mod printer_rows;
 mod rows;
 mod setup;
@@ -67,5 +69,6 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
         }
     };
     let assembly = Assembly::corrected(&setup, solved, progress, &mut watch)?;
+    let assembly = packages::in_format(assembly, &setup)?;
     Ok(Outcome::Prepared(Box::new(kit::prepared(&setup, &assembly, progress, watch)?)))
 }

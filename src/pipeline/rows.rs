@@ -13,11 +13,12 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, WallRow,
+    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow,
+    PassRow, SpeedRow, Tool, WallRow,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
-    WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Judgement, Mark, Peg, PromisedFigure, PromisedJoint,
+    RotorOrder, WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -161,7 +162,17 @@ fn certificate(sheet: &Sheet) -> Certificate {
         cleaning_rounds: void_rows::cleaning_rows(&sheet.assembly.cleaning, shown),
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
+        course: course(&sheet.assembly.course, shown),
     }
+}
+
+/// How the answer came about, in the units of the sheet.
+fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
+    let pass = |pass: &hollow::Pass| PassRow { value: shown(pass.value), bound: shown(pass.bound) };
+    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow { height_mm, critical_speed_rpm };
+    let (passes, speeds) =
+        (found.passes.iter().map(pass).collect(), found.speeds.iter().map(speed).collect());
+    (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
 /// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.
@@ -193,6 +204,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 id: part.id.clone(),
                 file: written.file.clone(),
                 sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                mark: Some(Mark::of(&written.read_back)),
                 triangles: facts.surface.triangles,
                 volume_mm3: facts.surface.volume_mm3,
                 mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::is_tuned};
-use crate::hollow::Solution;
+use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::progress::Progress;
@@ -66,6 +66,11 @@ impl<'a> Tuner<'a> {
         let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
         let cavity = setup.load.jackets().try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
         Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
+    }
+
+    /// How the first answer came about.
+    pub fn course(&self) -> &TopCourse {
+        &self.solved.course
     }
 
     /// The proof for other heights of a top's centre.

@@ -29,7 +29,7 @@ pub struct ExcludedCorner {
 
 impl ExcludedCorner {
     /// Whether the corner reaches into the rectangle from `low` to `high` on a plate of that size, mm.
-    fn meets(&self, [low, high]: [[f64; 2]; 2], plate_mm: [f64; 2]) -> bool {
+    pub(super) fn meets(&self, [low, high]: [[f64; 2]; 2], plate_mm: [f64; 2]) -> bool {
         let [width, depth] = self.size_mm.value;
         let left = matches!(self.corner, Corner::FrontLeft | Corner::BackLeft);
         let front = matches!(self.corner, Corner::FrontLeft | Corner::FrontRight);

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, Peg, Pose};
+use crate::verify::{BallastOrder, Mark, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -50,6 +50,9 @@ pub struct PartRow {
     pub file: String,
     /// The SHA-256 of that file.
     pub sha256: String,
+    /// What its shape is known by when the file comes back.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mark: Option<Mark>,
     /// How many triangles it has.
     pub triangles: usize,
     /// mm³.

@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells, Support,
-    SurfaceFacts, VoidFacts, assembly_moments,
+    Check, Figures, FileChange, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells,
+    Support, SurfaceFacts, VoidFacts, assembly_moments,
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     cleaning::voids,
@@ -55,6 +55,8 @@ pub struct Judgement {
     pub voids: Vec<VoidFacts>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
+    /// What became of the files since the kit was made; empty while it is made.
+    pub changes: Vec<FileChange>,
 }
 
 impl Judgement {
@@ -91,6 +93,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         overlaps: overlaps(&felt),
         voids: voids(promise, &shells.inward, &felt),
         checks: Vec::new(),
+        changes: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);
     judgement

@@ -29,6 +29,7 @@ fn promise(poses: &[Pose]) -> Promise {
         id: format!("P0{}", i + 1),
         file: format!("parts/box_P0{}of02.stl", i + 1),
         sha256: String::new(),
+        mark: None,
         print_from_model: *pose,
         pins: vec![],
         sockets: vec![],

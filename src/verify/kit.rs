@@ -2,8 +2,12 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use super::{Check, Evidence, Judgement, Limit, PartEvidence, Promise, SCHEMA, judge};
-use crate::digest::sha256_hex;
+use super::{
+    Evidence, Judgement, PartEvidence, Promise, SCHEMA,
+    changes::{file_changes, files_check},
+    judge,
+    packages::packages_check,
+};
 use crate::geom::Vector;
 use crate::io::{ReadError, read_model};
 use crate::mesh::TriMesh;
@@ -46,6 +50,19 @@ pub enum VerifyError {
         /// The path as it stands in the checklist.
         file: String,
     },
+    /// Meshes that the judgement rests on are not there.
+    #[error(
+        "{} missing from {folder}: {}; remedy: copy the kit again, or make it again with equipoise prepare --job {folder}/job.toml",
+        if files.len() == 1 { "a file is" } else { "files are" },
+        files.join(", "),
+        folder = folder.display()
+    )]
+    Missing {
+        /// The folder of the kit.
+        folder: PathBuf,
+        /// The files, by their paths in it.
+        files: Vec<String>,
+    },
     /// A mesh of the kit cannot be read.
     #[error("{path} holds no mesh")]
     Mesh {
@@ -60,7 +77,7 @@ pub enum VerifyError {
 /// promises, the meshes everything else.
 pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     let promise = read_promise(folder)?;
-    let changed = changed_files(folder, &promise)?;
+    check_files(folder, &promise)?;
     let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
     let parts = promise.parts.iter().map(|part| {
         let mesh = read_mesh(&folder.join(&part.file))?;
@@ -69,7 +86,9 @@ pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     });
     let evidence = Evidence { hollowed, parts: parts.collect::<Result<_, _>>()?, promise };
     let mut judgement = judge(&evidence);
-    judgement.checks.push(files_check(&changed));
+    judgement.changes = file_changes(folder, &evidence)?;
+    judgement.checks.push(files_check(&judgement.changes));
+    judgement.checks.extend(packages_check(folder, &evidence)?);
     Ok(judgement)
 }
 
@@ -84,25 +103,16 @@ pub fn read_promise(folder: &Path) -> Result<Promise, VerifyError> {
     }
 }
 
-/// The files whose bytes are not those the checklist was made for.
-fn changed_files(folder: &Path, promise: &Promise) -> Result<Vec<String>, VerifyError> {
-    let parts = promise.parts.iter().map(|part| (&part.file, &part.sha256));
-    let mut changed = Vec::new();
-    for (file, sha256) in parts.chain(&promise.files) {
-        if !lies_within(file) {
-            return Err(VerifyError::Outside { file: file.clone() });
-        }
-        if sha256_hex(&[&read_file(&folder.join(file))?]) != *sha256 {
-            changed.push(file.clone());
-        }
+/// Refuses a kit that names files outside of it, or that lacks a mesh to be judged.
+fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
+    let parts = || promise.parts.iter().map(|part| &part.file);
+    if let Some(file) = parts().chain(promise.files.keys()).find(|file| !lies_within(file)) {
+        return Err(VerifyError::Outside { file: file.clone() });
     }
-    Ok(changed)
-}
-
-fn files_check(changed: &[String]) -> Check {
-    let promise = "every file is the one the checklist was made for";
-    Check::new("changed files", promise, Some(changed.len() as f64), Limit::at_most(0.0, ""))
-        .at((!changed.is_empty()).then(|| changed.join("; ")))
+    let hollowed = HOLLOWED_FILE.to_owned();
+    let missing = parts().chain([&hollowed]).filter(|file| !folder.join(file).exists());
+    let files: Vec<String> = missing.cloned().collect();
+    if files.is_empty() { Ok(()) } else { Err(VerifyError::Missing { folder: folder.to_owned(), files }) }
 }
 
 /// Whether a relative path stays below the folder it is joined to.
@@ -110,12 +120,12 @@ fn lies_within(file: &str) -> bool {
     !file.is_empty() && Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
 }
 
-fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {
     std::fs::read(path).map_err(|source| VerifyError::File { path: path.to_owned(), source })
 }
 
 /// The mesh of a part before it was scaled for the printer.
-fn of_nominal_size(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> TriMesh {
+pub(super) fn of_nominal_size(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> TriMesh {
     match scale_ratio.map(Vector::from) {
         Some(scale) => mesh.map_vertices(|p| p.coords.component_div(&scale).into()),
         None => mesh,

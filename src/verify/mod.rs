@@ -1,6 +1,7 @@
 //! The independent judge: it sees the written files, the goal and the printer, and nothing of how they were made.
 
 mod ballast;
+mod changes;
 mod check;
 mod checks;
 mod cleaning;
@@ -14,8 +15,10 @@ pub(crate) mod judge_tests;
 mod kit;
 #[cfg(test)]
 mod kit_tests;
+mod mark;
 mod measure;
 mod mouths;
+mod packages;
 mod pegs;
 #[cfg(test)]
 mod pegs_tests;
@@ -31,6 +34,7 @@ mod water;
 
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
+pub use changes::{Change, FileChange};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,
@@ -43,6 +47,7 @@ pub use figures::{Figures, Setting};
 pub use hardware::{Fit, Hardware, mass_moments};
 pub use judge::{Evidence, Judgement, judge, setting};
 pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
+pub use mark::{Likeness, Mark};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pegs::PegFacts;
 pub use pose::Pose;

@@ -56,7 +56,7 @@ impl<'a> Felt<'a> {
     }
 
     /// Whether a point of the model lies in the part's material.
-    fn holds(&self, model: &Point) -> bool {
+    pub(super) fn holds(&self, model: &Point) -> bool {
         self.surface.winding(&self.part.pose.to_print(model)) != 0
     }
 
@@ -98,7 +98,7 @@ impl Peg {
     }
 
     /// The point of its axis so far above the cut.
-    fn at(&self, height_mm: f64) -> Point {
+    pub(super) fn at(&self, height_mm: f64) -> Point {
         Point::from(self.center_mm) + self.direction() * height_mm
     }
 }

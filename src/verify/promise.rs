@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, Figures, FillOrder, Hardware, Pose, PromisedCut, PromisedVoid, RotorOrder,
+    BallastOrder, Cleaning, Figures, FillOrder, Hardware, Mark, Pose, PromisedCut, PromisedVoid, RotorOrder,
     WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
@@ -211,6 +211,9 @@ pub struct PromisedPart {
     pub file: String,
     /// The SHA-256 of that file, in hex.
     pub sha256: String,
+    /// What its shape is known by; none in kits of before there were marks.
+    #[serde(default)]
+    pub mark: Option<Mark>,
     /// Model coordinates to print coordinates.
     pub print_from_model: Pose,
     /// The pins that stand out of the hollowed body.

@@ -3,7 +3,7 @@
 
     python3 tests/judge/judge_kit.py KIT [KIT ...]
 
-Reads parts/*.stl and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
+Reads the parts (STL or 3MF) and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
 (shape, mass and place of each part), the rods of hardware, the goal, the density, the wall, the build volume, the volumes of
 pins and sockets, the cuts and the cleaning rule, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
@@ -14,7 +14,9 @@ import json
 import math
 import struct
 import sys
+import zipfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 import trimesh
@@ -85,6 +87,22 @@ def read_stl(path):
         raise ValueError(f"{path} is not a whole binary STL")
     rows = np.frombuffer(data, dtype=np.dtype([("n", "<f4", 3), ("v", "<f4", (3, 3)), ("a", "<u2")]), offset=84)
     return rows["v"].astype(np.float64)
+
+
+def read_3mf(path):
+    """The corners of the one object of a 3MF part as an (n, 3, 3) array: single precision, as slicers read it."""
+    with zipfile.ZipFile(path) as package:
+        root = ElementTree.fromstring(package.read("3D/3dmodel.model"))
+    core = "{http://schemas.microsoft.com/3dmanufacturing/core/2015/02}"
+    if root.get("unit") != "millimeter":
+        raise ValueError(f"{path} is in {root.get('unit')}")
+    vertices = [[np.float32(v.get(axis)) for axis in "xyz"] for v in root.iter(core + "vertex")]
+    triangles = [[int(t.get(corner)) for corner in ("v1", "v2", "v3")] for t in root.iter(core + "triangle")]
+    return np.array(vertices, dtype=np.float64)[np.array(triangles)]
+
+
+def read_part(path):
+    return read_3mf(path) if path.suffix == ".3mf" else read_stl(path)
 
 
 def welded(corners):
@@ -638,7 +656,7 @@ def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
     path, room = kit / part["file"], printer.get("build_volume_mm")
     table.line(f"{part['id']} SHA-256", part["sha256"][:12], digest(path)[:12], part["sha256"] == digest(path))
-    corners = read_stl(path) / (printer.get("print_scale_ratio") or [1, 1, 1])
+    corners = read_part(path) / (printer.get("print_scale_ratio") or [1, 1, 1])
     mesh = welded(corners)
     sound = bool(mesh.is_watertight and mesh.is_winding_consistent and moments(corners)[0] > 0)
     table.line(f"{part['id']} watertight, outward", True, sound, sound)

@@ -1,0 +1,257 @@
+//! The arguments of `prepare`, and the job they make.
+
+use std::{
+    ffi::OsString,
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+
+use super::{
+    super::{
+        ballast_args::BallastArgs,
+        cut_arg::CutArg,
+        goal_args::{HardwareArgs, RotorArgs, WaterArgs},
+        shop::chosen_printer,
+    },
+    EXIT_CODES, factor, words,
+};
+use crate::{
+    goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
+    job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver},
+    printer::ShopError,
+    units::Length,
+};
+
+/// The arguments of `prepare`.
+#[derive(Debug, Args)]
+#[command(after_help = EXIT_CODES)]
+pub struct PrepareArgs {
+    /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid
+    #[arg(required_unless_present = "job")]
+    pub model: Option<PathBuf>,
+
+    /// A known printer's id (see `equipoise printers`), or a profile file [default: the shop's, from equipoise.toml]
+    #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
+    pub printer: Option<String>,
+    /// A material the printer offers [default: the printer's]
+    #[arg(long, value_name = "ID", help_heading = "Printer")]
+    pub material: Option<String>,
+    /// Keep at least this wall, rounded up to whole pixels or lines [default: the printer's least]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Printer")]
+    pub wall: Option<Length>,
+
+    /// What the object is to do
+    #[arg(long, value_parser = words::<GoalKind>(GoalKind::WORDS), required_unless_present = "job", help_heading = "Goal")]
+    pub goal: Option<GoalKind>,
+    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to spin about) or
+    /// auto (the best of all) [default: z]
+    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, help_heading = "Goal")]
+    pub up: Option<Up>,
+    /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm [default: lowest]
+    #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
+    pub contact: Option<Contact>,
+    /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm [default: center]
+    #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
+    pub spin_point: Option<SpinPoint>,
+    /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
+    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]. The weights
+    /// of Spin-It's functional may follow it, that of a low centre first: spin-it:γc,γI [default: 1,1]
+    #[arg(long, value_name = "OBJECTIVE", allow_hyphen_values = true, help_heading = "Goal")]
+    pub objective: Option<Objective>,
+    /// How a rotor runs.
+    #[command(flatten)]
+    pub rotor: RotorArgs,
+    /// How it floats.
+    #[command(flatten)]
+    pub water: WaterArgs,
+    /// What is put into it.
+    #[command(flatten)]
+    pub hardware: HardwareArgs,
+
+    /// The model's size.
+    #[command(flatten)]
+    pub scaling: ScalingArgs,
+
+    /// How the void is found [default: quadric]
+    #[arg(long, value_parser = words::<Solver>(Solver::WORDS), help_heading = "Method")]
+    pub solver: Option<Solver>,
+    /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Method")]
+    pub pitch: Option<Length>,
+    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
+    /// cuts.toml, edited [default: auto]
+    #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
+    pub cut: Option<CutArg>,
+    /// What is put into it.
+    #[command(flatten)]
+    pub load: BallastArgs,
+
+    /// Write the kit to this folder [default: the model's name with -kit]
+    #[arg(long, value_name = "DIR", help_heading = "Kit")]
+    pub out: Option<PathBuf>,
+    /// Replace the folder if it is there
+    #[arg(long, help_heading = "Kit")]
+    pub force: bool,
+    /// The file format of the parts; 3mf also for the assembly and the build plates [default: both]
+    #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
+    pub format: Option<PartFormat>,
+    /// Replay the run that this job.toml describes; MODEL, if given, stands for its model
+    #[arg(long, value_name = "FILE", help_heading = "Kit", conflicts_with_all = DECIDED_BY_JOB)]
+    pub job: Option<PathBuf>,
+}
+
+/// The arguments that a replayed job has already decided.
+const DECIDED_BY_JOB: [&str; 27] = [
+    "printer",
+    "material",
+    "wall",
+    "goal",
+    "up",
+    "contact",
+    "spin_point",
+    "objective",
+    "speed",
+    "grade",
+    "bore",
+    "liquid",
+    "waterline",
+    "string_gap",
+    "axle",
+    "hardware_mass",
+    "tip",
+    "stem",
+    "size",
+    "scale",
+    "unit",
+    "solver",
+    "pitch",
+    "cut",
+    "format",
+    "ballast",
+    "fill",
+];
+
+/// How large the model is; one of them at most.
+#[derive(Debug, Clone, Args)]
+#[group(multiple = false)]
+#[command(next_help_heading = "Size")]
+pub struct ScalingArgs {
+    /// Make the longest side this long
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    pub size: Option<Length>,
+    /// Multiply the file's numbers by this to get mm
+    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
+    pub scale: Option<f64>,
+    /// The unit of the numbers in an STL, OBJ or PLY file; a 3MF file says its own [default: mm]
+    #[arg(long, value_parser = words::<ModelUnit>(ModelUnit::WORDS))]
+    pub unit: Option<ModelUnit>,
+}
+
+/// What `prepare` is to do: the job, and where its kit goes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Request {
+    /// What decides the kit.
+    pub job: Job,
+    /// The folder it is written to.
+    pub out: PathBuf,
+    /// Whether a folder that is there is replaced.
+    pub force: bool,
+}
+
+/// Arguments that do not go together.
+#[derive(Debug, thiserror::Error)]
+pub enum ArgsError {
+    /// The goal's.
+    #[error(transparent)]
+    Goal(#[from] RequestError),
+    /// The replayed job's.
+    #[error(transparent)]
+    Job(#[from] JobError),
+    /// The plan's.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// An argument that neither the command line nor a job gives; the parser lets none pass.
+    #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
+    Missing(&'static str),
+    /// Neither the command line nor the shop names a printer.
+    #[error(
+        "--printer is missing; remedy: give it, or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
+         your configuration folder"
+    )]
+    NoPrinter,
+    /// The shop's defaults cannot be used.
+    #[error(transparent)]
+    Shop(#[from] ShopError),
+}
+
+impl PrepareArgs {
+    /// The job that was asked for, and where its kit goes.
+    pub fn request(self) -> Result<Request, ArgsError> {
+        let (out, force) = (self.out.clone(), self.force);
+        let job = match &self.job {
+            Some(path) => replayed(Job::read(path)?, self.model),
+            None => self.new_job()?,
+        };
+        let out = out.unwrap_or_else(|| default_out(&job.model.path));
+        Ok(Request { job, out, force })
+    }
+
+    fn new_job(self) -> Result<Job, ArgsError> {
+        let goal = self.goal()?;
+        let path = self.model.ok_or(ArgsError::Missing("MODEL"))?;
+        let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
+        let printer = chosen_printer(self.printer, self.material, &model.path)?;
+        let default = Job::new(model, printer, goal);
+        let (cut, plan) = self.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
+        Ok(Job {
+            wall: self.wall,
+            pitch: self.pitch,
+            solver: self.solver.unwrap_or(default.solver),
+            cut,
+            plan,
+            format: self.format.unwrap_or(default.format),
+            ballast: self.load.ballast.unwrap_or(default.ballast),
+            fill: self.load.fill,
+            ..default
+        })
+    }
+
+    fn goal(&self) -> Result<goal::Request, ArgsError> {
+        let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
+        let asked = goal::Request {
+            up: self.up.unwrap_or(default.up),
+            contact: self.contact.or(default.contact),
+            spin_point: self.spin_point.or(default.spin_point),
+            objective: self.objective.unwrap_or(default.objective),
+            rotor: self.rotor.over(default.rotor),
+            water: self.water.over(default.water),
+            hardware: self.hardware.asked(),
+            ..default
+        };
+        Ok(asked.checked()?)
+    }
+}
+
+impl ScalingArgs {
+    /// What was asked for; mm where nothing was.
+    pub fn scaling(&self) -> Scaling {
+        match (self.size, self.scale) {
+            (Some(size), _) => Scaling::Size(size),
+            (None, Some(factor)) => Scaling::Factor(factor),
+            (None, None) => Scaling::Unit(self.unit.unwrap_or(ModelUnit::Mm)),
+        }
+    }
+}
+
+fn replayed(job: Job, model: Option<PathBuf>) -> Job {
+    let path = model.unwrap_or(job.model.path);
+    Job { model: ModelChoice { path, ..job.model }, ..job }
+}
+
+/// `<model>-kit` in the current folder.
+fn default_out(model: &Path) -> PathBuf {
+    let mut name = model.file_stem().map_or_else(|| OsString::from("model"), ToOwned::to_owned);
+    name.push("-kit");
+    PathBuf::from(name)
+}

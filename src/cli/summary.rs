@@ -1,0 +1,234 @@
+//! What a person reads of a kit that was made: ten lines, or with `-v` every check and what the solver did.
+
+use std::path::Path;
+
+use super::show::{GREEN, Manner, RED, paint, table, verdict};
+use crate::report::{Checklist, LogRow, promise, quantity as figure};
+use crate::units::counted;
+use crate::verify::Check;
+
+/// Shares below this are not told by their number, %: nobody prints so exactly.
+const SHOWN_PERCENT: f64 = 0.01;
+/// The order in which a person reads the solver's numbers.
+const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
+
+/// The kit in ten lines, what failed in full below them.
+pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
+    let lines = [
+        Some(("what it does", promise(checklist))),
+        Some(("filled solid", filled_solid(checklist))),
+        Some(("at best", proved(checklist))),
+        balance(checklist).map(|words| ("balance", words)),
+        Some(("mass", masses(checklist))),
+        wall(checklist).map(|words| ("wall", words)),
+        Some(("parts", parts(checklist))),
+        Some(("promises", summary(&checklist.checks, manner))),
+        checklist.timing_s.as_ref().map(|timing| ("time", times(timing.total_s(), &timing.0))),
+        Some(("job sheet", out.join("checklist.html").display().to_string())),
+    ];
+    let rows: Vec<[String; 2]> =
+        lines.into_iter().flatten().map(|(name, words)| [name.to_owned(), words]).collect();
+    // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in the way of a search.
+    table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
+}
+
+/// The figure that was optimised, of the model filled solid.
+fn filled_solid(checklist: &Checklist) -> String {
+    let named = checklist.certificate.figure;
+    let mass = figure(checklist.solid.mass_g, "g");
+    match checklist.solid.value_of(named) {
+        Some(value) => format!("{} {}, {mass}", named.name(), figure(value, named.unit())),
+        None => format!("no {}, {mass}", named.name()),
+    }
+}
+
+/// What no hollowing can beat.
+fn proved(checklist: &Checklist) -> String {
+    let proof = &checklist.certificate;
+    let (name, bound) = (proof.figure.name(), figure(proof.bound, proof.figure.unit()));
+    let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
+    let written = match proof.written_value.map(away) {
+        Some(percent) if percent < SHOWN_PERCENT => format!("; this kit is less than {SHOWN_PERCENT} % away"),
+        Some(percent) => format!("; this kit is {percent:.2} % away"),
+        None => String::new(),
+    };
+    format!("no hollowing has a better {name} than {bound}{written}")
+}
+
+fn balance(checklist: &Checklist) -> Option<String> {
+    let offset_mm = checklist.assembly.axis_offset_mm?;
+    let tilt = checklist
+        .assembly
+        .axis_tilt_deg
+        .map_or(String::new(), |tilt| format!(", its principal axis {} off", figure(tilt, "°")));
+    Some(format!("centre of mass {} from the axis{tilt}", figure(offset_mm, "mm")))
+}
+
+fn masses(checklist: &Checklist) -> String {
+    let printed_g: f64 = checklist.parts.iter().map(|part| part.mass_g).sum();
+    let whole_g = checklist.assembly.mass_g;
+    let is_all = (whole_g - printed_g).abs() <= 1e-3 * whole_g;
+    let besides =
+        if is_all { String::new() } else { format!(", {} with all that goes in", figure(whole_g, "g")) };
+    format!("{} of {}{besides}", figure(printed_g, "g"), checklist.material.name)
+}
+
+fn wall(checklist: &Checklist) -> Option<String> {
+    let [thinnest, ordered] = [checklist.wall.measured_min_mm?, checklist.wall.required_mm];
+    Some(format!("{} at its thinnest, {} ordered", figure(thinnest, "mm"), figure(ordered, "mm")))
+}
+
+fn parts(checklist: &Checklist) -> String {
+    let pins = checklist.parts.iter().map(|part| part.pins.len()).sum();
+    let counts = [
+        counted(checklist.parts.len(), "part"),
+        counted(checklist.cuts.len(), "cut"),
+        counted(pins, "pin"),
+        counted(checklist.voids.len(), "void"),
+    ];
+    format!("{} for {}", counts.join(", "), checklist.printer.name)
+}
+
+/// The time of a run, and of the two stages that took most of it.
+fn times(total_s: f64, stages: &[(String, f64)]) -> String {
+    let mut longest: Vec<&(String, f64)> = stages.iter().collect();
+    longest.sort_by(|a, b| b.1.total_cmp(&a.1));
+    let most: Vec<String> =
+        longest.iter().take(2).map(|(stage, seconds)| format!("{stage} {seconds:.1} s")).collect();
+    format!("{total_s:.1} s, most of it {}", most.join(" and "))
+}
+
+/// Whether every promise is kept, in words.
+pub fn summary(checks: &[Check], manner: Manner) -> String {
+    let broken = checks.iter().filter(|check| !check.pass).count();
+    let kept = format!("{} of {} promises kept", checks.len() - broken, checks.len());
+    let words = if broken == 0 { kept } else { format!("{kept}, {broken} BROKEN") };
+    paint(&words, if broken == 0 { GREEN } else { RED }, manner.is_output_coloured)
+}
+
+/// What is wrong, a line each; nothing where all is well.
+fn broken(checks: &[Check], manner: Manner) -> String {
+    let failed: Vec<Check> = checks.iter().filter(|check| !check.pass).cloned().collect();
+    if failed.is_empty() { String::new() } else { checks_table(&failed, manner) }
+}
+
+/// Promise, measured, limit, verdict: one line each.
+pub fn checks_table(checks: &[Check], manner: Manner) -> String {
+    let head = ["promise", "measured", "limit", "verdict"].map(str::to_owned);
+    let row = |check: &Check| {
+        let measured = check.value.map_or("none".to_owned(), |value| quantity(value, &check.unit));
+        let detail = check.detail.as_ref().filter(|_| !check.pass);
+        [
+            check.promise.clone(),
+            measured,
+            format!("{} {}", check.comparison.sign(), quantity(check.limit, &check.unit)),
+            verdict(check.pass, manner.is_output_coloured)
+                + &detail.map_or(String::new(), |at| format!(" ({at})")),
+        ]
+    };
+    let rows: Vec<[String; 4]> = std::iter::once(head).chain(checks.iter().map(row)).collect();
+    table(&rows)
+}
+
+/// Four significant digits, or as many as an integer has.
+fn quantity(value: f64, unit: &str) -> String {
+    let number = match value.abs() {
+        magnitude if magnitude == 0.0 || (value.fract() == 0.0 && magnitude < 1e6) => format!("{value}"),
+        magnitude if magnitude >= 100.0 => format!("{value:.1}"),
+        magnitude if magnitude >= 0.01 => format!("{value:.4}"),
+        _ => format!("{value:.2e}"),
+    };
+    match unit {
+        "" | "°" => number + unit,
+        _ => format!("{number} {unit}"),
+    }
+}
+
+/// Every check, the certificate, the time of each stage, and what the solver did, a row a step.
+pub fn details(checklist: &Checklist, manner: Manner) -> String {
+    let certificate = &checklist.certificate;
+    let mut text = checks_table(&checklist.checks, manner);
+    text += &format!(
+        "certificate: value {:.6}, bound {:.6}, gap {:.1e}\n",
+        certificate.value, certificate.bound, certificate.gap_ratio
+    );
+    let stages = checklist.timing_s.iter().flat_map(|timing| &timing.0);
+    let stages: Vec<[String; 2]> =
+        stages.map(|(stage, seconds)| [stage.clone(), format!("{seconds:.3} s")]).collect();
+    text += &table(&stages);
+    for note in &checklist.notes {
+        text += &format!("note: {note}\n");
+    }
+    text + &iterations(&checklist.log)
+}
+
+/// The solver's steps, a row each, with a column for every number that one of them has.
+fn iterations(log: &[LogRow]) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for name in log.iter().flat_map(|row| row.figures.keys()) {
+        if !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    names.sort_by_key(|name| {
+        STEP_NUMBERS.iter().position(|known| known == name).unwrap_or(STEP_NUMBERS.len())
+    });
+    let head = std::iter::once("step").chain(names.iter().copied()).map(str::to_owned).collect();
+    let row = |row: &LogRow| -> Vec<String> {
+        let cells = names
+            .iter()
+            .map(|name| row.figures.get(*name).map_or(String::new(), |value| step_number(*value)));
+        std::iter::once(row.phase.clone()).chain(cells).collect()
+    };
+    let rows: Vec<Vec<String>> = std::iter::once(head).chain(log.iter().map(row)).collect();
+    if log.is_empty() { String::new() } else { table(&rows) }
+}
+
+/// A count as it is, anything else to seven digits.
+fn step_number(value: f64) -> String {
+    let is_count = value.fract() == 0.0 && value.abs() < 1e6;
+    if is_count { format!("{value}") } else { format!("{value:.6e}") }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+    use crate::verify::Limit;
+
+    const PLAIN: Manner = Manner {
+        quiet: false,
+        verbose: 0,
+        is_terminal: false,
+        is_coloured: false,
+        is_output_coloured: false,
+    };
+
+    fn row(phase: &str, figures: &[(&str, f64)]) -> LogRow {
+        let figures: BTreeMap<String, f64> =
+            figures.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
+        LogRow { phase: phase.to_owned(), figures }
+    }
+
+    #[test]
+    fn the_iteration_table_has_a_column_for_every_number_and_gaps_where_a_step_has_none() {
+        let text = iterations(&[
+            row("first", &[("passes", 3.0)]),
+            row("second", &[("bound", 0.5), ("passes", 12.0)]),
+        ]);
+        assert_eq!(text, "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n");
+        assert_eq!(iterations(&[]), "");
+    }
+
+    #[test]
+    fn what_failed_is_told_in_full_and_what_passed_is_counted() {
+        let check = |name: &str, value| Check::new(name, name, Some(value), Limit::at_most(1.0, "mm"));
+        let checks = [check("one", 0.5), check("two", 2.0).at(Some("at P01".into()))];
+        assert_eq!(summary(&checks, PLAIN), "1 of 2 promises kept, 1 BROKEN");
+        let told = broken(&checks, PLAIN);
+        assert!(told.contains("two") && told.contains("FAIL (at P01)") && !told.contains("one"), "{told}");
+        assert_eq!(broken(&checks[..1], PLAIN), "");
+        assert_eq!(summary(&checks[..1], PLAIN), "1 of 1 promises kept");
+    }
+}
