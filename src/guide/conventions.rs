@@ -7,7 +7,8 @@
 //! # Frames
 //! * The **model frame** has the axes of the input file, scaled to millimetres. `hollowed.stl` and everything in
 //!   `checklist.json` that is not said to be elsewhere is in this frame. The halves of a yo-yo on an axle are moved by
-//!   half the string gap each, up or down its axis, and are there in all files of the kit.
+//!   half the string gap each, up or down its axis, and are there in all files of the kit. `assembly.3mf` puts the
+//!   printed parts back into it. A 3MF file that is read says its unit, and is in mm from then on.
 //! * The **goal frame** ([`crate::geom::Frame`]) has its origin at the contact point of a top, at the spin point of a
 //!   yo-yo or on the axis of a rotor, in the middle of the support polygon of a standing object, or as low as the lowest
 //!   point of one that floats, and its z axis along the spin axis or up.
