@@ -3,9 +3,9 @@
 use super::{
     access::VoidAccess,
     error::CutError,
-    pin_shape::PinSite,
-    pins::{PinScene, Placement, needed_room_mm, place, seated},
-    plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id, pin_id},
+    pin_size::needed_room_mm,
+    pins::{PinScene, Pins, Placement, pinned},
+    plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id},
     planner::Layout,
     rejoin::Bridge,
     request::PlanRequest,
@@ -15,20 +15,17 @@ use super::{
 };
 use crate::geom::Plane;
 
-/// The plan's data for these cuts and pieces; with the pins that were ordered, or else pins placed in every joint.
+/// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
     scene: &Scene,
     layout: &Layout,
-    (ordered, mut notes): (&Option<Vec<PinSite>>, Vec<String>),
+    (pins, mut notes): (Pins, Vec<String>),
 ) -> Result<CutPlan, CutError> {
     let Layout { planes, voids, pieces, bridges } = layout;
     check_no_cavity(pieces)?;
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let joints = joints(pieces);
-    let placements = match ordered {
-        Some(pins) => seated(&pin_scene, &joints, pins)?,
-        None => placed(&pin_scene, &joints),
-    };
+    let placements = pinned(&pin_scene, &joints, pins)?;
     let told = joints.iter().zip(&placements);
     notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
@@ -41,21 +38,6 @@ pub(crate) fn described(
         notes,
         moves: Vec::new(),
     })
-}
-
-/// Pins for every joint, numbered through; each pattern is held against those before it.
-fn placed(scene: &PinScene, joints: &[Joint]) -> Vec<Placement> {
-    let mut placements = Vec::new();
-    let mut count = 0;
-    for joint in joints {
-        let mut placement = place(scene, joint, &placements);
-        for site in &mut placement.sites {
-            (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
-            count += 1;
-        }
-        placements.push(placement);
-    }
-    placements
 }
 
 /// The plan with its cuts called as in the order it was made by: the planner numbers them.

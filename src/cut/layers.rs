@@ -6,6 +6,7 @@ use super::{
     access::VoidAccess,
     describe::described,
     error::CutError,
+    pins::Pins,
     plan::{CutPlan, cut_id, part_id},
     planner::{Layout, accesses},
     pose::{apply, laid, sides_down},
@@ -78,7 +79,7 @@ pub(crate) fn at_layers(
     });
     let moved = moved.collect();
     let Some(layout) = still_open(scene, layout, planes)? else { return Ok(plan) };
-    Ok(CutPlan { moves: moved, ..described(scene, &layout, (&None, notes))? })
+    Ok(CutPlan { moves: moved, ..described(scene, &layout, (Pins::Placed, notes))? })
 }
 
 /// Which cuts are moved for which part, and how far along their normals, mm.

@@ -1,9 +1,11 @@
 //! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
 
 mod access;
+mod bosses;
 mod cover;
 mod describe;
 mod error;
+mod face;
 mod family;
 mod layers;
 mod opening;
@@ -12,6 +14,7 @@ mod outline;
 mod part;
 mod pattern;
 mod pin_shape;
+mod pin_size;
 mod pins;
 mod plan;
 mod planner;
@@ -32,13 +35,14 @@ mod scenes;
 mod tests;
 
 pub use access::VoidAccess;
+pub use bosses::{Boss, BossOrder, bosses};
 pub use error::CutError;
 pub use layers::CutMove;
 pub use order::{CutOrder, OrderError};
 pub use part::{Part, parts};
 pub use pin_shape::PinSite;
 pub use plan::{Cut, CutPlan, JointNote, UncutFace};
-pub use planner::{plan, plan_by, plan_of};
+pub use planner::{plan, plan_around, plan_by, plan_of};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use seat::Seat;

@@ -2,7 +2,7 @@
 
 use super::{
     opening::{Opening, opening},
-    pins::needed_room_mm,
+    pin_size::needed_room_mm,
     request::PlanRequest,
     section::Section,
     sides::Sides,

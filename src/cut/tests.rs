@@ -5,7 +5,7 @@ use super::{
     *,
 };
 use crate::{
-    geom::{Point, Vector},
+    geom::{Point, Quadric, Vector},
     mass::moments_of_mesh,
     mesh::{Csg, Hollowed, Solid, shells},
 };
@@ -330,4 +330,80 @@ fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
     let (plan, _) = kit(&body, &request);
     assert!(plan.cuts.len() <= 2, "{:?}", plan.notes);
     assert!(plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0), "{:?}", plan.voids);
+}
+
+/// A shell of a ball too thin for pins, cut through its middle, and the price of filling it.
+fn thin_shell() -> (Hollowed, CutPlan) {
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 23.5]]);
+    let plan = plan(&body, &request()).unwrap();
+    assert!(plan.pins.is_empty());
+    (body, plan)
+}
+
+fn bosses_of(body: &Hollowed, plan: &CutPlan, price: Quadric) -> Vec<Boss> {
+    let price = (price, crate::geom::Frame::identity());
+    bosses(&BossOrder { hollowed: body, request: &request(), plan, ordered: None, price }).unwrap()
+}
+
+/// The same everywhere.
+const EVEN: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
+
+/// The body with bosses kept solid in its one void.
+fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
+    let void = Csg::of_solid(&body.voids[0]).unwrap();
+    let bodies = bosses.iter().filter_map(|boss| boss.body.as_ref()).map(|body| Csg::of_mesh(body).unwrap());
+    let rest = bodies.fold(void, |rest, boss| rest.subtract(&boss).unwrap());
+    Hollowed { outer: body.outer.clone(), voids: vec![rest.to_solid().unwrap()] }
+}
+
+#[test]
+fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_them() {
+    let (body, plan) = thin_shell();
+    let found = bosses_of(&body, &plan, EVEN);
+    assert_eq!(found.len(), 2);
+    let body = keeping(&body, &found);
+    let order =
+        CutOrder { pins: Some(found.iter().map(|boss| boss.pin.clone()).collect()), ..CutOrder::of(&plan) };
+    let plan = plan_around(&body, &request(), &order).unwrap();
+    assert!(plan.joints[0].one_way && plan.pins.len() == 2, "{:?}", plan.notes);
+    assert!(plan.voids[0].opening_mm >= request().min_opening_mm);
+    assert!(bosses_of(&body, &plan, EVEN).is_empty(), "one round is enough");
+    let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
+    for pin in &plan.pins {
+        let mouth = Point::from(pin.center_mm);
+        let bottom = mouth + Vector::from(pin.direction) * pin.socket_depth_mm;
+        let room_mm = surface.segment_distance(&mouth, &bottom, f64::INFINITY) - pin.socket_diameter_mm / 2.0;
+        assert!(room_mm >= request().wall_mm, "{room_mm}");
+    }
+    assert_volumes_add_up(&body, &parts(&body, &plan, &request()).unwrap());
+}
+
+#[test]
+fn bosses_stand_where_the_price_of_material_is_least() {
+    let (body, plan) = thin_shell();
+    let cut = plan.cuts[0].plane().unwrap();
+    let (u, _) = cut.basis();
+    // The price grows along u, so both pins lie on the far side of the middle.
+    let slope = Quadric([30.0, u.x, u.y, u.z, 0., 0., 0., 0., 0., 0.]);
+    let found = bosses_of(&body, &plan, slope);
+    assert_eq!(found.len(), 2);
+    let sum: f64 = found.iter().map(|boss| u.dot(&Vector::from(boss.pin.center_mm))).sum();
+    assert!(sum < -10.0, "{sum}");
+    let apart = (Point::from(found[0].pin.center_mm) - Point::from(found[1].pin.center_mm)).norm();
+    assert!(apart > 15.0, "{apart}");
+}
+
+#[test]
+fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
+    let (body, plan) = thin_shell();
+    let pins: Vec<PinSite> = bosses_of(&body, &plan, EVEN).into_iter().map(|boss| boss.pin).collect();
+    let price = (EVEN, crate::geom::Frame::identity());
+    let ask = |pins: &[PinSite]| {
+        let order =
+            BossOrder { hollowed: &body, request: &request(), plan: &plan, ordered: Some(pins), price };
+        bosses(&order).unwrap().len()
+    };
+    assert_eq!((ask(&pins), ask(&pins[..1]), ask(&[])), (2, 1, 0));
+    let outside = PinSite { center_mm: (Vector::from(pins[0].center_mm) * 3.0).into(), ..pins[0].clone() };
+    assert_eq!(ask(&[outside]), 0);
 }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::{
     Error, Setup, Solved,
     ballasting::seats,
+    bosses::{BossRound, Bossed, bossed},
     phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
@@ -47,6 +48,8 @@ pub struct Assembly {
     pub parts: Vec<WrittenPart>,
     /// How many times it was solved again.
     pub rounds: usize,
+    /// The rounds in which bosses were kept solid around pins.
+    pub bosses: Vec<BossRound>,
 }
 
 impl Assembly {
@@ -67,7 +70,11 @@ impl Assembly {
         let request = plan_request(setup);
         let (voids, plan) = planned(setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
-        let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
+        let Bossed { voids, plan, rounds, note } = bossed(&mut tuner, (voids, plan), &request)?;
+        watch.lap("bosses");
+        let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
+        assembly.bosses = rounds;
+        assembly.plan.notes.extend(note);
         watch.lap("parts");
         Ok(assembly)
     }
@@ -115,7 +122,13 @@ fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
 
 fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
     match (&setup.job.plan, setup.job.cut) {
-        (Some(order), _) => plan_by(&voids.hollowed, request, order),
+        (Some(order), _) => match plan_by(&voids.hollowed, request, order) {
+            // The pin may stand in a boss that is still to be kept solid.
+            Err(CutError::PinOffFace { .. }) => {
+                plan_by(&voids.hollowed, request, &CutOrder { pins: Some(Vec::new()), ..order.clone() })
+            }
+            plan => plan,
+        },
         (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),
         (None, CutMode::Never) => plan_by(&voids.hollowed, request, &CutOrder::default()),
     }
@@ -142,7 +155,17 @@ fn assembled(
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
             let height_proof = tuner.height_proof();
-            return Ok(Assembly { solution, height_proof, hollowed, refused_mm3, plan, parts, rounds });
+            let bosses = Vec::new();
+            return Ok(Assembly {
+                solution,
+                height_proof,
+                hollowed,
+                refused_mm3,
+                plan,
+                parts,
+                rounds,
+                bosses,
+            });
         }
         more = written - moments_of_mesh(&voids.hollowed.to_mesh());
     }

@@ -3,8 +3,10 @@
 mod advising;
 mod assembly;
 mod ballasting;
+mod bosses;
 mod fitting;
 mod grid_rows;
+mod joinery_rows;
 mod kit;
 mod outcome;
 mod printer_rows;
@@ -18,6 +20,7 @@ mod waterline;
 mod written;
 
 pub use assembly::Assembly;
+pub use bosses::{BossRound, KeptBoss};
 pub use outcome::{Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};
 pub use solving::Solved;

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::fitting::{half_of, halves, shallow_axle};
+use super::joinery_rows::{bosses_mm3, round_rows};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, written::WrittenPart};
@@ -69,6 +70,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         string_gap_mm: setup.string_gap_mm(),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
+        rounds: round_rows(sheet),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -147,19 +149,25 @@ fn goal_row(setup: &Setup) -> GoalRow {
 fn certificate(sheet: &Sheet) -> Certificate {
     let certificate = &sheet.assembly.solution.certificate;
     let figure = figure_name(certificate.figure);
-    let shown = |value: f64| match certificate.figure {
-        hollow::Figure::TopplingAngleRad => value.to_degrees(),
-        hollow::Figure::VolumeMm3 => value * sheet.setup.material.density_g_mm3(),
-        _ => value,
-    };
+    let shown = |value: f64| shown(sheet.setup, certificate.figure, value);
     Certificate {
         figure,
         value: shown(certificate.value),
         bound: shown(certificate.bound),
         gap_ratio: certificate.gap_ratio,
         kept_solid_mm3: sheet.assembly.refused_mm3,
+        bosses_mm3: bosses_mm3(sheet),
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
+    }
+}
+
+/// A value of a certificate's figure in the unit in which it is shown.
+pub fn shown(setup: &Setup, figure: hollow::Figure, value: f64) -> f64 {
+    match figure {
+        hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        hollow::Figure::VolumeMm3 => value * setup.material.density_g_mm3(),
+        _ => value,
     }
 }
 

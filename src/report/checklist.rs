@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::grid::GridRow;
+use super::joinery::RoundRow;
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use crate::verify::{Aim, Check, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
@@ -66,6 +67,9 @@ pub struct Checklist {
     /// What the voids are filled with; none for air.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<FillOrder>,
+    /// The rounds in which material was kept solid around pins.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rounds: Vec<RoundRow>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.
@@ -188,6 +192,9 @@ pub struct Certificate {
     /// The volume of voids that could not have been cleaned: those places, and what lies a minimum opening around them,
     /// were taken out of what may be emptied, mm³.
     pub kept_solid_mm3: f64,
+    /// The volume that could have been emptied, and stays solid in bosses around pins, mm³.
+    #[serde(default)]
+    pub bosses_mm3: f64,
     /// |value − bound| / |bound|.
     pub gap_ratio: f64,
     /// Tops: what is proved for every height of the centre of mass; none where that was not proved.

@@ -5,6 +5,7 @@ mod base64;
 mod checklist;
 mod grid;
 mod hardware;
+mod joinery;
 mod kit;
 mod page;
 mod picture;
@@ -23,6 +24,7 @@ pub use checklist::{
     Tool, Verdict, WallRow,
 };
 pub use grid::GridRow;
+pub use joinery::{BossRow, RoundRow};
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
 pub use page::{document, page};
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};

@@ -4,6 +4,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::base64::base64;
 use super::grid;
+use super::joinery;
 use super::steps::steps;
 use super::words::{self, coordinates, extent, number, quantity, quantity_or_dash};
 use super::{Checklist, PartRow, Picture, Verdict};
@@ -192,6 +193,7 @@ fn proof(sheet: &Checklist) -> Markup {
     html! {
         h2 { "How good it is" }
         @for sentence in words::certificate(sheet) { p { (sentence) } }
+        (joinery::rounds(sheet))
         (bodies(sheet))
     }
 }

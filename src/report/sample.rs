@@ -56,6 +56,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             bound: speed,
             gap_ratio: 1e-9,
             kept_solid_mm3: 0.0,
+            bosses_mm3: 0.0,
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
         },
@@ -69,6 +70,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,
+        rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![
