@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
+pub use choices::{CutMode, ModelUnit, PartFormat, PinStyle, Solver};
 pub use filling::Filling;
 
 use crate::{
@@ -42,6 +42,9 @@ pub struct Job {
     pub solver: Solver,
     /// Whether the object is cut.
     pub cut: CutMode,
+    /// What aligns the parts; printed pins where the key is left out.
+    #[serde(default, skip_serializing_if = "PinStyle::is_printed")]
+    pub pins: PinStyle,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none where the key is left out.
@@ -173,6 +176,7 @@ impl Job {
             pitch: None,
             solver: Solver::Quadric,
             cut: CutMode::Auto,
+            pins: PinStyle::Printed,
             format: PartFormat::Stl,
             ballast: Order::None,
             fill: None,
@@ -270,6 +274,7 @@ mod tests {
         rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
         boat.goal = Request::new(GoalKind::Float);
         boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
+        boat.pins = PinStyle::Dowel;
         let mut yoyo = job();
         yoyo.goal = Request::new(GoalKind::Yoyo);
         let axle = "6mmx30mm:2.7".parse().ok();

@@ -13,7 +13,7 @@ use std::time::Instant;
 
 use equipoise::cut::{
     Cut, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PinSite, PlanRequest, PosePreference,
-    parts, plan_by,
+    parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -120,6 +120,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
         seats: Vec::new(),
+        rods: if dice.below(4) == 0 { rods().unwrap() } else { Vec::new() },
     }
 }
 

@@ -31,6 +31,7 @@ fn request() -> PlanRequest {
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
         seats: Vec::new(),
+        rods: Vec::new(),
     }
 }
 

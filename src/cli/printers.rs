@@ -157,6 +157,7 @@ fn show_number(quantity: Quantity, value: f64) -> String {
     match quantity {
         _ if quantity.is_grid_step() => show_step(value),
         _ if quantity.is_ratio() => value.to_string(),
+        Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
         _ => show_mm(value),
     }
 }
@@ -272,7 +273,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 19 numbers, 13 of them process defaults, 5 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 21 numbers, 15 of them process defaults, 6 recalled or own choices\n"
         );
         let mut out = Vec::new();
         let error =

@@ -257,7 +257,8 @@ impl Search<'_> {
     /// From where to where along the pin its boss reaches, mm from the cut.
     fn ends_mm(&self, size: &Size) -> [f64; 2] {
         let wall = size.corner() + self.order.request.wall_mm + MARGIN_MM;
-        [-(wall + size.chamfer), size.depth + wall]
+        let back = if size.dowel.is_some() { size.depth } else { size.chamfer };
+        [-(wall + back), size.depth + wall]
     }
 
     /// The pin with its boss: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.

@@ -3,6 +3,7 @@
 use super::{
     access::VoidAccess,
     error::CutError,
+    pin_shape::PinSite,
     pin_size::needed_room_mm,
     pins::{PinScene, Pins, Placement, pinned},
     plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id},
@@ -11,9 +12,9 @@ use super::{
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{Joint, Piece, check_no_cavity, joints},
+    split::{Joint, check_no_cavity, joints},
 };
-use crate::geom::Plane;
+use crate::{geom::Plane, mass::FlatFace};
 
 /// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
@@ -31,7 +32,7 @@ pub(crate) fn described(
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
     Ok(CutPlan {
         cuts: planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect(),
-        joints: told.map(|(joint, placement)| joint_note(pieces, joint, placement)).collect(),
+        joints: told.map(|(joint, placement)| joint_note(&pin_scene, joint, placement)).collect(),
         pins: placements.into_iter().flat_map(|placement| placement.sites).collect(),
         uncut: bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect(),
         voids: voids.clone(),
@@ -62,14 +63,25 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     UncutFace { cut: cut_id(bridge.cut), point_mm }
 }
 
-fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement) -> JointNote {
+fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
+    let pieces = scene.pieces;
     JointNote {
         cut: cut_id(joint.cut),
         parts: [part_id(joint.below), part_id(joint.above)],
         area_mm2: joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
+        face: contact(scene, joint, placement),
     }
+}
+
+/// Where the parts of a joint touch: its faces less the mouths of its sockets.
+fn contact(scene: &PinScene, joint: &Joint, placement: &Placement) -> FlatFace {
+    let below = &scene.pieces[joint.below];
+    let faces = joint.caps.iter().flat_map(|&cap| &below.caps[cap].faces);
+    let faces = faces.map(|&face| (below.mesh.corners(face), 1.0));
+    let mouths = placement.sites.iter().flat_map(PinSite::mouth).map(|corners| (corners, -1.0));
+    FlatFace::of_triangles(faces.chain(mouths))
 }
 
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.

@@ -5,6 +5,7 @@ use super::{
     pin_shape::PinSite,
     pin_size::{Size, needed_room_mm, reach_mm},
     pins::{PinScene, Placement, is_confused},
+    rod::{Dowel, Rod},
     section::{Chart, Point2},
     split::{Cap, Joint},
 };
@@ -32,7 +33,7 @@ struct Taken {
 impl Taken {
     fn of(site: &PinSite) -> Self {
         let (center, along) = (Point::from(site.center_mm), Vector::from(site.direction));
-        let root = center - along * PinSite::root_mm(site.diameter_mm);
+        let root = center - along * site.back_mm();
         let radius_mm = PinSite::socket_corner_mm(site.socket_diameter_mm);
         Self { ends: [root, center + along * site.socket_depth_mm], radius_mm }
     }
@@ -96,16 +97,17 @@ impl<'a> Face<'a> {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
         let along = self.plane.normal * self.sign;
         let bottom = mouth + along * size.depth;
-        let root = mouth - along * PinSite::root_mm(size.diameter);
+        let root = mouth - along * size.back_mm();
+        let hollow = if size.dowel.is_some() { root } else { mouth };
         let radius = size.corner() + self.scene.request.wall_mm;
         let others = (0..self.scene.planes.len()).filter(|&cut| cut != self.joint.cut);
         let is_clear = |cut: usize| {
-            let [near, far] = [mouth, bottom].map(|end| self.scene.planes[cut].distance(&end));
+            let [near, far] = [hollow, bottom].map(|end| self.scene.planes[cut].distance(&end));
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
         others.into_iter().all(is_clear)
             && self.taken.iter().all(|taken| taken.is_clear_of([&root, &bottom], radius))
-            && self.keeps_off([&mouth, &bottom], radius)
+            && self.keeps_off([&hollow, &bottom], radius)
             && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
     }
 
@@ -170,6 +172,11 @@ impl<'a> Face<'a> {
         pattern.iter().map(view).collect()
     }
 
+    fn dowel(&self, rod: usize, length_mm: f64) -> Dowel {
+        let Rod { id, density_g_cm3, .. } = &self.scene.request.rods[rod];
+        Dowel { rod: id.clone(), length_mm, density_g_cm3: *density_g_cm3 }
+    }
+
     fn site(&self, p: &Point2, size: &Size) -> PinSite {
         PinSite {
             id: String::new(),
@@ -178,10 +185,11 @@ impl<'a> Face<'a> {
             direction: (self.plane.normal * self.sign).into(),
             diameter_mm: size.diameter,
             length_mm: size.length,
-            chamfer_mm: size.chamfer,
+            chamfer_mm: if size.dowel.is_some() { 0.0 } else { size.chamfer },
             socket_diameter_mm: size.socket_diameter,
             socket_depth_mm: size.depth,
             socket_chamfer_mm: size.chamfer,
+            dowel: size.dowel.map(|(rod, length_mm)| self.dowel(rod, length_mm)),
         }
     }
 }

@@ -30,7 +30,7 @@ pub struct Part {
     pub pose: Pose,
     /// The pins that stand out of it.
     pub pins: Vec<PinSite>,
-    /// The pins of other parts that its sockets receive.
+    /// The pins of other parts that its sockets receive, and the dowels that stand in it, seen from the cut into this part.
     pub sockets: Vec<PinSite>,
     /// The voids that it holds a piece of, as indices into the hollowed body's.
     pub voids: Vec<usize>,
@@ -73,9 +73,12 @@ pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Resu
     let part = |(index, piece): (usize, &Piece)| {
         let carried = || seats.iter().filter(move |seat| seat.carrier == index);
         let received = || seats.iter().filter(move |seat| seat.receiver == index);
-        let pin_cuts: Vec<usize> = carried().map(|seat| seat.cut).collect();
-        let pins: Vec<PinSite> = carried().map(|seat| seat.site.clone()).collect();
-        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).collect();
+        let standing = carried().filter(|seat| seat.site.dowel.is_none());
+        let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
+        let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
+        let pins: Vec<PinSite> = carried().filter(is_printed).map(|seat| seat.site.clone()).collect();
+        let second = carried().filter(|seat| !is_printed(seat)).map(|seat| seat.site.mirrored());
+        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).chain(second).collect();
         let solid = fitted(piece, &pins, &sockets)?;
         Ok(Part {
             id: part_id(index),

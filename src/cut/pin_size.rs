@@ -14,6 +14,8 @@ pub(super) struct Size {
     pub(super) chamfer: f64,
     pub(super) socket_diameter: f64,
     pub(super) depth: f64,
+    /// A dowel: which of the request's rods it is cut from, and how long, mm.
+    pub(super) dowel: Option<(usize, f64)>,
 }
 
 impl Size {
@@ -24,7 +26,21 @@ impl Size {
         let chamfer = pins.chamfer_mm.min(diameter / 4.0);
         let socket_diameter = round_up(diameter + 2.0 * pins.clearance_mm, request.hole_step_mm);
         let depth = round_up(length + pins.bottom_relief_mm, request.layer_mm);
-        Self { diameter, length, chamfer, socket_diameter, depth }
+        Self { diameter, length, chamfer, socket_diameter, depth, dowel: None }
+    }
+
+    /// A dowel cut from one of the request's rods, to whole millimetres, with a socket on either side.
+    fn of_rod(request: &PlanRequest, rod: usize) -> Self {
+        let pins = &request.pins;
+        let diameter = request.rods[rod].diameter_mm;
+        let length_mm = (2.0 * pins.length_ratio * diameter).ceil();
+        let depth = round_up(length_mm / 2.0 + pins.bottom_relief_mm, request.layer_mm);
+        Self { length: length_mm / 2.0, depth, dowel: Some((rod, length_mm)), ..Self::new(request, diameter) }
+    }
+
+    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's second socket.
+    pub(super) fn back_mm(&self) -> f64 {
+        if self.dowel.is_some() { self.depth } else { PinSite::root_mm(self.diameter) }
     }
 
     /// The size that a placed pin has.
@@ -35,6 +51,7 @@ impl Size {
             chamfer: site.socket_chamfer_mm,
             socket_diameter: site.socket_diameter_mm,
             depth: site.socket_depth_mm,
+            dowel: site.dowel.as_ref().map(|dowel| (0, dowel.length_mm)),
         }
     }
 
@@ -58,27 +75,33 @@ fn round_up(value: f64, step: f64) -> f64 {
 
 /// The diameter of the disc of material that the thinnest pin's socket needs, mm.
 pub(crate) fn needed_room_mm(request: &PlanRequest) -> f64 {
-    thinnest(request).room_mm(request)
-}
-
-fn thinnest(request: &PlanRequest) -> Size {
-    Size::new(request, round_up(request.pins.min_diameter_mm, request.pixel_mm))
+    let rooms = size_pairs(request).into_iter().flatten().map(|size| size.room_mm(request));
+    rooms.fold(f64::INFINITY, f64::min)
 }
 
 /// How far from a cut the stoutest pin's socket with the wall around it reaches, mm.
 pub(super) fn reach_mm(request: &PlanRequest) -> f64 {
-    let least = round_up(request.pins.min_diameter_mm, request.pixel_mm);
-    let size = Size::new(request, DIAMETER_RATIOS[0] * least);
-    size.depth + size.corner() + request.wall_mm
+    let reaches =
+        size_pairs(request).into_iter().flatten().map(|size| size.depth + size.corner() + request.wall_mm);
+    reaches.fold(0.0, f64::max)
 }
 
 /// Sizes of a joint's first pin and of the others, the stoutest first: different enough that a pin does not enter the
-/// other's socket; last of all equal ones, for joints with room for nothing else.
+/// other's socket; last of all equal ones, for joints with room for nothing else. At least one pair.
 pub(super) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
+    if request.rods.is_empty() { printed_pairs(request) } else { dowel_pairs(request) }
+}
+
+/// By how much the diameters of two pins differ at least, mm, if neither is to enter the other's socket.
+fn step_mm(request: &PlanRequest) -> f64 {
+    let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
+    round_up(gaps + 2.0 * FORCE_TOLERANCE_MM, request.pixel_mm)
+}
+
+fn printed_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let pixel = request.pixel_mm;
     let least = round_up(request.pins.min_diameter_mm, pixel);
-    let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
-    let step = round_up(gaps + 2.0 * FORCE_TOLERANCE_MM, pixel);
+    let step = step_mm(request);
     let mut stout: Vec<f64> = DIAMETER_RATIOS.iter().map(|ratio| round_up(ratio * least, pixel)).collect();
     stout.push(least + step);
     stout.retain(|&diameter| diameter >= least + step);
@@ -86,4 +109,20 @@ pub(super) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let mut pairs: Vec<[f64; 2]> = stout.into_iter().map(|diameter| [diameter, diameter - step]).collect();
     pairs.push([least, least]);
     pairs.into_iter().map(|diameters| diameters.map(|d| Size::new(request, d))).collect()
+}
+
+/// Every rod with the thickest that is thinner by enough, no stouter than printed pins are tried but for the two thinnest.
+fn dowel_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
+    let mut rods: Vec<Size> = (0..request.rods.len()).map(|rod| Size::of_rod(request, rod)).collect();
+    rods.sort_by(|a, b| a.diameter.total_cmp(&b.diameter));
+    let stoutest = DIAMETER_RATIOS[0] * request.pins.min_diameter_mm;
+    let fit = rods.iter().filter(|size| size.diameter <= stoutest).count().max(rods.len().min(2));
+    rods.truncate(fit);
+    let thinner = |size: &Size| {
+        let is_thinner = |other: &&Size| other.diameter + step_mm(request) <= size.diameter;
+        rods.iter().rev().find(is_thinner).map(|other| [*size, *other])
+    };
+    let mut pairs: Vec<[Size; 2]> = rods.iter().rev().filter_map(thinner).collect();
+    pairs.extend(rods.first().map(|least| [*least, *least]));
+    pairs
 }

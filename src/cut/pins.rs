@@ -158,6 +158,14 @@ fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[&Placeme
 
 /// Whether the pattern fits itself in a second way, or another joint, or another joint fits it.
 pub(super) fn is_confused(pattern: &[Peg], placed: &[&Placement]) -> bool {
-    let apart = placed.iter().map(|placement| &placement.pegs).filter(|other| other.len() >= 2);
-    fits(pattern, pattern) || apart.into_iter().any(|other| fits(pattern, other) || fits(other, pattern))
+    let apart = || placed.iter().filter(|placement| placement.pegs.len() >= 2);
+    let is_dowelled = |placement: &Placement| placement.sites.iter().all(|site| site.dowel.is_some());
+    // Either side of a dowelled joint has sockets, and shows the pattern as a mirror does.
+    let mirrored: Vec<Vec<Peg>> = apart().filter(|p| is_dowelled(p)).map(|p| turned_over(&p.pegs)).collect();
+    let mut others = apart().map(|placement| &placement.pegs).chain(&mirrored);
+    fits(pattern, pattern) || others.any(|other| fits(pattern, other) || fits(other, pattern))
+}
+
+fn turned_over(pegs: &[Peg]) -> Vec<Peg> {
+    pegs.iter().map(|peg| Peg { at: Point2::new(peg.at.x, -peg.at.y), ..*peg }).collect()
 }

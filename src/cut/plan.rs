@@ -7,6 +7,7 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point, Vector},
+    mass::FlatFace,
     mesh::{Hollowed, Solid, TriMesh},
 };
 
@@ -66,6 +67,8 @@ pub struct JointNote {
     pub pins: Vec<String>,
     /// Whether the pins let the parts together one way only.
     pub one_way: bool,
+    /// Where the parts touch: the section less the mouths of the sockets.
+    pub face: FlatFace,
 }
 
 impl CutPlan {
@@ -86,7 +89,12 @@ impl CutPlan {
     /// One mesh of what the pins add and, turned inside out, of what the sockets take away: its moments are what the
     /// assembled parts have more than the uncut body.
     pub fn pegs(&self) -> TriMesh {
-        let peg = |pin: &PinSite| pin.standing_out().joined(&pin.taken_away().reversed());
+        let second = |pin: &PinSite| match pin.dowel {
+            Some(_) => pin.mirrored().taken_away(),
+            None => TriMesh::default(),
+        };
+        let sockets = |pin: &PinSite| pin.taken_away().joined(&second(pin)).reversed();
+        let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
         self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)))
     }
 

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::seat::Seat;
+use super::{rod::Rod, seat::Seat};
 use crate::geom::{Point, Vector};
 
 /// What the printer, the material and the goal ask of cuts, pins and parts.
@@ -28,6 +28,8 @@ pub struct PlanRequest {
     pub pose: PosePreference,
     /// The last voids of the body hold parts, in this order.
     pub seats: Vec<Seat>,
+    /// The rods that dowels are cut from, in place of printed pins; none for printed ones.
+    pub rods: Vec<Rod>,
 }
 
 impl PlanRequest {

@@ -407,3 +407,76 @@ fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
     let outside = PinSite { center_mm: (Vector::from(pins[0].center_mm) * 3.0).into(), ..pins[0].clone() };
     assert_eq!(ask(&[outside]), 0);
 }
+
+#[test]
+fn dowels_have_a_socket_in_either_part_and_leave_all_cut_faces_flat() {
+    let request = PlanRequest { rods: rods().unwrap(), ..request() };
+    let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+    let (plan, parts) = kit(&body, &request);
+    assert!(plan.pins.len() >= 2 && plan.joints[0].one_way, "{:?}", plan.notes);
+    let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
+    for pin in &plan.pins {
+        let dowel = pin.dowel.as_ref().unwrap();
+        assert_eq!(dowel.length_mm, 2.0 * pin.length_mm);
+        let [first, second] =
+            [0, 1].map(|part: usize| parts[part].sockets.iter().find(|s| s.id == pin.id).unwrap());
+        assert_eq!(Vector::from(first.direction), -Vector::from(second.direction));
+        let end = |socket: &PinSite| {
+            Point::from(socket.center_mm) + Vector::from(socket.direction) * socket.socket_depth_mm
+        };
+        let room_mm = surface.segment_distance(&end(first), &end(second), f64::INFINITY);
+        assert!(room_mm - pin.socket_diameter_mm / 2.0 >= request.wall_mm);
+    }
+    for part in &parts {
+        assert!(part.pins.is_empty() && part.pose.lies.ends_with("down"), "{}", part.pose.lies);
+    }
+    let text = CutOrder::of(&plan).to_toml().unwrap();
+    let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
+    assert_eq!(plan_by(&body, &request, &order).unwrap().pins, plan.pins);
+}
+
+#[test]
+fn no_two_dowelled_joints_can_be_confused_from_either_side() {
+    let request = PlanRequest { rods: rods().unwrap(), ..request() };
+    let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
+    let at = |x: f64| Cut { id: format!("C{x}"), point_mm: [x, 0.0, 0.0], normal: [1.0, 0.0, 0.0] };
+    let plan = plan_by(&body, &request, &cuts(vec![at(20.0), at(40.0)])).unwrap();
+    assert!(plan.joints.iter().all(|joint| joint.one_way && joint.pins.len() >= 2), "{:?}", plan.joints);
+    let [first, second] = [0, 1].map(|joint: usize| signature(&plan, &plan.joints[joint]));
+    assert!(
+        first.len() != second.len() || first.iter().zip(&second).any(|(a, b)| (a - b).abs() > 0.1),
+        "{first:?}"
+    );
+}
+
+/// What no turn and no mirror changes of a joint's pins: their diameters, and how far they are from each other, mm.
+fn signature(plan: &CutPlan, joint: &JointNote) -> Vec<f64> {
+    let pins: Vec<&PinSite> = plan.pins.iter().filter(|pin| joint.pins.contains(&pin.id)).collect();
+    let apart = |a: &PinSite, b: &PinSite| (Point::from(a.center_mm) - Point::from(b.center_mm)).norm();
+    let mut arms: Vec<f64> =
+        pins.iter().enumerate().flat_map(|(i, a)| pins[..i].iter().map(move |b| apart(a, b))).collect();
+    let mut diameters: Vec<f64> = pins.iter().map(|pin| pin.diameter_mm).collect();
+    arms.sort_by(f64::total_cmp);
+    diameters.sort_by(f64::total_cmp);
+    [diameters, arms].concat()
+}
+
+#[test]
+fn the_film_of_a_joint_is_its_section_less_the_mouths_of_its_sockets() {
+    let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
+    let cut = Cut { id: "C1".into(), point_mm: [20.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0] };
+    let plan = plan_by(&body, &request(), &cuts(vec![cut])).unwrap();
+    let mouths: f64 = plan
+        .pins
+        .iter()
+        .map(|pin| {
+            let radius = PinSite::socket_corner_mm(pin.socket_diameter_mm) + pin.socket_chamfer_mm;
+            let sides = pin_shape::SIDES as f64;
+            sides / 2.0 * (std::f64::consts::TAU / sides).sin() * radius * radius
+        })
+        .sum();
+    let face = plan.joints[0].face;
+    assert!(mouths > 1.0 && (face.area_mm2 - (400.0 - mouths)).abs() < 1e-9, "{face:?}");
+    let flat: f64 = (0..3).map(|i| face.squares_mm4[0][i].abs()).sum();
+    assert!((face.center_mm[0] - 20.0).abs() < 1e-5 && flat < 1e-6);
+}

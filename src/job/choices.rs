@@ -47,6 +47,29 @@ choice! {
 }
 
 choice! {
+    /// What aligns the parts.
+    PinStyle, "style of pins" {
+        /// Pins printed with the parts.
+        Printed = "printed",
+        /// Dowels cut from stock rods, in sockets on both sides: cut faces stay flat.
+        Dowel = "dowel",
+    }
+}
+
+impl PinStyle {
+    /// Whether they are printed.
+    pub fn is_printed(&self) -> bool {
+        *self == Self::Printed
+    }
+}
+
+impl Default for PinStyle {
+    fn default() -> Self {
+        Self::Printed
+    }
+}
+
+choice! {
     /// The file format of the written parts.
     PartFormat, "format" {
         /// Binary STL.

@@ -6,6 +6,7 @@ use super::{
     Error, Setup, Solved,
     ballasting::seats,
     bosses::{BossRound, Bossed, bossed},
+    joining::joined,
     phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
@@ -142,13 +143,14 @@ fn assembled(
     request: &PlanRequest,
 ) -> Result<Assembly, Error> {
     let goal = &setup.placement.goal;
-    let mut more = moments_of_mesh(&plan.pegs());
+    let mut more = moments_of_mesh(&plan.pegs()) + joined(setup, &plan);
     let mut attempts = 0;
     loop {
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
-        let whole = written + inside(setup, &voids.hollowed);
+        let joined = joined(setup, &plan);
+        let whole = written + joined + inside(setup, &voids.hollowed);
         attempts += 1;
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
@@ -167,7 +169,7 @@ fn assembled(
                 bosses,
             });
         }
-        more = written - moments_of_mesh(&voids.hollowed.to_mesh());
+        more = written + joined - moments_of_mesh(&voids.hollowed.to_mesh());
     }
 }
 
@@ -216,5 +218,6 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
             PrintPose::CutFaceDown => PosePreference::CutFaceDown,
         },
         seats: seats(&setup.load),
+        rods: setup.rods.clone(),
     }
 }

@@ -1,5 +1,7 @@
 //! The kit in memory: files, judgement, checklist and page.
 
+use super::joinery_rows;
+use super::joining;
 use super::printer_rows;
 use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
@@ -102,8 +104,9 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         wall: WallOrder { required_mm: setup.wall.wall_mm },
         parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
         hardware: setup.hardware(),
+        dowels: joining::dowels(&assembly.plan),
         string_gap_mm: setup.string_gap_mm(),
-        joints: rows::promised_joints(setup, &assembly.plan),
+        joints: joinery_rows::promised_joints(setup, &assembly.plan),
         ballast: rows::ballast_orders(setup),
         fill: rows::fill_order(setup),
         assembly: None,

@@ -7,6 +7,7 @@ mod bosses;
 mod fitting;
 mod grid_rows;
 mod joinery_rows;
+mod joining;
 mod kit;
 mod outcome;
 mod printer_rows;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::fitting::{half_of, halves, shallow_axle};
-use super::joinery_rows::{bosses_mm3, round_rows};
+use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows};
+use super::joining::{dowels, joined};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, written::WrittenPart};
@@ -14,12 +15,10 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow, Tool, VoidRow,
-    WallRow,
+    BallastRow, Certificate, Checklist, CutRow, GoalRow, LogRow, ModelRow, PartRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, PromisedJoint, RotorOrder,
-    WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, RotorOrder, WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -67,6 +66,8 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
         hardware: setup.hardware(),
+        dowels: dowels(&sheet.assembly.plan),
+        cut_list: cut_list(sheet),
         string_gap_mm: setup.string_gap_mm(),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
@@ -177,7 +178,8 @@ fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
     if figure != FigureName::SpinItRatio {
         return sheet.judgement.assembly.value_of(figure);
     }
-    let whole = sheet.assembly.written_moments() + setup.hardware_moments();
+    let joined = joined(setup, &sheet.assembly.plan);
+    let whole = sheet.assembly.written_moments() + joined + setup.hardware_moments();
     figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
@@ -260,31 +262,6 @@ pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
 fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
     let joint = plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
     joint.map(joint_id).unwrap_or_default()
-}
-
-/// What is ordered of each joint.
-pub fn promised_joints(setup: &Setup, plan: &CutPlan) -> Vec<PromisedJoint> {
-    let clearance_mm = setup.printer.clearance_per_side_mm.value;
-    (0..plan.joints.len()).map(|index| PromisedJoint { id: joint_id(index), clearance_mm }).collect()
-}
-
-fn joint_id(index: usize) -> String {
-    format!("J{}", index + 1)
-}
-
-fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
-    let joints = sheet.assembly.plan.joints.iter().enumerate();
-    joints
-        .map(|(index, joint)| JointRow {
-            id: joint_id(index),
-            cut: joint.cut.clone(),
-            parts: joint.parts.clone(),
-            area_mm2: joint.area_mm2,
-            pins: joint.pins.len(),
-            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
-            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
-        })
-        .collect()
 }
 
 /// The ballast as the judge sees it.

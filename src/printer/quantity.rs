@@ -14,6 +14,10 @@ const LARGEST_DETAIL_MM: f64 = 20.0;
 const LARGEST_GAP_MM: f64 = 5.0;
 /// The largest extra depth or tolerance, mm.
 const LARGEST_ERROR_MM: f64 = 10.0;
+/// The thickest film of glue between flat faces, mm: above it micrometres were given.
+const THICKEST_FILM_MM: f64 = 1.0;
+/// Densities of glues, g/cm³: outside kg/m³ were given.
+const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
 /// Shares of a length that tolerances and shrinkages can be; above it per cent were given.
 const SHARES: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -69,11 +73,16 @@ pub enum Quantity {
     ShrinkageXyRatio,
     /// By how much a part comes out shorter along z, over its length.
     ShrinkageZRatio,
+    /// How thick the film of glue between two cut faces is.
+    GlueFilmMm,
+    /// The density of that glue when it has set.
+    #[serde(rename = "glue_density_g_cm3")]
+    GlueDensityGCm3,
 }
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 26] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -98,6 +107,8 @@ impl Quantity {
         Self::ToleranceRatio,
         Self::ShrinkageXyRatio,
         Self::ShrinkageZRatio,
+        Self::GlueFilmMm,
+        Self::GlueDensityGCm3,
     ];
 
     /// The key in the file.
@@ -127,6 +138,8 @@ impl Quantity {
             Self::ToleranceRatio => "tolerance_ratio",
             Self::ShrinkageXyRatio => "shrinkage_xy_ratio",
             Self::ShrinkageZRatio => "shrinkage_z_ratio",
+            Self::GlueFilmMm => "glue_film_mm",
+            Self::GlueDensityGCm3 => "glue_density_g_cm3",
         }
     }
 
@@ -146,6 +159,8 @@ impl Quantity {
                 | Self::ToleranceRatio
                 | Self::ShrinkageXyRatio
                 | Self::ShrinkageZRatio
+                | Self::GlueFilmMm
+                | Self::GlueDensityGCm3
         )
     }
 
@@ -172,6 +187,8 @@ impl Quantity {
                 FINEST_MM..=LARGEST_ERROR_MM
             }
             Self::ToleranceRatio | Self::ShrinkageXyRatio | Self::ShrinkageZRatio => SHARES,
+            Self::GlueFilmMm => FINEST_MM..=THICKEST_FILM_MM,
+            Self::GlueDensityGCm3 => GLUES_G_CM3,
         }
     }
 

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::grid::GridRow;
-use super::joinery::RoundRow;
+use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use crate::verify::{Aim, Check, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
@@ -58,6 +58,12 @@ pub struct Checklist {
     /// What is put in that is not printed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hardware: Vec<Hardware>,
+    /// The dowels in its joints, each in its place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dowels: Vec<Hardware>,
+    /// What dowels are to be cut.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut_list: Vec<CutListRow>,
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,

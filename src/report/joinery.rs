@@ -1,10 +1,11 @@
-//! What is told of how parts are joined: the bosses that were kept solid around pins.
+//! What is told of how parts are joined: bosses around pins, dowels, and films of glue.
 
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
 
 use super::Checklist;
 use super::words::{coordinates, quantity};
+use crate::verify::GlueFilm;
 
 /// A round in which material was kept solid around pins, and everything solved again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -34,6 +35,56 @@ pub struct BossRow {
     pub center_mm: [f64; 3],
     /// The volume of the boss with what was solid anyway, mm³.
     pub volume_mm3: f64,
+}
+
+/// Dowels to be cut, all alike.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CutListRow {
+    /// How many.
+    pub count: usize,
+    /// The rod they are cut from, such as `beech-4`.
+    pub rod: String,
+    /// What it is called in a shop.
+    pub name: String,
+    /// mm.
+    pub diameter_mm: f64,
+    /// How long they are cut, mm.
+    pub length_mm: f64,
+    /// What one of them weighs, g.
+    pub mass_g: f64,
+    /// What the diameter and the density rest on.
+    pub sources: Vec<String>,
+}
+
+/// The dowels to cut; nothing where pins are printed.
+pub(super) fn cut_list(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.cut_list.is_empty() {
+            p { "Cut the dowels, ends square and free of burr; each goes half into either part." }
+            ul class="ticks" {
+                @for row in &sheet.cut_list {
+                    li {
+                        strong { (row.count) " × " (row.name) } " (" code { (row.rod) } "), " (quantity(row.length_mm, "mm")) " long, "
+                        (quantity(row.mass_g, "g")) " each" br; span class="small" { (row.sources.join("; ")) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What the films of glue weigh, and how thick they are counted; nothing where that is not known.
+pub(super) fn films(sheet: &Checklist) -> Markup {
+    let films: Vec<GlueFilm> = sheet.joints.iter().filter_map(|joint| joint.glue).collect();
+    let mass_g: f64 = films.iter().map(|film| film.mass_g).sum();
+    html! {
+        @if let Some(film) = films.first() {
+            p {
+                "The figures count films of glue of " (quantity(film.thickness_mm, "mm")) " and " (quantity(film.density_g_cm3, "g/cm³"))
+                ", " (quantity(mass_g, "g")) " in all; what is pressed out is wiped off."
+            }
+        }
+    }
 }
 
 /// What the rounds kept solid, and what that cost.

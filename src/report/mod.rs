@@ -24,7 +24,7 @@ pub use checklist::{
     Tool, Verdict, WallRow,
 };
 pub use grid::GridRow;
-pub use joinery::{BossRow, RoundRow};
+pub use joinery::{BossRow, CutListRow, RoundRow};
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
 pub use page::{document, page};
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};

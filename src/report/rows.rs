@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, Peg, Pose};
+use crate::verify::{BallastOrder, GlueFilm, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -82,6 +82,9 @@ pub struct JointRow {
     pub pins: usize,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The film of glue in it, which the figures of the assembly count; none where the printer's profile says nothing of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glue: Option<GlueFilm>,
     /// What to mind, such as where a joint has no room for pins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,

@@ -67,6 +67,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         joints: vec![joint()],
         grid: vec![grid_row()],
         hardware: vec![],
+        dowels: vec![],
+        cut_list: vec![],
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,
@@ -144,6 +146,7 @@ fn joint() -> JointRow {
         area_mm2: 60.0 * 40.0 - 54.0 * 34.0,
         pins: 0,
         clearance_mm: 0.2,
+        glue: None,
         note: None,
     }
 }

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::hardware::fitting;
+use super::joinery::{cut_list, films};
 use super::page::{figure, mass_window, mass_with_window};
 use super::words::{coordinates, quantity};
 use super::{BallastRow, Checklist, JointRow, PartRow, Picture, VoidRow};
@@ -147,6 +148,7 @@ fn hidden_ratio(sheet: &Checklist, void: &VoidRow) -> Option<f64> {
 fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.joints.is_empty() { p { "It is one part: nothing to fit." } }
+        (cut_list(sheet))
         ul class="ticks" {
             @for joint in &sheet.joints {
                 li {
@@ -173,6 +175,7 @@ fn glue(sheet: &Checklist) -> Markup {
             @if sheet.goal.aim.kind == GoalKind::Float {
                 p { strong { "Seal every joint all around: " } "a void that fills with water sinks it or turns it over." }
             }
+            (films(sheet))
             p class="small" { "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance." }
         }
     }

@@ -1,5 +1,6 @@
 //! The list of checks, and the limits they hold.
 
+use super::joints::film_check;
 use super::{
     Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, RotorOrder,
     WaterOrder, ballast,
@@ -58,6 +59,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
+    checks.extend(found.film_error.clone().map(film_check));
     checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));
     checks
 }

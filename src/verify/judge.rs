@@ -9,6 +9,7 @@ use super::{
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     hardware::{fit, mass_moments},
+    joints::{film_error, film_moments},
     rotor::ends_mm,
     smallest_wall_mm,
 };
@@ -50,6 +51,8 @@ pub struct Judgement {
     pub pegs: Vec<PegFacts>,
     /// How many of a sample of places just under the parts' surfaces lie in another part too.
     pub overlaps: usize,
+    /// By how much of it a film of glue differs from its faces at worst, and in which joint; none without films.
+    pub film_error: Option<(f64, String)>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -74,11 +77,13 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let load = ballast_moments(&promise.ballast, setting.density_g_mm3())
         + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
     let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
+    let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * setting.density_g_mm3().recip();
+    let assembled = assembly_moments(&evidence.parts);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let mut judgement = Judgement {
         solid: Figures::new(&moments_of_mesh(&outer), &setting),
         hollowed: figures_of(moments_of_mesh(&welded)),
-        assembly: figures_of(assembly_moments(&evidence.parts)),
+        assembly: Figures::loaded(&assembled, &(load + joined), &setting),
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
@@ -86,6 +91,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
+        film_error: film_error(promise, &evidence.parts),
         checks: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);

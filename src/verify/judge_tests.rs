@@ -46,6 +46,7 @@ fn promise(poses: &[Pose]) -> Promise {
         wall: WallOrder { required_mm: WALL },
         parts: poses.iter().enumerate().map(part).collect(),
         hardware: Vec::new(),
+        dowels: Vec::new(),
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,

@@ -5,6 +5,7 @@ mod check;
 mod checks;
 mod figures;
 mod hardware;
+mod joints;
 mod judge;
 #[cfg(test)]
 pub(crate) mod judge_tests;
@@ -35,6 +36,7 @@ pub use checks::{
 };
 pub use figures::{Figures, Setting};
 pub use hardware::{Fit, Hardware, mass_moments};
+pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
 pub use judge::{Evidence, Judgement, judge, setting};
 pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{BallastOrder, Figures, FillOrder, Hardware, Pose, RotorOrder, WaterOrder};
+use super::{BallastOrder, Figures, FillOrder, GlueFilm, Hardware, Pose, RotorOrder, WaterOrder};
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
 
@@ -34,6 +34,9 @@ pub struct Promise {
     /// What is put into them that is not printed.
     #[serde(default)]
     pub hardware: Vec<Hardware>,
+    /// The dowels in its joints.
+    #[serde(default)]
+    pub dowels: Vec<Hardware>,
     /// How far the halves of a yo-yo are to be apart, mm; none where there is one body.
     #[serde(default)]
     pub string_gap_mm: Option<f64>,
@@ -232,6 +235,9 @@ pub struct PromisedJoint {
     pub id: String,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The film of glue in it; none where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glue: Option<GlueFilm>,
 }
 
 impl Promise {
