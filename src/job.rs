@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, ModelUnit, PartFormat, PinStyle, Solver};
+pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle, Solver};
 pub use filling::Filling;
 
 use crate::{
@@ -45,6 +45,9 @@ pub struct Job {
     /// What aligns the parts; printed pins where the key is left out.
     #[serde(default, skip_serializing_if = "PinStyle::is_printed")]
     pub pins: PinStyle,
+    /// Whether parts bear their ids; sunk into cut faces where the key is left out.
+    #[serde(default = "engraved", skip_serializing_if = "IdStyle::is_engraved")]
+    pub ids: IdStyle,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none where the key is left out.
@@ -177,6 +180,7 @@ impl Job {
             solver: Solver::Quadric,
             cut: CutMode::Auto,
             pins: PinStyle::Printed,
+            ids: IdStyle::Engraved,
             format: PartFormat::Stl,
             ballast: Order::None,
             fill: None,
@@ -217,6 +221,10 @@ impl Job {
             }
         }
     }
+}
+
+fn engraved() -> IdStyle {
+    IdStyle::Engraved
 }
 
 fn known_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
@@ -274,7 +282,7 @@ mod tests {
         rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
         boat.goal = Request::new(GoalKind::Float);
         boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
-        boat.pins = PinStyle::Dowel;
+        (boat.pins, boat.ids) = (PinStyle::Dowel, IdStyle::None);
         let mut yoyo = job();
         yoyo.goal = Request::new(GoalKind::Yoyo);
         let axle = "6mmx30mm:2.7".parse().ok();

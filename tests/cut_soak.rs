@@ -12,8 +12,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PinSite, PlanRequest, PosePreference,
-    parts, plan_by, rods,
+    Cut, CutError, CutOrder, CutPlan, GoalAxis, LabelStyle, Part, PinSettings, PinSite, PlanRequest,
+    PosePreference, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -121,6 +121,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
         seats: Vec::new(),
         rods: if dice.below(4) == 0 { rods().unwrap() } else { Vec::new() },
+        labels: (dice.below(2) == 0).then(|| LabelStyle { stroke_mm: 0.5, depth_mm: 0.5 }),
     }
 }
 

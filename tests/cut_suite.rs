@@ -32,6 +32,7 @@ fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         seats: Vec::new(),
         rods: Vec::new(),
+        labels: None,
     }
 }
 

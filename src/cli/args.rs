@@ -157,7 +157,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 28] = [
+const DECIDED_BY_JOB: [&str; 29] = [
     "printer",
     "material",
     "wall",
@@ -183,6 +183,7 @@ const DECIDED_BY_JOB: [&str; 28] = [
     "pitch",
     "cut",
     "pins",
+    "ids",
     "format",
     "ballast",
     "fill",
@@ -290,6 +291,7 @@ impl PrepareArgs {
             cut,
             plan,
             pins: self.cutting.pins.unwrap_or(default.pins),
+            ids: self.cutting.ids.unwrap_or(default.ids),
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

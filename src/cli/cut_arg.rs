@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::{
     cut::CutOrder,
-    job::{CutMode, PinStyle, PlanError},
+    job::{CutMode, IdStyle, PinStyle, PlanError},
 };
 
 /// How the object is cut and its parts joined.
@@ -21,6 +21,9 @@ pub struct CutArgs {
     /// printed]
     #[arg(long, value_name = "printed|dowel")]
     pub pins: Option<PinStyle>,
+    /// Sink the parts' ids into their cut faces where there is room (engraved), or not (none) [default: engraved]
+    #[arg(long, value_name = "engraved|none")]
+    pub ids: Option<IdStyle>,
 }
 
 /// What `--cut` was given.

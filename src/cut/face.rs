@@ -25,13 +25,13 @@ const TRIED_PAIRS: usize = 200;
 const MAX_PINS: usize = 3;
 
 /// What a pin and its socket take up: all within a distance of a segment.
-struct Taken {
+pub(super) struct Taken {
     ends: [Point; 2],
     radius_mm: f64,
 }
 
 impl Taken {
-    fn of(site: &PinSite) -> Self {
+    pub(super) fn of(site: &PinSite) -> Self {
         let (center, along) = (Point::from(site.center_mm), Vector::from(site.direction));
         let root = center - along * site.back_mm();
         let radius_mm = PinSite::socket_corner_mm(site.socket_diameter_mm);
@@ -39,7 +39,7 @@ impl Taken {
     }
 
     /// Whether a segment keeps `distance_mm` from it.
-    fn is_clear_of(&self, segment: [&Point; 2], distance_mm: f64) -> bool {
+    pub(super) fn is_clear_of(&self, segment: [&Point; 2], distance_mm: f64) -> bool {
         let apart_mm = segment_segment_distance_squared(self.ends.each_ref(), segment).sqrt();
         apart_mm >= self.radius_mm + distance_mm
     }

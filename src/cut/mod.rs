@@ -7,6 +7,7 @@ mod describe;
 mod error;
 mod face;
 mod family;
+mod label;
 mod layers;
 mod opening;
 mod order;
@@ -37,7 +38,9 @@ mod tests;
 
 pub use access::VoidAccess;
 pub use bosses::{Boss, BossOrder, bosses};
+pub use describe::refaced;
 pub use error::CutError;
+pub use label::{Label, LabelStyle};
 pub use layers::CutMove;
 pub use order::{CutOrder, OrderError};
 pub use part::{Part, parts};

@@ -3,7 +3,8 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    access::VoidAccess, error::CutError, layers::CutMove, pin_shape::PinSite, rejoin::Bridge, section::Chart,
+    access::VoidAccess, error::CutError, label::Label, layers::CutMove, pin_shape::PinSite, rejoin::Bridge,
+    section::Chart,
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -20,6 +21,9 @@ pub struct CutPlan {
     pub pins: Vec<PinSite>,
     /// Which parts meet where.
     pub joints: Vec<JointNote>,
+    /// The ids sunk into its faces.
+    #[serde(default)]
+    pub labels: Vec<Label>,
     /// How each void is opened, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
     /// Where a cut leaves the body whole.
@@ -79,6 +83,7 @@ impl CutPlan {
             cuts: Vec::new(),
             pins: Vec::new(),
             joints: Vec::new(),
+            labels: Vec::new(),
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
             moves: Vec::new(),
@@ -86,7 +91,7 @@ impl CutPlan {
         }
     }
 
-    /// One mesh of what the pins add and, turned inside out, of what the sockets take away: its moments are what the
+    /// One mesh of what the pins add and, turned inside out, of what the sockets and labels take away: its moments are what the
     /// assembled parts have more than the uncut body.
     pub fn pegs(&self) -> TriMesh {
         let second = |pin: &PinSite| match pin.dowel {
@@ -95,7 +100,8 @@ impl CutPlan {
         };
         let sockets = |pin: &PinSite| pin.taken_away().joined(&second(pin)).reversed();
         let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
-        self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)))
+        let pegs = self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
+        self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
     }
 
     /// The faces left whole, in the coordinates of the cuts' planes.

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{rod::Rod, seat::Seat};
+use super::{label::LabelStyle, rod::Rod, seat::Seat};
 use crate::geom::{Point, Vector};
 
 /// What the printer, the material and the goal ask of cuts, pins and parts.
@@ -30,6 +30,8 @@ pub struct PlanRequest {
     pub seats: Vec<Seat>,
     /// The rods that dowels are cut from, in place of printed pins; none for printed ones.
     pub rods: Vec<Rod>,
+    /// How part ids are sunk into cut faces; none where they are not.
+    pub labels: Option<LabelStyle>,
 }
 
 impl PlanRequest {

@@ -71,5 +71,6 @@ pub(crate) fn request() -> PlanRequest {
         pose: PosePreference::CutFaceDown,
         seats: Vec::new(),
         rods: Vec::new(),
+        labels: None,
     }
 }

@@ -70,6 +70,23 @@ impl Default for PinStyle {
 }
 
 choice! {
+    /// Whether parts bear their ids.
+    IdStyle, "style of ids" {
+        /// Sunk into the cut faces where there is room.
+        Engraved = "engraved",
+        /// Not at all.
+        None = "none",
+    }
+}
+
+impl IdStyle {
+    /// Whether they are sunk into the faces.
+    pub fn is_engraved(&self) -> bool {
+        *self == Self::Engraved
+    }
+}
+
+choice! {
     /// The file format of the written parts.
     PartFormat, "format" {
         /// Binary STL.

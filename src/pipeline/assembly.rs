@@ -6,7 +6,7 @@ use super::{
     Error, Setup, Solved,
     ballasting::seats,
     bosses::{BossRound, Bossed, bossed},
-    joining::joined,
+    joining::{joined, label_style},
     phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
@@ -149,6 +149,9 @@ fn assembled(
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
+        if attempts == 0 {
+            plan = cut::refaced(&voids.hollowed, plan)?;
+        }
         let joined = joined(setup, &plan);
         let whole = written + joined + inside(setup, &voids.hollowed);
         attempts += 1;
@@ -219,5 +222,6 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
         },
         seats: seats(&setup.load),
         rods: setup.rods.clone(),
+        labels: label_style(setup),
     }
 }

@@ -123,6 +123,7 @@ fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> Promi
         print_from_model: written.evidence().pose,
         pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
         sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),
+        marks: part.labels.iter().map(joining::mark).collect(),
     }
 }
 

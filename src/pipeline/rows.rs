@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::fitting::{half_of, halves, shallow_axle};
 use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows};
-use super::joining::{dowels, joined};
+use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, written::WrittenPart};
@@ -228,6 +228,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 print_from_model: written.evidence().pose,
                 pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
+                marks: part.labels.iter().map(mark).collect(),
                 half: half_of(written, &halves),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }

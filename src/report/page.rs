@@ -140,7 +140,10 @@ fn part_line(sheet: &Checklist, part: &PartRow) -> Markup {
             td class="n" { (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) }
             td { (extent(&part.size_mm)) }
             td { (part.lies) }
-            td { (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket")) }
+            td {
+                (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket"))
+                @for mark in &part.marks { br; "“" (mark.text) "” sunk into its face in " (mark.cut) }
+            }
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, GlueFilm, Peg, Pose};
+use crate::verify::{BallastOrder, GlueFilm, Mark, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -59,6 +59,9 @@ pub struct PartRow {
     pub pins: Vec<Peg>,
     /// The sockets sunk into it.
     pub sockets: Vec<Peg>,
+    /// The ids sunk into its cut faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<Mark>,
     /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<String>,

@@ -164,6 +164,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         print_from_model: promised.print_from_model,
         pins: vec![],
         sockets: vec![],
+        marks: vec![],
         half: None,
         picture: Some(part_picture_file(&promised.id)),
     }

@@ -1,14 +1,17 @@
-//! What joins the parts: whether the films of glue are as large as the faces in the files.
+//! What joins the parts: whether the films of glue are as large as the faces in the files, and the ids in them are there.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Check, Limit, PartEvidence, Promise};
+use super::pegs::Felt;
+use super::{Check, Limit, Mark, PartEvidence, Promise};
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{FlatFace, Moments};
 use crate::units::MM3_PER_CM3;
 
 /// Triangles of a file this near to a joint's plane lie in it, mm: far above the rounding of files, far below a layer.
 const IN_PLANE_MM: f64 = 1e-3;
+/// A stroke may be this much shallower or deeper, as a share of its depth.
+const DEPTH_RATIO: f64 = 0.05;
 /// A film may differ from the faces in the files by this share: what pins, sockets and engraved marks take off one side.
 pub const FILM_LIMIT_RATIO: f64 = 0.1;
 
@@ -56,6 +59,26 @@ pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f
         ((promised - found).abs() / promised, (*id).clone())
     };
     films.iter().map(error).max_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+/// How many strokes of engraved ids are missing from their files, or not as deep as promised; none where no part bears an id.
+pub(super) fn lost_strokes(promise: &Promise, felt: &[Felt]) -> Option<usize> {
+    let parts = promise.parts.iter().zip(felt);
+    let marks: Vec<(&Mark, &Felt)> =
+        parts.flat_map(|(part, felt)| part.marks.iter().map(move |mark| (mark, felt))).collect();
+    let is_lost = |mark: &Mark, felt: &Felt, stroke: &[f64; 3]| {
+        let at = |depth: f64| Point::from(*stroke) + Vector::from(mark.axis) * (depth * mark.depth_mm);
+        felt.holds(&at(1.0 - DEPTH_RATIO)) || !felt.holds(&at(1.0 + DEPTH_RATIO))
+    };
+    let lost =
+        |&(mark, felt): &(&Mark, &Felt)| mark.strokes_mm.iter().filter(|s| is_lost(mark, felt, s)).count();
+    (!marks.is_empty()).then(|| marks.iter().map(lost).sum())
+}
+
+/// Whether all engraved ids are there.
+pub(super) fn marks_check(lost: usize) -> Check {
+    let promise = "every stroke of every engraved id is as deep as promised, but for";
+    Check::new("ids", promise, Some(lost as f64), Limit::at_most(0.0, ""))
 }
 
 /// The area of a part's triangles all of whose corners lie in a plane of the model.

@@ -9,7 +9,7 @@ use super::{
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     hardware::{fit, mass_moments},
-    joints::{film_error, film_moments},
+    joints::{film_error, film_moments, lost_strokes},
     rotor::ends_mm,
     smallest_wall_mm,
 };
@@ -53,6 +53,8 @@ pub struct Judgement {
     pub overlaps: usize,
     /// By how much of it a film of glue differs from its faces at worst, and in which joint; none without films.
     pub film_error: Option<(f64, String)>,
+    /// How many strokes of engraved ids are not in their files as deep as promised; none without ids.
+    pub lost_strokes: Option<usize>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
 }
@@ -92,6 +94,7 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
         film_error: film_error(promise, &evidence.parts),
+        lost_strokes: lost_strokes(promise, &felt),
         checks: Vec::new(),
     };
     judgement.checks = checks(promise, &judgement);

@@ -32,6 +32,7 @@ fn promise(poses: &[Pose]) -> Promise {
         print_from_model: *pose,
         pins: vec![],
         sockets: vec![],
+        marks: vec![],
     };
     Promise {
         schema: SCHEMA,

@@ -43,7 +43,7 @@ pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pegs::PegFacts;
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
+    Aim, Density, FigureName, Mark, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
     SCHEMA, WallOrder,
 };
 pub use rotor::{RotorOrder, Unbalance};

@@ -50,7 +50,7 @@ impl<'a> Felt<'a> {
     }
 
     /// Whether a point of the model lies in the part's material.
-    fn holds(&self, model: &Point) -> bool {
+    pub(super) fn holds(&self, model: &Point) -> bool {
         self.surface.winding(&self.part.pose.to_print(model)) != 0
     }
 

@@ -207,6 +207,28 @@ pub struct PromisedPart {
     /// The sockets that are sunk into it.
     #[serde(default)]
     pub sockets: Vec<Peg>,
+    /// The ids sunk into its cut faces.
+    #[serde(default)]
+    pub marks: Vec<Mark>,
+}
+
+/// An id sunk into a cut face, stroke by stroke.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// What it says.
+    pub text: String,
+    /// The cut that made the face.
+    pub cut: String,
+    /// The unit direction into the part, model frame.
+    pub axis: [f64; 3],
+    /// How deep it is, mm.
+    pub depth_mm: f64,
+    /// How wide its strokes are, mm.
+    pub stroke_mm: f64,
+    /// The middle of every stroke in the face, model frame, mm.
+    pub strokes_mm: Vec<[f64; 3]>,
+    /// mm³, of what it takes away.
+    pub volume_mm3: f64,
 }
 
 /// What a pin adds to the hollowed body, or a socket takes from it.

@@ -552,6 +552,15 @@ def judge_films(table, sheet, parts):
         table.same(f"{joint['id']} glue, g", film["mass_g"], film["area_mm2"] * film["thickness_mm"] * film["density_g_cm3"] / 1000)
 
 
+def judge_marks(table, sheet, parts):
+    """Every stroke of an engraved id is a groove in its part's file, as deep as promised: felt from outside, along it."""
+    for part, corners in zip(sheet["parts"], parts):
+        for mark in part.get("marks", []):
+            axis, strokes = np.array(mark["axis"]), np.array(mark["strokes_mm"])
+            depths = first_hits(corners, strokes - axis * 1e-3, [axis] * len(strokes)) - 1e-3
+            table.at_most(f"{part['id']} '{mark['text']}' in {mark['cut']}, depth off by, mm", 1e-3, np.abs(depths - mark["depth_mm"]).max())
+
+
 def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
     path, room = kit / part["file"], printer.get("build_volume_mm")
@@ -607,6 +616,7 @@ def judge(kit):
     judge_pins(table, sheet, parts)
     judge_dowels(table, sheet, parts)
     judge_films(table, sheet, parts)
+    judge_marks(table, sheet, parts)
     if voids:
         wall = smallest_wall(outer, voids)
         table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)
@@ -666,7 +676,8 @@ def judge_goal(table, goal, promise, found):
 
 def judge_whole(table, sheet, volume, hollowed):
     pegs = lambda key: sum(peg["volume_mm3"] for part in sheet["parts"] for peg in part[key])
-    error = abs(volume - hollowed - pegs("pins") + pegs("sockets")) / hollowed
+    marks = sum(mark["volume_mm3"] for part in sheet["parts"] for mark in part.get("marks", []))
+    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks) / hollowed
     table.at_most("parts against hollowed, pins, sockets", VOLUME_SUM_LIMIT_RATIO, error)
 
 
