@@ -39,6 +39,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "progress",
             "shell",
             "toml_text",
+            "units",
             "words",
         ],
     ),

@@ -28,6 +28,7 @@ pub(crate) fn described(
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let joints = joints(pieces);
     let placements = pinned(&pin_scene, &joints, pins)?;
+    let proofs = notes.clone();
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let told = joints.iter().zip(&placements);
     notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
@@ -42,6 +43,7 @@ pub(crate) fn described(
         voids: voids.clone(),
         notes,
         moves: Vec::new(),
+        proofs,
     })
 }
 

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::{
     cover::VoidSet,
+    mirror::mirror_planes,
     request::PlanRequest,
     seat::{self, Seat},
 };
@@ -50,7 +51,7 @@ struct Extent {
 }
 
 /// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets into cells that
-/// meet the same voids; each cell is sampled. Sorted by direction, then offset.
+/// meet the same voids; each cell is sampled. Sorted by direction, then offset; the model's planes of symmetry come last.
 pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
     let breadths: Vec<f64> = hollowed.voids.iter().map(|void| breadth_mm(void.mesh())).collect();
     let directions = directions(hollowed, request);
@@ -61,7 +62,18 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
             in_direction(normal, &extents.collect::<Vec<_>>(), &request.seats)
         })
         .collect();
-    rows.concat()
+    let middles = symmetry(hollowed.outer.mesh()).into_iter().map(|plane| {
+        let extents = hollowed.voids.iter().zip(&breadths).map(|(v, &b)| extent(v.mesh(), &plane.normal, b));
+        candidate(plane, &extents.collect::<Vec<_>>(), &request.seats)
+    });
+    let middles = middles.filter(|middle| middle.met != 0);
+    rows.concat().into_iter().chain(middles).collect()
+}
+
+/// The planes of symmetry of the model.
+fn symmetry(model: &TriMesh) -> Vec<Plane> {
+    let center = Body::new(&moments_of_mesh(model), 1.0).center;
+    mirror_planes(model, &center, &principal_axes(model))
 }
 
 /// The directions of the family: the model's axes, the principal axes of the solid and of every void, the goal's axis

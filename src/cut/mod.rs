@@ -9,6 +9,7 @@ mod face;
 mod family;
 mod label;
 mod layers;
+mod mirror;
 mod opening;
 mod order;
 mod outline;

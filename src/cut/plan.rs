@@ -32,6 +32,9 @@ pub struct CutPlan {
     /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
+    /// How the number of its cuts came about: the first of the notes.
+    #[serde(skip)]
+    pub proofs: Vec<String>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -87,6 +90,7 @@ impl CutPlan {
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
             moves: Vec::new(),
+            proofs: Vec::new(),
             notes: Vec::new(),
         }
     }

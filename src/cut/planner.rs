@@ -18,8 +18,8 @@ use super::{
     split::{Piece, check_no_cavity, split},
 };
 use crate::{
-    geom::{Plane, Vector},
-    mesh::{Hollowed, off_vertices},
+    geom::{Plane, Point, Vector},
+    mesh::{Hollowed, off_faces, off_vertices},
     units::counted,
 };
 
@@ -67,7 +67,9 @@ fn ordered(
 ) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request);
-    let planes = order.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let cuts =
+        order.cuts.iter().map(|cut| beside_faces(&scene, cut)).collect::<Result<Vec<_>, CutError>>()?;
+    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let own = order.numbered();
     let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
     let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
@@ -78,7 +80,19 @@ fn ordered(
         (Some(pins), Others::Placed) => Pins::Around(pins),
     };
     let plan = described(&scene, &Layout { planes, voids, pieces, bridges }, (pins, Vec::new()))?;
-    Ok(named_as(plan, &order.cuts))
+    Ok(named_as(plan, &cuts))
+}
+
+/// The cut as ordered, or beside the faces that it would leave a sheet of.
+fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
+    let plane = cut.plane()?;
+    let moved_mm = off_faces(&scene.material, &plane).offset_mm - plane.offset_mm;
+    let point_mm = if moved_mm == 0.0 {
+        cut.point_mm
+    } else {
+        (Point::from(cut.point_mm) + plane.normal * moved_mm).into()
+    };
+    Ok(Cut { point_mm, ..cut.clone() })
 }
 
 /// Which pins joints get where a person ordered none.

@@ -110,6 +110,12 @@ impl Section {
         Outline::new(rings.iter().flat_map(|&i| self.rings[i].segments()).collect())
     }
 
+    /// Centre and diameter (mm) of the largest disc in each of its polygons.
+    pub fn largest_discs(&self) -> Vec<(Point2, f64)> {
+        let discs = self.groups().into_iter().filter_map(|rings| self.outline(&rings).largest_disc(0.0));
+        discs.map(|disc| (disc.center, 2.0 * disc.radius_mm)).collect()
+    }
+
     /// The area, mm².
     pub fn area_mm2(&self) -> f64 {
         self.rings.iter().map(Ring::area_mm2).sum()

@@ -235,7 +235,7 @@ fn a_plan_survives_being_written_and_read() {
     let read: CutPlan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
     assert_eq!(
         read,
-        CutPlan { moves: Vec::new(), ..plan.clone() },
+        CutPlan { moves: Vec::new(), proofs: Vec::new(), ..plan.clone() },
         "how its cuts were moved is not in the file"
     );
     assert_eq!(parts(&body, &read, &request()), parts(&body, &plan, &request()));

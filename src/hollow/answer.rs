@@ -5,7 +5,7 @@ use super::balance;
 use super::method::figure_for;
 use super::programme::index;
 use super::reach::Vector10;
-use super::solution::{Certificate, Figure, Solution, Tangent, Warm};
+use super::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
 use super::status::{Obstacle, Status};
 use super::work::Work;
 use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
@@ -48,11 +48,13 @@ impl Answer {
     pub fn into_solution(self, work: Work) -> Solution {
         let scale = work.reach.scale;
         let best = &self.climb.best;
+        let certificate = self.certificate(&work);
         Solution {
             status: self.status(&work),
             objective: self.objective,
             quadric: scale.quadric_to_mm(&(best.quadric * scale.volume_mm3)),
-            certificate: self.certificate(&work),
+            course: self.course(&work, certificate.figure),
+            certificate,
             moments: scale.moments_to_mm(&best.extreme.s),
             passes: work.reach.passes(),
             warm: Warm { point: best.point.clone(), height: self.height, lever: self.lever },
@@ -89,8 +91,15 @@ impl Answer {
         }
     }
 
+    /// Its ascent, pass by pass, in a figure.
+    pub fn course(&self, work: &Work, figure: Figure) -> Vec<Pass> {
+        let passes =
+            self.climb.course.iter().map(|pass| pass.map(|ratio| self.in_figure(work, figure, ratio)));
+        passes.filter(Pass::is_finite).collect()
+    }
+
     /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
-    fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
+    pub fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
         match figure {
             Figure::CriticalSpeedRpm => to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt()),
             Figure::SpinIt => functional(work, self.objective, &self.climb.best.extreme.s, ratio),

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector};
 
 use super::programme::{DualPoint, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
+use super::solution::Pass;
 use crate::progress::Progress;
 
 /// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and the first steps
@@ -70,6 +71,11 @@ impl Visit {
         }
     }
 
+    /// Its ratio and its bound.
+    fn pass(&self) -> Pass {
+        Pass { value: self.value, bound: self.bound }
+    }
+
     /// How far the rows are from met, in the solver's units.
     pub fn residual(&self) -> f64 {
         self.misses.amax()
@@ -130,6 +136,8 @@ pub(super) enum End {
 pub(super) struct Climb {
     pub best: Visit,
     pub end: End,
+    /// Value and bound of every point it was at, the last one `best`.
+    pub course: Vec<Pass>,
 }
 
 /// When a bound is good enough.
@@ -162,8 +170,9 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
     let last_pass = reach.passes() + budget.passes;
     let mut here = Visit::new(reach, programme, start);
     let mut stride = Stride::first(programme, budget);
+    let mut course = vec![here.pass()];
     loop {
-        let done = |end| Climb { best: here.clone(), end };
+        let done = |end| Climb { best: here.clone(), end, course: course.clone() };
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
@@ -188,6 +197,7 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budg
         let there = Visit::new(reach, programme, step.to.clone());
         if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
+            course.push(here.pass());
             if reach.is_free()
                 && is_suspicious(&here, programme)
                 && let Some(proof) = separation(reach, programme, &here, budget)
@@ -327,7 +337,7 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     let proof =
         climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
     let end = End::Infeasible(proof.best.bound);
-    (proof.best.bound > 0.0).then_some(Climb { best: proof.best, end })
+    (proof.best.bound > 0.0).then_some(Climb { end, ..proof })
 }
 
 #[cfg(test)]

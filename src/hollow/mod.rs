@@ -95,7 +95,7 @@
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
 //! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `lever` the search
 //! over heights · `cover`, `frontier` the proof over all of them · `answer` back to mm, with a status · `ballast` the least of a
-//! denser material where hollowing is not enough · `fill` voids that are filled · `method` one trait for this
+//! denser material where hollowing is not enough · `course` how it came about · `fill` voids that are filled · `method` one trait for this
 //! solver and the papers' own, which live in `papers`.
 //!
 //! # The papers' own methods
@@ -133,6 +133,7 @@ mod answer;
 mod ascent;
 mod balance;
 mod ballast;
+mod course;
 mod cover;
 mod fill;
 mod float;
@@ -161,13 +162,14 @@ use crate::goal::GoalKind;
 use crate::progress::Progress;
 
 pub use ballast::{Ballast, has_spare, least_ballast};
+pub use course::{TopCourse, top_course};
 pub use fill::Fill;
 pub use golden::golden_section;
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
 pub use problem::Problem;
 pub use settings::Settings;
-pub use solution::{Certificate, Figure, LogRow, Solution, Stage};
+pub use solution::{Certificate, Figure, LogRow, Pass, Solution, Stage};
 pub use status::{Obstacle, Status};
 
 use work::Work;

@@ -106,6 +106,28 @@ pub struct LogRow {
     pub residual: f64,
 }
 
+/// How far a search had come after a pass over the columns: what the interior at hand reaches, and what no interior beats.
+/// The interior at hand meets the constraints at the end of the search only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pass {
+    /// What is reached.
+    pub value: f64,
+    /// What no interior can beat.
+    pub bound: f64,
+}
+
+impl Pass {
+    /// The pass with both numbers changed.
+    pub(super) fn map(self, change: impl Fn(f64) -> f64) -> Self {
+        Self { value: change(self.value), bound: change(self.bound) }
+    }
+
+    /// Whether it is of use to look at.
+    pub(super) fn is_finite(&self) -> bool {
+        self.value.is_finite() && self.bound.is_finite()
+    }
+}
+
 /// The optimal void and its proof.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
@@ -123,6 +145,9 @@ pub struct Solution {
     pub passes: usize,
     /// One row an ascent.
     pub log: Vec<LogRow>,
+    /// The last ascent pass by pass, in the certificate's figure; passes without one, such as a top's that no speed holds up,
+    /// are left out.
+    pub course: Vec<Pass>,
     pub(super) warm: Warm,
 }
 
@@ -142,6 +167,7 @@ impl Solution {
             moments: self.moments * factor,
             quadric: if is_turned { turned } else { self.quadric },
             certificate: Certificate { value: value * stretch, bound: bound * stretch, ..self.certificate },
+            course: self.course.iter().map(|pass| pass.map(|number| number * stretch)).collect(),
             ..self
         }
     }

@@ -49,6 +49,15 @@ const SPACE_RATIO: f64 = 2.0;
 const VERTEX_GAP_MM: f64 = 1e-6;
 /// How often a cut is moved on by twice the gap to find an offset without vertices.
 const NUDGES: usize = 200;
+/// Sheets thinner than this are not left by cuts, mm: a hundred times the step of single precision at 100 mm. Much thinner, the
+/// two sides of a sheet could meet in the file; much thicker, the cut would miss the place asked for by what shows.
+const SHEET_MM: f64 = 1e-3;
+/// Faces one behind the other that a cut is moved past; more, and the model is made of sheets.
+const FACES: usize = 16;
+/// A triangle lies along a plane when the cosine of the angle between them exceeds this: steeper, it is no side of a sheet but
+/// a small triangle of a slope.
+const ALONG_COSINE: f64 = 0.99;
+
 /// A closed mesh in the form in which it can be cut and combined.
 ///
 /// May hold several bodies and cavities (shells wound inward). All operations work in `f64` with exact
@@ -181,6 +190,9 @@ impl Csg {
 }
 
 /// The plane for a cut, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
+///
+/// Where it would leave a sheet of less than [`SHEET_MM`] on faces along it, it is moved out of the material behind them; where
+/// there is material on both sides of it, so far that the sheet left on the others stays a body in a file of single precision.
 pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
     let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
     heights.sort_by(f64::total_cmp);
@@ -188,9 +200,53 @@ pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
         let next = heights.partition_point(|&h| h < offset_mm - VERTEX_GAP_MM);
         heights.get(next).is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
     };
-    let offsets = (0..NUDGES).map(|i| plane.offset_mm + 2.0 * VERTEX_GAP_MM * i as f64);
-    let offset_mm = offsets.into_iter().find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
+    let (way, start_mm) = clear_of_sheets(mesh, plane);
+    let steps = (0..NUDGES).map(|i| start_mm + 2.0 * VERTEX_GAP_MM * i as f64);
+    let mut offsets = steps.map(|step_mm| plane.offset_mm + way * step_mm);
+    let offset_mm = offsets.find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
     Plane { normal: plane.normal, offset_mm }
+}
+
+/// Which way along its normal a plane is to be moved, and how far at least, mm, so that it leaves no thin sheet.
+fn clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
+    let way = if let [None, Some(_)] = sheets(mesh, plane) { -1.0 } else { 1.0 };
+    let mut step_mm = 0.0;
+    for _ in 0..FACES {
+        let moved = Plane { offset_mm: plane.offset_mm + way * step_mm, ..*plane };
+        let [above, below] = sheets(mesh, &moved);
+        let (ahead, behind) = if way > 0.0 { (above, below) } else { (below, above) };
+        step_mm += match (ahead, behind) {
+            (None, None) => break,
+            (Some(thick_mm), None) => thick_mm + 2.0 * VERTEX_GAP_MM,
+            (thick_mm, Some(_)) => thick_mm.unwrap_or(0.0) + 2.0 * SHEET_MM,
+        };
+    }
+    (way, step_mm)
+}
+
+/// The plane as it is unless it would leave a sheet of less than [`SHEET_MM`] on a face along it; then that of [`off_vertices`].
+pub(crate) fn off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
+    if sheets(mesh, plane) == [None, None] { *plane } else { off_vertices(mesh, plane) }
+}
+
+/// How thick the thickest sheets are that a plane leaves above itself and below, of those thinner than [`SHEET_MM`]: between it
+/// and faces along it with the material on its side.
+fn sheets(mesh: &TriMesh, plane: &Plane) -> [Option<f64>; 2] {
+    let mut thickest = [None; 2];
+    for [a, b, c] in mesh.iter_corners() {
+        let heights = [a, b, c].map(|p| plane.distance(&p));
+        if heights.iter().any(|h| h.abs() > SHEET_MM) {
+            continue;
+        }
+        let area = (b - a).cross(&(c - a));
+        let facing = plane.normal.dot(&area);
+        let thick_mm = heights.iter().fold(f64::MIN, |most, h| most.max(h * facing.signum()));
+        if facing.abs() > ALONG_COSINE * area.norm() && thick_mm > -VERTEX_GAP_MM {
+            let side = &mut thickest[usize::from(facing < 0.0)];
+            *side = Some(side.unwrap_or(0.0_f64).max(thick_mm));
+        }
+    }
+    thickest
 }
 
 /// The body, unless the engine has put it into an error state.
@@ -256,6 +312,34 @@ mod tests {
         assert!((volume(&positive) + volume(&negative) - 1.0).abs() < ROUNDING);
         assert!(positive.to_mesh().unwrap().vertices().iter().all(|v| plane.distance(v) > -ROUNDING));
         assert!(negative.to_mesh().unwrap().vertices().iter().all(|v| plane.distance(v) < ROUNDING));
+    }
+
+    #[test]
+    fn a_cut_along_a_face_leaves_no_sheet_of_it() {
+        // The plane z = 1 holds the top of the lower step.
+        let stair = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0])).union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
+        let stair = stair.unwrap().to_mesh().unwrap();
+        for normal in [Vector::z(), -Vector::z()] {
+            let plane = Plane { normal, offset_mm: normal.z };
+            let moved = off_faces(&stair, &plane);
+            assert_eq!(off_faces(&stair, &moved), moved);
+            let (above, below) = body(&stair).split_by_plane(&moved).unwrap();
+            let upper = if normal.z > 0.0 { above } else { below };
+            // Only the upper box is left above the step: nothing of the step 1 mm wide.
+            assert!(upper.to_mesh().unwrap().aabb().max.x < 1.0 + ROUNDING, "{normal}");
+        }
+    }
+
+    #[test]
+    fn a_cut_along_faces_of_both_ways_leaves_a_sheet_that_a_file_holds() {
+        // A step up on one side and a ledge over air on the other, both at z = 1.
+        let tower = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0])).union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
+        let tower = tower.unwrap().union(&body(&cuboid([-1.0, 0.0, 1.0], [0.5, 1.0, 2.0]))).unwrap();
+        let mesh = tower.to_mesh().unwrap();
+        let plane = Plane { normal: Vector::z(), offset_mm: 1.0 };
+        let moved = off_vertices(&mesh, &plane);
+        assert!((moved.offset_mm - 1.0 - 2.0 * SHEET_MM).abs() < 1e-5, "{moved:?}");
+        assert_eq!(off_faces(&mesh, &moved), moved);
     }
 
     #[test]

@@ -55,7 +55,7 @@ fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
 }
 
 /// Whether two triangles pass through each other or overlap in one plane.
-fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
+pub(super) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let b_sides = b.map(|p| side(a, &p));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);

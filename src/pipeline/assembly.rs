@@ -17,7 +17,7 @@ use super::{
 use crate::cut::{
     self, CutError, CutOrder, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts, plan_by,
 };
-use crate::hollow::Solution;
+use crate::hollow::{Solution, TopCourse};
 use crate::job::CutMode;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
@@ -39,6 +39,8 @@ pub struct Assembly {
     pub solution: Solution,
     /// Tops: the proof for other heights of the centre.
     pub height_proof: Option<HeightProof>,
+    /// How the first answer came about.
+    pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
     /// The volume of voids that could not be cleaned and stay solid, mm³.
@@ -159,11 +161,12 @@ fn assembled(
         {
             let plan = cut::plan_of(&voids.hollowed, plan)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
-            let height_proof = tuner.height_proof();
             let bosses = Vec::new();
+            let (height_proof, course) = (tuner.height_proof(), tuner.course().clone());
             return Ok(Assembly {
                 solution,
                 height_proof,
+                course,
                 hollowed,
                 refused_mm3,
                 plan,

@@ -113,7 +113,8 @@ fn round(
         }
         Err(error) => return Err(error.into()),
     };
-    let plan = CutPlan { notes: proofs(&state.plan, plan.notes), moves: state.plan.moves.clone(), ..plan };
+    let CutPlan { proofs, moves, .. } = state.plan.clone();
+    let plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
     let kept = found.iter().filter_map(|boss| {
         let volume_mm3 = boss.body.as_ref()?.signed_volume_mm3();
         Some(KeptBoss { pin: boss.pin.clone(), parts: boss.parts.clone(), volume_mm3 })
@@ -125,12 +126,6 @@ fn round(
         after: voids.solution.certificate,
     };
     Ok(Ok((voids, plan, round)))
-}
-
-/// What the plan says of joints and voids now, and what it said before of the number of its cuts.
-fn proofs(before: &CutPlan, now: Vec<String>) -> Vec<String> {
-    let is_of_cuts = |note: &&String| !note.starts_with("joint ") && !note.starts_with("void ");
-    before.notes.iter().filter(is_of_cuts).cloned().chain(now).collect()
 }
 
 /// Calls the bosses' pins as the plan does in the end.

@@ -1,5 +1,6 @@
 //! The kit in memory: files, judgement, checklist and page.
 
+use super::faces::faces;
 use super::joinery_rows;
 use super::joining;
 use super::printer_rows;
@@ -7,11 +8,12 @@ use super::rows::{self, Sheet};
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
 use crate::cut::{CutOrder, CutPlan};
 use crate::digest::sha256_hex;
+use crate::geom::Plane;
 use crate::io::stl;
 use crate::job::JobError;
 use crate::mesh::weld;
 use crate::progress::Progress;
-use crate::report::{Checklist, Kit, Picture, Sitting, Verdict, album, page};
+use crate::report::{Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page};
 use crate::verify::{
     Density, Evidence, FigureName, Judgement, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA,
     Shells, WallOrder, checks, judge,
@@ -38,9 +40,14 @@ pub fn prepared(
         hollowed: stl::decode(&hollowed)?,
         parts: assembly.evidence(),
     };
-    let ((promise, judgement), pictures) =
-        rayon::join(|| judged(setup, evidence.clone()), || pictures(assembly, &evidence));
-    let pictures = pictures?;
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
+    let sitting = sitting(&shells, &cuts, &evidence);
+    let ((promise, judgement), (pictures, view)) = rayon::join(
+        || judged(setup, evidence.clone()),
+        || rayon::join(|| album(&sitting), || View::of(&sitting)),
+    );
+    let (mut pictures, view) = (pictures?, view?);
     watch.lap(phase::VERIFY);
     progress.report(phase::REPORT, 0.0);
     let mut kit = Kit::default();
@@ -50,32 +57,32 @@ pub fn prepared(
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());
     kit.add(CUTS, CutOrder::of(&assembly.plan).to_toml().map_err(JobError::from)?.into_bytes());
-    for picture in &pictures {
-        kit.add(&picture.file, picture.png.clone());
-    }
     let sheet = Sheet { setup, assembly, judgement: &judgement, promised: promise.promise };
     let mut checklist = rows::checklist(&sheet);
+    pictures.extend(drawings(&checklist, &sitting, &faces(assembly)?)?);
+    for picture in &pictures {
+        kit.add(&picture.file, picture.bytes());
+    }
     checklist.files = kit.files().map(|(file, bytes)| (file.to_owned(), sha256_hex(&[bytes]))).collect();
-    file_papers(&mut kit, &checklist, &pictures)?;
+    file_papers(&mut kit, &checklist, (&pictures, &view))?;
     watch.lap(phase::REPORT);
     checklist.timing_s = Some(watch.timing());
     Ok(Prepared { kit, checklist })
 }
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run.
-fn file_papers(kit: &mut Kit, checklist: &Checklist, pictures: &[Picture]) -> Result<(), Error> {
-    kit.add("checklist.json", checklist.to_json()?.into_bytes());
-    kit.add("checklist.html", page(checklist, pictures).into_bytes());
+fn file_papers(kit: &mut Kit, sheet: &Checklist, (pictures, view): (&[Picture], &View)) -> Result<(), Error> {
+    let json = sheet.to_json()?;
+    let sha256 = &sha256_hex(&[json.as_bytes()]);
+    kit.add("checklist.json", json.into_bytes());
+    kit.add("checklist.html", page(&Papers { sheet, sha256, pictures, view: Some(view) }).into_bytes());
     Ok(())
 }
 
-/// The pictures of the written files.
-fn pictures(assembly: &Assembly, evidence: &Evidence) -> Result<Vec<Picture>, Error> {
-    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
-    let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
-    let aim = evidence.promise.goal;
-    let (parts, hardware) = (&evidence.parts, &evidence.promise.hardware);
-    Ok(album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware })?)
+/// What the pictures are taken of: the files as they are written.
+fn sitting<'a>(shells: &'a Shells, cuts: &'a [Plane], evidence: &'a Evidence) -> Sitting<'a> {
+    let Promise { goal, hardware, parts: promised, .. } = &evidence.promise;
+    Sitting { shells, parts: &evidence.parts, promised, cuts, aim: *goal, hardware }
 }
 
 /// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.

@@ -4,6 +4,7 @@ mod advising;
 mod assembly;
 mod ballasting;
 mod bosses;
+mod faces;
 mod fitting;
 mod grid_rows;
 mod joinery_rows;

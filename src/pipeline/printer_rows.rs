@@ -9,6 +9,7 @@ pub fn printer_row(setup: &Setup) -> PrinterRow {
     let printer = &setup.printer;
     PrinterRow {
         id: printer.id.clone(),
+        profile_sha256: printer.profile_sha256.clone(),
         name: printer.name.clone(),
         process: printer.process.clone().unwrap_or_default(),
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],

@@ -15,7 +15,8 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, CutRow, GoalRow, LogRow, ModelRow, PartRow, Tool, VoidRow, WallRow,
+    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
+    SpeedRow, Tool, VoidRow, WallRow,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Judgement, Peg, PromisedFigure, RotorOrder, WaterOrder,
@@ -160,6 +161,7 @@ fn certificate(sheet: &Sheet) -> Certificate {
         bosses_mm3: bosses_mm3(sheet),
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
+        course: course(&sheet.assembly.course, shown),
     }
 }
 
@@ -170,6 +172,15 @@ pub fn shown(setup: &Setup, figure: hollow::Figure, value: f64) -> f64 {
         hollow::Figure::VolumeMm3 => value * setup.material.density_g_mm3(),
         _ => value,
     }
+}
+
+/// How the answer came about, in the units of the sheet.
+fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
+    let pass = |pass: &hollow::Pass| PassRow { value: shown(pass.value), bound: shown(pass.bound) };
+    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow { height_mm, critical_speed_rpm };
+    let (passes, speeds) =
+        (found.passes.iter().map(pass).collect(), found.speeds.iter().map(speed).collect());
+    (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
 /// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.
@@ -197,7 +208,8 @@ fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
     plan.voids.iter().map(row).collect()
 }
 
-fn void_id(void: usize) -> String {
+/// The name of a void on the sheet.
+pub fn void_id(void: usize) -> String {
     format!("V{}", void + 1)
 }
 

@@ -1,7 +1,7 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
-use crate::hollow::{Certificate, Problem, Solution};
+use crate::hollow::{Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, top_course};
 use crate::interior::Columns;
 use crate::mass::Moments;
 use crate::progress::Progress;
@@ -23,6 +23,8 @@ pub struct Solved {
     pub solution: Solution,
     /// Tops: the proof for other heights of the centre, on the finest columns it was made on.
     pub height_proof: Option<HeightProof>,
+    /// How the answer came about on the coarsest columns: the ascent from nothing, and for tops the speed by height.
+    pub course: TopCourse,
 }
 
 impl Solved {
@@ -53,8 +55,9 @@ impl Solved {
                 return Ok(Err(impossible(setup, &solution)));
             }
             let height_proof =
-                height_proof(&columns, &solution).or(level.and_then(|level| level.height_proof));
-            level = Some(Self { columns, solution, height_proof });
+                height_proof(&columns, &solution).or(level.as_ref().and_then(|level| level.height_proof));
+            let course = level.map_or_else(|| course(setup, &columns, &solution), |level| level.course);
+            level = Some(Self { columns, solution, height_proof, course });
         }
         level.map_or(Err(Error::Cancelled), |solved| Ok(Ok(solved)))
     }
@@ -69,6 +72,16 @@ impl Solved {
 fn height_proof(columns: &Columns, solution: &Solution) -> Option<HeightProof> {
     let Certificate { value, bound_over_heights, .. } = solution.certificate;
     bound_over_heights.map(|bound| HeightProof { pitch_mm: columns.pitch_mm[0], value, bound })
+}
+
+/// How the first answer came about.
+fn course(setup: &Setup, columns: &Columns, solution: &Solution) -> TopCourse {
+    let problem = Problem { goal: &setup.placement.goal, fixed: setup.fixed(), columns };
+    let is_plain = setup.fill == Fill::AIR && solution.is_usable();
+    let of_top =
+        if is_plain { top_course(&problem, &Settings::default(), solution) } else { TopCourse::default() };
+    let passes: Vec<Pass> = if of_top.passes.is_empty() { solution.course.clone() } else { of_top.passes };
+    TopCourse { passes, ..of_top }
 }
 
 /// The pitches from coarse to fine; the last is the printer's own.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::is_tuned};
-use crate::hollow::Solution;
+use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::progress::Progress;
@@ -72,6 +72,11 @@ impl<'a> Tuner<'a> {
     /// What the run rests on.
     pub fn setup(&self) -> &'a Setup {
         self.setup
+    }
+
+    /// How the first answer came about.
+    pub fn course(&self) -> &TopCourse {
+        &self.solved.course
     }
 
     /// The proof for other heights of a top's centre.

@@ -2,46 +2,29 @@
 
 use rayon::prelude::*;
 
+use super::apart::{Apart, parts_in_model};
+use super::figure::{Drawn, Picture, Role};
 use super::hardware::drawn;
+use super::palette::{BODY, HARDWARE, SECTION, VOID, part_color};
 use super::picture::{Camera, Color, Item, PictureError, Scene, render};
-use crate::geom::{Aabb, Frame, Plane, Point, Vector};
+use super::plate;
+use super::projection::Projection;
+use super::svg::Drawing;
+use crate::geom::{Frame, Plane, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
-use crate::verify::{Aim, Hardware, PartEvidence, Shells};
+use crate::verify::{Aim, Hardware, PartEvidence, Peg, PromisedPart, Shells};
 
 /// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to mail.
 const SIZE_PX: [usize; 2] = [720, 560];
+/// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
+pub(super) const TEXT_PX: f64 = 22.0;
+/// The share of a picture left free for words at its sides.
+const LABEL_RATIO: f64 = 0.12;
 /// How far the viewer stands to the right of the cut's normal and above the ground, radians: enough to tell depth
 /// from shape, not so much that the cut is foreshortened.
 const TURN: f64 = 0.45;
 const LIFT: f64 = 0.35;
-/// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow that is open upward.
-const PART_LIFT: f64 = 0.7;
-/// How far parts are drawn apart, as a share of the model's longest side.
-const APART_RATIO: f64 = 0.3;
-
-/// The surface of the model: grey.
-const BODY: Color = [190, 194, 200];
-/// The inside of a void: blue, light enough to show its shading.
-const VOID: Color = [86, 180, 233];
-/// Material seen where it is cut: vermilion. With blue it stays apart for every colour vision.
-const SECTION: Color = [213, 94, 0];
-/// Hardware: dark grey.
-const HARDWARE: Color = [84, 88, 96];
-/// Parts, in turn (Okabe and Ito, "Color universal design", 2008): told apart by every colour vision.
-const PARTS: [Color; 6] =
-    [[86, 180, 233], [230, 159, 0], [0, 158, 115], [240, 228, 66], [204, 121, 167], [0, 114, 178]];
-
-/// A picture as a file.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picture {
-    /// Its path in the kit.
-    pub file: String,
-    /// What it shows, in a sentence.
-    pub caption: String,
-    /// The PNG file.
-    pub png: Vec<u8>,
-}
 
 /// What the pictures are taken of.
 #[derive(Debug, Clone, Copy)]
@@ -50,6 +33,8 @@ pub struct Sitting<'a> {
     pub shells: &'a Shells,
     /// The parts, print frame.
     pub parts: &'a [PartEvidence],
+    /// What was promised of them, in the same order.
+    pub promised: &'a [PromisedPart],
     /// The planes they were cut along, model frame.
     pub cuts: &'a [Plane],
     /// The goal: its axis points up in the pictures.
@@ -60,133 +45,161 @@ pub struct Sitting<'a> {
 
 /// The file of the picture of one part.
 pub fn part_picture_file(id: &str) -> String {
-    format!("pictures/{id}.png")
+    format!("pictures/{id}.svg")
 }
 
 /// Takes every picture; the same bytes on any number of threads.
 pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let view = View::of(&outer, &sitting.aim.frame());
-    let upright = match sitting.aim.kind {
-        GoalKind::Stand => "The model as it stands.",
-        GoalKind::Float => "The model as it floats.",
-        _ => "The model, its spin axis upright.",
-    };
     let in_place = parts_in_model(sitting.parts);
-    let mut shots = vec![
-        model_shot(&outer, &view, upright),
-        cut_away_shot(&outer, &voids, &view),
-        exploded_shot(&in_place, &shifts(&in_place, sitting.cuts), &view),
-    ];
+    let apart = Apart::of(&in_place, sitting.cuts);
     let hardware: Vec<TriMesh> = sitting.hardware.iter().map(drawn).collect();
+    let plates: Vec<[TriMesh; 2]> =
+        sitting.parts.iter().map(|part| plate::under(&part.mesh.aabb())).collect();
+    let mut shots = vec![
+        model_shot(&outer, &view, upright(sitting.aim.kind)),
+        cut_away_shot([&outer, &voids], &view),
+        apart.shot(&sitting.aim.frame(), sitting.promised),
+    ];
     let whole = |mesh| Item { is_whole: true, ..still(mesh, HARDWARE) };
     shots.iter_mut().for_each(|shot| shot.scene.items.extend(hardware.iter().map(whole)));
-    shots.extend(sitting.parts.iter().enumerate().map(|(index, part)| part_shot(index, part)));
+    let of_parts = sitting.parts.iter().zip(&plates).enumerate();
+    shots.extend(of_parts.map(|(index, (part, plate))| plate::shot(part, plate, part_color(index))));
     shots.par_iter().map(Shot::take).collect()
 }
 
+/// What the picture of the whole is called.
+fn upright(kind: GoalKind) -> &'static str {
+    match kind {
+        GoalKind::Stand => "The object as it stands.",
+        GoalKind::Float => "The object as it floats.",
+        _ => "The object, its spin axis upright.",
+    }
+}
+
 /// A picture before it is taken.
-struct Shot<'a> {
-    file: String,
-    caption: String,
-    scene: Scene<'a>,
-    camera: Camera,
+pub(super) struct Shot<'a> {
+    pub file: String,
+    pub role: Role,
+    pub caption: String,
+    pub alt: String,
+    pub scene: Scene<'a>,
+    pub camera: Camera,
+    /// The height of words, pixels, and what names things.
+    pub text_px: f64,
+    pub labels: Vec<Label>,
+}
+
+/// Words on a picture.
+pub(super) enum Label {
+    /// At the side, with a line to this point of the scene.
+    At(Point, String),
+    /// A line between two points of the scene.
+    Between([Point; 2]),
+    /// A length between two points of the scene, drawn this many pixels aside.
+    Length([Point; 2], [f64; 2], String),
 }
 
 impl Shot<'_> {
     fn take(&self) -> Result<Picture, PictureError> {
         let png = render(&self.scene, &self.camera).to_png()?;
-        Ok(Picture { file: self.file.clone(), caption: self.caption.clone(), png })
+        let drawn = if self.labels.is_empty() { Drawn::Png(png) } else { Drawn::Svg(self.labelled(&png)) };
+        let (file, caption, alt) = (self.file.clone(), self.caption.clone(), self.alt.clone());
+        Ok(Picture { file, role: self.role, caption, alt, drawn })
+    }
+
+    fn labelled(&self, png: &[u8]) -> Drawing {
+        let projection = Projection::of(&self.scene, &self.camera, 1);
+        let mut drawing = Drawing::new(self.camera.size_px, self.text_px);
+        drawing.picture(png, 1.0);
+        let mut marks = Vec::new();
+        for label in &self.labels {
+            match label {
+                Label::At(point, words) => marks.push((projection.at(point), words.clone())),
+                Label::Between(ends) => {
+                    drawing.line(ends.each_ref().map(|end| projection.at(end)), super::svg::Stroke::DASHED);
+                }
+                Label::Length(ends, aside, words) => {
+                    drawing.dimension(ends.each_ref().map(|end| projection.at(end)), *aside, words);
+                }
+            }
+        }
+        drawing.callouts(&marks);
+        drawing
     }
 }
 
 /// How the model is looked at: upright, from the side that shows most of it.
-struct View {
-    camera: Camera,
-    cut: Plane,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct View {
+    /// From a little to the right and above.
+    pub camera: Camera,
+    /// The plane of the cut-away, through the axis and the wider side.
+    pub cut: Plane,
 }
 
 impl View {
-    fn of(outer: &TriMesh, frame: &Frame) -> Self {
+    pub fn of(outer: &TriMesh, frame: &Frame) -> Self {
         let local = outer.in_frame(frame).aabb();
         let size = local.size();
         // The cut holds the axis and the wider side.
         let normal = if size.x < size.y { Vector::x() } else { -Vector::y() };
         let cut = Plane::through(&frame.to_model(&local.center()), &frame.direction_to_model(&normal));
-        let toward = turned(&cut.normal, &frame.axis(), LIFT);
-        Self { camera: Camera { toward_viewer: toward, up: frame.axis(), size_px: SIZE_PX }, cut }
+        let toward = turned(&cut.normal, &frame.axis(), [TURN, LIFT]);
+        Self { camera: camera(toward, frame.axis()), cut }
     }
 }
 
-/// The direction to a viewer who faces `normal` from a little to the right and `lift` radians above.
-fn turned(normal: &Vector, up: &Vector, lift: f64) -> Vector {
-    let right = up.cross(normal);
-    (normal * TURN.cos() + right * TURN.sin()) * lift.cos() + up * lift.sin()
+/// A camera for pictures of the whole, without room for words.
+pub(super) fn camera(toward_viewer: Vector, up: Vector) -> Camera {
+    Camera { toward_viewer, up, size_px: SIZE_PX, margin_ratio: 0.0 }
 }
 
-fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
+/// The same with room for words at its sides.
+pub(super) fn labelled_camera(toward_viewer: Vector, up: Vector) -> Camera {
+    Camera { margin_ratio: LABEL_RATIO, ..camera(toward_viewer, up) }
+}
+
+/// The direction to a viewer who faces `normal` from `turn` radians to the right and `lift` radians above.
+pub(super) fn turned(normal: &Vector, up: &Vector, [turn, lift]: [f64; 2]) -> Vector {
+    let right = up.cross(normal);
+    (normal * turn.cos() + right * turn.sin()) * lift.cos() + up * lift.sin()
+}
+
+pub(super) fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
     Item { mesh, color, shift: Vector::zeros(), is_whole: false }
 }
 
 fn model_shot<'a>(outer: &'a TriMesh, view: &View, caption: &str) -> Shot<'a> {
     Shot {
         file: "pictures/model.png".to_owned(),
+        role: Role::Cover,
         caption: caption.to_owned(),
+        alt: format!("Shaded view from the side and a little above. {caption}"),
         scene: Scene { items: vec![still(outer, BODY)], cut: None },
         camera: view.camera,
+        text_px: TEXT_PX,
+        labels: Vec::new(),
     }
 }
 
-fn cut_away_shot<'a>(outer: &'a TriMesh, voids: &'a TriMesh, view: &View) -> Shot<'a> {
+fn cut_away_shot<'a>([outer, voids]: [&'a TriMesh; 2], view: &View) -> Shot<'a> {
     Shot {
         file: "pictures/cut-away.png".to_owned(),
-        caption: "Cut open from top to bottom: material orange, voids blue.".to_owned(),
+        role: Role::CutAway,
+        caption: "Cut open from top to bottom: material orange and hatched, voids blue.".to_owned(),
+        alt: "The object cut open along its axis, its front half taken away. What is cut is orange with stripes; the \
+              surfaces of the voids inside are blue."
+            .to_owned(),
         scene: Scene { items: vec![still(outer, BODY), still(voids, VOID)], cut: Some((view.cut, SECTION)) },
         camera: view.camera,
+        text_px: TEXT_PX,
+        labels: Vec::new(),
     }
 }
 
-/// The parts' meshes in the model frame.
-fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
-    parts.iter().map(|part| part.mesh.map_vertices(|p| part.pose.to_model(p))).collect()
-}
-
-/// How far each part is drawn from its place: away from every cut, to its own side.
-fn shifts(parts: &[TriMesh], cuts: &[Plane]) -> Vec<Vector> {
-    let all = parts.iter().map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
-    let apart_mm = APART_RATIO * all.size().max();
-    let side = |center: &Point, cut: &Plane| cut.normal * (0.5 * apart_mm * cut.distance(center).signum());
-    parts.iter().map(|part| cuts.iter().map(|cut| side(&part.aabb().center(), cut)).sum()).collect()
-}
-
-fn exploded_shot<'a>(parts: &'a [TriMesh], shifts: &[Vector], view: &View) -> Shot<'a> {
-    let item = |(index, (mesh, &shift)): (usize, (&'a TriMesh, &Vector))| Item {
-        mesh,
-        color: part_color(index),
-        shift,
-        is_whole: false,
-    };
-    Shot {
-        file: "pictures/parts.png".to_owned(),
-        caption: "The parts, drawn apart along the cuts.".to_owned(),
-        scene: Scene { items: parts.iter().zip(shifts).enumerate().map(item).collect(), cut: None },
-        camera: view.camera,
-    }
-}
-
-fn part_shot(index: usize, part: &PartEvidence) -> Shot<'_> {
-    Shot {
-        file: part_picture_file(&part.id),
-        caption: format!("{} as it lies on the plate.", part.id),
-        scene: Scene { items: vec![still(&part.mesh, part_color(index))], cut: None },
-        camera: Camera {
-            toward_viewer: turned(&-Vector::y(), &Vector::z(), PART_LIFT),
-            up: Vector::z(),
-            size_px: SIZE_PX,
-        },
-    }
-}
-
-fn part_color(index: usize) -> Color {
-    PARTS[index % PARTS.len()]
+/// The pins that stand out of a part, by the parts in the order of the sheet.
+pub(super) fn pins(promised: &[PromisedPart]) -> impl Iterator<Item = (usize, &Peg)> {
+    promised.iter().enumerate().flat_map(|(part, row)| row.pins.iter().map(move |pin| (part, pin)))
 }

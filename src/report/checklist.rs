@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
+use super::course::Course;
 use super::grid::GridRow;
 use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
@@ -124,6 +125,9 @@ pub struct ModelRow {
 pub struct PrinterRow {
     /// The id of its profile.
     pub id: String,
+    /// The SHA-256 of that profile and the ones it inherits from.
+    #[serde(default)]
+    pub profile_sha256: String,
     /// Its name.
     pub name: String,
     /// The process, such as `polyjet` or `fdm`.
@@ -207,6 +211,9 @@ pub struct Certificate {
     pub over_heights: Option<HeightProof>,
     /// The value of the written assembly.
     pub written_value: Option<f64>,
+    /// How value and bound came about; none where that was not recorded.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub course: Option<Course>,
 }
 
 /// What is proved of tops with their centre of mass at any height, on columns coarser than the printer's.

@@ -1,32 +1,58 @@
 //! The kit's paperwork: the checklist as data, as a page and as pictures, and the folder it is written to.
 
 mod album;
+mod apart;
 mod base64;
 mod checklist;
+mod course;
+mod cover;
+mod cut_drawing;
+mod drawings;
+mod figure;
 mod grid;
 mod hardware;
+mod inertia;
 mod joinery;
 mod kit;
 mod page;
+mod palette;
+mod parts_table;
 mod picture;
+mod plate;
+mod plot;
+mod projection;
+mod proof;
+mod qr;
 mod rows;
+mod running;
 #[cfg(test)]
 mod sample;
 mod steps;
+mod svg;
 #[cfg(test)]
 mod tests;
 mod timing;
+mod trials;
+mod view;
 mod words;
 
-pub use album::{Picture, Sitting, album, part_picture_file};
+pub use album::{Sitting, album, part_picture_file};
 pub use checklist::{
     Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
     Tool, Verdict, WallRow,
 };
+pub use course::{Course, PassRow, SpeedRow};
+pub use cut_drawing::{CutFace, Mouth};
+pub use drawings::drawings;
+pub use figure::{Drawn, Picture, Role};
 pub use grid::GridRow;
 pub use joinery::{BossRow, CutListRow, RoundRow};
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};
-pub use page::{document, page};
+pub use page::{Papers, document, page};
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
+pub use projection::Projection;
+pub use qr::JobId;
 pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
+pub use svg::{Anchor, Drawing, Spot, Stroke};
 pub use timing::Timing;
+pub use view::View;

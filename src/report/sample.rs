@@ -5,7 +5,7 @@ use crate::geom::Plane;
 use crate::geom::{Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
-use crate::verify::{Evidence, FigureName, Judgement, PartFacts, PromisedFigure, Shells, judge};
+use crate::verify::{Evidence, FigureName, Judgement, PartFacts, Promise, PromisedFigure, Shells, judge};
 
 /// The checklist of a sound kit, and what it was judged on.
 pub fn sample() -> (Checklist, Evidence) {
@@ -14,13 +14,25 @@ pub fn sample() -> (Checklist, Evidence) {
     (checklist(&evidence, &found), evidence)
 }
 
-/// Its pictures.
-pub fn sample_album(evidence: &Evidence) -> Vec<Picture> {
+/// Its pictures and its view.
+pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
-    let (aim, parts) = (evidence.promise.goal, &evidence.parts);
-    album(&Sitting { shells: &shells, parts, cuts: &cuts, aim, hardware: &evidence.promise.hardware })
-        .unwrap()
+    let Promise { goal: aim, parts: promised, hardware, .. } = &evidence.promise;
+    let sitting =
+        Sitting { shells: &shells, parts: &evidence.parts, promised, cuts: &cuts, aim: *aim, hardware };
+    let frame = |[x, y]: [f64; 2]| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
+    let face = CutFace {
+        cut: "C1".into(),
+        plane: cuts[0],
+        rings: vec![frame([30.0, 20.0]), frame([27.0, 17.0]).into_iter().rev().collect()],
+        wall: Some([[27.0, 0.0], [30.0, 0.0]]),
+        whole: vec![],
+        mouths: vec![Mouth { void: "V1".into(), at: [0.0, 0.0], diameter_mm: 34.0 }],
+    };
+    let mut pictures = album(&sitting).unwrap();
+    pictures.extend(drawings(sheet, &sitting, &[face]).unwrap());
+    (pictures, View::of(&sitting).unwrap())
 }
 
 fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
@@ -59,6 +71,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             bosses_mm3: 0.0,
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
+            course: Some(course(speed)),
         },
         wall: WallRow { required_mm: 3.0, measured_min_mm: found.wall_min_mm },
         voids: vec![the_void()],
@@ -85,9 +98,17 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     }
 }
 
+/// Three passes to a speed, and the speeds about its height.
+fn course(speed: f64) -> Course {
+    let pass = |share: f64| PassRow { value: speed * (1.0 + share), bound: speed * (1.0 - share) };
+    let at = |height_mm: f64| SpeedRow { height_mm, critical_speed_rpm: speed + (height_mm - 16.0).powi(2) };
+    Course { passes: [0.5, 0.1, 0.0].map(pass).into(), speeds: [12.0, 16.0, 20.0].map(at).into() }
+}
+
 fn printer() -> PrinterRow {
     PrinterRow {
         id: "objet-connex350".into(),
+        profile_sha256: "ef".repeat(32),
         name: "Objet Connex350".into(),
         process: "polyjet".into(),
         pixel_mm: [0.0423, 0.0423],

@@ -22,7 +22,7 @@ mod table;
 mod wall_field;
 
 use crate::geom::{Bvh, Frame, Quadric};
-use crate::mesh::{ClipError, Csg, Defects, MeshError, Solid, TriMesh};
+use crate::mesh::{ClipError, Csg, Defects, MeshError, Solid, TriMesh, unfolded};
 use crate::progress::Progress;
 use crate::shell::Keep;
 pub use grow::grown;
@@ -153,10 +153,10 @@ impl Cavity {
     }
 }
 
-/// The void with the slivers closed up that the rounding of a file would fold: no point of its surface moves by more
-/// than 2e-5 mm.
+/// The void with the slivers closed up, or turned, that the rounding of a file would fold: no point of its surface moves by
+/// more than 2e-5 mm but at folds that are left then ([`unfolded`]).
 pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
-    Ok(Solid::new(Csg::of_solid(void)?.without_slivers().to_mesh()?)?)
+    Ok(Solid::new(unfolded(&Csg::of_solid(void)?.without_slivers().to_mesh()?))?)
 }
 
 #[cfg(test)]

@@ -1,0 +1,94 @@
+//! How an answer came about, for people to look at: value and bound pass by pass, and a top's speed by height.
+
+use super::answer::Answer;
+use super::heights::Heights;
+use super::problem::Problem;
+use super::settings::Settings;
+use super::solution::{Figure, Pass, Solution};
+use super::work::Work;
+use crate::goal::{GoalKind, Objective};
+use crate::progress::Progress;
+
+/// Heights at which a top's speed is found: fewer draw corners, more cost an ascent each.
+const HEIGHTS: usize = 33;
+/// To what share of itself the speed at a height is found: a thousandth of what a plot shows.
+const TOLERANCE: f64 = 1e-5;
+
+/// A top's best speed by the height of its centre, and the ascent to the best of all.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct TopCourse {
+    /// Value and bound pass by pass from nothing, at the height of the answer, rpm.
+    pub passes: Vec<Pass>,
+    /// Heights ascending, mm, and the least critical speed of any interior that is balanced there, rpm; only where one is
+    /// stable. The least of it is the optimum.
+    pub speeds: Vec<[f64; 2]>,
+}
+
+/// The course of a top that was solved for its critical speed on these columns; empty for anything else. It costs some forty
+/// ascents, so coarse columns do.
+pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> TopCourse {
+    let is_of_speed = known.certificate.figure == Figure::CriticalSpeedRpm;
+    let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height) else {
+        return TopCourse::default();
+    };
+    let progress = Progress::silent();
+    let work = Work::new(problem, settings, &progress);
+    let Ok(heights) = Heights::new(&work, Objective::CriticalSpeed) else { return TopCourse::default() };
+    let programme = heights.programme(best.at);
+    let climb = work.climb(&programme, programme.cold_start(&work.reach), 0.0);
+    let passes = Answer::new(Objective::CriticalSpeed, climb).course(&work, Figure::CriticalSpeedRpm);
+    TopCourse { passes, speeds: speeds(&heights) }
+}
+
+/// The least speed at heights evenly apart over the range that can be had.
+fn speeds(heights: &Heights) -> Vec<[f64; 2]> {
+    let [low, high] = heights.range;
+    let mut speeds = Vec::with_capacity(HEIGHTS);
+    let mut near = None;
+    for index in 0..HEIGHTS {
+        let height = low + (high - low) * (index as f64 + 0.5) / HEIGHTS as f64;
+        let Some(sample) = heights.sample(height, near.as_ref().map(|point| (point, None)), TOLERANCE) else {
+            continue;
+        };
+        near = Some(sample.climb.best.point.clone());
+        let answer = Answer::new(heights.objective, sample.climb);
+        let rpm = answer.in_figure(heights.work, Figure::CriticalSpeedRpm, sample.value);
+        if rpm.is_finite() {
+            speeds.push([heights.work.to_mm(height), rpm]);
+        }
+    }
+    speeds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{solve, worlds};
+    use super::*;
+
+    #[test]
+    fn the_optimum_is_the_least_of_the_curve_over_heights_and_where_the_ascent_ends() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let (problem, settings) = (world.problem(), Settings::default());
+        let known = solve(&problem, &settings, &Progress::silent());
+        let course = top_course(&problem, &settings, &known);
+        let (value, bound) = (known.certificate.value, known.certificate.bound);
+        assert!(course.speeds.len() > HEIGHTS / 2 && course.speeds.is_sorted_by(|a, b| a[0] < b[0]));
+        let least = course.speeds.iter().map(|speed| speed[1]).fold(f64::INFINITY, f64::min);
+        // No height is better than the bound; one of 33 is within half a step of the best, where the curve is flat.
+        assert!(least >= bound * (1.0 - TOLERANCE) && least < 1.05 * value, "{least} {value}");
+        let last = course.passes.last().unwrap();
+        assert!((last.value / value - 1.0).abs() < 1e-6 && course.passes.len() > 2, "{:?}", course.passes);
+    }
+
+    #[test]
+    fn what_is_no_top_has_no_heights_but_its_passes_end_at_its_certificate() {
+        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let (problem, settings) = (world.problem(), Settings::default());
+        let known = solve(&problem, &settings, &Progress::silent());
+        assert_eq!(top_course(&problem, &settings, &known), TopCourse::default());
+        let last = known.course.last().unwrap();
+        assert_eq!((last.value, last.bound), (known.certificate.value, known.certificate.bound));
+        // Every bound is one: none lies above the optimum by more than rounding.
+        assert!(known.course.iter().all(|pass| pass.bound <= known.certificate.value * (1.0 + 1e-9)));
+    }
+}

@@ -1,0 +1,314 @@
+//! Slivers that the rounding of a file folds, turned or closed until none is.
+
+use std::ops::ControlFlow;
+
+use rayon::prelude::*;
+
+use super::TriMesh;
+use super::crossings::cross;
+use crate::geom::{Aabb, Bvh, Point, Vector};
+
+/// Only triangles lower than this, and their neighbours, are looked at, mm: rounding to single precision moves a corner at 300 mm by 1.5e-5 mm,
+/// and folds what is a few times lower than it is moved; far more takes time to look at for nothing.
+const THIN_MM: f64 = 1e-3;
+/// A sliver's short side may be closed up to this length, mm: beyond, a detail that a printer shows could go.
+const CLOSED_MM: f64 = 0.02;
+/// Rounds of looking and mending. Each mends all folds that do not touch, and a mended fold rarely makes another.
+const ROUNDS: usize = 12;
+
+/// The surface with the sides of those slivers turned, or closed where they are short, that the rounding of a file's coordinates
+/// to single precision would fold into a neighbour.
+///
+/// A turned side of a triangle of height h moves the surface by h at most, a closed one by the bend of the surface along 0.02 mm.
+/// The mesh itself where nothing is folded; what cannot be mended so is left. Looks at slivers only, so that a sound mesh costs
+/// little more than its tree.
+pub fn unfolded(mesh: &TriMesh) -> TriMesh {
+    let mut best = (usize::MAX, mesh.clone());
+    let mut mended = mesh.clone();
+    for _ in 0..ROUNDS {
+        let found = folds(&as_written(&mended));
+        if found.len() < best.0 {
+            best = (found.len(), mended.clone());
+        }
+        let Some(next) = (!found.is_empty()).then(|| mended_at(&mended, &found)).flatten() else { break };
+        mended = next;
+    }
+    best.1
+}
+
+/// The mesh as a file of single precision gives it back.
+fn as_written(mesh: &TriMesh) -> TriMesh {
+    mesh.map_vertices(|p| p.map(|x| f64::from(x as f32)))
+}
+
+/// The pairs of triangles, the lower index first, that cross and of which one is thin or has a corner of a thin one; ascending.
+fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
+    let asked = at_slivers(mesh);
+    if asked.is_empty() {
+        return Vec::new();
+    }
+    let bvh = Bvh::new(mesh.iter_corners());
+    let crossed_by = |&i: &u32| {
+        let corners = mesh.corners(i as usize);
+        let mut pairs = Vec::new();
+        bvh.visit_overlapping(&Aabb::of_points(&corners), |j, other| {
+            if j != i && cross(&corners, other) {
+                pairs.push([i.min(j), i.max(j)]);
+            }
+            ControlFlow::Continue(())
+        });
+        pairs
+    };
+    let mut pairs: Vec<[u32; 2]> = asked.par_iter().flat_map_iter(crossed_by).collect();
+    pairs.sort_unstable();
+    pairs.dedup();
+    pairs
+}
+
+/// The triangles with a corner of a thin one: when a sliver turns over, it is its neighbours that pass through each other.
+fn at_slivers(mesh: &TriMesh) -> Vec<u32> {
+    let mut is_thin = vec![false; mesh.vertices().len()];
+    for (triangle, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
+        if height(&corners) < THIN_MM {
+            triangle.iter().for_each(|&v| is_thin[v as usize] = true);
+        }
+    }
+    let triangles = mesh.triangles().iter().enumerate();
+    triangles.filter(|(_, t)| t.iter().any(|&v| is_thin[v as usize])).map(|(i, _)| i as u32).collect()
+}
+
+/// The mesh with the thinnest triangle at each fold mended, or nothing where none can be.
+fn mended_at(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
+    let mut patch = Patch {
+        vertices: mesh.vertices().to_vec(),
+        triangles: mesh.triangles().to_vec(),
+        touched: Vec::new(),
+    };
+    for pair in folds {
+        patch.mend(pair);
+    }
+    let is_mended = !patch.touched.is_empty();
+    patch.triangles.retain(|[a, b, c]| a != b && b != c && c != a);
+    TriMesh::new(patch.vertices, patch.triangles).ok().filter(|_| is_mended)
+}
+
+/// A surface under repair. Triangles that went have two corners in one.
+struct Patch {
+    vertices: Vec<Point>,
+    triangles: Vec<[u32; 3]>,
+    /// Vertices at which something was changed in this round.
+    touched: Vec<u32>,
+}
+
+impl Patch {
+    /// Mends the fold of two triangles at the thinnest of them and their neighbours.
+    fn mend(&mut self, pair: &[u32; 2]) {
+        let corners: Vec<u32> = pair.iter().flat_map(|&t| self.triangles[t as usize]).collect();
+        if corners.iter().any(|v| self.touched.contains(v)) {
+            return;
+        }
+        let near = |t: &[u32; 3]| t.iter().filter(|v| corners.contains(v)).count() >= 2;
+        let mut at: Vec<usize> = (0..self.triangles.len()).filter(|&t| near(&self.triangles[t])).collect();
+        at.sort_by(|&s, &t| self.height(s).total_cmp(&self.height(t)));
+        for t in at.into_iter().filter(|&t| self.height(t) < THIN_MM).collect::<Vec<_>>() {
+            if self.turn(t) || self.close(t) {
+                return;
+            }
+        }
+    }
+
+    fn corners(&self, t: [u32; 3]) -> [Point; 3] {
+        t.map(|v| self.vertices[v as usize])
+    }
+
+    fn height(&self, t: usize) -> f64 {
+        height(&self.corners(self.triangles[t]))
+    }
+
+    /// Turns the longest side of a triangle, so that it joins the opposite corners; whether that made both triangles at it
+    /// higher than it was, none of them turned over.
+    fn turn(&mut self, t: usize) -> bool {
+        let [a, b, c] = longest_first(self.triangles[t], &self.corners(self.triangles[t]));
+        let Some((u, d)) = self.across(b, a) else { return false };
+        let turned = [[a, d, c], [d, b, c]];
+        let facing = normal(&self.corners(self.triangles[u]));
+        let low = self.height(t);
+        let is_better = |&new: &[u32; 3]| {
+            let corners = self.corners(new);
+            height(&corners) > low && normal(&corners).dot(&facing) > 0.0
+        };
+        if self.is_joined(c, d) || !turned.iter().all(is_better) {
+            return false;
+        }
+        [self.triangles[t], self.triangles[u]] = turned;
+        self.touched.extend([a, b, c, d]);
+        true
+    }
+
+    /// The triangle with the side from `from` to `to`, and its third corner.
+    fn across(&self, from: u32, to: u32) -> Option<(usize, u32)> {
+        self.triangles.iter().enumerate().find_map(|(t, corners)| {
+            (0..3).find_map(|k| {
+                let is_it = corners[k] == from && corners[(k + 1) % 3] == to;
+                is_it.then_some((t, corners[(k + 2) % 3]))
+            })
+        })
+    }
+
+    fn is_joined(&self, a: u32, b: u32) -> bool {
+        self.across(a, b).is_some() || self.across(b, a).is_some()
+    }
+
+    /// Draws the ends of the triangle's shortest side together; whether it is short, the surface stays a surface and no other
+    /// triangle turns over.
+    fn close(&mut self, t: usize) -> bool {
+        let [a, b, c] = shortest_first(self.triangles[t], &self.corners(self.triangles[t]));
+        let length = (self.vertices[a as usize] - self.vertices[b as usize]).norm();
+        let Some((_, d)) = self.across(b, a) else { return false };
+        if length > CLOSED_MM
+            || self.common(a, b) != sorted([c, d])
+            || !(self.moves(a, b) || self.moves(b, a))
+        {
+            return false;
+        }
+        self.touched.extend([a, b, c, d]);
+        true
+    }
+
+    /// The vertices joined to both, ascending.
+    fn common(&self, a: u32, b: u32) -> Vec<u32> {
+        let ring = |v: u32| -> Vec<u32> {
+            self.triangles.iter().filter(|t| t.contains(&v)).flatten().copied().filter(|&w| w != v).collect()
+        };
+        let near_b = ring(b);
+        let mut both: Vec<u32> = ring(a).into_iter().filter(|v| near_b.contains(v)).collect();
+        both.sort_unstable();
+        both.dedup();
+        both
+    }
+
+    /// Moves the vertex `from` into `to` unless that turns a triangle over; whether it did.
+    fn moves(&mut self, from: u32, to: u32) -> bool {
+        let moved = |t: [u32; 3]| t.map(|v| if v == from { to } else { v });
+        let keeps_side = |t: &&[u32; 3]| {
+            let (before, after) = (self.corners(**t), self.corners(moved(**t)));
+            height(&before) < THIN_MM || normal(&before).dot(&normal(&after)) > 0.0
+        };
+        if !self.triangles.iter().filter(|t| t.contains(&from) && !t.contains(&to)).all(|t| keeps_side(&t)) {
+            return false;
+        }
+        self.triangles.iter_mut().for_each(|t| *t = moved(*t));
+        true
+    }
+}
+
+fn sorted<const N: usize>(mut items: [u32; N]) -> Vec<u32> {
+    items.sort_unstable();
+    items.to_vec()
+}
+
+/// Twice the area along the normal, mm².
+fn normal([a, b, c]: &[Point; 3]) -> Vector {
+    (b - a).cross(&(c - a))
+}
+
+/// The lengths of the sides, each from its corner to the next, mm.
+fn sides(corners: &[Point; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| (corners[(k + 1) % 3] - corners[k]).norm())
+}
+
+/// The height over the longest side, mm.
+fn height(corners: &[Point; 3]) -> f64 {
+    let longest = sides(corners).into_iter().fold(0.0, f64::max);
+    if longest > 0.0 { normal(corners).norm() / longest } else { 0.0 }
+}
+
+/// The triangle's corners, beginning with the ends of its longest side.
+fn longest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
+    let lengths = sides(corners);
+    turned_to(triangle, (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j])))
+}
+
+/// The triangle's corners, beginning with the ends of its shortest side.
+fn shortest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
+    let lengths = sides(corners);
+    turned_to(triangle, (0..3).min_by(|&i, &j| lengths[i].total_cmp(&lengths[j])))
+}
+
+fn turned_to(mut triangle: [u32; 3], first: Option<usize>) -> [u32; 3] {
+    triangle.rotate_left(first.unwrap_or(0));
+    triangle
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Solid;
+
+    /// A skew tetrahedron far from the origin, whose coordinates are no multiples of a file's steps.
+    const CORNERS: [[f64; 3]; 4] =
+        [[71.3, 88.7, 59.1], [92.9, 97.3, 63.7], [80.1, 121.9, 61.3], [83.7, 99.1, 91.9]];
+
+    /// The tetrahedron with more vertices on its side from 0 to 1, at these shares of it, each pushed off it by `aside_mm`
+    /// toward the middle of the faces there.
+    fn tetrahedron(shares: &[f64], aside_mm: f64) -> Vec<Point> {
+        let mut vertices = CORNERS.map(Point::from).to_vec();
+        let middle = nalgebra::center(&vertices[2], &vertices[3]);
+        let (from, to) = (vertices[0], vertices[1]);
+        vertices.extend(shares.iter().map(|&share| {
+            let at = from + (to - from) * share;
+            at + (middle - at).normalize() * aside_mm
+        }));
+        vertices
+    }
+
+    /// Face 0 1 2 ends at the vertex beside the side and a cap lies between it and face 1 0 3.
+    fn capped(share: f64) -> TriMesh {
+        let triangles = vec![[0, 4, 2], [4, 1, 2], [0, 1, 4], [1, 0, 3], [1, 3, 2], [2, 3, 0]];
+        outward(tetrahedron(&[share], 1e-7), triangles)
+    }
+
+    /// Both faces at the side have two vertices in common there that are 1e-6 mm apart.
+    fn needled(share: f64) -> TriMesh {
+        let triangles =
+            vec![[0, 4, 2], [4, 5, 2], [5, 1, 2], [4, 0, 3], [5, 4, 3], [1, 5, 3], [1, 3, 2], [2, 3, 0]];
+        outward(tetrahedron(&[share, share + 5e-8], 0.0), triangles)
+    }
+
+    fn outward(vertices: Vec<Point>, triangles: Vec<[u32; 3]>) -> TriMesh {
+        let mesh = TriMesh::new(vertices, triangles).unwrap();
+        if mesh.signed_volume_mm3() < 0.0 { mesh.reversed() } else { mesh }
+    }
+
+    /// Of many places of the extra vertices, how many are folded when written, and how many are still when unfolded.
+    fn folded(surface: impl Fn(f64) -> TriMesh) -> [usize; 2] {
+        let meshes: Vec<TriMesh> = (1..200).map(|i| surface(f64::from(i) / 203.0)).collect();
+        let count = |meshes: &[TriMesh]| meshes.iter().filter(|m| !folds(&as_written(m)).is_empty()).count();
+        let mended: Vec<TriMesh> = meshes.iter().map(unfolded).collect();
+        for (mesh, mended) in meshes.iter().zip(&mended) {
+            let volume = mesh.signed_volume_mm3();
+            // A side of 25 mm moved by at most the height of a sliver, 1e-6 mm, over an area of 400 mm².
+            assert!((mended.signed_volume_mm3() - volume).abs() < 1e-3, "{volume}");
+            Solid::new(mended.clone()).unwrap();
+        }
+        [count(&meshes), count(&mended)]
+    }
+
+    #[test]
+    fn caps_that_rounding_folds_are_turned_away() {
+        let [before, after] = folded(capped);
+        assert!(before > 20 && after == 0, "{before}, {after}");
+    }
+
+    #[test]
+    fn needles_that_rounding_folds_are_closed() {
+        let [before, after] = folded(needled);
+        assert!(before > 5 && after == 0, "{before}, {after}");
+    }
+
+    #[test]
+    fn a_surface_without_slivers_comes_back_as_it_is() {
+        let ball = crate::mesh::primitives::ball(&Point::new(50.0, 60.0, 70.0), 20.0, 4);
+        assert_eq!(unfolded(&ball), ball);
+    }
+}

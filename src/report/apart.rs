@@ -1,0 +1,122 @@
+//! The parts drawn apart along the cuts, with their names, their pins and the lines along which they come together.
+
+use super::album::{Label, Shot, TEXT_PX, labelled_camera, pins, turned};
+use super::figure::Role;
+use super::palette::part_color;
+use super::picture::{Item, Scene};
+use crate::geom::{Aabb, Frame, Plane, Point, Vector};
+use crate::mesh::TriMesh;
+use crate::verify::{PartEvidence, Peg, PromisedPart};
+
+/// How far parts are drawn apart, as a share of the model's longest side.
+const APART_RATIO: f64 = 0.35;
+/// Directions around the axis that are tried for the viewer.
+const AZIMUTHS: usize = 24;
+/// How far above the ground the viewer stands, radians.
+const LIFT: f64 = 0.35;
+/// The best cosine between the view and a cut's normal: the parts are seen side by side, and their cut faces too.
+const FACE_COSINE: f64 = 0.4;
+/// What counts as the same base of a pin, mm.
+const SAME_MM: f64 = 1e-6;
+
+/// The parts in the model frame and how far each is drawn from its place.
+pub(super) struct Apart<'a> {
+    parts: &'a [TriMesh],
+    cuts: &'a [Plane],
+    shifts: Vec<Vector>,
+}
+
+/// The parts' meshes in the model frame.
+pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
+    parts.iter().map(|part| part.mesh.map_vertices(|p| part.pose.to_model(p))).collect()
+}
+
+/// How far each part is drawn from its place: away from every cut, to its own side.
+pub(super) fn shifts(parts: &[TriMesh], cuts: &[Plane]) -> Vec<Vector> {
+    let all = parts.iter().map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
+    let apart_mm = APART_RATIO * all.size().max();
+    let side = |center: &Point, cut: &Plane| cut.normal * (0.5 * apart_mm * cut.distance(center).signum());
+    parts.iter().map(|part| cuts.iter().map(|cut| side(&part.aabb().center(), cut)).sum()).collect()
+}
+
+impl<'a> Apart<'a> {
+    pub fn of(parts: &'a [TriMesh], cuts: &'a [Plane]) -> Self {
+        Self { parts, cuts, shifts: shifts(parts, cuts) }
+    }
+
+    /// The picture, with a name for every part and pin.
+    pub fn shot(&self, frame: &Frame, promised: &[PromisedPart]) -> Shot<'a> {
+        let item = |(index, (mesh, &shift)): (usize, (&'a TriMesh, &Vector))| Item {
+            mesh,
+            color: part_color(index),
+            shift,
+            is_whole: false,
+        };
+        Shot {
+            file: "pictures/parts.svg".to_owned(),
+            role: Role::Exploded,
+            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes."
+                .to_owned(),
+            alt: alt(promised),
+            scene: Scene {
+                items: self.parts.iter().zip(&self.shifts).enumerate().map(item).collect(),
+                cut: None,
+            },
+            camera: labelled_camera(self.toward_viewer(frame), frame.axis()),
+            text_px: TEXT_PX,
+            labels: self.labels(promised),
+        }
+    }
+
+    /// Where the parts are seen side by side, and the faces of the cuts a little.
+    fn toward_viewer(&self, frame: &Frame) -> Vector {
+        let direction = |index: usize| {
+            let turn = std::f64::consts::TAU * index as f64 / AZIMUTHS as f64;
+            turned(&frame.direction_to_model(&-Vector::y()), &frame.axis(), [turn, LIFT])
+        };
+        let cost = |toward: &Vector| -> f64 {
+            self.cuts.iter().map(|cut| (cut.normal.dot(toward).abs() - FACE_COSINE).powi(2)).sum()
+        };
+        let first = direction(0);
+        let better = |best: Vector, next: Vector| if cost(&next) < cost(&best) { next } else { best };
+        (1..AZIMUTHS).map(direction).fold(first, better)
+    }
+
+    fn labels(&self, promised: &[PromisedPart]) -> Vec<Label> {
+        let name = |(index, part): (usize, &TriMesh)| {
+            Label::At(
+                self.named_at(index, part),
+                promised.get(index).map_or(String::new(), |part| part.id.clone()),
+            )
+        };
+        let names = self.parts.iter().enumerate().map(name);
+        let pins = pins(promised).filter_map(|(part, pin)| self.pin_labels(part, pin, promised)).flatten();
+        names.chain(pins).collect()
+    }
+
+    /// A place of a part that names it: what lies farthest from the others, on its surface.
+    fn named_at(&self, index: usize, part: &TriMesh) -> Point {
+        let (shift, center) = (self.shifts[index], part.aabb().center());
+        let reach = |p: &Point| (p - center).dot(&shift);
+        let first = part.vertices().first().copied().unwrap_or(center);
+        part.vertices().iter().fold(first, |best, p| if reach(p) > reach(&best) { *p } else { best }) + shift
+    }
+
+    /// The line from a pin to its socket, and the pin's name at its tip.
+    fn pin_labels(&self, part: usize, pin: &Peg, promised: &[PromisedPart]) -> Option<[Label; 2]> {
+        let center = Point::from(pin.center_mm);
+        let is_mate =
+            |socket: &Peg| socket.id == pin.id && (Point::from(socket.center_mm) - center).norm() < SAME_MM;
+        let mate = promised.iter().position(|row| row.sockets.iter().any(is_mate))?;
+        let tip = center + Vector::from(pin.axis) * pin.length_mm + self.shifts.get(part)?;
+        Some([Label::Between([tip, center + self.shifts.get(mate)?]), Label::At(tip, pin.id.clone())])
+    }
+}
+
+/// What is to be seen, in words.
+fn alt(promised: &[PromisedPart]) -> String {
+    let names: Vec<&str> = promised.iter().map(|part| part.id.as_str()).collect();
+    let pins: Vec<&str> = pins(promised).map(|(_, pin)| pin.id.as_str()).collect();
+    let pins = if pins.is_empty() { "no pins".to_owned() } else { format!("pins {}", pins.join(", ")) };
+    format!("Exploded view of the parts {}, with {pins}.", names.join(", "))
+}

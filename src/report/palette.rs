@@ -1,0 +1,75 @@
+//! Colours that every colour vision and a grey printer tell apart (Okabe and Ito, "Color universal design", 2008).
+
+use super::picture::Color;
+
+/// The surface of the model: light grey.
+pub const BODY: Color = [200, 203, 208];
+/// The inside of a void: sky blue.
+pub const VOID: Color = [86, 180, 233];
+/// Material seen where it is cut: vermilion, and hatched as in any drawing.
+pub const SECTION: Color = [213, 94, 0];
+/// The stripes of the hatching.
+pub const HATCH: Color = [255, 214, 170];
+/// Hardware: dark grey.
+pub const HARDWARE: Color = [84, 88, 96];
+/// The squares of a plate, two by two.
+pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
+/// Parts, in turn: neighbours in this order differ in lightness too.
+pub const PARTS: [Color; 6] =
+    [[240, 228, 66], [0, 114, 178], [86, 180, 233], [0, 158, 115], [230, 159, 0], [204, 121, 167]];
+
+/// The colour of a part.
+pub fn part_color(index: usize) -> Color {
+    PARTS[index % PARTS.len()]
+}
+
+/// A colour as CSS and SVG write it.
+pub fn hex(color: Color) -> String {
+    format!("#{}", color.map(|channel| format!("{channel:02x}")).concat())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::svg::{INK, PAPER};
+    use super::*;
+
+    /// The relative luminance of a colour (WCAG 2.2).
+    fn luminance(color: Color) -> f64 {
+        let linear = color.map(|channel| {
+            let share = f64::from(channel) / 255.0;
+            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+        });
+        0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+    }
+
+    /// Their contrast, from 1 to 21 (WCAG 2.2).
+    fn contrast(a: Color, b: Color) -> f64 {
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    #[test]
+    fn outlines_and_words_stand_out_from_every_colour_and_the_paper() {
+        // WCAG 2.2 asks for 3 between the parts of a picture and 4.5 for words.
+        assert!(contrast(INK, PAPER) > 4.5);
+        for color in PARTS.into_iter().chain([BODY, VOID, SECTION, HATCH, PLATE[0], PLATE[1]]) {
+            assert!(contrast(INK, color) >= 3.0, "{color:?}");
+        }
+    }
+
+    #[test]
+    fn parts_that_follow_each_other_differ_in_grey() {
+        // A step of 1.3 in luminance is a step of a tenth of the grey scale, which an office printer keeps.
+        for pair in PARTS.windows(2) {
+            assert!(contrast(pair[0], pair[1]) > 1.3, "{pair:?}");
+        }
+        assert!(contrast(PARTS[5], PARTS[0]) > 1.3);
+    }
+
+    #[test]
+    fn what_is_cut_void_and_outside_differs_in_grey() {
+        assert!(
+            contrast(SECTION, VOID) > 1.5 && contrast(SECTION, BODY) > 2.0 && contrast(SECTION, HATCH) > 2.5
+        );
+    }
+}

@@ -1,0 +1,113 @@
+// Drives a job sheet in headless Chromium with the network off: no rule of axe broken, no request, no error, and the view does
+// what its controls say. usage: node check.js CHECKLIST.html (CHROMIUM=path, TOOLS=folder with puppeteer-core and axe-core)
+"use strict";
+const { createRequire } = require("node:module");
+const path = require("node:path");
+const { pathToFileURL } = require("node:url");
+const tools = createRequire(path.join(process.env.TOOLS, "package.json"));
+const puppeteer = tools("puppeteer-core");
+const axe = require("node:fs").readFileSync(tools.resolve("axe-core/axe.min.js"), "utf8");
+
+const SOFTWARE_GL = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"];
+// A control that does something moves this share of the pixels; noise moves none.
+const CHANGED = 0.01;
+const faults = [];
+const must = (holds, claim) => {
+  console.log(`${holds ? "ok   " : "WRONG"} ${claim}`);
+  if (!holds) faults.push(claim);
+};
+
+// The page in a browser of its own, with what went wrong in it.
+const opened = async (file, options) => {
+  const browser = await puppeteer.launch({ executablePath: process.env.CHROMIUM, headless: true, args: ["--no-sandbox", ...options] });
+  const page = await browser.newPage();
+  const trouble = [];
+  await page.setViewport({ width: 1100, height: 1200 });
+  await page.setOfflineMode(true);
+  page.on("pageerror", (error) => trouble.push(String(error)));
+  page.on("console", (message) => { if (message.type() === "error") trouble.push(message.text()); });
+  page.on("request", (request) => { if (!/^(file|data):/.test(request.url())) trouble.push(`asked for ${request.url()}`); });
+  await page.goto(pathToFileURL(path.resolve(file)).href, { waitUntil: "load" });
+  return { browser, page, trouble };
+};
+
+// The pixels of the view after the next frame.
+const pixels = (page) => page.evaluate(() => new Promise((resolve) => {
+  requestAnimationFrame(() => requestAnimationFrame(() => {
+    const canvas = document.getElementById("view-canvas");
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    resolve(Array.from(context.getImageData(0, 0, copy.width, copy.height).data));
+  }));
+}));
+const share = (data, test) => {
+  let count = 0;
+  for (let at = 0; at < data.length; at += 4) count += test(at) ? 1 : 0;
+  return count / (data.length / 4);
+};
+const difference = (a, b) => share(a, (at) => [0, 1, 2].some((channel) => Math.abs(a[at + channel] - b[at + channel]) > 8));
+const ofCut = (data) => share(data, (at) => Math.abs(data[at] - 213) < 6 && Math.abs(data[at + 1] - 94) < 6 && data[at + 2] < 6);
+
+const presses = async (page, id, key, times) => {
+  await page.focus(id);
+  for (let time = 0; time < times; time += 1) await page.keyboard.press(key);
+};
+
+const accessible = async (page, how) => {
+  await page.evaluate(axe);
+  const { violations } = await page.evaluate(() => window.axe.run(document, { resultTypes: ["violations"] }));
+  for (const violation of violations) console.log(`      ${violation.id}: ${violation.help}: ${violation.nodes.map((node) => node.html.slice(0, 160)).join(" | ")}`);
+  must(violations.length === 0, `axe finds nothing, ${how}`);
+};
+
+const drive = async (page) => {
+  const start = await pixels(page);
+  must(share(start, (at) => start[at] + start[at + 1] + start[at + 2] < 740) > 0.02, "the assembly is drawn");
+  must(ofCut(start) === 0, "nothing is cut at first");
+  await presses(page, "#view-explode", "ArrowRight", 60);
+  const apart = await pixels(page);
+  must(difference(start, apart) > CHANGED, "the slider takes it apart");
+  await page.select("#view-axis", "0");
+  const cut = await pixels(page);
+  must(ofCut(cut) > 0.001 && difference(apart, cut) > CHANGED, "the section plane cuts it open");
+  await presses(page, "#view-section", "ArrowLeft", 40);
+  must(difference(cut, await pixels(page)) > CHANGED, "the section plane moves");
+  await page.click("#view-reset");
+  must(difference(start, await pixels(page)) === 0, "starting again is as at the start");
+  await presses(page, "#view-canvas", "ArrowRight", 5);
+  const turned = await pixels(page);
+  must(difference(start, turned) > CHANGED, "the arrow keys turn it");
+  const box = await (await page.$("#view-canvas")).boundingBox();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.6 * box.width, box.y + 0.4 * box.height, { steps: 4 });
+  await page.mouse.up();
+  const dragged = await pixels(page);
+  must(difference(turned, dragged) > CHANGED, "the mouse turns it");
+  // Apart, no part hides behind another.
+  await presses(page, "#view-explode", "ArrowRight", 100);
+  const all = await pixels(page);
+  await page.click("input[data-item='0']");
+  must(difference(all, await pixels(page)) > CHANGED, "a part can be taken out of sight");
+};
+
+(async () => {
+  const file = process.argv[2];
+  const shown = await opened(file, SOFTWARE_GL);
+  await drive(shown.page);
+  await accessible(shown.page, "with the view");
+  await shown.page.emulateMediaType("print");
+  await accessible(shown.page, "on paper");
+  must(shown.trouble.length === 0, `no error and no request ${shown.trouble.join("; ")}`);
+  await shown.browser.close();
+
+  const plain = await opened(file, ["--disable-gpu", "--disable-3d-apis"]);
+  must(await plain.page.$eval("#view", (view) => view.hidden), "without WebGL the view stays away");
+  must(await plain.page.$$eval("figure img, figure svg", (all) => all.every((one) => one.getBoundingClientRect().width > 100)), "and the pictures are there");
+  await accessible(plain.page, "without the view");
+  must(plain.trouble.length === 0, `no error and no request ${plain.trouble.join("; ")}`);
+  await plain.browser.close();
+  process.exit(faults.length === 0 ? 0 : 1);
+})().catch((error) => { console.error(error); process.exit(2); });
