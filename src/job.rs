@@ -43,7 +43,7 @@ pub struct Job {
     /// Whether the object is cut.
     pub cut: CutMode,
     /// What aligns the parts; printed pins where the key is left out.
-    #[serde(default, skip_serializing_if = "PinStyle::is_printed")]
+    #[serde(default = "printed", skip_serializing_if = "PinStyle::is_printed")]
     pub pins: PinStyle,
     /// Whether parts bear their ids; sunk into cut faces where the key is left out.
     #[serde(default = "engraved", skip_serializing_if = "IdStyle::is_engraved")]
@@ -221,6 +221,10 @@ impl Job {
             }
         }
     }
+}
+
+fn printed() -> PinStyle {
+    PinStyle::Printed
 }
 
 fn engraved() -> IdStyle {

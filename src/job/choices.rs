@@ -63,12 +63,6 @@ impl PinStyle {
     }
 }
 
-impl Default for PinStyle {
-    fn default() -> Self {
-        Self::Printed
-    }
-}
-
 choice! {
     /// Whether parts bear their ids.
     IdStyle, "style of ids" {
