@@ -449,16 +449,14 @@ fn no_two_dowelled_joints_can_be_confused_from_either_side() {
     );
 }
 
-/// What no turn and no mirror changes of a joint's pins: their diameters, and how far they are from each other, mm.
+/// What no turn and no mirror changes of a joint's pins: how far the others are from the stoutest, and their diameters, mm.
 fn signature(plan: &CutPlan, joint: &JointNote) -> Vec<f64> {
-    let pins: Vec<&PinSite> = plan.pins.iter().filter(|pin| joint.pins.contains(&pin.id)).collect();
-    let apart = |a: &PinSite, b: &PinSite| (Point::from(a.center_mm) - Point::from(b.center_mm)).norm();
-    let mut arms: Vec<f64> =
-        pins.iter().enumerate().flat_map(|(i, a)| pins[..i].iter().map(move |b| apart(a, b))).collect();
-    let mut diameters: Vec<f64> = pins.iter().map(|pin| pin.diameter_mm).collect();
+    let mut pins: Vec<&PinSite> = plan.pins.iter().filter(|pin| joint.pins.contains(&pin.id)).collect();
+    pins.sort_by(|a, b| b.diameter_mm.total_cmp(&a.diameter_mm));
+    let apart = |pin: &&&PinSite| (Point::from(pin.center_mm) - Point::from(pins[0].center_mm)).norm();
+    let mut arms: Vec<f64> = pins[1..].iter().map(|pin| apart(&pin)).collect();
     arms.sort_by(f64::total_cmp);
-    diameters.sort_by(f64::total_cmp);
-    [diameters, arms].concat()
+    pins.iter().map(|pin| pin.diameter_mm).chain(arms).collect()
 }
 
 #[test]
