@@ -121,7 +121,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
         seats: Vec::new(),
         rods: if dice.below(4) == 0 { rods().unwrap() } else { Vec::new() },
-        labels: (dice.below(2) == 0).then(|| LabelStyle { stroke_mm: 0.5, depth_mm: 0.5 }),
+        labels: (dice.below(2) == 0).then_some(LabelStyle { stroke_mm: 0.5, depth_mm: 0.5 }),
     }
 }
 
