@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, ModelUnit, PartFormat, Solver};
+pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle, Solver};
 pub use filling::Filling;
 
 use crate::{
@@ -42,6 +42,12 @@ pub struct Job {
     pub solver: Solver,
     /// Whether the object is cut.
     pub cut: CutMode,
+    /// What aligns the parts; printed pins where the key is left out.
+    #[serde(default = "printed", skip_serializing_if = "PinStyle::is_printed")]
+    pub pins: PinStyle,
+    /// Whether parts bear their ids; sunk into cut faces where the key is left out.
+    #[serde(default = "engraved", skip_serializing_if = "IdStyle::is_engraved")]
+    pub ids: IdStyle,
     /// The file format of the parts.
     pub format: PartFormat,
     /// The ballast asked for; none where the key is left out.
@@ -173,6 +179,8 @@ impl Job {
             pitch: None,
             solver: Solver::Quadric,
             cut: CutMode::Auto,
+            pins: PinStyle::Printed,
+            ids: IdStyle::Engraved,
             format: PartFormat::Both,
             ballast: Order::None,
             fill: None,
@@ -213,6 +221,14 @@ impl Job {
             }
         }
     }
+}
+
+fn printed() -> PinStyle {
+    PinStyle::Printed
+}
+
+fn engraved() -> IdStyle {
+    IdStyle::Engraved
 }
 
 fn known_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
@@ -270,6 +286,7 @@ mod tests {
         rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
         boat.goal = Request::new(GoalKind::Float);
         boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
+        (boat.pins, boat.ids) = (PinStyle::Dowel, IdStyle::None);
         let mut yoyo = job();
         yoyo.goal = Request::new(GoalKind::Yoyo);
         let axle = "6mmx30mm:2.7".parse().ok();

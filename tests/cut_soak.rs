@@ -12,8 +12,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PinSite, PlanRequest, PosePreference,
-    parts, plan_by,
+    Cut, CutError, CutOrder, CutPlan, GoalAxis, LabelStyle, Part, PinSettings, PinSite, PlanRequest,
+    PosePreference, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -122,6 +122,8 @@ fn request(dice: &mut Dice) -> PlanRequest {
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
         seats: Vec::new(),
+        rods: if dice.below(4) == 0 { rods().unwrap() } else { Vec::new() },
+        labels: (dice.below(2) == 0).then_some(LabelStyle { stroke_mm: 0.5, depth_mm: 0.5 }),
     }
 }
 
@@ -189,7 +191,10 @@ fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[P
     let sum: f64 = made.iter().map(|part| moments_of_mesh(part.solid.mesh()).volume()).sum();
     let pegs: f64 = made.iter().map(Part::added_volume_mm3).sum();
     assert!((sum - pegs - whole).abs() <= VOLUME_RATIO * whole, "{told}: {sum} - {pegs} against {whole}");
-    for pin in &plan.pins {
+    for pin in plan.pins.iter().filter(|pin| pin.dowel.is_some()) {
+        assert_both_sockets_are_there(told, pin, made);
+    }
+    for pin in plan.pins.iter().filter(|pin| pin.dowel.is_none()) {
         let carrier = made.iter().filter(|part| part.pins.contains(pin)).collect::<Vec<_>>();
         let receiver = made.iter().filter(|part| part.sockets.contains(pin)).collect::<Vec<_>>();
         assert!(
@@ -220,6 +225,18 @@ fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[P
             "{told}: socket {} has no bottom",
             pin.id
         );
+    }
+}
+
+fn assert_both_sockets_are_there(told: &str, pin: &PinSite, made: &[Part]) {
+    let sockets = made.iter().flat_map(|part| part.sockets.iter().map(move |socket| (part, socket)));
+    let ends: Vec<(&Part, &PinSite)> = sockets.filter(|(_, socket)| socket.id == pin.id).collect();
+    assert_eq!(ends.len(), 2, "{told}: dowel {} is in {} parts", pin.id, ends.len());
+    for (part, socket) in ends {
+        let surface = Bvh::new(part.solid.mesh().iter_corners());
+        let winding = |height_mm: f64| surface.winding(&along(socket, height_mm));
+        let [inside, beyond] = [-FELT_MM, FELT_MM].map(|off| winding(socket.socket_depth_mm + off));
+        assert_eq!((inside, beyond), (0, 1), "{told}: a socket of dowel {} is not as deep", pin.id);
     }
 }
 

@@ -33,6 +33,8 @@ fn request() -> PlanRequest {
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
         seats: Vec::new(),
+        rods: Vec::new(),
+        labels: None,
     }
 }
 

@@ -2,10 +2,29 @@
 
 use std::{convert::Infallible, path::PathBuf, str::FromStr};
 
+use clap::Args;
+
 use crate::{
     cut::CutOrder,
-    job::{CutMode, PlanError},
+    job::{CutMode, IdStyle, PinStyle, PlanError},
 };
+
+/// How the object is cut and its parts joined.
+#[derive(Debug, Clone, Args)]
+#[command(next_help_heading = "Method")]
+pub struct CutArgs {
+    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
+    /// cuts.toml, edited [default: auto]
+    #[arg(long, value_name = "auto|never|FILE")]
+    pub cut: Option<CutArg>,
+    /// Align the parts by pins that are printed with them (printed), or by dowels cut from stock rods (dowel) [default:
+    /// printed]
+    #[arg(long, value_name = "printed|dowel")]
+    pub pins: Option<PinStyle>,
+    /// Sink the parts' ids into their cut faces where there is room (engraved), or not (none) [default: engraved]
+    #[arg(long, value_name = "engraved|none")]
+    pub ids: Option<IdStyle>,
+}
 
 /// What `--cut` was given.
 #[derive(Debug, Clone, PartialEq)]

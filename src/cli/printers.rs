@@ -158,6 +158,7 @@ fn show_number(quantity: Quantity, value: f64) -> String {
         _ if quantity.is_grid_step() => show_step(value),
         _ if quantity.is_ratio() => value.to_string(),
         _ if quantity.is_angle() => format!("{value}°"),
+        Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
         _ => show_mm(value),
     }
 }

@@ -3,59 +3,48 @@
 use super::{
     access::VoidAccess,
     error::CutError,
+    label::labels,
     pin_shape::PinSite,
-    pins::{PinScene, Placement, needed_room_mm, place, seated},
-    plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id, pin_id},
+    pin_size::needed_room_mm,
+    pins::{PinScene, Pins, Placement, pinned},
+    plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id},
     planner::Layout,
-    rejoin::Bridge,
+    rejoin::{Bridge, rejoined},
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{Joint, Piece, check_no_cavity, joints},
+    split::{Joint, Piece, check_no_cavity, joints, split},
 };
-use crate::geom::Plane;
+use crate::{geom::Plane, mass::FlatFace, mesh::Hollowed};
 
-/// The plan's data for these cuts and pieces; with the pins that were ordered, or else pins placed in every joint.
+/// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
     scene: &Scene,
     layout: &Layout,
-    (ordered, mut notes): (&Option<Vec<PinSite>>, Vec<String>),
+    (pins, mut notes): (Pins, Vec<String>),
 ) -> Result<CutPlan, CutError> {
     let Layout { planes, voids, pieces, bridges } = layout;
     check_no_cavity(pieces)?;
     let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
     let joints = joints(pieces);
-    let placements = match ordered {
-        Some(pins) => seated(&pin_scene, &joints, pins)?,
-        None => placed(&pin_scene, &joints),
-    };
+    let placements = pinned(&pin_scene, &joints, pins)?;
+    let proofs = notes.clone();
+    let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let told = joints.iter().zip(&placements);
     notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
+    notes.extend(unlabelled);
     Ok(CutPlan {
         cuts: planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect(),
-        joints: told.map(|(joint, placement)| joint_note(pieces, joint, placement)).collect(),
+        joints: told.map(|(joint, placement)| joint_note(&pin_scene, joint, placement)).collect(),
         pins: placements.into_iter().flat_map(|placement| placement.sites).collect(),
         uncut: bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect(),
+        labels,
         voids: voids.clone(),
         notes,
         moves: Vec::new(),
+        proofs,
     })
-}
-
-/// Pins for every joint, numbered through; each pattern is held against those before it.
-fn placed(scene: &PinScene, joints: &[Joint]) -> Vec<Placement> {
-    let mut placements = Vec::new();
-    let mut count = 0;
-    for joint in joints {
-        let mut placement = place(scene, joint, &placements);
-        for site in &mut placement.sites {
-            (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
-            count += 1;
-        }
-        placements.push(placement);
-    }
-    placements
 }
 
 /// The plan with its cuts called as in the order it was made by: the planner numbers them.
@@ -68,6 +57,7 @@ pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
     };
     plan.pins.iter_mut().for_each(|pin| name(&mut pin.cut));
     plan.joints.iter_mut().for_each(|joint| name(&mut joint.cut));
+    plan.labels.iter_mut().for_each(|label| name(&mut label.cut));
     plan.uncut.iter_mut().for_each(|face| name(&mut face.cut));
     plan.voids.iter_mut().flat_map(|void| &mut void.opened_by).for_each(name);
     plan.cuts = cuts.to_vec();
@@ -80,14 +70,40 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     UncutFace { cut: cut_id(bridge.cut), point_mm }
 }
 
-fn joint_note(pieces: &[Piece], joint: &Joint, placement: &Placement) -> JointNote {
+fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
+    let pieces = scene.pieces;
     JointNote {
         cut: cut_id(joint.cut),
         parts: [part_id(joint.below), part_id(joint.above)],
         area_mm2: joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
+        face: contact(&pieces[joint.below], joint, &placement.sites),
     }
+}
+
+/// Where the parts of a joint touch: its faces less the mouths of its sockets.
+fn contact<'a>(below: &Piece, joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
+    let faces = joint.caps.iter().flat_map(|&cap| &below.caps[cap].faces);
+    let faces = faces.map(|&face| (below.mesh.corners(face), 1.0));
+    let mouths = pins.into_iter().flat_map(PinSite::mouth).map(|corners| (corners, -1.0));
+    FlatFace::of_triangles(faces.chain(mouths))
+}
+
+/// The plan with the faces of its joints as they are in a body that was solved for again.
+pub fn refaced(hollowed: &Hollowed, mut plan: CutPlan) -> Result<CutPlan, CutError> {
+    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let pieces = rejoined(split(&hollowed.to_mesh(), &planes)?, &planes, &plan.bridges(&planes))?;
+    for joint in joints(&pieces) {
+        let (cut, parts) = (&plan.cuts[joint.cut].id, [part_id(joint.below), part_id(joint.above)]);
+        let Some(note) = plan.joints.iter_mut().find(|note| note.cut == *cut && note.parts == parts) else {
+            continue;
+        };
+        let pins = plan.pins.iter().filter(|pin| note.pins.contains(&pin.id));
+        note.face = contact(&pieces[joint.below], &joint, pins);
+        note.area_mm2 = joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum();
+    }
+    Ok(plan)
 }
 
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.

@@ -1,6 +1,7 @@
 //! Why no cut plan or no parts could be made.
 
 use crate::mesh::ClipError;
+use crate::toml_text::TextFault;
 
 /// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by their ids.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,6 +55,9 @@ pub enum CutError {
         /// The pin's id.
         pin: String,
     },
+    /// The catalogue of rods cannot be read.
+    #[error(transparent)]
+    Rods(#[from] TextFault),
     /// A boolean failed.
     #[error(transparent)]
     Clip(#[from] ClipError),

@@ -6,6 +6,8 @@ use super::{
     access::{VoidAccess, accesses},
     describe::described,
     error::CutError,
+    pin_shape::PinSite,
+    pins::Pins,
     plan::{CutPlan, cut_id, part_id},
     planner::Layout,
     pose::{apply, laid, sides_down},
@@ -78,7 +80,7 @@ pub(crate) fn at_layers(
     });
     let moved = moved.collect();
     let Some(layout) = still_open(scene, layout, planes)? else { return Ok(plan) };
-    Ok(CutPlan { moves: moved, ..described(scene, &layout, (&None, notes))? })
+    Ok(CutPlan { moves: moved, ..described(scene, &layout, (Pins::Placed, notes))? })
 }
 
 /// Which cuts are moved for which part, and how far along their normals, mm.
@@ -139,7 +141,8 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
     let id = part_id(part);
     let carries = |cut: usize| {
         plan.joints.iter().filter(|joint| joint.cut == cut_id(cut)).any(|joint| {
-            let pins = plan.pins.iter().filter(|pin| joint.pins.contains(&pin.id));
+            let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
+            let pins = plan.pins.iter().filter(stands);
             let carrier = |direction: [f64; 3]| {
                 let is_upward = layout.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
                 &joint.parts[usize::from(!is_upward)]

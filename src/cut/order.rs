@@ -149,6 +149,14 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
     if !chamfers.iter().all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0) {
         return Err("its chamfers must be zero or positive, mm");
     }
+    if let Some(dowel) = &pin.dowel {
+        if !(dowel.density_g_cm3 > 0.0 && dowel.density_g_cm3.is_finite()) {
+            return Err("its dowel's density must be a positive number, g/cm³");
+        }
+        if !(dowel.length_mm > 0.0 && dowel.length_mm <= 2.0 * pin.socket_depth_mm) {
+            return Err("its dowel must be no longer than both sockets are deep");
+        }
+    }
     if 2.0 * pin.chamfer_mm >= pin.diameter_mm || pin.chamfer_mm >= pin.length_mm {
         return Err("its chamfer must be less than its radius and its length");
     }

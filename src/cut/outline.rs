@@ -45,6 +45,12 @@ impl Outline {
         self.signed_distance(p) > 0.0
     }
 
+    /// The point of the boundary nearest to `p`; `p` itself where there is no boundary.
+    pub(crate) fn nearest(&self, p: &Point2) -> Point2 {
+        let on = self.segments.iter().map(|[a, b]| nearest_on(p, a, b));
+        on.min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared())).unwrap_or(*p)
+    }
+
     /// The corners of the bounding box; `None` when there is no segment or a coordinate is not finite.
     pub(crate) fn bounds(&self) -> Option<(Point2, Point2)> {
         let points = || self.segments.iter().flatten();
@@ -135,10 +141,15 @@ impl Ord for Cell {
 
 /// The squared distance from a point to a segment.
 fn distance_squared(p: &Point2, a: &Point2, b: &Point2) -> f64 {
-    let (along, to_p) = (b - a, p - a);
+    (p - nearest_on(p, a, b)).norm_squared()
+}
+
+/// The point of a segment nearest to `p`.
+fn nearest_on(p: &Point2, a: &Point2, b: &Point2) -> Point2 {
+    let along = b - a;
     let length_squared = along.norm_squared();
-    let t = if length_squared > 0.0 { (to_p.dot(&along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
-    (to_p - along * t).norm_squared()
+    let t = if length_squared > 0.0 { ((p - a).dot(&along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    a + along * t
 }
 
 #[cfg(test)]

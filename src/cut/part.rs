@@ -6,6 +6,7 @@ use rayon::prelude::*;
 
 use super::{
     error::CutError,
+    label::Label,
     pin_shape::PinSite,
     plan::{CutPlan, part_id},
     pose::{Pose, laid, sides_down},
@@ -30,20 +31,23 @@ pub struct Part {
     pub pose: Pose,
     /// The pins that stand out of it.
     pub pins: Vec<PinSite>,
-    /// The pins of other parts that its sockets receive.
+    /// The pins of other parts that its sockets receive, and the dowels that stand in it, seen from the cut into this part.
     pub sockets: Vec<PinSite>,
+    /// The ids sunk into its cut faces.
+    pub labels: Vec<Label>,
     /// The voids that it holds a piece of, as indices into the hollowed body's.
     pub voids: Vec<usize>,
 }
 
 impl Part {
-    /// What its pins add to the piece of the hollowed body, less what its sockets take away, mm³.
+    /// What its pins add to the piece of the hollowed body, less what its sockets and labels take away, mm³.
     ///
     /// Summed over the parts and the hollowed body's volume, this is the volume of all parts to 1e-6 relative.
     pub fn added_volume_mm3(&self) -> f64 {
         let pins: f64 = self.pins.iter().map(PinSite::pin_volume_mm3).sum();
         let sockets: f64 = self.sockets.iter().map(PinSite::socket_volume_mm3).sum();
-        pins - sockets
+        let labels: f64 = self.labels.iter().map(Label::volume_mm3).sum();
+        pins - sockets - labels
     }
 }
 
@@ -73,16 +77,22 @@ pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Resu
     let part = |(index, piece): (usize, &Piece)| {
         let carried = || seats.iter().filter(move |seat| seat.carrier == index);
         let received = || seats.iter().filter(move |seat| seat.receiver == index);
-        let pin_cuts: Vec<usize> = carried().map(|seat| seat.cut).collect();
-        let pins: Vec<PinSite> = carried().map(|seat| seat.site.clone()).collect();
-        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).collect();
-        let solid = fitted(piece, &pins, &sockets)?;
+        let standing = carried().filter(|seat| seat.site.dowel.is_none());
+        let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
+        let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
+        let pins: Vec<PinSite> = carried().filter(is_printed).map(|seat| seat.site.clone()).collect();
+        let second = carried().filter(|seat| !is_printed(seat)).map(|seat| seat.site.mirrored());
+        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).chain(second).collect();
+        let labels: Vec<Label> =
+            plan.labels.iter().filter(|label| label.part == part_id(index)).cloned().collect();
+        let solid = fitted(piece, (&pins, &sockets), &labels)?;
         Ok(Part {
             id: part_id(index),
             pose: laid(solid.mesh(), &sides_down(piece, &planes, &pin_cuts, request), request),
             solid,
             pins,
             sockets,
+            labels,
             voids: voids_of(piece, &void_of),
         })
     };
@@ -105,14 +115,21 @@ fn seat<'a>(
     Ok(Seat { site, carrier, receiver, cut })
 }
 
-/// The piece with its pins united and its sockets taken away.
-fn fitted(piece: &Piece, pins: &[PinSite], sockets: &[PinSite]) -> Result<Solid, CutError> {
+/// The piece with its pins united, and its sockets and labels taken away.
+fn fitted(
+    piece: &Piece,
+    (pins, sockets): (&[PinSite], &[PinSite]),
+    labels: &[Label],
+) -> Result<Solid, CutError> {
     let mut body = Csg::of_mesh(&piece.mesh)?;
     for pin in pins {
         body = body.union(&Csg::of_mesh(&pin.pin_body())?)?;
     }
     for socket in sockets {
         body = body.subtract(&Csg::of_mesh(&socket.socket_body())?)?;
+    }
+    for label in labels {
+        body = body.subtract(&Csg::of_mesh(&label.cutter())?)?;
     }
     without_short_edges(&body)
 }

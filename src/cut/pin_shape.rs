@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rod::Dowel;
 use crate::{
     geom::{Point, Vector, orthonormal_basis},
     mesh::TriMesh,
@@ -39,6 +40,9 @@ pub struct PinSite {
     pub socket_depth_mm: f64,
     /// Height and width of the chamfer at its mouth, mm.
     pub socket_chamfer_mm: f64,
+    /// The loose dowel that stands there in place of a printed pin, in a socket on either side; `length_mm` is then half of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub dowel: Option<Dowel>,
 }
 
 impl PinSite {
@@ -56,9 +60,9 @@ impl PinSite {
         self.turned(&[vec![mouth], profile[1..].to_vec()].concat())
     }
 
-    /// What stands out of the cut face, as a closed mesh.
+    /// What is printed standing out of the cut face, as a closed mesh; nothing of a dowel.
     pub fn standing_out(&self) -> TriMesh {
-        self.turned(&self.pin_profile())
+        if self.dowel.is_some() { TriMesh::default() } else { self.turned(&self.pin_profile()) }
     }
 
     /// What the socket takes away, as a closed mesh.
@@ -74,6 +78,18 @@ impl PinSite {
     /// The volume the socket takes away, mm³.
     pub fn socket_volume_mm3(&self) -> f64 {
         self.taken_away().signed_volume_mm3()
+    }
+
+    /// The triangles of the socket's mouth in the cut.
+    pub(crate) fn mouth(&self) -> Vec<[Point; 3]> {
+        let (axis, center) = (Vector::from(self.direction), Point::from(self.center_mm));
+        let (u, v) = orthonormal_basis(&axis);
+        let radius = self.socket_profile()[0].0;
+        let corner = |side: usize| {
+            let (sin, cos) = (2.0 * std::f64::consts::PI * side as f64 / SIDES as f64).sin_cos();
+            center + (u * cos + v * sin) * radius
+        };
+        (0..SIDES).map(|side| [center, corner(side), corner(side + 1)]).collect()
     }
 
     /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's diameter, so that the

@@ -3,10 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    access::VoidAccess, error::CutError, layers::CutMove, pin_shape::PinSite, rejoin::Bridge, section::Chart,
+    access::VoidAccess, error::CutError, label::Label, layers::CutMove, pin_shape::PinSite, rejoin::Bridge,
+    section::Chart,
 };
 use crate::{
     geom::{Plane, Point, Vector},
+    mass::FlatFace,
     mesh::{Hollowed, Solid, TriMesh},
 };
 
@@ -19,6 +21,9 @@ pub struct CutPlan {
     pub pins: Vec<PinSite>,
     /// Which parts meet where.
     pub joints: Vec<JointNote>,
+    /// The ids sunk into its faces.
+    #[serde(default)]
+    pub labels: Vec<Label>,
     /// How each void is opened, in the order of the hollowed body's voids.
     pub voids: Vec<VoidAccess>,
     /// Where a cut leaves the body whole.
@@ -27,6 +32,9 @@ pub struct CutPlan {
     /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
+    /// How the number of its cuts came about: the first of the notes.
+    #[serde(skip)]
+    pub proofs: Vec<String>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
     pub notes: Vec<String>,
 }
@@ -66,6 +74,8 @@ pub struct JointNote {
     pub pins: Vec<String>,
     /// Whether the pins let the parts together one way only.
     pub one_way: bool,
+    /// Where the parts touch: the section less the mouths of the sockets.
+    pub face: FlatFace,
 }
 
 impl CutPlan {
@@ -76,18 +86,26 @@ impl CutPlan {
             cuts: Vec::new(),
             pins: Vec::new(),
             joints: Vec::new(),
+            labels: Vec::new(),
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
             moves: Vec::new(),
+            proofs: Vec::new(),
             notes: Vec::new(),
         }
     }
 
-    /// One mesh of what the pins add and, turned inside out, of what the sockets take away: its moments are what the
+    /// One mesh of what the pins add and, turned inside out, of what the sockets and labels take away: its moments are what the
     /// assembled parts have more than the uncut body.
     pub fn pegs(&self) -> TriMesh {
-        let peg = |pin: &PinSite| pin.standing_out().joined(&pin.taken_away().reversed());
-        self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)))
+        let second = |pin: &PinSite| match pin.dowel {
+            Some(_) => pin.mirrored().taken_away(),
+            None => TriMesh::default(),
+        };
+        let sockets = |pin: &PinSite| pin.taken_away().joined(&second(pin)).reversed();
+        let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
+        let pegs = self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
+        self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
     }
 
     /// The faces left whole, in the coordinates of the cuts' planes.

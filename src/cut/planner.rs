@@ -7,6 +7,7 @@ use super::{
     further::{Tried, furthered},
     layers::at_layers,
     order::CutOrder,
+    pins::Pins,
     plan::{Cut, CutPlan, bridges_on, cut_id},
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
@@ -42,13 +43,30 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    let plan = described(&scene, &layout, (&None, notes.clone()))?;
+    let plan = described(&scene, &layout, (Pins::Placed, notes.clone()))?;
     at_layers(&scene, &layout, plan, notes)
 }
 
 /// The plan by a person's order: each cut through the whole model but for the faces that are to stay whole; pins as ordered,
 /// or placed as in [`plan`]. Joints and openings follow.
 pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> Result<CutPlan, CutError> {
+    ordered(hollowed, request, (order, Others::None))
+}
+
+/// The plan by an order as in [`plan_by`], but that joints in which none of its pins stands get the planner's.
+pub fn plan_around(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    order: &CutOrder,
+) -> Result<CutPlan, CutError> {
+    ordered(hollowed, request, (order, Others::Placed))
+}
+
+fn ordered(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    (order, others): (&CutOrder, Others),
+) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request);
     let cuts =
@@ -58,7 +76,12 @@ pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> 
     let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
     let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
     let voids = accesses(hollowed, &planes, request)?;
-    let plan = described(&scene, &Layout { planes, voids, pieces, bridges }, (&own.pins, Vec::new()))?;
+    let pins = match (&own.pins, others) {
+        (None, _) => Pins::Placed,
+        (Some(pins), Others::None) => Pins::Ordered(pins),
+        (Some(pins), Others::Placed) => Pins::Around(pins),
+    };
+    let plan = described(&scene, &Layout { planes, voids, pieces, bridges }, (pins, Vec::new()))?;
     Ok(named_as(plan, &cuts))
 }
 
@@ -72,6 +95,12 @@ fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
         (Point::from(cut.point_mm) + plane.normal * moved_mm).into()
     };
     Ok(Cut { point_mm, ..cut.clone() })
+}
+
+/// Which pins joints get where a person ordered none.
+enum Others {
+    None,
+    Placed,
 }
 
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::seat::Seat;
+use super::{label::LabelStyle, rod::Rod, seat::Seat};
 use crate::{
     geom::{Point, Vector},
     printer::Cleaning,
@@ -33,6 +33,10 @@ pub struct PlanRequest {
     pub pose: PosePreference,
     /// The last voids of the body hold parts, in this order.
     pub seats: Vec<Seat>,
+    /// The rods that dowels are cut from, in place of printed pins; none for printed ones.
+    pub rods: Vec<Rod>,
+    /// How part ids are sunk into cut faces; none where they are not.
+    pub labels: Option<LabelStyle>,
 }
 
 impl PlanRequest {

@@ -72,5 +72,7 @@ pub(crate) fn request() -> PlanRequest {
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
         seats: Vec::new(),
+        rods: Vec::new(),
+        labels: None,
     }
 }

@@ -18,7 +18,7 @@
 
 use super::{
     opening::{Opening, opening},
-    pins::needed_room_mm,
+    pin_size::needed_room_mm,
     request::{PlanRequest, PosePreference},
     section::{Ring, Section},
     sides::Sides,

@@ -61,6 +61,13 @@
 //! A filling of density ρ_f in the voids gives s = s_fixed − (1 − ρ_f/ρ) ∫ β m: K is stretched by that factor, and turned over
 //! where the filling is the heavier material. Nothing else changes ([`crate::hollow::Fill`]).
 //!
+//! # Bosses
+//! Where walls leave no room for pins, material around them is taken out of Ω and the same problem is solved again; the
+//! certificate is then for what is left of Ω. Filling a set B of the void changes the value by ∫_B g·m to first order, so that is
+//! the price by which places are compared ([`crate::cut::bosses()`]). A lip around a thin ring would register it as well, but takes
+//! two walls and a gap all around, more than the ring has, and does not tell one turn from another; a boss needs its
+//! room in two places only.
+//!
 //! # From the solution to the print
 //! What is printed is a triangle mesh with pins, sockets and clearances, not the solver's columns. It is measured exactly,
 //! δ = s(mesh) − s(columns), and the problem is solved again with δ added to the material that stays. δ hardly

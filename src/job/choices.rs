@@ -47,6 +47,40 @@ choice! {
 }
 
 choice! {
+    /// What aligns the parts.
+    PinStyle, "style of pins" {
+        /// Pins printed with the parts.
+        Printed = "printed",
+        /// Dowels cut from stock rods, in sockets on both sides: cut faces stay flat.
+        Dowel = "dowel",
+    }
+}
+
+impl PinStyle {
+    /// Whether they are printed.
+    pub fn is_printed(&self) -> bool {
+        *self == Self::Printed
+    }
+}
+
+choice! {
+    /// Whether parts bear their ids.
+    IdStyle, "style of ids" {
+        /// Sunk into the cut faces where there is room.
+        Engraved = "engraved",
+        /// Not at all.
+        None = "none",
+    }
+}
+
+impl IdStyle {
+    /// Whether they are sunk into the faces.
+    pub fn is_engraved(&self) -> bool {
+        *self == Self::Engraved
+    }
+}
+
+choice! {
     /// The file format of the written parts.
     PartFormat, "format" {
         /// Binary STL.

@@ -2,6 +2,7 @@
 
 mod bar;
 mod body;
+mod film;
 mod lump;
 mod moments;
 mod of_mesh;
@@ -11,6 +12,7 @@ mod tests;
 
 pub use bar::RoundBar;
 pub use body::{Body, Principal};
+pub use film::FlatFace;
 pub(crate) use lump::rims;
 pub use lump::{Lump, LumpShape};
 pub use moments::Moments;

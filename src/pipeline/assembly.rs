@@ -5,7 +5,9 @@ use rayon::prelude::*;
 use super::{
     Error, Setup, Solved,
     ballasting::seats,
+    bosses::{BossRound, Bossed, bossed},
     cleaning::{Cleaned, CleaningRound, cleaned, planned_once},
+    joining::{joined, label_style},
     phase,
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
@@ -49,6 +51,8 @@ pub struct Assembly {
     pub value_before_cleaning: f64,
     /// What was kept solid so that voids can be cleaned.
     pub cleaning: Vec<CleaningRound>,
+    /// The rounds in which bosses were kept solid around pins.
+    pub bosses: Vec<BossRound>,
 }
 
 impl Assembly {
@@ -68,11 +72,14 @@ impl Assembly {
         watch.lap("voids");
         progress.report(phase::PARTS, 0.0);
         let request = plan_request(setup);
-        let Cleaned { voids, plan, rounds } = cleaned(setup, &mut tuner, voids, &request)?;
+        let Cleaned { voids, plan, rounds: cleaning } = cleaned(setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
-        let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
+        let Bossed { voids, plan, rounds, note } = bossed(&mut tuner, (voids, plan), &request)?;
+        watch.lap("bosses");
+        let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
+        assembly.plan.notes.extend(note);
         watch.lap("parts");
-        Ok(Self { value_before_cleaning, cleaning: rounds, ..assembly })
+        Ok(Self { value_before_cleaning, cleaning, bosses: rounds, ..assembly })
     }
 
     /// The moments of the written parts put together, without hardware and ballast, model frame.
@@ -99,18 +106,23 @@ fn assembled(
     request: &PlanRequest,
 ) -> Result<Assembly, Error> {
     let goal = &setup.placement.goal;
-    let mut more = moments_of_mesh(&plan.pegs());
+    let mut more = moments_of_mesh(&plan.pegs()) + joined(setup, &plan);
     let mut attempts = 0;
     loop {
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
-        let whole = written + inside(setup, &voids.hollowed);
+        if attempts == 0 {
+            plan = cut::refaced(&voids.hollowed, plan)?;
+        }
+        let joined = joined(setup, &plan);
+        let whole = written + joined + inside(setup, &voids.hollowed);
         attempts += 1;
         if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
         {
             let plan = cut::plan_of(&voids.hollowed, plan, request)?;
             let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
+            let bosses = Vec::new();
             let (height_proof, course) = (tuner.height_proof(), tuner.course().clone());
             let value_before_cleaning = solution.certificate.value;
             return Ok(Assembly {
@@ -124,9 +136,10 @@ fn assembled(
                 rounds,
                 value_before_cleaning,
                 cleaning: Vec::new(),
+                bosses,
             });
         }
-        more = written - moments_of_mesh(&voids.hollowed.to_mesh());
+        more = written + joined - moments_of_mesh(&voids.hollowed.to_mesh());
     }
 }
 
@@ -176,5 +189,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
             PrintPose::CutFaceDown => PosePreference::CutFaceDown,
         },
         seats: seats(&setup.load),
+        rods: setup.rods.clone(),
+        labels: label_style(setup),
     }
 }

@@ -115,7 +115,13 @@ fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
 /// The cuts and pins for the voids as they are.
 pub fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
     match (&setup.job.plan, setup.job.cut) {
-        (Some(order), _) => plan_by(&voids.hollowed, request, order),
+        (Some(order), _) => match plan_by(&voids.hollowed, request, order) {
+            // The pin may stand in a boss that is still to be kept solid.
+            Err(CutError::PinOffFace { .. }) => {
+                plan_by(&voids.hollowed, request, &CutOrder { pins: Some(Vec::new()), ..order.clone() })
+            }
+            plan => plan,
+        },
         (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),
         (None, CutMode::Never) => plan_by(&voids.hollowed, request, &CutOrder::default()),
     }

@@ -1,6 +1,8 @@
 //! The kit in memory: files, judgement, checklist and page.
 
 use super::faces::faces;
+use super::joinery_rows;
+use super::joining;
 use super::packages;
 use super::printer_rows;
 use super::rows::{self, Sheet};
@@ -118,8 +120,9 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         cuts: void_rows::promised_cuts(&assembly.plan),
         voids: void_rows::promised_voids(setup, &assembly.plan),
         hardware: setup.hardware(),
+        dowels: joining::dowels(&assembly.plan),
         string_gap_mm: setup.string_gap_mm(),
-        joints: rows::promised_joints(setup, &assembly.plan),
+        joints: joinery_rows::promised_joints(setup, &assembly.plan),
         ballast: rows::ballast_orders(setup),
         fill: rows::fill_order(setup),
         assembly: None,
@@ -133,10 +136,11 @@ fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> Promi
         id: part.id.clone(),
         file: written.file.clone(),
         sha256: sha256_hex(&[&written.bytes]),
-        mark: None,
+        fingerprint: None,
         print_from_model: written.evidence().pose,
         pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
         sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),
+        marks: part.labels.iter().map(joining::mark).collect(),
     }
 }
 

@@ -3,10 +3,13 @@
 mod advising;
 mod assembly;
 mod ballasting;
+mod bosses;
 mod cleaning;
 mod faces;
 mod fitting;
 mod grid_rows;
+mod joinery_rows;
+mod joining;
 mod kit;
 mod outcome;
 mod packages;
@@ -22,6 +25,7 @@ mod waterline;
 mod written;
 
 pub use assembly::Assembly;
+pub use bosses::{BossRound, KeptBoss};
 pub use cleaning::CleaningRound;
 pub use outcome::{Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};

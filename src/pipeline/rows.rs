@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::fitting::{half_of, halves, shallow_axle};
+use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows};
+use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
 use super::{Assembly, Setup, void_rows, written::WrittenPart};
@@ -13,12 +15,12 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, JointRow, LogRow, ModelRow, PartRow,
-    PassRow, SpeedRow, Tool, WallRow,
+    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
+    SpeedRow, Tool, WallRow,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, FillOrder, Judgement, Mark, Peg, PromisedFigure, PromisedJoint,
-    RotorOrder, WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure, RotorOrder,
+    WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -66,9 +68,12 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
         hardware: setup.hardware(),
+        dowels: dowels(&sheet.assembly.plan),
+        cut_list: cut_list(sheet),
         string_gap_mm: setup.string_gap_mm(),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
+        rounds: round_rows(sheet),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
         warnings: warnings(sheet),
@@ -147,11 +152,7 @@ fn goal_row(setup: &Setup) -> GoalRow {
 fn certificate(sheet: &Sheet) -> Certificate {
     let certificate = &sheet.assembly.solution.certificate;
     let figure = figure_name(certificate.figure);
-    let shown = |value: f64| match certificate.figure {
-        hollow::Figure::TopplingAngleRad => value.to_degrees(),
-        hollow::Figure::VolumeMm3 => value * sheet.setup.material.density_g_mm3(),
-        _ => value,
-    };
+    let shown = |value: f64| shown(sheet.setup, certificate.figure, value);
     Certificate {
         figure,
         value: shown(certificate.value),
@@ -160,9 +161,19 @@ fn certificate(sheet: &Sheet) -> Certificate {
         kept_solid_mm3: sheet.assembly.refused_mm3,
         value_before_cleaning: Some(shown(sheet.assembly.value_before_cleaning)),
         cleaning_rounds: void_rows::cleaning_rows(&sheet.assembly.cleaning, shown),
+        bosses_mm3: bosses_mm3(sheet),
         over_heights: sheet.assembly.height_proof,
         written_value: written_value(sheet, figure),
         course: course(&sheet.assembly.course, shown),
+    }
+}
+
+/// A value of a certificate's figure in the unit in which it is shown.
+pub fn shown(setup: &Setup, figure: hollow::Figure, value: f64) -> f64 {
+    match figure {
+        hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        hollow::Figure::VolumeMm3 => value * setup.material.density_g_mm3(),
+        _ => value,
     }
 }
 
@@ -181,7 +192,8 @@ fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
     if figure != FigureName::SpinItRatio {
         return sheet.judgement.assembly.value_of(figure);
     }
-    let whole = sheet.assembly.written_moments() + setup.hardware_moments();
+    let joined = joined(setup, &sheet.assembly.plan);
+    let whole = sheet.assembly.written_moments() + joined + setup.hardware_moments();
     figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
@@ -204,7 +216,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 id: part.id.clone(),
                 file: written.file.clone(),
                 sha256: crate::digest::sha256_hex(&[&written.bytes]),
-                mark: Some(Mark::of(&written.read_back)),
+                fingerprint: Some(Fingerprint::of(&written.read_back)),
                 triangles: facts.surface.triangles,
                 volume_mm3: facts.surface.volume_mm3,
                 mass_g: facts.surface.volume_mm3 * sheet.setup.material.density_g_mm3(),
@@ -213,6 +225,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 print_from_model: written.evidence().pose,
                 pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
+                marks: part.labels.iter().map(mark).collect(),
                 half: half_of(written, &halves),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
@@ -247,31 +260,6 @@ pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
 fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
     let joint = plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
     joint.map(joint_id).unwrap_or_default()
-}
-
-/// What is ordered of each joint.
-pub fn promised_joints(setup: &Setup, plan: &CutPlan) -> Vec<PromisedJoint> {
-    let clearance_mm = setup.printer.clearance_per_side_mm.value;
-    (0..plan.joints.len()).map(|index| PromisedJoint { id: joint_id(index), clearance_mm }).collect()
-}
-
-fn joint_id(index: usize) -> String {
-    format!("J{}", index + 1)
-}
-
-fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
-    let joints = sheet.assembly.plan.joints.iter().enumerate();
-    joints
-        .map(|(index, joint)| JointRow {
-            id: joint_id(index),
-            cut: joint.cut.clone(),
-            parts: joint.parts.clone(),
-            area_mm2: joint.area_mm2,
-            pins: joint.pins.len(),
-            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
-            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
-        })
-        .collect()
 }
 
 /// The ballast as the judge sees it.

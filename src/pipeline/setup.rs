@@ -3,6 +3,7 @@
 use super::Error;
 use super::advising::Means;
 use crate::ballast::Load;
+use crate::cut::{Rod, rods};
 use crate::digest::sha256_hex;
 use crate::goal::{GoalKind, Placement, Request, Stock, place_made_of};
 use crate::hardware::Fitted;
@@ -56,6 +57,8 @@ pub struct Setup {
     pub load: Load,
     /// What is in the voids.
     pub fill: Fill,
+    /// The rods that dowels are cut from; none where pins are printed.
+    pub rods: Vec<Rod>,
 }
 
 impl Setup {
@@ -74,6 +77,7 @@ impl Setup {
         let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
         let placement = place_made_of(&model.solid, &stock, &request)?;
         let fill = fill(&job, stock.density_g_cm3)?;
+        let rods = if job.pins.is_printed() { Vec::new() } else { rods()? };
         Ok(Self {
             job,
             model,
@@ -88,6 +92,7 @@ impl Setup {
             bare: None,
             load: Load::default(),
             fill,
+            rods,
         })
     }
 

@@ -58,6 +58,7 @@ pub struct Tuner<'a> {
     /// The surface of the same.
     cavity: Cavity,
     refused_mm3: f64,
+    kept_mm3: f64,
 }
 
 impl<'a> Tuner<'a> {
@@ -65,7 +66,12 @@ impl<'a> Tuner<'a> {
     pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
         let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
         let cavity = setup.load.jackets().try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
-        Ok(Self { setup, solved, cavity, refused_mm3: 0.0 })
+        Ok(Self { setup, solved, cavity, refused_mm3: 0.0, kept_mm3: 0.0 })
+    }
+
+    /// What the run rests on.
+    pub fn setup(&self) -> &'a Setup {
+        self.setup
     }
 
     /// How the first answer came about.
@@ -113,6 +119,21 @@ impl<'a> Tuner<'a> {
         self.tuned(less, Moments::default())
     }
 
+    /// The voids solved for anew with these closed bodies kept solid from now on, and the volume that could have been emptied
+    /// in all that is kept so, mm³.
+    pub fn keeping(&mut self, voids: &Voids, bodies: &[TriMesh]) -> Result<(Voids, f64), Error> {
+        let before_mm3 = self.cavity.mesh().signed_volume_mm3();
+        for body in bodies {
+            self.keep(body)?;
+        }
+        self.kept_mm3 += before_mm3 - self.cavity.mesh().signed_volume_mm3();
+        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
+        let goal = &self.setup.placement.goal;
+        let written = moments_of_mesh(&less.hollowed.to_mesh()) + inside(self.setup, &less.hollowed);
+        let best = self.again(&less, written.in_frame(&goal.frame))?;
+        Ok((self.tuned(best, Moments::default())?, self.kept_mm3))
+    }
+
     /// The voids solved for once more with the difference between what was measured and what was solved for (goal frame) added
     /// to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
@@ -145,13 +166,18 @@ impl<'a> Tuner<'a> {
         if bodies.is_empty() {
             return Ok(());
         }
-        let frame = &self.setup.placement.goal.frame;
         let all = bodies.iter().fold(TriMesh::default(), |all, body| all.joined(body));
         let margin_mm = REFUSED_MARGIN_RATIO * self.setup.printer.min_opening_mm.value;
         let solid = grown(&all, margin_mm)?;
         self.refused_mm3 += all.signed_volume_mm3();
+        self.keep(&solid)
+    }
+
+    /// Takes a body, or several that bound each other nowhere, out of what may be emptied.
+    fn keep(&mut self, solid: &TriMesh) -> Result<(), Error> {
+        let frame = &self.setup.placement.goal.frame;
         let (cavity, columns) = rayon::join(
-            || self.cavity.without(&solid),
+            || self.cavity.without(solid),
             || self.solved.columns.without(&solid.map_vertices(|p| frame.to_local(p))),
         );
         self.cavity = cavity?;

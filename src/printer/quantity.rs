@@ -18,6 +18,10 @@ const LARGEST_ERROR_MM: f64 = 10.0;
 const REACH_MM: RangeInclusive<f64> = 1.0..=2000.0;
 /// Leans from the level at which something prints without support, degrees; below it radians were given.
 const OVERHANG_DEG: RangeInclusive<f64> = 5.0..=89.0;
+/// The thickest film of glue between flat faces, mm: above it micrometres were given.
+const THICKEST_FILM_MM: f64 = 1.0;
+/// Densities of glues, g/cm³: outside kg/m³ were given.
+const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
 /// Shares of a length that tolerances and shrinkages can be; above it per cent were given.
 const SHARES: RangeInclusive<f64> = 1e-6..=0.1;
 
@@ -79,11 +83,16 @@ pub enum Quantity {
     ShrinkageXyRatio,
     /// By how much a part comes out shorter along z, over its length.
     ShrinkageZRatio,
+    /// How thick the film of glue between two cut faces is.
+    GlueFilmMm,
+    /// The density of that glue when it has set.
+    #[serde(rename = "glue_density_g_cm3")]
+    GlueDensityGCm3,
 }
 
 impl Quantity {
     /// Every quantity, in order.
-    pub const ALL: [Self; 27] = [
+    pub const ALL: [Self; 29] = [
         Self::PixelXMm,
         Self::PixelYMm,
         Self::LayerMm,
@@ -111,6 +120,8 @@ impl Quantity {
         Self::ToleranceRatio,
         Self::ShrinkageXyRatio,
         Self::ShrinkageZRatio,
+        Self::GlueFilmMm,
+        Self::GlueDensityGCm3,
     ];
 
     /// The key in the file.
@@ -143,6 +154,8 @@ impl Quantity {
             Self::ToleranceRatio => "tolerance_ratio",
             Self::ShrinkageXyRatio => "shrinkage_xy_ratio",
             Self::ShrinkageZRatio => "shrinkage_z_ratio",
+            Self::GlueFilmMm => "glue_film_mm",
+            Self::GlueDensityGCm3 => "glue_density_g_cm3",
         }
     }
 
@@ -165,6 +178,8 @@ impl Quantity {
                 | Self::ToleranceRatio
                 | Self::ShrinkageXyRatio
                 | Self::ShrinkageZRatio
+                | Self::GlueFilmMm
+                | Self::GlueDensityGCm3
         )
     }
 
@@ -193,6 +208,8 @@ impl Quantity {
                 FINEST_MM..=LARGEST_ERROR_MM
             }
             Self::ToleranceRatio | Self::ShrinkageXyRatio | Self::ShrinkageZRatio => SHARES,
+            Self::GlueFilmMm => FINEST_MM..=THICKEST_FILM_MM,
+            Self::GlueDensityGCm3 => GLUES_G_CM3,
         }
     }
 

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::cleaning::CleaningRow;
 use super::course::Course;
 use super::grid::GridRow;
+use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use crate::verify::{Aim, Check, Cleaning, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
@@ -59,6 +60,12 @@ pub struct Checklist {
     /// What is put in that is not printed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hardware: Vec<Hardware>,
+    /// The dowels in its joints, each in its place.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub dowels: Vec<Hardware>,
+    /// What dowels are to be cut.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub cut_list: Vec<CutListRow>,
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,
@@ -68,6 +75,9 @@ pub struct Checklist {
     /// What the voids are filled with; none for air.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<FillOrder>,
+    /// The rounds in which material was kept solid around pins.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub rounds: Vec<RoundRow>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// Whether every promise is kept.
@@ -201,6 +211,9 @@ pub struct Certificate {
     /// The rounds in which voids were made smaller because no plan let them be cleaned.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cleaning_rounds: Vec<CleaningRow>,
+    /// The volume that could have been emptied, and stays solid in bosses around pins, mm³.
+    #[serde(default)]
+    pub bosses_mm3: f64,
     /// |value − bound| / |bound|.
     pub gap_ratio: f64,
     /// Tops: what is proved for every height of the centre of mass; none where that was not proved.

@@ -50,5 +50,6 @@ fn described(part: &PartRow) -> Markup {
         (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (part.triangles) " triangles" br;
         (part.lies) br;
         (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket"))
+        @for mark in &part.marks { br; "“" (mark.text) "” sunk into its face in " (mark.cut) }
     }
 }

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::Checklist;
 use super::cleaning::cost;
 use super::figure::{Picture, Role, figures};
+use super::joinery;
 use super::page::Papers;
 use super::words::{self, coordinates, number, quantity, quantity_or_dash};
 use crate::verify::{Check, Figures};
@@ -42,6 +43,7 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             h2 { "How good it is" }
             @for sentence in words::certificate(sheet) { p { (sentence) } }
             (cost(sheet))
+            (joinery::rounds(sheet))
             (figures(pictures, Role::Proof))
             h3 { "Before and after" }
             p class="small" {

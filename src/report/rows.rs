@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::verify::{BallastOrder, Mark, Peg, Pose};
+use crate::verify::{BallastOrder, Fingerprint, GlueFilm, Mark, Peg, Pose};
 
 /// One void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -52,7 +52,7 @@ pub struct PartRow {
     pub sha256: String,
     /// What its shape is known by when the file comes back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub mark: Option<Mark>,
+    pub fingerprint: Option<Fingerprint>,
     /// How many triangles it has.
     pub triangles: usize,
     /// mm³.
@@ -69,6 +69,9 @@ pub struct PartRow {
     pub pins: Vec<Peg>,
     /// The sockets sunk into it.
     pub sockets: Vec<Peg>,
+    /// The ids sunk into its cut faces.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub marks: Vec<Mark>,
     /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<String>,
@@ -92,6 +95,9 @@ pub struct JointRow {
     pub pins: usize,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The film of glue in it, which the figures of the assembly count; none where the printer's profile says nothing of it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glue: Option<GlueFilm>,
     /// What to mind, such as where a joint has no room for pins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,

@@ -95,6 +95,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             kept_solid_mm3: 0.0,
             value_before_cleaning: Some(speed),
             cleaning_rounds: vec![],
+            bosses_mm3: 0.0,
             over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
             written_value: Some(speed),
             course: Some(course(speed)),
@@ -106,9 +107,12 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         joints: vec![joint()],
         grid: vec![grid_row()],
         hardware: vec![],
+        dowels: vec![],
+        cut_list: vec![],
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,
+        rounds: Vec::new(),
         checks: found.checks.clone(),
         verdict: Verdict::of(&found.checks),
         warnings: vec![
@@ -194,6 +198,7 @@ fn joint() -> JointRow {
         area_mm2: 60.0 * 40.0 - 54.0 * 34.0,
         pins: 0,
         clearance_mm: 0.2,
+        glue: None,
         note: None,
     }
 }
@@ -203,7 +208,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         id: promised.id.clone(),
         file: promised.file.clone(),
         sha256: "cd".repeat(32),
-        mark: None,
+        fingerprint: None,
         triangles: facts.surface.triangles,
         volume_mm3: facts.surface.volume_mm3,
         mass_g: facts.surface.volume_mm3 * 1.2e-3,
@@ -212,6 +217,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         print_from_model: promised.print_from_model,
         pins: vec![],
         sockets: vec![],
+        marks: vec![],
         half: None,
         picture: Some(part_picture_file(&promised.id)),
     }

@@ -5,6 +5,7 @@ use maud::{Markup, html};
 use super::cleaning::clean_one;
 use super::figure::{Picture, Role, figures};
 use super::hardware::fitting;
+use super::joinery::{cut_list, films};
 use super::page::{blank, mass_window};
 use super::trials::{test, weigh};
 use super::words::{coordinates, quantity};
@@ -142,6 +143,7 @@ fn clean(sheet: &Checklist) -> Markup {
 fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.joints.is_empty() { p { "It is one part: nothing to fit." } }
+        (cut_list(sheet))
         ul class="ticks" {
             @for joint in &sheet.joints {
                 li {
@@ -168,6 +170,7 @@ fn glue(sheet: &Checklist) -> Markup {
             @if sheet.goal.aim.kind == GoalKind::Float {
                 p { strong { "Seal every joint all around: " } "a void that fills with water sinks it or turns it over." }
             }
+            (films(sheet))
             p class="small" { "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance." }
         }
     }

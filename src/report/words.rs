@@ -181,7 +181,12 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
 
 /// What the proof takes as solid besides the wall.
 fn kept_solid(proof: &Certificate) -> &'static str {
-    if proof.kept_solid_mm3 > 0.0 { ", solid where voids could not be cleaned," } else { "" }
+    match (proof.kept_solid_mm3 > 0.0, proof.bosses_mm3 > 0.0) {
+        (true, true) => ", solid where voids could not be cleaned and in bosses around pins,",
+        (true, false) => ", solid where voids could not be cleaned,",
+        (false, true) => ", solid in bosses around pins,",
+        (false, false) => "",
+    }
 }
 
 /// What is known of a top's centre of mass at other heights.
@@ -230,6 +235,8 @@ mod tests {
         assert!(!is_said(&sheet));
         sheet.certificate.kept_solid_mm3 = 12.0;
         assert!(is_said(&sheet));
+        sheet.certificate.bosses_mm3 = 5.0;
+        assert!(is_said(&sheet) && certificate(&sheet)[0].contains("in bosses around pins"));
     }
 
     #[test]

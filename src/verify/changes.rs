@@ -5,8 +5,8 @@ use std::fmt;
 use std::path::Path;
 
 use super::{
-    Check, Evidence, Limit, Mark, PartEvidence, Promise, PromisedPart, VerifyError, kit::read_file,
-    mark::Likeness, pegs::Felt,
+    Check, Evidence, Fingerprint, Limit, PartEvidence, Promise, PromisedPart, VerifyError,
+    fingerprint::Likeness, kit::read_file, pegs::Felt,
 };
 use crate::digest::sha256_hex;
 
@@ -96,11 +96,14 @@ fn hashes(folder: &Path, promise: &Promise) -> Result<BTreeMap<String, String>, 
 
 /// What became of a part, by the marks that the checklist holds.
 fn part_change(part: &PromisedPart, read: &PartEvidence, promise: &Promise) -> Change {
-    let Some(mark) = &part.mark else { return Change::Altered };
-    let found = Mark::of(&read.mesh);
-    let likeness = mark.likeness(&found);
+    let Some(fingerprint) = &part.fingerprint else { return Change::Altered };
+    let found = Fingerprint::of(&read.mesh);
+    let likeness = fingerprint.likeness(&found);
     let is_it = |other: &&PromisedPart| {
-        other.mark.as_ref().is_some_and(|mark| mark.triangles_sha256 == found.triangles_sha256)
+        other
+            .fingerprint
+            .as_ref()
+            .is_some_and(|fingerprint| fingerprint.triangles_sha256 == found.triangles_sha256)
     };
     match promise.parts.iter().find(is_it) {
         Some(other) if likeness != Likeness::Same => return Change::Exchanged(other.id.clone()),

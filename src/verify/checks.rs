@@ -1,8 +1,9 @@
 //! The list of checks, and the limits they hold.
 
+use super::joints::{film_check, marks_check};
 use super::{
-    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, RotorOrder,
-    WaterOrder, ballast, cleaning::cleaning_checks,
+    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
+    PromisedPart, RotorOrder, WaterOrder, ballast, cleaning::cleaning_checks,
 };
 use crate::goal::GoalKind;
 
@@ -59,6 +60,8 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(cleaning_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
+    checks.extend(found.film_error.clone().map(film_check));
+    checks.extend(found.lost_strokes.map(marks_check));
     checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));
     checks
 }
@@ -229,12 +232,14 @@ fn room_check(parts: &[PartFacts], room_mm: [f64; 3]) -> Check {
 /// Whether the parts are the uncut body, plus the pins, less the sockets.
 fn volume_check(promise: &Promise, found: &Judgement) -> Check {
     let sum = |pegs: &[Peg]| pegs.iter().map(|peg| peg.volume_mm3).sum::<f64>();
-    let joints: f64 = promise.parts.iter().map(|part| sum(&part.pins) - sum(&part.sockets)).sum();
+    let marks = |part: &PromisedPart| part.marks.iter().map(|mark| mark.volume_mm3).sum::<f64>();
+    let joints: f64 =
+        promise.parts.iter().map(|part| sum(&part.pins) - sum(&part.sockets) - marks(part)).sum();
     let whole = found.hollowed.volume_mm3;
     let error = (found.assembly.volume_mm3 - whole - joints).abs() / whole;
     Check::new(
         "volumes",
-        "the parts add up to the uncut body, its pins and its sockets",
+        "the parts add up to the uncut body, its pins, sockets and engraved ids",
         Some(error),
         Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
     )

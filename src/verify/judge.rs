@@ -10,6 +10,7 @@ use super::{
     checks,
     cleaning::voids,
     hardware::{fit, mass_moments},
+    joints::{film_error, film_moments, lost_strokes},
     rotor::ends_mm,
     smallest_wall_mm,
 };
@@ -53,6 +54,10 @@ pub struct Judgement {
     pub overlaps: usize,
     /// How every void lies open in the parts; none where no cleaning was ordered.
     pub voids: Vec<VoidFacts>,
+    /// By how much of it a film of glue differs from its faces at worst, and in which joint; none without films.
+    pub film_error: Option<(f64, String)>,
+    /// How many strokes of engraved ids are not in their files as deep as promised; none without ids.
+    pub lost_strokes: Option<usize>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
     /// What became of the files since the kit was made; empty while it is made.
@@ -79,11 +84,13 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let load = ballast_moments(&promise.ballast, setting.density_g_mm3())
         + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
     let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
+    let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * setting.density_g_mm3().recip();
+    let assembled = assembly_moments(&evidence.parts);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let mut judgement = Judgement {
         solid: Figures::new(&moments_of_mesh(&outer), &setting),
         hollowed: figures_of(moments_of_mesh(&welded)),
-        assembly: figures_of(assembly_moments(&evidence.parts)),
+        assembly: Figures::loaded(&assembled, &(load + joined), &setting),
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
@@ -92,6 +99,8 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
         voids: voids(promise, &shells.inward, &felt),
+        film_error: film_error(promise, &evidence.parts),
+        lost_strokes: lost_strokes(promise, &felt),
         checks: Vec::new(),
         changes: Vec::new(),
     };

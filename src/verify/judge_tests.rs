@@ -29,10 +29,11 @@ fn promise(poses: &[Pose]) -> Promise {
         id: format!("P0{}", i + 1),
         file: format!("parts/box_P0{}of02.stl", i + 1),
         sha256: String::new(),
-        mark: None,
+        fingerprint: None,
         print_from_model: *pose,
         pins: vec![],
         sockets: vec![],
+        marks: vec![],
     };
     Promise {
         schema: SCHEMA,
@@ -51,6 +52,7 @@ fn promise(poses: &[Pose]) -> Promise {
         voids: Vec::new(),
         parts: poses.iter().enumerate().map(part).collect(),
         hardware: Vec::new(),
+        dowels: Vec::new(),
         string_gap_mm: None,
         ballast: Vec::new(),
         fill: None,

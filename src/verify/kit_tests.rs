@@ -33,8 +33,8 @@ fn write_kit(folder: &Path) {
 fn part_json(folder: &Path, part: &PartEvidence) -> Value {
     let (bytes, file) = (stl::encode(&part.mesh, &part.id), format!("parts/{}.stl", part.id));
     fs::write(folder.join(&file), &bytes).unwrap();
-    let mark = Mark::of(&stl::decode(&bytes).unwrap());
-    json!({ "id": part.id, "file": file, "sha256": sha256_hex(&[&bytes]), "mark": mark, "print_from_model": part.pose })
+    let fingerprint = Fingerprint::of(&stl::decode(&bytes).unwrap());
+    json!({ "id": part.id, "file": file, "sha256": sha256_hex(&[&bytes]), "fingerprint": fingerprint, "print_from_model": part.pose })
 }
 
 /// Changes the checklist of a kit.

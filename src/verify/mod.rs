@@ -8,14 +8,15 @@ mod cleaning;
 #[cfg(test)]
 mod cleaning_tests;
 mod figures;
+mod fingerprint;
 mod hardware;
+mod joints;
 mod judge;
 #[cfg(test)]
 pub(crate) mod judge_tests;
 mod kit;
 #[cfg(test)]
 mod kit_tests;
-mod mark;
 mod measure;
 mod mouths;
 mod packages;
@@ -44,15 +45,16 @@ pub use checks::{
 };
 pub use cleaning::{PromisedCut, PromisedVoid, SIGHT_TOLERANCE_RATIO, VoidFacts};
 pub use figures::{Figures, Setting};
+pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Fit, Hardware, mass_moments};
+pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
 pub use judge::{Evidence, Judgement, judge, setting};
 pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
-pub use mark::{Likeness, Mark};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pegs::PegFacts;
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
+    Aim, Density, FigureName, Mark, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
     SCHEMA, WallOrder,
 };
 pub use rotor::{RotorOrder, Unbalance};

@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use super::{
-    Check, Evidence, Limit, Mark, PartEvidence, Promise, VerifyError,
+    Check, Evidence, Fingerprint, Limit, PartEvidence, Promise, VerifyError,
+    fingerprint::Likeness,
     kit::{of_nominal_size, read_file},
-    mark::Likeness,
 };
 use crate::io::threemf::{PlacedObject, decode_objects};
 
@@ -76,12 +76,12 @@ fn object_faults(file: &str, objects: &[PlacedObject], evidence: &Evidence) -> V
 
 /// Whether an object is the part: in its place in the assembly, anywhere on a plate, with the same triangles in its own file.
 fn is_right(file: &str, object: &PlacedObject, part: &PartEvidence) -> bool {
-    let found = Mark::of(&object.mesh);
-    let printed = || Mark::of(&part.mesh).likeness(&found);
+    let found = Fingerprint::of(&object.mesh);
+    let printed = || Fingerprint::of(&part.mesh).likeness(&found);
     match file {
         ASSEMBLY_FILE => {
             let placed = part.mesh.map_vertices(|p| part.pose.to_model(p));
-            matches!(Mark::of(&placed).likeness(&found), Likeness::Same | Likeness::Near)
+            matches!(Fingerprint::of(&placed).likeness(&found), Likeness::Same | Likeness::Near)
         }
         PLATE => !matches!(printed(), Likeness::Scaled(_) | Likeness::Mirrored | Likeness::Other),
         _ => printed() == Likeness::Same,

@@ -1,7 +1,7 @@
 //! Pins in their sockets, felt out in the written files by rays: are they there, as large as promised, and with the gap
 //! and the wall that were ordered?
 
-use super::{PartEvidence, Peg, Promise};
+use super::{Hardware, PartEvidence, Peg, Promise};
 use crate::geom::{Bvh, Point, Vector, orthonormal_basis};
 use crate::mesh::TriMesh;
 
@@ -108,18 +108,52 @@ pub(super) fn pegs(promise: &Promise, felt: &[Felt], hollowed: &TriMesh) -> Vec<
     let whole = Bvh::new(hollowed.iter_corners());
     let carried =
         promise.parts.iter().zip(felt).flat_map(|(part, felt)| part.pins.iter().map(move |pin| (pin, felt)));
-    carried
-        .map(|(pin, carrier)| {
-            let mut received = promise.parts.iter().zip(felt).filter_map(|(part, felt)| {
-                part.sockets.iter().find(|socket| socket.id == pin.id).map(|socket| (socket, felt))
-            });
-            let ordered_gap_mm = promise.clearance_mm(&pin.joint);
-            match received.next() {
-                Some(mate) => seated((pin, carrier), mate, (&whole, ordered_gap_mm)),
-                None => PegFacts { ordered_gap_mm, ..PegFacts::lost(&pin.id) },
-            }
-        })
-        .collect()
+    let printed = carried.map(|(pin, carrier)| {
+        let mut received = promise.parts.iter().zip(felt).filter_map(|(part, felt)| {
+            part.sockets.iter().find(|socket| socket.id == pin.id).map(|socket| (socket, felt))
+        });
+        let ordered_gap_mm = promise.clearance_mm(&pin.joint);
+        match received.next() {
+            Some(mate) => seated((pin, carrier), mate, (&whole, ordered_gap_mm)),
+            None => PegFacts { ordered_gap_mm, ..PegFacts::lost(&pin.id) },
+        }
+    });
+    let dowels = promise.dowels.iter().map(|dowel| dowelled(dowel, (promise, felt), &whole));
+    printed.chain(dowels).collect()
+}
+
+/// A dowel's two sockets felt out.
+fn dowelled(dowel: &Hardware, (promise, felt): (&Promise, &[Felt]), whole: &Bvh) -> PegFacts {
+    let parts = promise.parts.iter().zip(felt);
+    let ends: Vec<(&Peg, &Felt)> = parts
+        .filter_map(|(part, felt)| Some((part.sockets.iter().find(|peg| peg.id == dowel.id)?, felt)))
+        .collect();
+    let lost = PegFacts::lost(&dowel.id);
+    let [first, second] = ends[..] else { return lost };
+    let ordered_gap_mm = promise.clearance_mm(&first.0.joint);
+    let wall_mm = wall_mm(first.0, whole).min(wall_mm(second.0, whole));
+    let lost = PegFacts { ordered_gap_mm, wall_mm, ..lost };
+    let Some(found) = [first, second].map(|end| socketed(end, dowel)).into_iter().collect::<Option<Vec<_>>>()
+    else {
+        return lost;
+    };
+    PegFacts {
+        deviation_mm: found.iter().map(|(off, _)| *off).fold(0.0, f64::max),
+        gap_mm: Some(found.iter().map(|(_, gap)| *gap).fold(f64::INFINITY, f64::min)),
+        ..lost
+    }
+}
+
+/// How far a dowel's socket is from what was promised, and the least gap around the dowel in it, mm; none where there is no hole.
+fn socketed((socket, part): (&Peg, &Felt), dowel: &Hardware) -> Option<(f64, f64)> {
+    if part.holds(&socket.at(dowel.depth_mm / 2.0)) {
+        return None;
+    }
+    let (radii, depths) = part.radii(socket, dowel.depth_mm).zip(part.ends_mm(socket))?;
+    let radius_mm = radii.iter().copied().fold(f64::INFINITY, f64::min);
+    let off = depths.iter().map(|depth| (depth - socket.length_mm).abs());
+    let off_mm = off.fold((radius_mm - socket.diameter_mm / 2.0).abs(), f64::max);
+    Some((off_mm, radius_mm - dowel.diameter_mm / 2.0))
 }
 
 impl PegFacts {

@@ -3,6 +3,7 @@
 use super::judge_tests::{failures, sound};
 use super::*;
 use crate::geom::Vector;
+use crate::mass::FlatFace;
 use crate::mesh::{Csg, TriMesh, primitives::cylinder};
 
 /// Where the pin stands: in the middle of a side of the box of [`sound`], whose halves meet at z = 16.
@@ -40,7 +41,8 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
     let volume = |[diameter, length]: [f64; 2]| turned(diameter, [0.0, length]).signed_volume_mm3();
     evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
     evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
-    evidence.promise.joints = vec![PromisedJoint { id: "J1".to_owned(), clearance_mm: GAP_MM - 0.001 }];
+    let joint = PromisedJoint { id: "J1".to_owned(), clearance_mm: GAP_MM - 0.001, glue: None };
+    evidence.promise.joints = vec![joint];
     evidence.promise.printer.minimum_wall_mm = 1.05;
     evidence.promise.printer.build_volume_mm = None;
     evidence
@@ -99,6 +101,93 @@ fn a_socket_sunk_aside_leaves_too_small_a_gap() {
     // Nothing that the socket's own axis would show: half the tolerance of sizes, ten times that of gaps.
     let aside = jointed((PIN, SOCKET), Vector::new(0.0, 0.01, 0.0));
     assert_eq!(wrong(&aside), ["clearance"]);
+}
+
+/// The sound kit with a dowel in two sockets, the second made as told.
+fn dowelled(made: [f64; 2]) -> Evidence {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let below = &mut evidence.parts[0];
+    let whole = sound().parts.remove(0);
+    let body = Csg::of_mesh(&whole.mesh.map_vertices(|p| whole.pose.to_model(p))).unwrap();
+    let hole = turned(made[0], [made[1], 0.5]);
+    let body = body.subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
+    below.mesh = body.to_mesh().unwrap().map_vertices(|p| below.pose.to_print(p));
+    let volume_mm3 = turned(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
+    let second = Peg { axis: [0.0, 0.0, -1.0], ..peg(SOCKET[0], SOCKET[1], volume_mm3) };
+    evidence.promise.parts[0].pins.clear();
+    evidence.promise.parts[0].sockets = vec![second];
+    let [x, y, z] = SEAT;
+    evidence.promise.dowels = vec![Hardware {
+        id: "N1".to_owned(),
+        what: "beech-4".to_owned(),
+        from_mm: [x, y, z - PIN[1]],
+        to_mm: [x, y, z + PIN[1]],
+        diameter_mm: PIN[0],
+        hole_mm: 0.0,
+        round_end: false,
+        density_g_cm3: 1.0,
+        mass_g: 0.0,
+        depth_mm: PIN[1],
+        socket_mm: SOCKET[0],
+    }];
+    evidence
+}
+
+#[test]
+fn a_dowel_lies_in_two_sockets_and_weighs() {
+    let evidence = dowelled(SOCKET);
+    assert_eq!(wrong(&evidence), Vec::<String>::new(), "{:?}", judge(&evidence).pegs);
+    assert!(!failures(&evidence).contains(&"volumes".to_owned()));
+    let bare =
+        Evidence { promise: Promise { dowels: Vec::new(), ..evidence.promise.clone() }, ..evidence.clone() };
+    let mass_g = judge(&evidence).assembly.mass_g - judge(&bare).assembly.mass_g;
+    // π/4 · 0.6² · 2.4 mm³ of 1 g/cm³.
+    assert!((mass_g - std::f64::consts::FRAC_PI_4 * 0.36 * 2.4e-3).abs() < 1e-12, "{mass_g}");
+}
+
+#[test]
+fn a_second_socket_too_narrow_too_shallow_or_missing_is_found() {
+    assert_eq!(wrong(&dowelled([SOCKET[0] - 0.06, SOCKET[1]])), ["pins", "clearance"]);
+    assert_eq!(wrong(&dowelled([SOCKET[0], SOCKET[1] - 0.05])), ["pins"]);
+    let mut evidence = dowelled(SOCKET);
+    evidence.promise.parts[0].sockets.clear();
+    assert_eq!(wrong(&evidence), ["pins", "clearance", "socket wall"]);
+}
+
+/// A film in the joint of the sound kit: a face of this area.
+fn glued(area_mm2: f64) -> Evidence {
+    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let face = FlatFace {
+        area_mm2,
+        center_mm: [0.0, 0.0, SEAT[2]],
+        squares_mm4: [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0; 3]],
+    };
+    let film = GlueFilm { thickness_mm: 0.1, density_g_cm3: 1.0, mass_g: 1e-4 * area_mm2, face };
+    evidence.promise.joints[0].glue = Some(film);
+    evidence
+}
+
+/// The area of the box's rim where its halves meet, mm².
+fn rim_mm2(evidence: &Evidence) -> f64 {
+    let flat = |[a, b, c]: [crate::geom::Point; 3]| {
+        let is_flat = [a, b, c].iter().all(|p| (p.z - SEAT[2]).abs() < 1e-4);
+        if is_flat { (b - a).cross(&(c - a)).norm() / 2.0 } else { 0.0 }
+    };
+    let part = &evidence.parts[1];
+    part.mesh.map_vertices(|p| part.pose.to_model(p)).iter_corners().map(flat).sum()
+}
+
+#[test]
+fn a_film_as_large_as_its_faces_weighs_and_one_too_large_or_small_is_found() {
+    let area_mm2 = rim_mm2(&glued(1.0));
+    let evidence = glued(area_mm2);
+    assert_eq!(wrong(&evidence), Vec::<String>::new());
+    let bare = jointed((PIN, SOCKET), Vector::zeros());
+    let mass_g = judge(&evidence).assembly.mass_g - judge(&bare).assembly.mass_g;
+    assert!((mass_g - 1e-4 * area_mm2).abs() < 1e-12);
+    for factor in [0.8, 1.3] {
+        assert_eq!(wrong(&glued(factor * area_mm2)), ["glue"]);
+    }
 }
 
 #[test]

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, Figures, FillOrder, Hardware, Mark, Pose, PromisedCut, PromisedVoid, RotorOrder,
-    WaterOrder,
+    BallastOrder, Cleaning, Figures, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut,
+    PromisedVoid, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -43,6 +43,9 @@ pub struct Promise {
     /// What is put into them that is not printed.
     #[serde(default)]
     pub hardware: Vec<Hardware>,
+    /// The dowels in its joints.
+    #[serde(default)]
+    pub dowels: Vec<Hardware>,
     /// How far the halves of a yo-yo are to be apart, mm; none where there is one body.
     #[serde(default)]
     pub string_gap_mm: Option<f64>,
@@ -213,7 +216,7 @@ pub struct PromisedPart {
     pub sha256: String,
     /// What its shape is known by; none in kits of before there were marks.
     #[serde(default)]
-    pub mark: Option<Mark>,
+    pub fingerprint: Option<Fingerprint>,
     /// Model coordinates to print coordinates.
     pub print_from_model: Pose,
     /// The pins that stand out of the hollowed body.
@@ -222,6 +225,28 @@ pub struct PromisedPart {
     /// The sockets that are sunk into it.
     #[serde(default)]
     pub sockets: Vec<Peg>,
+    /// The ids sunk into its cut faces.
+    #[serde(default)]
+    pub marks: Vec<Mark>,
+}
+
+/// An id sunk into a cut face, stroke by stroke.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Mark {
+    /// What it says.
+    pub text: String,
+    /// The cut that made the face.
+    pub cut: String,
+    /// The unit direction into the part, model frame.
+    pub axis: [f64; 3],
+    /// How deep it is, mm.
+    pub depth_mm: f64,
+    /// How wide its strokes are, mm.
+    pub stroke_mm: f64,
+    /// The middle of every stroke in the face, model frame, mm.
+    pub strokes_mm: Vec<[f64; 3]>,
+    /// mm³, of what it takes away.
+    pub volume_mm3: f64,
 }
 
 /// What a pin adds to the hollowed body, or a socket takes from it.
@@ -250,6 +275,9 @@ pub struct PromisedJoint {
     pub id: String,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
+    /// The film of glue in it; none where it is not known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub glue: Option<GlueFilm>,
 }
 
 impl Promise {

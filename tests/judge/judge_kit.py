@@ -4,8 +4,8 @@
     python3 tests/judge/judge_kit.py KIT [KIT ...]
 
 Reads the parts (STL or 3MF) and hollowed.stl, and from checklist.json only where each part belongs (print_from_model), the ballast
-(shape, mass and place of each part), the rods of hardware, the goal, the density, the wall, the build volume, the volumes of
-pins and sockets, the cuts and the cleaning rule, and what was promised. Puts the parts together,
+(shape, mass and place of each part), the rods of hardware, dowels and films of glue, the goal, the density, the wall, the build
+volume, the volumes of pins and sockets, the cuts and the cleaning rule, and what was promised. Puts the parts together,
 integrates them again, and prints promise against measurement. Exit code 0: all agree; 1: something does not; 2: no kit.
 """
 
@@ -38,6 +38,8 @@ SPEED_AGREEMENT_RATIO = 1e-5
 # The metacentric height by the waterplane's second moment, against the program's by righting arms at a small heel.
 METACENTRE_AGREEMENT_RATIO = 1e-3
 WATERLINE_TOLERANCE_MM = 0.02
+# Pins, sockets and engraved marks take this share off one of a joint's faces at most.
+FILM_RATIO = 0.1
 # Triangles this many times longer than most are cut into pieces before near ones are looked for.
 LONG = 4
 # Pairs of triangles held in memory at once.
@@ -206,8 +208,8 @@ def rod_moments(rod):
     return volume, first, second
 
 
-def body(parts, density_g_mm3, hardware=()):
-    """Volume printed, mass, centre and inertia about the centre of parts (their corners in the model frame) and rods."""
+def body(parts, density_g_mm3, hardware=(), films=()):
+    """Volume printed, mass, centre and inertia about the centre of parts (their corners in the model frame), rods and films of glue."""
     volume, mass, first, second = 0.0, 0.0, np.zeros(3), np.zeros((3, 3))
     for corners in parts:
         v, f, s = moments(corners)
@@ -216,6 +218,11 @@ def body(parts, density_g_mm3, hardware=()):
     for rod in hardware:
         v, f, s = (m * rod["density_g_cm3"] / 1000 for m in rod_moments(rod))
         mass, first, second = mass + v, first + f, second + s
+    for film in films:
+        weight, middle = film["thickness_mm"] * film["density_g_cm3"] / 1000, np.array(film["center_mm"])
+        grams = film["area_mm2"] * weight
+        mass, first = mass + grams, first + grams * middle
+        second = second + np.array(film["squares_mm4"]) * weight + grams * np.outer(middle, middle)
     center = first / mass
     central = second - mass * np.outer(center, center)
     return volume, mass, center, np.trace(central) * np.eye(3) - central
@@ -650,6 +657,46 @@ def judge_voids(table, sheet, voids, parts):
         asked = rule["sight_ratio"]
         counted = clean if rule["rule"] == "in-sight-or-self-supporting" else in_sight
         table.at_least(f"{row['id']} clean", asked - spread(asked), counted)
+def judge_dowels(table, sheet, parts):
+    """Every dowel has a socket in two parts' files, as deep as it is half long and more, with the gap of the joint around it."""
+    gaps = {joint["id"]: joint["clearance_mm"] for joint in sheet["joints"]}
+    for dowel in sheet.get("dowels", []):
+        ends = [(peg, corners) for part, corners in zip(sheet["parts"], parts) for peg in part["sockets"] if peg["id"] == dowel["id"]]
+        table.line(f"{dowel['id']} sockets of the dowel", 2, len(ends), len(ends) == 2)
+        table.same(f"{dowel['id']} {dowel['what']}, g", dowel["mass_g"], rod_moments(dowel)[0] * dowel["density_g_cm3"] / 1000)
+        for socket, corners in ends:
+            bores, depths = felt(corners, socket, dowel["depth_mm"])
+            off = [bores.min() - socket["diameter_mm"] / 2] + list(depths - socket["length_mm"])
+            table.at_most(f"{dowel['id']} socket off by, mm", PIN_TOLERANCE_MM, np.abs(off).max())
+            table.at_least(f"{dowel['id']} gap, mm", gaps[socket["joint"]] - GAP_TOLERANCE_MM, bores.min() - dowel["diameter_mm"] / 2)
+            table.at_least(f"{dowel['id']} room at its end, mm", 0.0, depths.min() - dowel["depth_mm"])
+
+
+def judge_films(table, sheet, parts):
+    """Every film of glue covers the faces that lie in its plane in the files: as much of them, with the same middle."""
+    glued = [joint for joint in sheet["joints"] if "glue" in joint]
+    for joint in glued:
+        film, cut = joint["glue"], next(cut for cut in sheet["cuts"] if cut["id"] == joint["cut"])
+        normal, foot = np.array(cut["normal"]), np.array(cut["point_mm"])
+        faces = np.concatenate([corners[(np.abs((corners - foot) @ normal) < 1e-3).all(axis=1)] for corners in parts])
+        areas = np.linalg.norm(np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0]), axis=1) / 2
+        alike = [other["glue"] for other in glued if other["cut"] == joint["cut"]]
+        promised = sum(other["area_mm2"] for other in alike)
+        middle = sum(other["area_mm2"] * np.array(other["center_mm"]) for other in alike) / promised
+        found = (faces.mean(axis=1) * areas[:, None]).sum(axis=0) / areas.sum()
+        table.same(f"{joint['id']} film of glue, mm²", promised, areas.sum() / 2, FILM_RATIO)
+        table.at_most(f"{joint['id']} middle of the film, off by mm", FILM_RATIO * math.sqrt(promised), np.linalg.norm(middle - found))
+        table.at_most(f"{joint['id']} film off its cut, mm", 1e-6, abs((np.array(film["center_mm"]) - foot) @ normal))
+        table.same(f"{joint['id']} glue, g", film["mass_g"], film["area_mm2"] * film["thickness_mm"] * film["density_g_cm3"] / 1000)
+
+
+def judge_marks(table, sheet, parts):
+    """Every stroke of an engraved id is a groove in its part's file, as deep as promised: felt from outside, along it."""
+    for part, corners in zip(sheet["parts"], parts):
+        for mark in part.get("marks", []):
+            axis, strokes = np.array(mark["axis"]), np.array(mark["strokes_mm"])
+            depths = first_hits(corners, strokes - axis * 1e-3, [axis] * len(strokes)) - 1e-3
+            table.at_most(f"{part['id']} '{mark['text']}' in {mark['cut']}, depth off by, mm", 1e-3, np.abs(depths - mark["depth_mm"]).max())
 
 
 def judge_part(table, kit, part, printer):
@@ -691,7 +738,8 @@ def judge(kit):
     outer, voids = split(whole)
     density = sheet["material"]["density_g_cm3"] / 1000
     ballast = sheet.get("ballast", [])
-    volume, mass, center, inertia = loaded(body(parts, density, sheet.get("hardware", [])), ballast)
+    films = [joint["glue"] for joint in sheet["joints"] if "glue" in joint]
+    volume, mass, center, inertia = loaded(body(parts, density, sheet.get("hardware", []) + sheet.get("dowels", []), films), ballast)
     if "fill" in sheet:
         # A kit has ballast in pockets or a filling in its voids, never both.
         unfilled = volume, mass, center, inertia
@@ -705,6 +753,9 @@ def judge(kit):
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
     judge_voids(table, sheet, voids, parts)
+    judge_dowels(table, sheet, parts)
+    judge_films(table, sheet, parts)
+    judge_marks(table, sheet, parts)
     if voids:
         wall = smallest_wall(outer, voids)
         table.at_least("wall, mm", sheet["wall"]["required_mm"] - WALL_TOLERANCE_MM, wall)
@@ -764,7 +815,8 @@ def judge_goal(table, goal, promise, found):
 
 def judge_whole(table, sheet, volume, hollowed):
     pegs = lambda key: sum(peg["volume_mm3"] for part in sheet["parts"] for peg in part[key])
-    error = abs(volume - hollowed - pegs("pins") + pegs("sockets")) / hollowed
+    marks = sum(mark["volume_mm3"] for part in sheet["parts"] for mark in part.get("marks", []))
+    error = abs(volume - hollowed - pegs("pins") + pegs("sockets") + marks) / hollowed
     table.at_most("parts against hollowed, pins, sockets", VOLUME_SUM_LIMIT_RATIO, error)
 
 

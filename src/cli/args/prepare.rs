@@ -10,7 +10,7 @@ use clap::Args;
 use super::{
     super::{
         ballast_args::BallastArgs,
-        cut_arg::CutArg,
+        cut_arg::{CutArg, CutArgs},
         goal_args::{HardwareArgs, RotorArgs, WaterArgs},
         shop::chosen_printer,
     },
@@ -79,10 +79,9 @@ pub struct PrepareArgs {
     /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Method")]
     pub pitch: Option<Length>,
-    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
-    /// cuts.toml, edited [default: auto]
-    #[arg(long, value_name = "auto|never|FILE", help_heading = "Method")]
-    pub cut: Option<CutArg>,
+    /// How it is cut and joined.
+    #[command(flatten)]
+    pub cutting: CutArgs,
     /// What is put into it.
     #[command(flatten)]
     pub load: BallastArgs,
@@ -102,7 +101,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 27] = [
+const DECIDED_BY_JOB: [&str; 29] = [
     "printer",
     "material",
     "wall",
@@ -127,6 +126,8 @@ const DECIDED_BY_JOB: [&str; 27] = [
     "solver",
     "pitch",
     "cut",
+    "pins",
+    "ids",
     "format",
     "ballast",
     "fill",
@@ -203,13 +204,15 @@ impl PrepareArgs {
         let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
         let printer = chosen_printer(self.printer, self.material, &model.path)?;
         let default = Job::new(model, printer, goal);
-        let (cut, plan) = self.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
+        let (cut, plan) = self.cutting.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
             solver: self.solver.unwrap_or(default.solver),
             cut,
             plan,
+            pins: self.cutting.pins.unwrap_or(default.pins),
+            ids: self.cutting.ids.unwrap_or(default.ids),
             format: self.format.unwrap_or(default.format),
             ballast: self.load.ballast.unwrap_or(default.ballast),
             fill: self.load.fill,

@@ -11,7 +11,7 @@ use crate::mesh::TriMesh;
 /// The moments are sums over the triangles' middles, each weighed by its area: exact for the triangles as they are, and they
 /// follow every turn, mirror and scaling. The third ones tell a shape from its mirror image, which the second cannot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Mark {
+pub struct Fingerprint {
     /// SHA-256 of the triangles in single precision, whatever their order and the file's form.
     pub triangles_sha256: String,
     /// mm².
@@ -67,7 +67,7 @@ const THIRD: [[usize; 3]; 10] = [
 /// The orders that three axes can come in, the turns first.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
 
-impl Mark {
+impl Fingerprint {
     /// The mark of a surface; one pass over its triangles and a sort of them.
     pub fn of(mesh: &TriMesh) -> Self {
         let patches: Vec<(f64, Point)> = mesh.iter_corners().map(patch).collect();
@@ -204,7 +204,7 @@ mod tests {
     fn mapped(linear: Matrix, shift: Vector) -> Likeness {
         let moved = lopsided().map_vertices(|p| Point::from(linear * p.coords + shift));
         let mesh = if linear.determinant() < 0.0 { moved.reversed() } else { moved };
-        Mark::of(&lopsided()).likeness(&Mark::of(&mesh))
+        Fingerprint::of(&lopsided()).likeness(&Fingerprint::of(&mesh))
     }
 
     #[test]
@@ -212,8 +212,11 @@ mod tests {
         let mesh = lopsided();
         let turned = mesh.triangles().iter().rev().map(|&[a, b, c]| [b, c, a]).collect();
         let other = TriMesh::new(mesh.vertices().to_vec(), turned).unwrap();
-        assert_eq!(Mark::of(&mesh).likeness(&Mark::of(&other)), Likeness::Same);
-        assert_ne!(Mark::of(&mesh).triangles_sha256, Mark::of(&mesh.reversed()).triangles_sha256);
+        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&other)), Likeness::Same);
+        assert_ne!(
+            Fingerprint::of(&mesh).triangles_sha256,
+            Fingerprint::of(&mesh.reversed()).triangles_sha256
+        );
     }
 
     #[test]
@@ -241,10 +244,10 @@ mod tests {
     fn rounded_coordinates_are_near_and_another_body_is_other() {
         let mesh = lopsided();
         let rounded = mesh.map_vertices(|p| p.map(|x| (x * 1e5).round() / 1e5));
-        assert_eq!(Mark::of(&mesh).likeness(&Mark::of(&rounded)), Likeness::Near);
+        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&rounded)), Likeness::Near);
         let without = block(Point::origin(), [10.0, 6.0, 3.0]);
-        assert_eq!(Mark::of(&mesh).likeness(&Mark::of(&without)), Likeness::Other);
-        assert_eq!(Mark::of(&mesh).likeness(&Mark::of(&TriMesh::default())), Likeness::Other);
+        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&without)), Likeness::Other);
+        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&TriMesh::default())), Likeness::Other);
     }
 
     #[test]

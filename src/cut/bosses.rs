@@ -1,0 +1,366 @@
+//! Bosses: material to be kept solid around pins, where the walls alone leave them no room.
+//!
+//! A site is as good as it is cheap. Near an optimum the objective changes, to first order, by the integral of the optimal
+//! quadric over what is filled, so that is the price of a boss.
+
+use std::f64::consts::{PI, TAU};
+
+use rayon::prelude::*;
+
+use super::{
+    error::CutError,
+    face::Face,
+    opening::opening,
+    order::CutOrder,
+    outline::Outline,
+    pin_shape::PinSite,
+    pin_size::{Size, size_pairs},
+    pins::{PinScene, Placement, is_confused, seated},
+    plan::{Cut, CutPlan, bridges_on, part_id},
+    rejoin::rejoined,
+    request::PlanRequest,
+    section::{Chart, Point2, Section},
+    split::{Joint, joints, split},
+};
+use crate::{
+    geom::{Bvh, Frame, Plane, Point, Quadric, Vector, orthonormal_basis},
+    mesh::{Csg, Hollowed, Solid, TriMesh, bodies},
+};
+
+/// About how many places of a cut are looked at; more find room in narrower walls.
+const PLACES_PER_CUT: f64 = 6000.0;
+/// Places nearer together than this tell nothing new, mm.
+const MIN_PITCH_MM: f64 = 0.15;
+/// Places whose price is found, at most.
+const PRICED_PLACES: usize = 300;
+/// A pair of pins is at least this share of the widest possible distance apart: nearer ones align worse.
+const SPREAD_RATIO: f64 = 0.5;
+/// How many pairs are tried for a pattern that fits one way only and leaves the voids open.
+const TRIED_PAIRS: usize = 400;
+/// How many of them have their openings looked at, each of which costs a boolean.
+const TRIED_OPENINGS: usize = 8;
+/// How much wider than needed a boss is, mm: far above the rounding of booleans, below any pixel.
+const MARGIN_MM: f64 = 0.01;
+/// Sides of a boss.
+const SIDES: usize = 32;
+/// The turn of its corners about its axis, in sides, so that none lies in a plane of the model's axes.
+const ASKEW: f64 = 0.37;
+/// Rings and heights in which a boss's price is sampled.
+const PRICED_RINGS: [(f64, usize); 3] = [(0.0, 1), (0.5, 6), (0.9, 12)];
+/// See [`PRICED_RINGS`]; as shares of the boss's height.
+const PRICED_HEIGHTS: [f64; 5] = [0.1, 0.3, 0.5, 0.7, 0.9];
+
+/// What bosses are to be found for.
+#[derive(Debug, Clone, Copy)]
+pub struct BossOrder<'a> {
+    /// The body as it is hollowed now.
+    pub hollowed: &'a Hollowed,
+    /// What the plan was asked for.
+    pub request: &'a PlanRequest,
+    /// The plan of its cuts and pins.
+    pub plan: &'a CutPlan,
+    /// The pins that a person ordered: they get bosses where they need them, and no other pins are looked for.
+    pub ordered: Option<&'a [PinSite]>,
+    /// The quadric whose positive side is empty, and the frame it is given in.
+    pub price: (Quadric, Frame),
+}
+
+/// A pin with the material that is to be kept solid around it and its socket.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Boss {
+    /// The pin; its id is not settled yet.
+    pub pin: PinSite,
+    /// The ids of the parts it joins.
+    pub parts: [String; 2],
+    /// Closed, facing outward, model frame, mm; it reaches into the wall. Nothing where the pin stands in material already.
+    pub body: Option<TriMesh>,
+}
+
+/// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those that stand in
+/// too little material. A joint for which there is no place has none of them.
+///
+/// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
+pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
+    let own = CutOrder::of(order.plan).numbered();
+    let planes = order.plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
+    let material = order.hollowed.to_mesh();
+    let pieces = rejoined(split(&material, &planes)?, &planes, &bridges)?;
+    let filled = filled(order);
+    let scene = |material| PinScene { request: order.request, planes: &planes, pieces: &pieces, material };
+    let (hollow, filled) = (scene(&material), scene(&filled));
+    let joints = joints(&pieces);
+    let mut placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
+    let [air, outer] = [hollow.material, filled.material].map(|mesh| Bvh::new(mesh.iter_corners()));
+    let search = Search { order, hollow: &hollow, filled: &filled, air, outer };
+    let mut bosses = Vec::new();
+    if let Some(pins) = order.ordered {
+        return Ok(pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect());
+    }
+    for (index, joint) in joints.iter().enumerate() {
+        if !placements[index].is_sound() {
+            let others = placements.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, p)| p);
+            if let Some(found) = search.found(joint, &others.collect::<Vec<_>>())? {
+                bosses.extend(found.sites.iter().map(|pin| search.boss(joint, pin)));
+                placements[index] = found;
+            }
+        }
+    }
+    Ok(bosses)
+}
+
+/// The body with nothing empty but what holds parts.
+fn filled(order: &BossOrder) -> TriMesh {
+    let Hollowed { outer, voids } = order.hollowed;
+    let seats = voids.len().saturating_sub(order.request.seats.len());
+    Hollowed { outer: outer.clone(), voids: voids[seats..].to_vec() }.to_mesh()
+}
+
+/// A place for a pin with what it costs to keep the material around it.
+struct Site {
+    at: Point2,
+    price: f64,
+}
+
+struct Search<'a> {
+    order: &'a BossOrder<'a>,
+    /// The body as it is.
+    hollow: &'a PinScene<'a>,
+    /// The body with its voids filled.
+    filled: &'a PinScene<'a>,
+    /// The surface of the body as it is.
+    air: Bvh,
+    /// The surface of the filled body.
+    outer: Bvh,
+}
+
+impl Search<'_> {
+    /// The boss of an ordered pin that has not its material, but could have.
+    fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
+        let cut = self.order.plan.cuts.iter().position(|cut| cut.id == pin.cut)?;
+        let (plane, outline) = (&self.filled.planes[cut], self.outline(cut));
+        let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
+        let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
+        let joint = joints.iter().find(is_of)?;
+        let is_needy = !self.has_meat(self.hollow, joint, pin) && self.has_meat(self.filled, joint, pin);
+        is_needy.then(|| self.boss(joint, pin))
+    }
+
+    /// The outline of the filled body in a cut.
+    fn outline(&self, cut: usize) -> Outline {
+        let section = Section::of_mesh(self.filled.material, &self.filled.planes[cut]);
+        section.outline(&(0..section.rings.len()).collect::<Vec<_>>())
+    }
+
+    /// Whether the wall nearest to a place in the cut is of this joint.
+    fn is_of_joint(&self, joint: &Joint, outline: &Outline, at: &Point2) -> bool {
+        let foot = outline.nearest(at);
+        let inner = foot + (at - foot).normalize() * (self.order.request.wall_mm / 2.0);
+        let caps = &self.filled.pieces[joint.below].caps;
+        joint.caps.iter().any(|&cap| caps[cap].holds(&inner))
+    }
+
+    fn has_meat(&self, scene: &PinScene, joint: &Joint, pin: &PinSite) -> bool {
+        let plane = &scene.planes[joint.cut];
+        let is_upward = plane.normal.dot(&Vector::from(pin.direction)) > 0.0;
+        let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
+        Face::bare(scene, joint, (&[], is_upward)).has_meat(&at, &Size::of(pin))
+    }
+
+    /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit one way only.
+    fn found(&self, joint: &Joint, others: &[&Placement]) -> Result<Option<Placement>, CutError> {
+        let mut pairs = size_pairs(self.order.request);
+        let equal = pairs.pop();
+        pairs.reverse();
+        for sizes in pairs.into_iter().chain(equal) {
+            let mut best: Option<(f64, Placement)> = None;
+            for is_upward in [true, false] {
+                let found = self.along(joint, (others, is_upward), &sizes)?;
+                best = match (best, found) {
+                    (Some(best), Some(found)) if found.0 >= best.0 => Some(best),
+                    (best, found) => found.or(best),
+                };
+            }
+            if let Some((_, placement)) = best {
+                return Ok(Some(placement));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The cheapest pattern of two pins of these sizes, and its price.
+    fn along(
+        &self,
+        joint: &Joint,
+        (others, is_upward): (&[&Placement], bool),
+        sizes: &[Size; 2],
+    ) -> Result<Option<(f64, Placement)>, CutError> {
+        let face = Face::bare(self.filled, joint, (others, is_upward));
+        let sites = self.sites(joint, &face, (&sizes[0], is_upward));
+        let mut openings_left = TRIED_OPENINGS;
+        for (i, j) in cheapest_pairs(&sites, face.gap_mm(&sizes[0])) {
+            let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
+            if is_confused(&face.end_views(&pattern), others) {
+                continue;
+            }
+            let placement = face.placement(&pattern, true);
+            if self.leaves_open(joint, &placement.sites)? {
+                return Ok(Some((sites[i].price + sites[j].price, placement)));
+            }
+            openings_left -= 1;
+            if openings_left == 0 {
+                break;
+            }
+        }
+        Ok(None)
+    }
+
+    /// The places of a joint where a boss of this size joins its wall and keeps off the outside, with their prices.
+    fn sites(&self, joint: &Joint, face: &Face, (size, is_upward): (&Size, bool)) -> Vec<Site> {
+        let request = self.order.request;
+        let plane = &self.filled.planes[joint.cut];
+        let outline = self.outline(joint.cut);
+        let room = size.room_mm(request) / 2.0 + MARGIN_MM;
+        let is_near = |p: &Point2| (room..2.0 * room).contains(&outline.signed_distance(p));
+        let places: Vec<Point2> = grid(&outline)
+            .into_par_iter()
+            .filter(|p| is_near(p) && self.is_of_joint(joint, &outline, p) && face.has_meat(p, size))
+            .collect();
+        let stride = places.len().div_ceil(PRICED_PLACES).max(1);
+        let priced = |&at: &Point2| {
+            let sign = if is_upward { 1.0 } else { -1.0 };
+            let mouth = Chart::of_plane(plane).lift(plane, &at);
+            Site { at, price: self.price(&mouth, &(plane.normal * sign), size) }
+        };
+        places.par_iter().step_by(stride).map(priced).collect()
+    }
+
+    /// What the boss of a pin costs, to first order and up to a factor: the integral of the quadric over what it fills.
+    fn price(&self, mouth: &Point, along: &Vector, size: &Size) -> f64 {
+        let (quadric, frame) = &self.order.price;
+        let (u, v) = orthonormal_basis(along);
+        let radius = size.room_mm(self.order.request) / 2.0;
+        let [low, high] = self.ends_mm(size);
+        let value = |height: f64, ring: f64, turn: f64| {
+            let aside = (u * turn.cos() + v * turn.sin()) * (ring * radius);
+            let p = mouth + aside + along * (low + height * (high - low));
+            let value = quadric.value(&frame.to_local(&p));
+            if value > 0.0 && self.air.winding(&p) == 0 { value } else { 0.0 }
+        };
+        let rings = PRICED_RINGS.iter().flat_map(|&(ring, count)| {
+            let turn = move |k: usize| TAU * (k as f64 + ASKEW) / count as f64;
+            (0..count).map(move |k| (ring, turn(k)))
+        });
+        rings.flat_map(|(ring, turn)| PRICED_HEIGHTS.map(|height| value(height, ring, turn))).sum()
+    }
+
+    /// From where to where along the pin its boss reaches, mm from the cut.
+    fn ends_mm(&self, size: &Size) -> [f64; 2] {
+        let wall = size.corner() + self.order.request.wall_mm + MARGIN_MM;
+        let back = if size.dowel.is_some() { size.depth } else { size.chamfer };
+        [-(wall + back), size.depth + wall]
+    }
+
+    /// The pin with its boss: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
+    fn boss(&self, joint: &Joint, pin: &PinSite) -> Boss {
+        let body = (!self.has_meat(self.hollow, joint, pin)).then(|| self.body(joint, pin)).flatten();
+        let parts = [part_id(joint.below), part_id(joint.above)];
+        let cut = self.order.plan.cuts[joint.cut].id.clone();
+        Boss { pin: PinSite { cut, ..pin.clone() }, parts, body }
+    }
+
+    /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
+    /// would stay between.
+    fn body(&self, joint: &Joint, pin: &PinSite) -> Option<TriMesh> {
+        let size = Size::of(pin);
+        let radius = size.room_mm(self.order.request) / 2.0 + MARGIN_MM;
+        let along = Vector::from(pin.direction);
+        let middle = Point::from(pin.center_mm);
+        let ends = self.ends_mm(&size).map(|height| middle + along * height);
+        let ribs = ends.iter().filter_map(|end| self.rib(end, &along, radius));
+        let ribs = ribs.chain([self.root(joint, &middle, radius)]);
+        let centers: Vec<Point> = ends.iter().copied().chain(ribs).collect();
+        let points: Vec<Point> = centers.iter().flat_map(|center| disc(center, &along, radius)).collect();
+        Csg::convex_hull(&points).ok()?.to_mesh().ok()
+    }
+
+    /// A disc's middle moved in the cut until it touches the outside.
+    fn root(&self, joint: &Joint, middle: &Point, radius: f64) -> Point {
+        let plane = &self.filled.planes[joint.cut];
+        let chart = Chart::of_plane(plane);
+        let at = chart.flat(middle);
+        let outward = self.outline(joint.cut).nearest(&at) - at;
+        chart.lift(plane, &(at + outward.normalize() * (outward.norm() - radius).max(0.0)))
+    }
+
+    /// A disc's middle moved to the wall beside it, across its axis; none where the gap between them can be cleaned, or is none.
+    fn rib(&self, end: &Point, along: &Vector, radius: f64) -> Option<Point> {
+        let request = self.order.request;
+        let outward = self.outer.closest(end, f64::INFINITY, &[])?.point - end;
+        let gap = outward.norm() - radius;
+        let across = (outward - along * along.dot(&outward)).try_normalize(0.0)?;
+        (gap > 0.0 && gap < request.wall_mm + request.min_opening_mm).then(|| end + across * gap)
+    }
+
+    /// Whether every void stays open where these pins get bosses.
+    fn leaves_open(&self, joint: &Joint, pins: &[PinSite]) -> Result<bool, CutError> {
+        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.boss(joint, pin).body).collect();
+        let Hollowed { voids, .. } = self.order.hollowed;
+        let plain = voids.len().saturating_sub(self.order.request.seats.len());
+        let needed_mm = |void: usize| self.order.request.needed_mm(void, voids.len());
+        let is_open = |(index, void): (usize, &Solid)| self.stays_open(void, &bodies, needed_mm(index));
+        let open = voids[..plain].par_iter().enumerate().map(is_open).collect::<Result<Vec<bool>, _>>()?;
+        Ok(open.into_iter().all(|is_open| is_open))
+    }
+
+    /// Whether what bosses leave of a void is opened by a disc of `needed_mm` in all its pieces but crumbs, which will be filled.
+    fn stays_open(&self, void: &Solid, bosses: &[TriMesh], needed_mm: f64) -> Result<bool, CutError> {
+        let mut rest = Csg::of_solid(void)?;
+        for boss in bosses {
+            rest = rest.subtract(&Csg::of_mesh(boss)?)?;
+        }
+        let crumb_mm3 = PI / 6.0 * needed_mm.powi(3);
+        let planes = self.hollow.planes;
+        let opens = |piece: &TriMesh, plane: &Plane| opening(piece, plane).map_or(0.0, |o| o.diameter_mm);
+        let is_open = |piece: &TriMesh| {
+            piece.signed_volume_mm3() < crumb_mm3
+                || planes.iter().any(|plane| opens(piece, plane) >= needed_mm)
+        };
+        Ok(bodies(&rest.to_mesh()?).iter().all(is_open))
+    }
+}
+
+/// The corners of a polygon about a disc.
+fn disc(center: &Point, normal: &Vector, radius_mm: f64) -> Vec<Point> {
+    let (u, v) = orthonormal_basis(normal);
+    let corner_mm = radius_mm / (PI / SIDES as f64).cos();
+    let corner = |side: usize| {
+        let (sin, cos) = (TAU * (side as f64 + ASKEW) / SIDES as f64).sin_cos();
+        center + (u * cos + v * sin) * corner_mm
+    };
+    (0..SIDES).map(corner).collect()
+}
+
+/// A square grid over what an outline holds.
+fn grid(outline: &Outline) -> Vec<Point2> {
+    let Some((min, max)) = outline.bounds() else { return Vec::new() };
+    let size = max - min;
+    let pitch = (size.x * size.y / PLACES_PER_CUT).sqrt().max(MIN_PITCH_MM);
+    let [columns, rows] = [size.x, size.y].map(|extent| (extent / pitch).floor() as usize);
+    let at = |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
+    (0..columns).flat_map(|i| (0..rows).map(move |j| at(i, j))).collect()
+}
+
+/// Pairs of sites that are far enough apart, the cheapest first and of equally cheap ones the farthest,
+/// [`TRIED_PAIRS`] at most.
+fn cheapest_pairs(sites: &[Site], gap_mm: f64) -> Vec<(usize, usize)> {
+    let indices = || (0..sites.len()).flat_map(|i| (i + 1..sites.len()).map(move |j| (i, j)));
+    let apart = |(i, j): (usize, usize)| (sites[i].at - sites[j].at).norm();
+    let widest = indices().map(apart).fold(0.0, f64::max);
+    let least = gap_mm.max(SPREAD_RATIO * widest);
+    let price = |(i, j): (usize, usize)| sites[i].price + sites[j].price;
+    let mut pairs: Vec<(usize, usize)> = indices().filter(|&pair| apart(pair) >= least).collect();
+    pairs.sort_by(|&a, &b| price(a).total_cmp(&price(b)).then(apart(b).total_cmp(&apart(a))).then(a.cmp(&b)));
+    pairs.truncate(TRIED_PAIRS);
+    pairs
+}

@@ -1,0 +1,98 @@
+//! The checklist's rows of how parts are joined.
+
+use super::Setup;
+use super::bosses::{BossRound, KeptBoss};
+use super::joining::film;
+use super::rows::{Sheet, shown};
+use crate::cut::{CutPlan, Dowel, RodSource};
+use crate::report::{BossRow, CutListRow, JointRow, RoundRow};
+use crate::units::MM3_PER_CM3;
+use crate::verify::PromisedJoint;
+
+/// What dowels are to be cut, alike ones together, in the order of their rods.
+pub fn cut_list(sheet: &Sheet) -> Vec<CutListRow> {
+    let dowels = sheet.assembly.plan.pins.iter().filter_map(|pin| pin.dowel.as_ref());
+    let mut rows: Vec<CutListRow> = Vec::new();
+    for dowel in dowels {
+        let alike = |row: &&mut CutListRow| row.rod == dowel.rod && row.length_mm == dowel.length_mm;
+        match rows.iter_mut().find(alike) {
+            Some(row) => row.count += 1,
+            None => rows.extend(row_of(sheet, dowel)),
+        }
+    }
+    rows
+}
+
+fn row_of(sheet: &Sheet, dowel: &Dowel) -> Option<CutListRow> {
+    let rod = sheet.setup.rods.iter().find(|rod| rod.id == dowel.rod);
+    let said = |source: &RodSource| format!("{}: {}", source.sure, source.source);
+    let pin = sheet.assembly.plan.pins.iter().find(|pin| pin.dowel.as_ref() == Some(dowel))?;
+    let bar = pin.dowel_bar()?;
+    Some(CutListRow {
+        count: 1,
+        rod: dowel.rod.clone(),
+        name: rod.map_or(dowel.rod.clone(), |rod| rod.name.clone()),
+        diameter_mm: pin.diameter_mm,
+        length_mm: dowel.length_mm,
+        mass_g: bar.moments().volume() * dowel.density_g_cm3 / MM3_PER_CM3,
+        sources: rod.map_or(Vec::new(), |rod| [&rod.size_source, &rod.density_source].map(said).to_vec()),
+    })
+}
+
+/// What is ordered of each joint.
+pub fn promised_joints(setup: &Setup, plan: &CutPlan) -> Vec<PromisedJoint> {
+    let clearance_mm = setup.printer.clearance_per_side_mm.value;
+    let joints = plan.joints.iter().enumerate();
+    joints
+        .map(|(index, joint)| PromisedJoint { id: joint_id(index), clearance_mm, glue: film(setup, joint) })
+        .collect()
+}
+
+/// The name of the joint with this index.
+pub fn joint_id(index: usize) -> String {
+    format!("J{}", index + 1)
+}
+
+/// The joints of the checklist.
+pub fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
+    let joints = sheet.assembly.plan.joints.iter().enumerate();
+    joints
+        .map(|(index, joint)| JointRow {
+            id: joint_id(index),
+            cut: joint.cut.clone(),
+            parts: joint.parts.clone(),
+            area_mm2: joint.area_mm2,
+            pins: joint.pins.len(),
+            clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
+            glue: film(sheet.setup, joint),
+            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
+        })
+        .collect()
+}
+
+/// The boss rounds of a run.
+pub fn round_rows(sheet: &Sheet) -> Vec<RoundRow> {
+    let row = |(index, round): (usize, &BossRound)| RoundRow {
+        round: index + 1,
+        bosses: round.bosses.iter().map(boss_row).collect(),
+        kept_solid_mm3: round.kept_mm3,
+        before: shown(sheet.setup, round.before.figure, round.before.value),
+        after: shown(sheet.setup, round.after.figure, round.after.value),
+        gap_ratio: round.after.gap_ratio,
+    };
+    sheet.assembly.bosses.iter().enumerate().map(row).collect()
+}
+
+fn boss_row(boss: &KeptBoss) -> BossRow {
+    BossRow {
+        pin: boss.pin.id.clone(),
+        parts: boss.parts.clone(),
+        center_mm: boss.pin.center_mm,
+        volume_mm3: boss.volume_mm3,
+    }
+}
+
+/// What could have been emptied in all bosses, mm³.
+pub fn bosses_mm3(sheet: &Sheet) -> f64 {
+    sheet.assembly.bosses.last().map_or(0.0, |round| round.kept_mm3)
+}
