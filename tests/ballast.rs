@@ -2,19 +2,17 @@
 
 #![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
 
+mod common;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use assert_cmd::Command;
+use common::{equipoise, glue_g};
 use equipoise::geom::Point;
 use equipoise::io::stl;
 use equipoise::mesh::primitives::cuboid;
 use serde_json::Value;
-
-fn equipoise(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipoise")).args(arguments).output().unwrap()
-}
 
 /// A block of 40 × 16 × 30 mm, written as a model.
 fn block(folder: &Path) -> PathBuf {
@@ -104,7 +102,11 @@ fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
         let filled_g = density * sheet["voids"].as_array().unwrap().iter().map(void_cm3).sum::<f64>();
         let mass_g = sheet["assembly"]["mass_g"].as_f64().unwrap();
         // Files keep 24 bits of a coordinate.
-        assert!((mass_g - printed_g - filled_g).abs() < 1e-4 * mass_g, "{mass_g} {printed_g} {filled_g}");
+        let glue_g = glue_g(&sheet);
+        assert!(
+            (mass_g - printed_g - filled_g - glue_g).abs() < 1e-4 * mass_g,
+            "{mass_g} {printed_g} {filled_g} {glue_g}"
+        );
         assert_eq!(equipoise(&["verify", kit.to_str().unwrap()]).status.code(), Some(0));
     }
     let like_the_print = filled_top(&folder.path().join("none"), "1.175");

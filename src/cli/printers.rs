@@ -274,7 +274,7 @@ mod tests {
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
             said,
-            "shop-mk4: a profile that can be used; 21 numbers, 15 of them process defaults, 6 recalled or own choices\n"
+            "shop-mk4: a profile that can be used; 23 numbers, 17 of them process defaults, 7 recalled or own choices\n"
         );
         let mut out = Vec::new();
         let error =

@@ -13,16 +13,25 @@ pub(crate) struct Peg {
 /// How much more than its nominal play a printed pin may be forced, mm: the common tolerance of the printers.
 pub(crate) const FORCE_TOLERANCE_MM: f64 = 0.1;
 
-/// Whether the pins of one joint enter the sockets of another, or of their own joint in a second way.
+/// Whether the pins of one joint enter the sockets of another.
 ///
 /// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first two pins
 /// could take, so it costs the square of the sockets. One pin alone enters every wider socket.
 pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
-    let own = pins == sockets;
     let Some((first, rest)) = pins.split_first() else { return false };
-    let Some(second) = rest.first() else { return !own && sockets.iter().any(|s| enters(first, s)) };
+    if rest.is_empty() { sockets.iter().any(|s| enters(first, s)) } else { fits_turned(pins, sockets, None) }
+}
+
+/// Whether the pins of a joint enter their own sockets in a second way.
+pub(crate) fn fits_itself(pegs: &[Peg]) -> bool {
+    fits_turned(pegs, pegs, Some((0, 1)))
+}
+
+/// Whether two pins or more enter sockets, the first two of them any but the pair that is left out.
+fn fits_turned(pins: &[Peg], sockets: &[Peg], left_out: Option<(usize, usize)>) -> bool {
+    let [first, second, ..] = pins else { return false };
     (0..sockets.len()).any(|i| {
-        (0..sockets.len()).filter(|&j| j != i && !(own && (i, j) == (0, 1))).any(|j| {
+        (0..sockets.len()).filter(|&j| j != i && left_out != Some((i, j))).any(|j| {
             enters(first, &sockets[i])
                 && enters(second, &sockets[j])
                 && turned_fit(pins, sockets, [&sockets[i], &sockets[j]])
@@ -66,16 +75,22 @@ mod tests {
     fn two_equal_pins_fit_turned_by_half_and_two_unequal_ones_do_not() {
         let equal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 2.0)];
         let unequal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
-        assert!(fits(&equal, &equal));
-        assert!(!fits(&unequal, &unequal));
+        assert!(fits_itself(&equal));
+        assert!(!fits_itself(&unequal));
     }
 
     #[test]
     fn an_equilateral_triangle_turns_onto_itself_and_a_scalene_one_does_not() {
         let equilateral = [peg(0.0, 0.0, 2.0), peg(8.0, 0.0, 2.0), peg(4.0, 48f64.sqrt(), 2.0)];
         let scalene = [peg(0.0, 0.0, 2.0), peg(12.0, 0.0, 2.0), peg(3.0, 7.0, 2.0)];
-        assert!(fits(&equilateral, &equilateral));
-        assert!(!fits(&scalene, &scalene));
+        assert!(fits_itself(&equilateral));
+        assert!(!fits_itself(&scalene));
+    }
+
+    #[test]
+    fn the_same_pattern_in_another_joint_is_not_taken_for_its_own() {
+        let pattern = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
+        assert!(!fits_itself(&pattern) && fits(&pattern, &pattern));
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use super::{
     error::CutError,
     face::{Face, face_points},
-    pattern::{Peg, fits},
+    pattern::{Peg, fits, fits_itself},
     pin_shape::PinSite,
     pin_size::size_pairs,
     plan::{cut_id, pin_id},
@@ -163,7 +163,7 @@ pub(super) fn is_confused(pattern: &[Peg], placed: &[&Placement]) -> bool {
     // Either side of a dowelled joint has sockets, and shows the pattern as a mirror does.
     let mirrored: Vec<Vec<Peg>> = apart().filter(|p| is_dowelled(p)).map(|p| turned_over(&p.pegs)).collect();
     let mut others = apart().map(|placement| &placement.pegs).chain(&mirrored);
-    fits(pattern, pattern) || others.any(|other| fits(pattern, other) || fits(other, pattern))
+    fits_itself(pattern) || others.any(|other| fits(pattern, other) || fits(other, pattern))
 }
 
 fn turned_over(pegs: &[Peg]) -> Vec<Peg> {

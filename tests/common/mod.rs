@@ -1,5 +1,7 @@
 //! What tests that run the program share.
 
+#![allow(dead_code, reason = "every test compiles its own copy of this module and uses a part of it")]
+
 use std::path::Path;
 use std::process::Output;
 
@@ -24,8 +26,13 @@ pub fn prepared(out: &Path, wall: &str, goal: &[&str]) -> (Option<i32>, Value) {
     (output.status.code(), serde_json::from_str(&printed).unwrap_or_else(|_| panic!("{printed}{said}")))
 }
 
-/// A number of a checklist by its path in it; not every test asks for one.
-#[allow(dead_code, reason = "every test compiles its own copy of this module")]
+/// The mass of the films of glue on a checklist, g.
+pub fn glue_g(sheet: &Value) -> f64 {
+    let joints = sheet["joints"].as_array().unwrap().iter();
+    joints.filter_map(|joint| joint["glue"]["mass_g"].as_f64()).sum()
+}
+
+/// A number of a checklist by its path in it.
 pub fn number(sheet: &Value, path: &str) -> f64 {
     sheet.pointer(path).and_then(Value::as_f64).unwrap_or_else(|| panic!("{path} is missing"))
 }
