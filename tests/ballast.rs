@@ -1,6 +1,7 @@
 //! Ballast as a user orders it: an impossible rotor becomes a kit, and a lie about its ballast is found.
 
 #![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(clippy::panic, reason = "a test whose input cannot be had has failed")]
 
 mod common;
 
