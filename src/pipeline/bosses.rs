@@ -113,6 +113,10 @@ fn round(
         }
         Err(error) => return Err(error.into()),
     };
+    if are_clean(&state.plan) && !are_clean(&plan) {
+        let note = "bosses around pins would leave a void that cannot be cleaned: there are none more";
+        return Ok(Err(note.to_owned()));
+    }
     let CutPlan { proofs, moves, .. } = state.plan.clone();
     let plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
     let kept = found.iter().filter_map(|boss| {
@@ -126,6 +130,11 @@ fn round(
         after: voids.solution.certificate,
     };
     Ok(Ok((voids, plan, round)))
+}
+
+/// Whether every void of a plan is clean by the process's rule.
+fn are_clean(plan: &CutPlan) -> bool {
+    plan.voids.iter().all(|void| void.is_clean)
 }
 
 /// Calls the bosses' pins as the plan does in the end.

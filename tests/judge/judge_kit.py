@@ -48,7 +48,7 @@ PAIRS_AT_ONCE = 4_000_000
 PAIRS_LIMIT = 40_000_000
 # How many points of a void's wall are looked at, from so many places across each mouth in two directions.
 SIGHT_SAMPLES = 400
-SIGHT_ACROSS = 5
+SIGHT_ACROSS = 20
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
