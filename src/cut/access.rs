@@ -4,12 +4,13 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use super::{
+    chamber::Chamber,
     error::CutError,
     opening::is_dimple,
     plan::cut_id,
     request::PlanRequest,
-    sight::{Look, Seen, Walls},
-    split::{Cap, Piece, split},
+    sight::{Look, Seen},
+    split::{Cap, Piece},
 };
 use crate::{
     geom::{Plane, Point},
@@ -60,7 +61,12 @@ impl VoidAccess {
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
         let asked = asked_ratio(request);
         let closed = if self.is_clean { 0.0 } else { f64::from(u8::from(self.sight_ratio >= asked)) };
-        self.volume_mm3.abs().powf(2.0 / 3.0) * ((asked - self.sight_ratio).max(0.0) + closed)
+        self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
+    }
+
+    /// The area of a ball of its volume but for a factor, mm²: a measure of its wall.
+    pub(crate) fn area_mm2(&self) -> f64 {
+        self.volume_mm3.abs().powf(2.0 / 3.0)
     }
 }
 
@@ -73,7 +79,7 @@ pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
 /// A void and what is asked of its openings.
 pub(crate) struct Opened<'a> {
     pub(crate) void: usize,
-    pub(crate) solid: &'a Solid,
+    pub(crate) chamber: &'a Chamber<'a>,
     pub(crate) planes: &'a [Plane],
     pub(crate) request: &'a PlanRequest,
     /// The least opening, mm.
@@ -84,11 +90,11 @@ pub(crate) struct Opened<'a> {
 
 /// How the cuts open each void.
 pub(crate) fn accesses(
-    hollowed: &Hollowed,
+    chambers: &[Chamber],
     planes: &[Plane],
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
-    (0..hollowed.voids.len()).into_par_iter().map(|void| access(hollowed, void, planes, request)).collect()
+    (0..chambers.len()).into_par_iter().map(|void| access(chambers, void, planes, request)).collect()
 }
 
 /// How the cuts open each void, the shares in sight as they are told of a finished plan.
@@ -97,35 +103,36 @@ pub(crate) fn told(
     planes: &[Plane],
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
-    let of = |void| Opened { is_told: true, ..Opened::new(hollowed, void, planes, request) }.access();
+    let chambers = Chamber::all(hollowed)?;
+    let of = |void| Opened { is_told: true, ..Opened::new(&chambers, void, planes, request) }.access();
     (0..hollowed.voids.len()).into_par_iter().map(of).collect()
 }
 
 /// How the planes open one void.
 pub(crate) fn access(
-    hollowed: &Hollowed,
+    chambers: &[Chamber],
     void: usize,
     planes: &[Plane],
     request: &PlanRequest,
 ) -> Result<VoidAccess, CutError> {
-    Opened::new(hollowed, void, planes, request).access()
+    Opened::new(chambers, void, planes, request).access()
 }
 
 impl<'a> Opened<'a> {
     /// A void of a body under these cuts.
     pub(crate) fn new(
-        hollowed: &'a Hollowed,
+        chambers: &'a [Chamber],
         void: usize,
         planes: &'a [Plane],
         request: &'a PlanRequest,
     ) -> Self {
-        let needed_mm = request.needed_mm(void, hollowed.voids.len());
-        Self { void, solid: &hollowed.voids[void], planes, request, needed_mm, is_told: false }
+        let needed_mm = request.needed_mm(void, chambers.len());
+        Self { void, chamber: &chambers[void], planes, request, needed_mm, is_told: false }
     }
 
     /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
-        let pieces = split(self.solid.mesh(), self.planes)?;
+        let pieces = self.chamber.split(self.planes)?;
         let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
         let mouths: Vec<Mouths> = pieces.iter().map(|piece| Mouths::of(piece, self.planes)).collect();
         let widest_mm = mouths.iter().map(Mouths::widest_mm).fold(0.0, f64::max);
@@ -135,7 +142,7 @@ impl<'a> Opened<'a> {
         let sight_ratio = self.seen(&pieces).ratio();
         Ok(VoidAccess {
             void: self.void,
-            volume_mm3: self.solid.mesh().signed_volume_mm3(),
+            volume_mm3: self.chamber.solid.mesh().signed_volume_mm3(),
             opened_by: (0..self.planes.len()).filter(met).map(cut_id).collect(),
             opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
             depth_mm: mouths.iter().map(|mouths| mouths.depth_mm).fold(0.0, f64::max),
@@ -160,14 +167,14 @@ impl<'a> Opened<'a> {
 
     /// What is seen of each piece.
     pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
-        let (walls, look) = (Walls::of(self.solid), Look::new(self.planes, self.request));
+        let look = Look::new(self.planes, self.request);
         let look = if self.is_told { look.thorough() } else { look };
-        pieces.iter().map(|piece| walls.seen(piece, &look)).collect()
+        pieces.iter().map(|piece| self.chamber.walls.seen(piece, &look)).collect()
     }
 
     /// The points of the wall that are out of sight or reach.
     pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
-        Ok(self.seen(&split(self.solid.mesh(), self.planes)?).hidden)
+        Ok(self.seen(&self.chamber.split(self.planes)?).hidden)
     }
 }
 

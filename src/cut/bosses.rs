@@ -16,7 +16,7 @@ use super::{
     pin_shape::PinSite,
     pin_size::{Size, size_pairs},
     pins::{PinScene, Placement, is_confused, seated},
-    plan::{Cut, CutPlan, bridges_on, part_id},
+    plan::{Cut, CutPlan, JointNote, bridges_on, part_id},
     rejoin::rejoined,
     request::PlanRequest,
     section::{Chart, Point2, Section},
@@ -81,6 +81,9 @@ pub struct Boss {
 ///
 /// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
 pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
+    if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
+        return Ok(Vec::new());
+    }
     let own = CutOrder::of(order.plan).numbered();
     let planes = order.plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let bridges = bridges_on(&planes, &own.cuts, &own.uncut);

@@ -9,13 +9,13 @@ use super::{
     pins::{PinScene, Pins, Placement, pinned},
     plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id},
     planner::Layout,
-    rejoin::{Bridge, rejoined},
+    rejoin::Bridge,
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{Joint, Piece, check_no_cavity, joints, split},
+    split::{Joint, Piece, check_no_cavity, joints},
 };
-use crate::{geom::Plane, mass::FlatFace, mesh::Hollowed};
+use crate::{geom::Plane, mass::FlatFace};
 
 /// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
@@ -90,11 +90,9 @@ fn contact<'a>(below: &Piece, joint: &Joint, pins: impl IntoIterator<Item = &'a 
     FlatFace::of_triangles(faces.chain(mouths))
 }
 
-/// The plan with the faces of its joints as they are in a body that was solved for again.
-pub fn refaced(hollowed: &Hollowed, mut plan: CutPlan) -> Result<CutPlan, CutError> {
-    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    let pieces = rejoined(split(&hollowed.to_mesh(), &planes)?, &planes, &plan.bridges(&planes))?;
-    for joint in joints(&pieces) {
+/// The plan with the faces of its joints as they are between these pieces, of a body that was solved for again.
+pub(crate) fn refaced(pieces: &[Piece], mut plan: CutPlan) -> CutPlan {
+    for joint in joints(pieces) {
         let (cut, parts) = (&plan.cuts[joint.cut].id, [part_id(joint.below), part_id(joint.above)]);
         let Some(note) = plan.joints.iter_mut().find(|note| note.cut == *cut && note.parts == parts) else {
             continue;
@@ -103,7 +101,7 @@ pub fn refaced(hollowed: &Hollowed, mut plan: CutPlan) -> Result<CutPlan, CutErr
         note.face = contact(&pieces[joint.below], &joint, pins);
         note.area_mm2 = joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum();
     }
-    Ok(plan)
+    plan
 }
 
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::{
-    access::{Opened, VoidAccess, access, accesses},
+    access::{Opened, VoidAccess, access, accesses, asked_ratio},
     error::CutError,
     plan::cut_id,
     score::{Scene, burden},
@@ -23,8 +23,17 @@ const WORTH_RATIO: f64 = 0.1;
 const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
 /// Of the cuts that are within this share of the best, the least burdensome is taken.
 const NEARLY_BEST_RATIO: f64 = 0.05;
-/// How many of those are weighed: each costs two passes over the model.
+/// How many of those are weighed: each costs a cut of a void and two passes over the model.
 const WEIGHED: usize = 6;
+/// How many of the best plans are glanced at before further cuts are made: two planes may leave a corner out of sight, and
+/// a further cut costs a joint. A glance takes some hundredths of a second.
+const GLANCED_PLANS: usize = 48;
+/// So many are glanced at together before those that seem clean are tried.
+const GLANCED_AT_ONCE: usize = 8;
+/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for trial.
+const GLANCE_ERROR_RATIO: f64 = 0.01;
+/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what further cuts mend.
+const HOPELESS_TRIALS: usize = 3;
 
 /// Cuts for trial, and how they open the voids.
 #[derive(Clone)]
@@ -37,7 +46,7 @@ pub(crate) struct Tried {
 impl Tried {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let voids = accesses(scene.hollowed, &planes, scene.request)?;
+        let voids = accesses(&scene.chambers, &planes, scene.request)?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -51,8 +60,14 @@ impl Tried {
         self.voids.iter().all(|void| void.is_clean)
     }
 
+    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a joint.
+    fn is_nearly_clean(&self, scene: &Scene) -> bool {
+        let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
+        self.voids.iter().all(|void| void.is_clean || margin.contains(&void.sight_ratio))
+    }
+
     /// The cleaner of two, the first where they are alike.
-    pub(crate) fn or_cleaner(self, other: Self) -> Self {
+    fn or_cleaner(self, other: Self) -> Self {
         if other.lack_mm2 < self.lack_mm2 { other } else { self }
     }
 
@@ -60,12 +75,8 @@ impl Tried {
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
         let again = |before: &VoidAccess| {
-            let heights =
-                scene.hollowed.voids[before.void].mesh().vertices().iter().map(|p| plane.distance(p) > 0.0);
-            let above = heights.clone().filter(|&is_above| is_above).count();
-            let is_met = above > 0 && above < heights.len();
-            if is_met {
-                access(scene.hollowed, before.void, &planes, scene.request)
+            if meets(scene, before.void, &plane) {
+                access(&scene.chambers, before.void, &planes, scene.request)
             } else {
                 Ok(before.clone())
             }
@@ -73,13 +84,88 @@ impl Tried {
         let voids = self.voids.iter().map(again).collect::<Result<_, _>>()?;
         Ok(Self::of(scene, planes, voids))
     }
+
+    /// About the lack with one more cut, of the voids that it meets.
+    fn glanced_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
+        let planes = [&self.planes[..], &[plane]].concat();
+        let lack_mm2 = |before: &VoidAccess| {
+            if meets(scene, before.void, &plane) {
+                before.area_mm2() * glanced_lack_ratio(scene, before.void, &planes)
+            } else {
+                before.lack_mm2(scene.request)
+            }
+        };
+        self.voids.iter().map(lack_mm2).sum()
+    }
+}
+
+/// Whether a plane passes through a void.
+fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
+    let mut sides = scene.hollowed.voids[void].mesh().vertices().iter().map(|p| plane.distance(p) > 0.0);
+    sides.next().is_some_and(|first| sides.any(|side| side != first))
+}
+
+/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be in sight.
+fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
+    let asked = asked_ratio(scene.request);
+    if asked == 0.0 { 0.0 } else { (asked - scene.chambers[void].glance(planes, scene.request)).max(0.0) }
+}
+
+/// The first of the plans with which every void can be cleaned; the cleanest where there is none.
+///
+/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most hopeful of the others.
+pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
+    let glance = |planes: &Vec<Plane>| {
+        (0..scene.chambers.len()).map(|void| glanced_lack_ratio(scene, void, planes)).fold(0.0, f64::max)
+    };
+    let mut trial = Trial { scene, best: None };
+    let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
+    for some in plans[..plans.len().min(GLANCED_PLANS)].chunks(GLANCED_AT_ONCE) {
+        let lacks: Vec<f64> = some.par_iter().map(glance).collect();
+        for (lack, planes) in lacks.into_iter().zip(some) {
+            if lack > GLANCE_ERROR_RATIO {
+                others.push((lack, planes));
+            } else if let Some(clean) = trial.of(planes)? {
+                return Ok(clean);
+            }
+        }
+    }
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, planes) in others.into_iter().take(HOPELESS_TRIALS) {
+        if let Some(clean) = trial.of(planes)? {
+            return Ok(clean);
+        }
+    }
+    trial.best.map_or_else(|| Tried::new(scene, &[]), Ok)
+}
+
+/// Plans cut for trial.
+struct Trial<'a> {
+    scene: &'a Scene<'a>,
+    /// The cleanest so far.
+    best: Option<Tried>,
+}
+
+impl Trial<'_> {
+    /// The plan cut for trial, if every void is clean.
+    fn of(&mut self, planes: &[Plane]) -> Result<Option<Tried>, CutError> {
+        let tried = Tried::new(self.scene, planes)?;
+        if tried.is_clean() {
+            return Ok(Some(tried));
+        }
+        self.best = Some(match self.best.take() {
+            Some(best) => best.or_cleaner(tried),
+            None => tried,
+        });
+        Ok(None)
+    }
 }
 
 /// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut brings much more; each is
 /// told in the notes.
 pub(crate) fn furthered(scene: &Scene, mut tried: Tried, notes: &mut Vec<String>) -> Result<Tried, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
-        if tried.is_clean() {
+        if tried.is_nearly_clean(scene) {
             break;
         }
         let Some(next) = one_more(scene, &tried)? else { break };
@@ -108,14 +194,18 @@ fn note(before: &Tried, after: &Tried) -> String {
 fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
     let Some(worst) = tried.voids.iter().max_by(|a, b| lack(a).total_cmp(&lack(b))) else { return Ok(None) };
-    let hidden = Opened::new(scene.hollowed, worst.void, &tried.planes, scene.request).hidden()?;
+    let hidden = Opened::new(&scene.chambers, worst.void, &tried.planes, scene.request).hidden()?;
     let planes = through(scene, worst.void, &hidden);
-    let more = planes.par_iter().map(|plane| tried.with(scene, off_vertices(&scene.material, plane)));
+    let glanced = planes.par_iter().map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
+    let mut glanced: Vec<(f64, Plane)> = glanced.collect();
+    glanced.sort_by(|a, b| a.0.total_cmp(&b.0));
+    glanced.truncate(WEIGHED);
+    let more = glanced.par_iter().map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
     let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
     more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
     let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else { return Ok(None) };
     let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (tried.lack_mm2 - least_mm2);
-    let near = more.into_iter().take_while(|next| next.lack_mm2 <= enough_mm2).take(WEIGHED);
+    let near = more.into_iter().take_while(|next| next.lack_mm2 <= enough_mm2);
     let penalty = |next: &Tried| next.planes.last().map_or(0.0, |plane| burden(scene, plane).penalty(scene));
     let weighed = near.map(|next| (penalty(&next), next));
     Ok(weighed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, next)| next))

@@ -15,7 +15,7 @@ use super::{
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{check_no_cavity, split},
+    split::check_no_cavity,
 };
 use crate::{
     geom::{Plane, Vector},
@@ -155,13 +155,13 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
 
 /// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
 fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Option<Layout>, CutError> {
-    let Ok(pieces) = rejoined(split(&scene.material, &planes)?, &planes, &layout.bridges) else {
+    let Ok(pieces) = rejoined(scene.split(&planes)?, &planes, &layout.bridges) else {
         return Ok(None);
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
         return Ok(None);
     }
-    let voids = accesses(scene.hollowed, &planes, scene.request)?;
+    let voids = accesses(&scene.chambers, &planes, scene.request)?;
     let least_mm = scene.request.min_opening_mm;
     let is_worse = |(now, before): (&VoidAccess, &VoidAccess)| {
         let is_narrower = now.opening_mm < least_mm && now.opening_mm < before.opening_mm;

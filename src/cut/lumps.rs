@@ -4,11 +4,12 @@ use rayon::prelude::*;
 
 use super::{
     access::{Mouths, Opened, asked_ratio},
+    chamber::Chamber,
     error::CutError,
     plan::{Cut, CutPlan},
     request::PlanRequest,
     sight::Seen,
-    split::{Piece, split},
+    split::Piece,
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -48,13 +49,15 @@ pub fn unclean(
     let count = hollowed.voids.len();
     let is_plain = |void: usize| request.seat_of(void, count).is_none();
     let dirty: Vec<_> = plan.voids.iter().filter(|void| !void.is_clean && is_plain(void.void)).collect();
+    let chambers = if dirty.is_empty() { Vec::new() } else { Chamber::all(hollowed)? };
     let of = |access: &&super::access::VoidAccess| {
-        let opened = Opened::new(hollowed, access.void, &planes, request);
+        let opened = Opened::new(&chambers, access.void, &planes, request);
         let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
-        let lumps = if whole { vec![opened.solid.mesh().clone()] } else { lumps(&opened)? };
+        let lumps = if whole { vec![opened.chamber.solid.mesh().clone()] } else { lumps(&opened)? };
         let why = if access.sight_ratio < asked {
-            let (seen, asked) = (100.0 * access.sight_ratio, 100.0 * request.cleaning.sight_ratio);
-            format!("{seen:.1} % of its wall in sight, asked are {asked:.0} %")
+            let percent = |ratio: f64| 100.0 * ratio;
+            let (seen, asked) = (percent(access.sight_ratio), percent(asked));
+            format!("{seen:.1} % of its wall in sight, asked are {asked:.1} %, the planner's margin with it")
         } else {
             format!("it opens by {:.2} mm, asked are {needed_mm:.2} mm", access.opening_mm)
         };
@@ -65,7 +68,7 @@ pub fn unclean(
 
 /// The pieces that let nothing out, and of the others the ends that are hidden, the largest first, until enough is seen.
 fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
-    let pieces = split(opened.solid.mesh(), opened.planes)?;
+    let pieces = opened.chamber.split(opened.planes)?;
     let seen = opened.seen_each(&pieces);
     let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
     let (mut lumps, mut ends) = (Vec::new(), Vec::new());

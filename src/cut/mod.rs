@@ -2,6 +2,7 @@
 
 mod access;
 mod bosses;
+mod chamber;
 mod cover;
 mod describe;
 mod error;
@@ -41,13 +42,12 @@ mod tests;
 
 pub use access::VoidAccess;
 pub use bosses::{Boss, BossOrder, bosses};
-pub use describe::refaced;
 pub use error::CutError;
 pub use label::{Label, LabelStyle};
 pub use layers::CutMove;
 pub use lumps::{Unclean, unclean};
 pub use order::{CutOrder, OrderError};
-pub use part::{Part, parts};
+pub use part::{Part, parts, parts_and_faces};
 pub use pin_shape::PinSite;
 pub use plan::{Cut, CutPlan, JointNote, UncutFace};
 pub use planner::{plan, plan_around, plan_by, plan_of};

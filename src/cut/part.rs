@@ -5,6 +5,7 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use super::{
+    describe::refaced,
     error::CutError,
     label::Label,
     pin_shape::PinSite,
@@ -65,14 +66,38 @@ struct Seat<'a> {
 /// The body may differ a little from the one the plan was made for, as when voids were solved for again: cuts,
 /// pins and parts keep their names.
 pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Result<Vec<Part>, CutError> {
-    let planes = plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
-    let bridges = plan.bridges(&planes);
-    let pieces = rejoined(split(&hollowed.to_mesh(), &planes)?, &planes, &bridges)?;
+    let planes = plan.planes()?;
+    parts_of(hollowed, plan, (&planes, &pieces(hollowed, plan, &planes)?), request)
+}
+
+/// The parts, and the plan with the faces of its joints as they are in this body.
+pub fn parts_and_faces(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<(Vec<Part>, CutPlan), CutError> {
+    let planes = plan.planes()?;
+    let pieces = pieces(hollowed, plan, &planes)?;
+    let parts = parts_of(hollowed, plan, (&planes, &pieces), request)?;
+    Ok((parts, refaced(&pieces, plan.clone())))
+}
+
+/// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
+fn pieces(hollowed: &Hollowed, plan: &CutPlan, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
+    let pieces = rejoined(split(&hollowed.to_mesh(), planes)?, planes, &plan.bridges(planes))?;
     if !planes.is_empty() {
         check_no_cavity(&pieces)?;
     }
-    let seats =
-        plan.pins.iter().map(|pin| seat(plan, &planes, &pieces, pin)).collect::<Result<Vec<_>, _>>()?;
+    Ok(pieces)
+}
+
+fn parts_of(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    (planes, pieces): (&[Plane], &[Piece]),
+    request: &PlanRequest,
+) -> Result<Vec<Part>, CutError> {
+    let seats = plan.pins.iter().map(|pin| seat(plan, planes, pieces, pin)).collect::<Result<Vec<_>, _>>()?;
     let void_of = void_vertices(hollowed);
     let part = |(index, piece): (usize, &Piece)| {
         let carried = || seats.iter().filter(move |seat| seat.carrier == index);
@@ -88,7 +113,7 @@ pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Resu
         let solid = fitted(piece, (&pins, &sockets), &labels)?;
         Ok(Part {
             id: part_id(index),
-            pose: laid(solid.mesh(), &sides_down(piece, &planes, &pin_cuts, request), request),
+            pose: laid(solid.mesh(), &sides_down(piece, planes, &pin_cuts, request), request),
             solid,
             pins,
             sockets,

@@ -78,6 +78,13 @@ pub struct JointNote {
     pub face: FlatFace,
 }
 
+impl JointNote {
+    /// Whether at least two pins let the parts together one way only.
+    pub fn is_aligned(&self) -> bool {
+        self.pins.len() >= 2 && self.one_way
+    }
+}
+
 impl CutPlan {
     /// The plan that cuts nothing and leaves every void closed.
     pub fn uncut(hollowed: &Hollowed) -> Self {
@@ -106,6 +113,11 @@ impl CutPlan {
         let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
         let pegs = self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
         self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
+    }
+
+    /// The planes of its cuts.
+    pub(crate) fn planes(&self) -> Result<Vec<Plane>, CutError> {
+        self.cuts.iter().map(Cut::plane).collect()
     }
 
     /// The faces left whole, in the coordinates of the cuts' planes.

@@ -4,7 +4,7 @@ use super::{
     access::{VoidAccess, accesses, told},
     describe::{described, named_as},
     error::CutError,
-    further::{Tried, furthered},
+    further::{Tried, cleanest, furthered},
     layers::at_layers,
     order::CutOrder,
     pins::Pins,
@@ -14,7 +14,7 @@ use super::{
     request::PlanRequest,
     score::{Scene, burden},
     search::{Found, smallest_plans},
-    split::{Piece, check_no_cavity, split},
+    split::{Piece, check_no_cavity},
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -22,10 +22,6 @@ use crate::{
     units::counted,
 };
 
-/// How many of the best plans are cut for trial before further cuts are made: two planes may leave a pocket between them
-/// where they meet in a void, or a corner out of sight. The first nearly always does where nothing must be seen; each costs a
-/// cut of every void, a twentieth of a second, and a further cut costs a joint.
-const TRIED_PLANS: usize = 48;
 /// Terms of a score below this are not told.
 const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
@@ -39,7 +35,7 @@ const MAX_FITTING_CUTS: usize = 8;
 /// second for 200k triangles and ten voids.
 pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check(request)?;
-    let scene = Scene::new(hollowed, request);
+    let scene = Scene::new(hollowed, request)?;
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
@@ -68,14 +64,14 @@ fn ordered(
     (order, others): (&CutOrder, Others),
 ) -> Result<CutPlan, CutError> {
     check(request)?;
-    let scene = Scene::new(hollowed, request);
+    let scene = Scene::new(hollowed, request)?;
     let cuts =
         order.cuts.iter().map(|cut| beside_faces(&scene, cut)).collect::<Result<Vec<_>, CutError>>()?;
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let own = order.numbered();
     let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
-    let pieces = rejoined(split(&scene.material, &planes)?, &planes, &bridges)?;
-    let voids = accesses(hollowed, &planes, request)?;
+    let pieces = rejoined(scene.split(&planes)?, &planes, &bridges)?;
+    let voids = accesses(&scene.chambers, &planes, request)?;
     let pins = match (&own.pins, others) {
         (None, _) => Pins::Placed,
         (Some(pins), Others::None) => Pins::Ordered(pins),
@@ -121,7 +117,7 @@ pub(crate) struct Layout {
 impl Layout {
     /// The pieces between the planes, left joined where a cut would part them needlessly.
     fn new(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Result<Self, CutError> {
-        let parted = split(&scene.material, &planes)?;
+        let parted = scene.split(&planes)?;
         let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
         let bridges = bridges(&cutting, &parted);
         let pieces = rejoined(parted.clone(), &planes, &bridges)?;
@@ -162,16 +158,7 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     }
     let found = smallest_plans(scene)?;
     notes.push(proof_note(&found));
-    let mut best: Option<Tried> = None;
-    for planes in found.plans.iter().take(TRIED_PLANS) {
-        let tried = Tried::new(scene, planes)?;
-        let is_clean = tried.is_clean();
-        best = Some(best.map_or(tried.clone(), |best| best.or_cleaner(tried)));
-        if is_clean {
-            break;
-        }
-    }
-    let best = best.map_or_else(|| Tried::new(scene, &[]), Ok)?;
+    let best = cleanest(scene, &found.plans)?;
     let Tried { planes, voids, .. } = furthered(scene, best, notes)?;
     notes.extend(planes.iter().enumerate().map(|(i, plane)| score_note(scene, (i, plane))));
     Layout::new(scene, planes, voids)
@@ -210,7 +197,7 @@ fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>)
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         let middle = off_vertices(&scene.material, &middle);
         let planes: Vec<Plane> = layout.planes.iter().copied().chain([middle]).collect();
-        let voids = accesses(scene.hollowed, &planes, scene.request)?;
+        let voids = accesses(&scene.chambers, &planes, scene.request)?;
         *layout = Layout::new(scene, planes, voids)?;
         notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
     }

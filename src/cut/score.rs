@@ -17,16 +17,19 @@
 //! the score is taken with which every void is clean, the share of its wall in sight included ([`super::access`]).
 
 use super::{
+    chamber::Chamber,
+    error::CutError,
     opening::{Opening, opening},
     pin_size::needed_room_mm,
     request::{PlanRequest, PosePreference},
     section::{Ring, Section},
     sides::Sides,
+    split::{Piece, split_body},
 };
 use crate::{
     geom::{Aabb, Plane, Point},
     mass::moments_of_mesh,
-    mesh::{Hollowed, TriMesh},
+    mesh::{Csg, Hollowed, TriMesh},
 };
 
 /// The body that is to be cut, with what every plane is compared against.
@@ -35,16 +38,27 @@ pub(crate) struct Scene<'a> {
     pub(crate) request: &'a PlanRequest,
     /// The surface of the material: the outside and the voids turned inside out.
     pub(crate) material: TriMesh,
+    /// The same, ready to be cut.
+    body: Csg,
+    /// The voids, ready to be cut and looked into.
+    pub(crate) chambers: Vec<Chamber<'a>>,
     volume_mm3: f64,
     diagonal_mm: f64,
 }
 
 impl<'a> Scene<'a> {
-    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Self {
+    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
         let material = hollowed.to_mesh();
+        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), || Chamber::all(hollowed));
         let volume_mm3 = moments_of_mesh(&material).volume();
         let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
-        Self { hollowed, request, material, volume_mm3, diagonal_mm }
+        let (body, chambers) = (body?, chambers?);
+        Ok(Self { hollowed, request, material, body, chambers, volume_mm3, diagonal_mm })
+    }
+
+    /// The pieces of the body between the planes.
+    pub(crate) fn split(&self, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
+        split_body(&self.body, planes)
     }
 
     /// How the plane opens each void of `met`; `None` for those it misses.
@@ -282,7 +296,7 @@ mod tests {
     }
 
     fn burden_of(hollowed: &Hollowed, request: &PlanRequest, z: f64) -> Burden {
-        burden(&Scene::new(hollowed, request), &level(z))
+        burden(&Scene::new(hollowed, request).unwrap(), &level(z))
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use rayon::prelude::*;
 
 use super::{
+    outline::Outline,
     request::PlanRequest,
     section::{Chart, Point2},
-    split::{Cap, Piece},
+    split::Piece,
 };
 use crate::{
     geom::{Bvh, Plane, Point},
@@ -24,6 +25,12 @@ const CLOSER_EYES_ACROSS: usize = 16;
 const HIDDEN_RATIO: f64 = 0.15;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
 const LOOKED_RATIO: f64 = 0.999;
+
+/// A place that is looked from, in a mouth of a cut.
+struct Eye {
+    cut: usize,
+    at: Point,
+}
 
 /// How a void is looked into.
 pub(crate) struct Look<'a> {
@@ -47,32 +54,40 @@ impl<'a> Look<'a> {
         Self { given_up_ratio: 1.0, ..self }
     }
 
-    /// The places that a piece is looked into from: of every mouth that lets the tool in those where it finds room; the
-    /// middle of the widest mouth where none lets it in.
-    fn eyes(&self, piece: &Piece, count: usize) -> Vec<Point> {
-        let discs = piece.caps.iter().filter_map(|cap| Some((cap, cap.outline.largest_disc(0.0)?)));
+    /// The places that are looked from through mouths, each of a cut: of every mouth that lets the tool in those where it finds
+    /// room; the middle of the widest mouth where none lets it in.
+    fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
+        let discs = mouths.iter().filter_map(|mouth| Some((mouth, mouth.1.largest_disc(0.0)?)));
         let mut discs: Vec<_> = discs.collect();
         discs.sort_by(|a, b| b.1.radius_mm.total_cmp(&a.1.radius_mm));
-        let middles = discs.iter().map(|(cap, disc)| self.lifted(cap, &disc.center));
+        let middles = discs.iter().map(|(mouth, disc)| self.eye(mouth.0, &disc.center));
         let is_wide = |radius_mm: f64| radius_mm >= self.tool_radius_mm;
         let wide = discs.iter().filter(|(_, disc)| is_wide(disc.radius_mm)).count();
-        let mut eyes: Vec<Point> = middles.take(wide.max(1)).collect();
-        for (cap, _) in &discs[..wide] {
-            let places = across(cap, count).into_iter().filter(|at| is_wide(cap.outline.signed_distance(at)));
-            eyes.extend(places.map(|at| self.lifted(cap, &at)));
+        let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
+        for ((cut, outline), _) in &discs[..wide] {
+            let places = across(outline, count).into_iter().filter(|at| is_wide(outline.signed_distance(at)));
+            eyes.extend(places.map(|at| self.eye(*cut, &at)));
         }
         eyes
     }
 
-    fn lifted(&self, cap: &Cap, at: &Point2) -> Point {
-        let plane = &self.planes[cap.cut];
-        Chart::of_plane(plane).lift(plane, at)
+    fn eye(&self, cut: usize, at: &Point2) -> Eye {
+        let plane = &self.planes[cut];
+        Eye { cut, at: Chart::of_plane(plane).lift(plane, at) }
+    }
+
+    /// Whether no plane but the eye's own lies between it and a point.
+    fn is_before(&self, eye: &Eye, at: &Point) -> bool {
+        let others = self.planes.iter().enumerate().filter(|(cut, _)| *cut != eye.cut);
+        others
+            .map(|(_, plane)| plane)
+            .all(|plane| (plane.distance(&eye.at) > 0.0) == (plane.distance(at) > 0.0))
     }
 }
 
 /// Places spread over the box of a mouth, so many along each of two directions.
-fn across(cap: &Cap, count: usize) -> Vec<Point2> {
-    let Some((min, max)) = cap.outline.bounds() else { return Vec::new() };
+fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
+    let Some((min, max)) = mouth.bounds() else { return Vec::new() };
     let step = (max - min) / count as f64;
     let at = |i: usize| {
         let (column, row) = ((i % count) as f64, (i / count) as f64);
@@ -99,14 +114,26 @@ pub(crate) struct Seen {
 /// The walls of one void.
 pub(crate) struct Walls {
     bvh: Bvh,
+    /// The sample for a glance at all of it.
+    points: Vec<Point>,
     /// The area that a point of the sample stands for, mm².
     share_mm2: f64,
 }
 
 impl Walls {
     pub(crate) fn of(void: &Solid) -> Self {
-        let area: f64 = void.mesh().iter_corners().map(|corners| area_mm2(&corners)).sum();
-        Self { bvh: Bvh::new(void.mesh().iter_corners()), share_mm2: area / SAMPLES }
+        let wall: Vec<[Point; 3]> = void.mesh().iter_corners().collect();
+        let area: f64 = wall.iter().map(area_mm2).sum();
+        let points = spread_points(&wall, SAMPLES as usize).into_iter().map(|point| point.at).collect();
+        Self { bvh: Bvh::new(wall.into_iter()), points, share_mm2: area / SAMPLES }
+    }
+
+    /// About the share of the wall that is in sight through these mouths, each of a cut, before the void is cut: what lies
+    /// behind another plane is not.
+    pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
+        let mouths: Vec<(usize, &Outline)> = mouths.iter().map(|(cut, outline)| (*cut, outline)).collect();
+        let (_, visible) = self.looked_at(self.points.clone(), &mouths, look);
+        visible.len() as f64 / self.points.len().max(1) as f64
     }
 
     /// What is in sight of the piece's own mouths and within reach; nothing if the piece has none.
@@ -116,23 +143,36 @@ impl Walls {
         let count = (wall_mm2 / self.share_mm2).ceil() as usize;
         let points = spread_points(&wall, count.max(LEAST_SAMPLES));
         let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
-        let total = points.len().max(1) as f64;
-        let (mut hidden, mut visible) = self.parted(points, &look.eyes(piece, EYES_ACROSS), look.reach_mm);
-        if hidden.len() as f64 <= look.given_up_ratio * total {
-            let closer = look.eyes(piece, CLOSER_EYES_ACROSS);
-            let (still, more) = self.parted(hidden, &closer, look.reach_mm);
-            hidden = still;
-            visible.extend(more);
-        }
-        let share_mm2 = wall_mm2 / total;
+        let share_mm2 = wall_mm2 / points.len().max(1) as f64;
+        let mouths: Vec<(usize, &Outline)> = piece.caps.iter().map(|cap| (cap.cut, &cap.outline)).collect();
+        let (hidden, visible) = self.looked_at(points, &mouths, look);
         Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
     }
 
+    /// The points that are hidden and those that are not: from few places first, and from many where little is hidden.
+    fn looked_at(
+        &self,
+        points: Vec<Point>,
+        mouths: &[(usize, &Outline)],
+        look: &Look,
+    ) -> (Vec<Point>, Vec<Point>) {
+        let total = points.len() as f64;
+        let (hidden, mut visible) = self.parted(points, &look.eyes(mouths, EYES_ACROSS), look);
+        if hidden.len() as f64 > look.given_up_ratio * total {
+            return (hidden, visible);
+        }
+        let (hidden, more) = self.parted(hidden, &look.eyes(mouths, CLOSER_EYES_ACROSS), look);
+        visible.extend(more);
+        (hidden, visible)
+    }
+
     /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
-    fn parted(&self, points: Vec<Point>, eyes: &[Point], reach_mm: f64) -> (Vec<Point>, Vec<Point>) {
-        let sees = |eye: &Point, at: &Point| {
-            let line = at - eye;
-            line.norm() <= reach_mm && !self.bvh.is_crossed_by(eye, &(eye + line * LOOKED_RATIO))
+    fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
+        let sees = |eye: &Eye, at: &Point| {
+            let line = at - eye.at;
+            line.norm() <= look.reach_mm
+                && look.is_before(eye, at)
+                && !self.bvh.is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
         };
         points.into_par_iter().partition(|at| !eyes.iter().any(|eye| sees(eye, at)))
     }

@@ -73,7 +73,12 @@ impl Piece {
 
 /// The pieces of a closed mesh between the planes, in the order of [`in_order`].
 pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-    let mut cells = vec![Csg::of_mesh(mesh)?];
+    split_body(&Csg::of_mesh(mesh)?, planes)
+}
+
+/// The same of a body that is at hand.
+pub(crate) fn split_body(body: &Csg, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
+    let mut cells = vec![body.clone()];
     for plane in planes {
         let mut halves = Vec::new();
         for cell in &cells {

@@ -167,6 +167,11 @@ impl Csg {
         if worse { self.clone() } else { simple }
     }
 
+    /// The same as [`Self::simplify`] for pictures: many times faster, as nobody looks whether it intersects itself.
+    pub fn coarsened(&self, tolerance_mm: f64) -> Self {
+        Self(self.0.simplify(tolerance_mm))
+    }
+
     /// The same body with the slivers closed up that the rounding of a file would fold: no point of its surface moves by more
     /// than 2e-5 mm.
     pub fn without_slivers(&self) -> Self {

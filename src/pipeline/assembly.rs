@@ -15,7 +15,9 @@ use super::{
     tuning::is_tuned,
     written::WrittenPart,
 };
-use crate::cut::{self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts};
+use crate::cut::{
+    self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts_and_faces,
+};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
@@ -112,9 +114,6 @@ fn assembled(
         voids = tuner.tuned(voids, more)?.finished()?;
         let parts = written_parts(setup, &voids, &mut plan, request)?;
         let written = written_moments(&parts);
-        if attempts == 0 {
-            plan = cut::refaced(&voids.hollowed, plan)?;
-        }
         let joined = joined(setup, &plan);
         let whole = written + joined + inside(setup, &voids.hollowed);
         attempts += 1;
@@ -151,13 +150,14 @@ fn written_parts(
     plan: &mut CutPlan,
     request: &PlanRequest,
 ) -> Result<Vec<WrittenPart>, Error> {
-    let parts = match parts(&voids.hollowed, plan, request) {
+    let (parts, refaced) = match parts_and_faces(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
             *plan = planned_once(setup, voids, request)?;
-            parts(&voids.hollowed, plan, request)?
+            parts_and_faces(&voids.hollowed, plan, request)?
         }
         parts => parts?,
     };
+    *plan = refaced;
     let (job, count, scale_ratio) = (setup.name(), parts.len(), setup.printer.print_scale_ratio());
     parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count, scale_ratio)).collect()
 }

@@ -45,11 +45,14 @@ pub fn prepared(
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
     let sitting = sitting(&shells, &cuts, &evidence);
-    let ((promise, judgement), (pictures, view)) = rayon::join(
+    let ((promise, judgement), ((pictures, view), packages)) = rayon::join(
         || judged(setup, evidence.clone()),
-        || rayon::join(|| album(&sitting), || View::of(&sitting)),
+        || {
+            let drawn = || rayon::join(|| album(&sitting), || View::of(&sitting));
+            rayon::join(drawn, || packages::packages(setup, assembly))
+        },
     );
-    let (mut pictures, view) = (pictures?, view?);
+    let (mut pictures, view, packages) = (pictures?, view?, packages?);
     watch.lap(phase::VERIFY);
     progress.report(phase::REPORT, 0.0);
     let mut kit = Kit::default();
@@ -57,7 +60,7 @@ pub fn prepared(
     for part in &assembly.parts {
         kit.add(&part.file, part.bytes.clone());
     }
-    for (file, bytes) in packages::packages(setup, assembly)? {
+    for (file, bytes) in packages {
         kit.add(&file, bytes);
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());

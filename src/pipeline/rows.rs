@@ -26,6 +26,9 @@ use crate::verify::{
 /// A face whose normal has this much of the vertical is level, within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
 
+/// Less than this left solid is not worth a warning, mm³: it would be told as nothing.
+const LEAST_TOLD_MM3: f64 = 0.05;
+
 /// What must be minded of anything hollow in water.
 const SEAL: &str = "seal every joint: a void that fills with water sinks it or turns it over";
 
@@ -297,8 +300,8 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
-    let small =
-        (refused > 0.0).then(|| format!("{refused:.1} mm³ of voids that could not be cleaned stay solid"));
+    let small = (refused >= LEAST_TOLD_MM3)
+        .then(|| format!("{refused:.1} mm³ of voids that could not be cleaned stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());

@@ -108,18 +108,18 @@ fn items(sitting: &Sitting) -> Vec<Item> {
 fn simplified(mesh: &TriMesh, budget: usize) -> TriMesh {
     let welded = weld(mesh);
     let tolerance_mm = TOLERANCE_RATIO * welded.longest_side_mm();
-    let simple = Csg::of_mesh(&welded).ok().and_then(|body| {
-        let tried =
-            (0..=DOUBLINGS).map(|doubled| body.simplify(tolerance_mm * f64::powi(2.0, doubled as i32)));
-        let mut last = None;
-        for simple in tried {
-            let is_enough = simple.triangle_count() <= budget;
-            last = Some(simple);
-            if is_enough {
+    let simple = Csg::of_mesh(&welded).and_then(|mut body| {
+        for doubled in 0..=DOUBLINGS {
+            if body.triangle_count() <= budget {
                 break;
             }
+            let coarser = body.coarsened(tolerance_mm * f64::powi(2.0, doubled as i32));
+            if coarser.is_empty() {
+                break;
+            }
+            body = coarser;
         }
-        last?.to_mesh().ok()
+        body.to_mesh()
     });
     simple.unwrap_or(welded)
 }
