@@ -17,8 +17,8 @@ use crate::mesh::weld;
 use crate::progress::Progress;
 use crate::report::{Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page};
 use crate::verify::{
-    Density, Evidence, FigureName, Judgement, PrinterLimits, Promise, PromisedFigure, PromisedPart, SCHEMA,
-    Shells, WallOrder, checks, judge,
+    CHECKLIST_FILE, Density, Evidence, FigureName, Judgement, PrinterLimits, Promise, PromisedFigure,
+    PromisedPart, SCHEMA, SHEET_FILE, SUMS_FILE, Shells, WallOrder, checks, judge, sums,
 };
 
 /// The name of the uncut result in a kit.
@@ -78,12 +78,13 @@ pub fn prepared(
     Ok(Prepared { kit, checklist })
 }
 
-/// Adds the job sheet, for people and for machines, without anything that differs from run to run.
+/// Adds the job sheet, for people and for machines, without anything that differs from run to run, and the list of all hashes.
 fn file_papers(kit: &mut Kit, sheet: &Checklist, (pictures, view): (&[Picture], &View)) -> Result<(), Error> {
     let json = sheet.to_json()?;
     let sha256 = &sha256_hex(&[json.as_bytes()]);
-    kit.add("checklist.json", json.into_bytes());
-    kit.add("checklist.html", page(&Papers { sheet, sha256, pictures, view: Some(view) }).into_bytes());
+    kit.add(CHECKLIST_FILE, json.into_bytes());
+    kit.add(SHEET_FILE, page(&Papers { sheet, sha256, pictures, view: Some(view) }).into_bytes());
+    kit.add(SUMS_FILE, sums(kit.files()).into_bytes());
     Ok(())
 }
 
@@ -128,7 +129,6 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
         joints: joinery_rows::promised_joints(setup, &assembly.plan),
         ballast: rows::ballast_orders(setup),
         fill: rows::fill_order(setup),
-        assembly: None,
         files: Default::default(),
     }
 }

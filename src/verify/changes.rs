@@ -26,6 +26,8 @@ pub enum Change {
     Missing,
     /// It has other bytes, and no more is known of it.
     Altered,
+    /// It was made for another checklist.
+    OfAnother,
     /// Other bytes, the same triangles: another program saved it again.
     Resaved,
     /// The same shape, but for its coordinates' last digits or single corners.
@@ -49,6 +51,7 @@ impl fmt::Display for FileChange {
         let words = match &self.change {
             Change::Missing => "is missing".to_owned(),
             Change::Altered => "was changed: it has other bytes".to_owned(),
+            Change::OfAnother => "speaks of another checklist.json".to_owned(),
             Change::Resaved => "was saved again: other bytes, the same triangles".to_owned(),
             Change::Touched => {
                 "was changed a little: its coordinates were rounded, or a corner moved".to_owned()

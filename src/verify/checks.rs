@@ -42,10 +42,6 @@ pub const GAP_TOLERANCE_MM: f64 = 1e-3;
 /// The written assembly may miss the promised figure by this share: above the rounding of STL (1e-6), below
 /// anything a person can measure.
 pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
-/// The checklist's own figures of the assembly agree with the files within this share; both are exact integrals of
-/// the same triangles.
-pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
-
 /// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there, can it be
 /// printed, do the parts make the whole.
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
@@ -62,7 +58,6 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     checks.extend(joint_checks(promise, found));
     checks.extend(found.film_error.clone().map(film_check));
     checks.extend(found.lost_strokes.map(marks_check));
-    checks.extend(promise.assembly.as_ref().map(|sheet| sheet_check(sheet, &found.assembly)));
     checks
 }
 
@@ -285,26 +280,6 @@ fn worst_of(pegs: &[PegFacts], value: impl Fn(&PegFacts) -> Option<f64>) -> (Opt
     let of = |peg: &PegFacts| value(peg).unwrap_or(f64::INFINITY);
     let worst = pegs.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
     (worst.map(of), worst.map(|peg| peg.id.clone()))
-}
-
-/// Whether the checklist states the figures of the files: the largest difference in mass, centre (in radii of
-/// gyration) and principal moments.
-fn sheet_check(sheet: &Figures, found: &Figures) -> Check {
-    let radius_mm = (found.principal_moments_g_mm2[2] / found.mass_g).sqrt();
-    let mass = (sheet.mass_g - found.mass_g).abs() / found.mass_g;
-    let center = largest_difference(&sheet.center_mm, &found.center_mm) / radius_mm;
-    let moments = largest_difference(&sheet.principal_moments_g_mm2, &found.principal_moments_g_mm2)
-        / found.principal_moments_g_mm2[2];
-    Check::new(
-        "checklist",
-        "the checklist states the figures of the files",
-        Some(mass + center + moments),
-        Limit::at_most(SHEET_LIMIT_RATIO, ""),
-    )
-}
-
-fn largest_difference(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 /// A check that nothing of a kind was found.

@@ -2,11 +2,15 @@
 
 use std::path::{Component, Path, PathBuf};
 
+use serde_json::Value;
+
 use super::{
     Evidence, Judgement, PartEvidence, Promise, SCHEMA,
     changes::{file_changes, files_check},
     judge,
     packages::packages_check,
+    seal::paper_changes,
+    sheet::{misstatements, sheet_check},
 };
 use crate::geom::Vector;
 use crate::io::{ReadError, read_model};
@@ -14,6 +18,10 @@ use crate::mesh::TriMesh;
 
 /// The checklist of a kit.
 pub const CHECKLIST_FILE: &str = "checklist.json";
+/// The job sheet for people.
+pub const SHEET_FILE: &str = "checklist.html";
+/// The hashes of all files of a kit but itself.
+pub const SUMS_FILE: &str = "SHA256SUMS";
 /// The uncut result of a kit.
 pub const HOLLOWED_FILE: &str = "hollowed.stl";
 
@@ -76,7 +84,7 @@ pub enum VerifyError {
 /// Reads every file of the kit in `folder` and judges it, without the solver: the checklist supplies the goal and the
 /// promises, the meshes everything else.
 pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
-    let promise = read_promise(folder)?;
+    let (promise, sheet) = read_checklist(folder)?;
     check_files(folder, &promise)?;
     let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
     let parts = promise.parts.iter().map(|part| {
@@ -86,7 +94,10 @@ pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     });
     let evidence = Evidence { hollowed, parts: parts.collect::<Result<_, _>>()?, promise };
     let mut judgement = judge(&evidence);
+    let misstated = misstatements(&sheet, &evidence, &judgement);
     judgement.changes = file_changes(folder, &evidence)?;
+    judgement.changes.extend(paper_changes(folder, &evidence.promise)?);
+    judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages_check(folder, &evidence)?);
     Ok(judgement)
@@ -94,13 +105,20 @@ pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
 
 /// The promises in the checklist of a kit.
 pub fn read_promise(folder: &Path) -> Result<Promise, VerifyError> {
+    read_checklist(folder).map(|(promise, _)| promise)
+}
+
+/// The promises, and the whole checklist as it stands.
+fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyError> {
     let path = folder.join(CHECKLIST_FILE);
     let bytes = read_file(&path)?;
-    let schema = serde_json::from_slice(&bytes).map(|value: serde_json::Value| value["schema"].as_u64());
-    match schema {
-        Ok(Some(found)) if found != u64::from(SCHEMA) => Err(VerifyError::Schema { path, found }),
-        _ => serde_json::from_slice(&bytes).map_err(|source| VerifyError::Checklist { path, source }),
+    let sheet: Result<Value, _> = serde_json::from_slice(&bytes);
+    match sheet.as_ref().map(|sheet| sheet["schema"].as_u64()) {
+        Ok(Some(found)) if found != u64::from(SCHEMA) => return Err(VerifyError::Schema { path, found }),
+        _ => {}
     }
+    let read = sheet.and_then(|sheet| Ok((serde_json::from_slice(&bytes)?, sheet)));
+    read.map_err(|source| VerifyError::Checklist { path, source })
 }
 
 /// Refuses a kit that names files outside of it, or that lacks a mesh to be judged.
@@ -116,7 +134,7 @@ fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
 }
 
 /// Whether a relative path stays below the folder it is joined to.
-fn lies_within(file: &str) -> bool {
+pub(super) fn lies_within(file: &str) -> bool {
     !file.is_empty() && Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
 }
 

@@ -6,28 +6,61 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::judge_tests::sound;
+use super::sheet::{stated, stated_before_rounding};
 use super::*;
 use crate::digest::sha256_hex;
 use crate::io::stl;
 
-/// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads.
+/// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads, and its papers.
 fn write_kit(folder: &Path) {
     let evidence = sound();
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");
     fs::create_dir_all(folder.join("parts")).unwrap();
     fs::write(folder.join(HOLLOWED_FILE), &hollowed).unwrap();
     let parts: Vec<Value> = evidence.parts.iter().map(|part| part_json(folder, part)).collect();
-    let sheet = json!({
+    let mut sheet = json!({
         "schema": SCHEMA,
         "printer": { "build_volume_mm": null, "minimum_wall_mm": 1.0 },
         "material": { "density_g_cm3": 1.2 },
         "goal": { "kind": "top", "origin_mm": [0.0, 0.0, 0.0], "axis": [0.0, 0.0, 1.0], "objective": "any" },
         "wall": { "required_mm": 3.0 },
         "parts": parts,
-        "assembly": judge(&evidence).assembly,
+        "voids": [{ "id": "V1" }],
         "files": { HOLLOWED_FILE: sha256_hex(&[&hollowed]) },
     });
+    // As the program does, what is found is stated.
+    let read = Evidence { promise: serde_json::from_value(sheet.clone()).unwrap(), ..evidence };
+    fill_in(&mut sheet, stated(&Value::Null, &read, &judge(&read)));
+    fill_in(&mut sheet, stated_before_rounding(&read, &judge(&read)));
     fs::write(folder.join(CHECKLIST_FILE), sheet.to_string()).unwrap();
+    seal(folder);
+}
+
+/// Adds the keys of another value to a value, row by row.
+fn fill_in(sheet: &mut Value, with: Value) {
+    match (sheet, with) {
+        (Value::Object(sheet), Value::Object(with)) => {
+            with.into_iter().for_each(|(key, value)| fill_in(sheet.entry(key).or_insert(Value::Null), value));
+        }
+        (Value::Array(sheet), Value::Array(with))
+            if !sheet.is_empty() && with.iter().any(Value::is_object) =>
+        {
+            sheet.iter_mut().zip(with).for_each(|(sheet, value)| fill_in(sheet, value));
+        }
+        (sheet, with) => *sheet = with,
+    }
+}
+
+/// Writes the job sheet and the list of hashes for the checklist as it is.
+fn seal(folder: &Path) {
+    let json = fs::read(folder.join(CHECKLIST_FILE)).unwrap();
+    fs::write(folder.join(SHEET_FILE), format!("made for {}", sha256_hex(&[&json]))).unwrap();
+    let sheet: Value = serde_json::from_slice(&json).unwrap();
+    let mut files: Vec<String> = sheet["files"].as_object().unwrap().keys().cloned().collect();
+    files.extend([CHECKLIST_FILE, SHEET_FILE].map(str::to_owned));
+    let bytes: Vec<Vec<u8>> = files.iter().map(|file| fs::read(folder.join(file)).unwrap()).collect();
+    let list = sums(files.iter().map(String::as_str).zip(bytes.iter().map(Vec::as_slice)));
+    fs::write(folder.join(SUMS_FILE), list).unwrap();
 }
 
 fn part_json(folder: &Path, part: &PartEvidence) -> Value {
@@ -79,10 +112,91 @@ fn a_part_with_the_same_shape_under_another_header_is_a_changed_file_and_nothing
     assert_eq!(failures(&judgement.unwrap()), ["changed files"]);
 }
 
+/// Every number of a value, by its JSON pointer.
+fn numbers(at: &str, value: &Value) -> Vec<String> {
+    match value {
+        Value::Number(_) => vec![at.to_owned()],
+        Value::Object(keys) => keys.iter().flat_map(|(key, v)| numbers(&format!("{at}/{key}"), v)).collect(),
+        Value::Array(rows) => {
+            rows.iter().enumerate().flat_map(|(i, v)| numbers(&format!("{at}/{i}"), v)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
 #[test]
-fn a_checklist_that_lies_about_the_mass_is_found() {
-    let judgement = kit_with(|kit| edit(kit, |sheet| sheet["assembly"]["mass_g"] = json!(20.0)));
-    assert_eq!(failures(&judgement.unwrap()), ["checklist"]);
+fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_them() {
+    let room = tempfile::tempdir().unwrap();
+    write_kit(room.path());
+    let whole = fs::read_to_string(room.path().join(CHECKLIST_FILE)).unwrap();
+    let sheet: Value = serde_json::from_str(&whole).unwrap();
+    let of_judge = |key: &String| {
+        ["/solid", "/hollowed", "/assembly", "/parts", "/voids", "/checks", "/wall", "/model", "/material"]
+            .iter()
+            .any(|table| key.starts_with(table))
+    };
+    let keys: Vec<String> = numbers("", &sheet).into_iter().filter(of_judge).collect();
+    // Mass, volume, centre, inertia and figures of three bodies, and the rows and marks of two parts.
+    assert!(keys.len() > 100, "{}", keys.len());
+    for key in keys {
+        let mut lie = sheet.clone();
+        let old = lie.pointer(&key).unwrap().as_f64().unwrap();
+        // A thousandth of the largest number in its row of numbers, and never less than one.
+        let row = sheet.pointer(key.rsplit_once('/').unwrap().0).unwrap();
+        let step = (old.abs().max(sheet::largest(row)) * 1e-3).max(1.0);
+        *lie.pointer_mut(&key).unwrap() = json!(old + step);
+        fs::write(room.path().join(CHECKLIST_FILE), lie.to_string()).unwrap();
+        // A careful liar makes the job sheet and the list of hashes anew.
+        seal(room.path());
+        let told = verify_kit(room.path()).unwrap();
+        assert!(!told.passes(), "{key} may be {} in place of {old}", old + step);
+    }
+}
+
+#[test]
+fn a_lie_is_told_with_its_key_and_both_numbers() {
+    let judgement = kit_with(|kit| {
+        edit(kit, |sheet| sheet["parts"][1]["mass_g"] = json!(20.0));
+        seal(kit);
+    });
+    let judgement = judgement.unwrap();
+    assert_eq!(failures(&judgement), ["checklist"]);
+    let words =
+        judgement.checks.iter().find_map(|check| check.detail.clone().filter(|_| !check.pass)).unwrap();
+    assert!(words.starts_with("parts[P02].mass_g states 20.0, the files have "), "{words}");
+}
+
+#[test]
+fn papers_that_do_not_belong_together_are_told_each() {
+    let changed = |change: &dyn Fn(&Path)| {
+        let judgement = kit_with(change).unwrap();
+        assert_eq!(failures(&judgement), ["changed files"]);
+        judgement.changes.iter().map(FileChange::to_string).collect::<Vec<_>>().join("; ")
+    };
+    let append = |file: &'static str| {
+        move |kit: &Path| {
+            let text = fs::read_to_string(kit.join(file)).unwrap() + "\n";
+            fs::write(kit.join(file), text).unwrap();
+        }
+    };
+    let page = changed(&append(SHEET_FILE));
+    assert_eq!(page, "checklist.html was changed: it has other bytes");
+    assert_eq!(changed(&append(CHECKLIST_FILE)).matches("checklist.json was changed").count(), 1);
+    let emptied = changed(&|kit| fs::write(kit.join(SUMS_FILE), "").unwrap());
+    assert!(emptied.contains("SHA256SUMS was changed"), "{emptied}");
+    let gone = changed(&|kit| fs::remove_file(kit.join(SUMS_FILE)).unwrap());
+    assert_eq!(gone, "SHA256SUMS is missing");
+    // The list made anew over a job sheet of another checklist.
+    let other = changed(&|kit| {
+        append(CHECKLIST_FILE)(kit);
+        let page = fs::read(kit.join(SHEET_FILE)).unwrap();
+        seal(kit);
+        let list = fs::read_to_string(kit.join(SUMS_FILE)).unwrap();
+        let own = sha256_hex(&[&fs::read(kit.join(SHEET_FILE)).unwrap()]);
+        fs::write(kit.join(SHEET_FILE), &page).unwrap();
+        fs::write(kit.join(SUMS_FILE), list.replace(&own, &sha256_hex(&[&page]))).unwrap();
+    });
+    assert_eq!(other, "checklist.html speaks of another checklist.json");
 }
 
 #[test]

@@ -26,6 +26,8 @@ mod pegs_tests;
 mod pose;
 mod promise;
 mod rotor;
+mod seal;
+mod sheet;
 mod shells;
 mod support;
 #[cfg(test)]
@@ -40,8 +42,8 @@ pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,
     METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG,
-    SHEET_LIMIT_RATIO, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
-    WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
+    STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    WATERLINE_LIMIT_MM, checks,
 };
 pub use cleaning::{PromisedCut, PromisedVoid, SIGHT_TOLERANCE_RATIO, VoidFacts};
 pub use figures::{Figures, Setting};
@@ -49,7 +51,7 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Fit, Hardware, mass_moments};
 pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
 pub use judge::{Evidence, Judgement, judge, setting};
-pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, VerifyError, read_promise, verify_kit};
+pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE, VerifyError, read_promise, verify_kit};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pegs::PegFacts;
 pub use pose::Pose;
@@ -58,6 +60,8 @@ pub use promise::{
     SCHEMA, WallOrder,
 };
 pub use rotor::{RotorOrder, Unbalance};
+pub use seal::sums;
+pub use sheet::{SHEET_LIMIT_RATIO, misstatements};
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
 pub use wall::smallest_wall_mm;

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, Figures, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut,
-    PromisedVoid, RotorOrder, WaterOrder,
+    BallastOrder, Cleaning, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut, PromisedVoid,
+    RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -58,9 +58,6 @@ pub struct Promise {
     /// The joints between them.
     #[serde(default)]
     pub joints: Vec<PromisedJoint>,
-    /// The figures of the assembly as the checklist states them; absent while the checklist is being made.
-    #[serde(default)]
-    pub assembly: Option<Figures>,
     /// The SHA-256 of every other file of the kit, by path relative to its folder.
     #[serde(default)]
     pub files: BTreeMap<String, String>,

@@ -1,0 +1,204 @@
+//! Whether checklist.json states what the files hold: every number of it that follows from them, computed again.
+
+use serde_json::{Map, Value, json};
+
+use super::{Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells};
+use crate::mass::moments_of_mesh;
+use crate::mesh::weld;
+use crate::units::MM3_PER_CM3;
+
+/// A number of the checklist may differ by this share of the largest number beside it. Both are exact integrals of the same
+/// triangles, which another machine rounds by 1e-12; above 1e-5 a tenth of a gram could be taken off a heavy part unseen.
+pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
+/// The same for the model and its voids, which the checklist knows from before they were rounded to a file's digits.
+const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
+/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two large ones cancel.
+const NOTHING: f64 = 1e-9;
+/// So many of the places that differ are told; the rest are counted.
+const TOLD: usize = 6;
+
+/// What is held against the files, and how closely.
+struct Comparison {
+    ratio: f64,
+    found: Vec<String>,
+}
+
+/// Where the checklist states something else than what its files hold, a sentence each, in the order of its keys.
+///
+/// Parts whose files have another shape than their marks are left out, and all that depends on them: they are another
+/// complaint, and would hide this one.
+pub fn misstatements(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Vec<String> {
+    let mut exact = Comparison { ratio: SHEET_LIMIT_RATIO, found: Vec::new() };
+    exact.object("", sheet, &stated(sheet, evidence, judgement));
+    let mut rough = Comparison { ratio: BEFORE_ROUNDING_RATIO, found: exact.found };
+    rough.object("", sheet, &stated_before_rounding(evidence, judgement));
+    rough.found
+}
+
+/// The check that the checklist states what the files hold.
+pub fn sheet_check(misstated: &[String]) -> Check {
+    let promise = "the checklist states what the files hold";
+    let more = misstated.len().saturating_sub(TOLD);
+    let mut words = misstated[..misstated.len().min(TOLD)].join("; ");
+    if more > 0 {
+        words += &format!("; and {more} more");
+    }
+    Check::new("checklist", promise, Some(misstated.len() as f64), Limit::at_most(0.0, ""))
+        .at((!words.is_empty()).then_some(words))
+}
+
+/// What the checklist must state of these files, in its own keys.
+pub(super) fn stated(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Value {
+    let promise = &evidence.promise;
+    let is_whole: Vec<bool> = (0..evidence.parts.len()).map(|part| has_its_shape(evidence, part)).collect();
+    let parts = judgement.parts.iter().enumerate();
+    let parts: Vec<Value> = parts
+        .map(|(index, facts)| if is_whole[index] { part_row(evidence, index, facts) } else { json!({}) })
+        .collect();
+    let mut rows = Map::new();
+    rows.insert("solid".to_owned(), json!(judgement.solid));
+    rows.insert("hollowed".to_owned(), json!(judgement.hollowed));
+    rows.insert("wall".to_owned(), json!({ "measured_min_mm": judgement.wall_min_mm }));
+    rows.insert("parts".to_owned(), json!(parts));
+    rows.insert("joints".to_owned(), json!(joint_rows(promise)));
+    if is_whole.into_iter().all(|whole| whole) {
+        rows.extend(of_the_whole(sheet, promise, judgement));
+    }
+    Value::Object(rows)
+}
+
+/// What depends on every part.
+fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<String, Value> {
+    let figure = |name| judgement.assembly.value_of(name);
+    let passes = judgement.checks.iter().all(|check| check.pass);
+    let mut rows = Map::new();
+    rows.insert("assembly".to_owned(), json!(judgement.assembly));
+    rows.insert("checks".to_owned(), json!(judgement.checks));
+    rows.insert("verdict".to_owned(), json!(if passes { "pass" } else { "fail" }));
+    if let Some(promised) = promise.promise {
+        rows.insert("promise".to_owned(), json!({ "value": figure(promised.figure) }));
+    }
+    // Spin-It's functional with weights is no figure of the judge's.
+    let named = serde_json::from_value(sheet["certificate"]["figure"].clone()).ok();
+    if let Some(named) = named.filter(|name| *name != FigureName::SpinItRatio) {
+        rows.insert("certificate".to_owned(), json!({ "written_value": figure(named) }));
+    }
+    rows
+}
+
+/// What the checklist knows from before it was rounded to a file's digits.
+pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement) -> Value {
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let voids = evidence.promise.voids.iter().zip(&shells.inward);
+    let void_row = |(promised, cavity): (&super::PromisedVoid, &crate::mesh::TriMesh)| {
+        let names = ["open", "clean"].map(|word| format!("void {} {word}", promised.id));
+        let is_clean = judgement.checks.iter().filter(|check| names.contains(&check.name)).all(|c| c.pass);
+        let mut row = json!({ "volume_mm3": moments_of_mesh(cavity).volume().abs() });
+        if (0..evidence.parts.len()).all(|part| has_its_shape(evidence, part)) {
+            row["is_clean"] = json!(is_clean);
+        }
+        row
+    };
+    let mut rows = json!({ "voids": voids.map(void_row).collect::<Vec<_>>() });
+    // Sockets for hardware, and what a tip adds, are in the file but not in the model that came in.
+    if evidence.promise.hardware.is_empty() {
+        let outer = shells.outer_mesh();
+        let size: [f64; 3] = outer.aabb().size().into();
+        rows["model"] = json!({ "size_mm": size, "volume_mm3": moments_of_mesh(&outer).volume() });
+    }
+    rows
+}
+
+/// Whether a part has the triangles that its mark says; parts of kits without marks are taken as they are.
+fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
+    let mark = evidence.promise.parts[part].fingerprint.as_ref();
+    let found = || Fingerprint::of(&evidence.parts[part].mesh);
+    mark.is_none_or(|mark| mark.triangles_sha256 == found().triangles_sha256)
+}
+
+fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
+    let (mesh, density) = (&evidence.parts[part].mesh, evidence.promise.material.density_g_cm3);
+    let mut row = json!({
+        "id": facts.id,
+        "triangles": facts.surface.triangles,
+        "volume_mm3": facts.surface.volume_mm3,
+        "mass_g": facts.surface.volume_mm3 * density / MM3_PER_CM3,
+        "size_mm": facts.size_mm,
+    });
+    if evidence.promise.parts[part].fingerprint.is_some() {
+        row["fingerprint"] = json!(Fingerprint::of(mesh));
+    }
+    row
+}
+
+/// The pins of every joint, and what its glue weighs.
+fn joint_rows(promise: &Promise) -> Vec<Value> {
+    let row = |joint: &super::PromisedJoint| {
+        let pegs = promise.parts.iter().flat_map(|part| part.pins.iter().chain(&part.sockets));
+        let mut ids: Vec<&String> = pegs.filter(|peg| peg.joint == joint.id).map(|peg| &peg.id).collect();
+        ids.sort();
+        ids.dedup();
+        let mut row = json!({ "id": joint.id, "pins": ids.len() });
+        if let Some(film) = joint.glue {
+            let volume_mm3 = film.face.area_mm2 * film.thickness_mm;
+            row["glue"] = json!({ "mass_g": volume_mm3 * film.density_g_cm3 / MM3_PER_CM3 });
+        }
+        row
+    };
+    promise.joints.iter().map(row).collect()
+}
+
+impl Comparison {
+    /// Holds every key of `found` against what is stated there; keys that were not computed again are passed over.
+    fn object(&mut self, at: &str, stated: &Value, found: &Value) {
+        let Some(found) = found.as_object() else { return };
+        for (key, found) in found {
+            let at = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
+            self.value(&at, stated.get(key).unwrap_or(&Value::Null), found);
+        }
+    }
+
+    fn value(&mut self, at: &str, stated: &Value, found: &Value) {
+        match found {
+            Value::Object(_) => self.object(at, stated, found),
+            Value::Array(rows) if rows.iter().any(Value::is_object) || rows.is_empty() => {
+                self.rows(at, stated, rows);
+            }
+            _ if is_near(stated, found, self.ratio * largest(found)) => {}
+            _ => self.found.push(format!("{at} states {stated}, the files have {found}")),
+        }
+    }
+
+    /// Rows of a table, told by their ids or names.
+    fn rows(&mut self, at: &str, stated: &Value, found: &[Value]) {
+        let stated = stated.as_array().map_or(&[][..], Vec::as_slice);
+        if stated.len() != found.len() {
+            self.found.push(format!("{at} has {} rows, the files have {}", stated.len(), found.len()));
+        }
+        for (stated, found) in stated.iter().zip(found) {
+            let name = [&stated["id"], &stated["name"]].into_iter().find_map(Value::as_str);
+            self.object(&format!("{at}[{}]", name.unwrap_or("?")), stated, found);
+        }
+    }
+}
+
+/// Whether two values are equal, numbers within `slack` or [`NOTHING`].
+fn is_near(stated: &Value, found: &Value, slack: f64) -> bool {
+    match (stated, found) {
+        (Value::Array(a), Value::Array(b)) => {
+            a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b, slack))
+        }
+        _ => match (stated.as_f64(), found.as_f64()) {
+            (Some(a), Some(b)) => (a - b).abs() <= slack.max(NOTHING),
+            _ => stated == found,
+        },
+    }
+}
+
+/// The largest magnitude in a value: a vector's or tensor's small numbers are as exact as its large ones.
+pub(super) fn largest(value: &Value) -> f64 {
+    match value {
+        Value::Array(values) => values.iter().map(largest).fold(0.0, f64::max),
+        _ => value.as_f64().map_or(0.0, f64::abs),
+    }
+}
