@@ -9,7 +9,7 @@ use super::ground::{COARSE_SAMPLES, Ground, Trial};
 use super::orientation::{along, points_down, special_axes};
 use super::reached::Reached;
 use crate::geom::Vector;
-use crate::goal::{GoalKind, Request, Up};
+use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::hollow::Status;
 
 /// A principal axis this near to a coordinate axis is that axis: cos 1°.
@@ -22,6 +22,9 @@ pub struct Prospect {
     pub kind: GoalKind,
     /// Which way up.
     pub up: Up,
+    /// Tops: where it touches the ground; none for the others.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub contact: Option<Contact>,
     /// Whether some hollowing with this wall does it, and the full solid too.
     pub possible: bool,
     /// What is reached at best, to a few per cent; none where it is impossible.
@@ -30,7 +33,8 @@ pub struct Prospect {
     pub reason: String,
 }
 
-/// Which goals a model could meet with its wall: tops on their lowest point, yo-yos about their centre of mass, and
+/// Which goals a model could meet with its wall: tops on their lowest point, else with the contact below
+/// the centre of mass, yo-yos about their centre of mass, and
 /// standing objects, along the coordinate axes and the solid's principal axes; those that cannot be placed are left out.
 ///
 /// The request of the case is not read. Costs about thirty trials.
@@ -59,11 +63,26 @@ fn worded(axis: &Vector) -> Up {
 }
 
 fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
-    let trial = ground.trial(wish, ground.case.wall_mm)?;
+    let top = wish.kind == GoalKind::Top;
+    let tried = |contact| ground.trial(&Request { contact, ..*wish }, ground.case.wall_mm);
+    let lowest = tried(top.then_some(Contact::Lowest));
+    let is_possible = |trial: &Option<Trial>| trial.as_ref().is_some_and(Trial::is_possible);
+    let below = if top && !is_possible(&lowest) { tried(Some(Contact::Center)) } else { None };
+    let helps = is_possible(&below);
+    let contact = top.then_some(if helps { Contact::Center } else { Contact::Lowest });
+    let trial = if helps { below } else { lowest }?;
     let possible = trial.is_possible();
     let reached = Reached::of(&trial);
-    let reason = if possible { String::new() } else { brief(&trial) };
-    Some(Prospect { kind: wish.kind, up: wish.up, possible, reached: possible.then_some(reached), reason })
+    let places = if top { ", neither on its lowest point nor below its centre of mass" } else { "" };
+    let reason = if possible { String::new() } else { brief(&trial) + places };
+    Some(Prospect {
+        kind: wish.kind,
+        up: wish.up,
+        contact,
+        possible,
+        reached: possible.then_some(reached),
+        reason,
+    })
 }
 
 /// Why a goal is impossible, in a few words with the number.

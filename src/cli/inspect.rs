@@ -7,14 +7,15 @@ use serde::Serialize;
 use super::Exit;
 use super::args::InspectArgs;
 use super::prepare::Voice;
-use super::show::table;
+use super::show::{say, table};
 use crate::advice::{Case, Prospect, prospects};
 use crate::geom::Vector;
-use crate::goal::{GoalKind, Request};
+use crate::goal::{Contact, GoalKind, Request};
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, one_body, repair, scaled};
 use crate::printer::{Printer, ProfileError, WallError};
+use crate::report::quantity;
 use crate::units::{counted, show_mm};
 
 /// Why `inspect` could not run.
@@ -45,6 +46,8 @@ struct Findings {
     shells: usize,
     genus: Option<i64>,
     size_mm: [f64; 3],
+    /// What to do about a size that nobody prints; none where it is plausible.
+    size_hint: Option<String>,
     area_mm2: f64,
     open_edges: usize,
     crossing_pairs: Option<usize>,
@@ -65,6 +68,11 @@ struct Becoming {
     prospects: Vec<Prospect>,
 }
 
+/// A model whose longest side is shorter is no print but a wrong unit, mm: half of it would be wall.
+const LEAST_SIZE_MM: f64 = 5.0;
+/// A model whose longest side is longer fits no printer, mm.
+const MOST_SIZE_MM: f64 = 2000.0;
+
 /// The density where no material is given, g/cm³; no goal that is listed depends on it.
 const PLAIN_DENSITY_G_CM3: f64 = 1.0;
 /// The wall of a model where neither a wall nor a printer is given, as a part of its longest side.
@@ -80,12 +88,14 @@ struct Mass {
     dominance_ratio_by_axis: [f64; 3],
 }
 
-/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends in [`Exit::NotKept`].
+/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends as `prepare` ends with
+/// it, in [`Exit::CouldNotRun`].
 pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, InspectError> {
-    let (mesh, repairs) = repair(read_model(&args.model)?);
-    let mesh = scaled(&mesh, args.scaling.scaling().factor(mesh.longest_side_mm()));
+    let (file, repairs) = repair(read_model(&args.model)?);
+    let mesh = scaled(&file, args.scaling.scaling().factor(file.longest_side_mm()));
     let facts = MeshFacts::of(&mesh);
-    let solid = Solid::new(mesh);
+    // Defects are told where they are to be found: in the file.
+    let solid = Solid::new(mesh).map_err(|defects| Defects::of(&file).unwrap_or(defects));
     let mut findings = findings(&facts, repairs.to_string(), &solid);
     if let (Ok(solid), None) = (&solid, &findings.not_one_body) {
         findings.could_become = Some(becoming(args, solid)?);
@@ -96,7 +106,10 @@ pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<
         write!(out, "{}", text(&findings))?;
     }
     let is_sound = findings.defects.is_none() && findings.not_one_body.is_none();
-    Ok(if is_sound { Exit::Kept } else { Exit::NotKept })
+    if !is_sound && voice.manner.quiet && !voice.json {
+        say(text(&findings).trim_end());
+    }
+    Ok(if is_sound { Exit::Kept } else { Exit::CouldNotRun })
 }
 
 fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) -> Findings {
@@ -106,6 +119,7 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         shells: facts.shells,
         genus: facts.genus,
         size_mm: facts.size_mm.into(),
+        size_hint: size_hint(facts.size_mm.max()),
         area_mm2: facts.area_mm2,
         open_edges: facts.open_edges,
         crossing_pairs: facts.crossings.as_ref().map(|crossings| crossings.pairs),
@@ -117,6 +131,18 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
         could_become: None,
     }
+}
+
+/// What to do about a longest side, mm, that nobody prints.
+fn size_hint(longest_mm: f64) -> Option<String> {
+    let is_plausible = (LEAST_SIZE_MM..=MOST_SIZE_MM).contains(&longest_mm);
+    (!is_plausible).then(|| {
+        format!(
+            "its longest side would be {}: the file's numbers are hardly mm; say what they are (--unit cm, m or in), or how large it \
+             is to be (--size 100mm)",
+            plain(longest_mm, "mm")
+        )
+    })
 }
 
 /// What the solid could become with the wall that was asked for, or the printer's least.
@@ -162,16 +188,17 @@ fn dominance(body: &Body, axis: usize) -> f64 {
 }
 
 fn text(findings: &Findings) -> String {
-    let [x, y, z] = findings.size_mm;
+    let [x, y, z] = findings.size_mm.map(|mm| plain(mm, ""));
     let mut text = format!(
-        "{} triangles, {} vertices, {}{}\nsize {x:.3} × {y:.3} × {z:.3} mm, surface {:.1} mm²\nrepaired: {}\n",
+        "{} triangles, {} vertices, {}{}\nsize {x} × {y} × {z} mm, surface {}\nrepaired: {}\n",
         findings.triangles,
         findings.vertices,
         counted(findings.shells, "shell"),
         findings.genus.map_or(String::new(), |genus| format!(", genus {genus}")),
-        findings.area_mm2,
+        plain(findings.area_mm2, "mm²"),
         findings.repairs,
     );
+    text += &findings.size_hint.as_ref().map_or(String::new(), |hint| format!("warning: {hint}\n"));
     for (count, what) in [
         (
             findings.crossing_pairs.unwrap_or(0),
@@ -195,23 +222,34 @@ fn text(findings: &Findings) -> String {
     text + &findings.could_become.as_ref().map_or(String::new(), becoming_text)
 }
 
+/// A quantity with blanks that a terminal can search for.
+fn plain(value: f64, unit: &str) -> String {
+    quantity(value, unit).replace('\u{a0}', " ")
+}
+
 /// A line for each goal and axis.
 fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
         let reached = prospect.reached.map(|reached| format!("it {reached}"));
         let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
-        [prospect.kind.to_string(), format!("--up={}", prospect.up), verdict]
+        [prospect.kind.to_string(), format!("--up={}{}", prospect.up, contact(prospect)), verdict]
     };
     let rows: Vec<[String; 3]> = becoming.prospects.iter().map(line).collect();
     format!("hollowed with a wall of {}, as\n{}", show_mm(becoming.wall_mm), table(&rows))
+}
+
+/// The contact of a top that differs from what `prepare` takes.
+fn contact(prospect: &Prospect) -> String {
+    let other = prospect.contact.filter(|contact| *contact != Contact::Lowest);
+    other.map_or(String::new(), |contact| format!(" --contact={contact}"))
 }
 
 fn mass_text(mass: &Mass) -> String {
     let [cx, cy, cz] = mass.center_mm;
     let [ax, ay, az] = mass.dominant_axis;
     let mut text = format!(
-        "a solid of {:.1} mm³, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which --up principal takes\n",
-        mass.volume_mm3
+        "a solid of {}, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which --up principal takes\n",
+        plain(mass.volume_mm3, "mm³")
     );
     for (axis, ratio) in ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis) {
         let word = if ratio < 1.0 {

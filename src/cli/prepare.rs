@@ -5,11 +5,11 @@ use std::io::Write;
 use super::Exit;
 use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
-use super::show::Manner;
-use super::summary::{details, ten_lines};
+use super::show::{Manner, say};
+use super::summary::{broken, details, ten_lines};
 use crate::advice::Remedy;
 use crate::error::Error;
-use crate::pipeline::{Impossible, Outcome, Prepared, run};
+use crate::pipeline::{Failure, Impossible, Outcome, Prepared, run};
 use crate::progress::Progress;
 use crate::report::Existing;
 
@@ -72,12 +72,19 @@ fn tell_prepared(
         return Ok(writeln!(out, "{}", serde_json::to_string_pretty(checklist)?)?);
     }
     if voice.manner.quiet {
+        if let Some(failure) = &prepared.failure {
+            let broken = broken(&checklist.checks, voice.manner);
+            say(&format!("{broken}{}", failure_text(failure)).trim_end().replace('\u{a0}', " "));
+        }
         return Ok(());
     }
     if let Some(choice) = &checklist.goal.choice {
         writeln!(out, "{choice}")?;
     }
     write!(out, "{}", ten_lines(checklist, &request.out, voice.manner))?;
+    if let Some(failure) = &prepared.failure {
+        write!(out, "{}", failure_text(failure).replace('\u{a0}', " "))?;
+    }
     for warning in &checklist.warnings {
         writeln!(out, "warning: {warning}")?;
     }
@@ -91,27 +98,40 @@ fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -
     if voice.json {
         return Ok(writeln!(out, "{}", serde_json::to_string_pretty(impossible)?)?);
     }
-    writeln!(out, "{}", impossible.reason)?;
-    if !voice.manner.quiet {
-        write!(out, "{}", advice(impossible))?;
+    if voice.manner.quiet {
+        // Quiet is silent about what went well only.
+        say(format!("{}\n{}", impossible.reason, advice(impossible)).trim_end());
+        return Ok(());
     }
+    writeln!(out, "{}", impossible.reason)?;
+    write!(out, "{}", advice(impossible))?;
     if voice.manner.verbose > 0 {
         writeln!(out, "  proof: the quadric {:?} (goal frame, mm)", impossible.proof_quadric)?;
     }
     Ok(())
 }
 
-/// What was chosen and warned of, what helps, with what to type, and what does not.
+/// What was chosen and warned of, and what helps.
 fn advice(impossible: &Impossible) -> String {
     let choice = impossible.choice.iter().map(|choice| format!("{choice}\n"));
     let warnings = impossible.warnings.iter().map(|warning| format!("warning: {warning}\n"));
-    let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
-        impossible.remedies.iter().partition(|remedy| remedy.helps());
+    let remedies = remedies_text(&impossible.remedies, &impossible.hints);
+    choice.chain(warnings).chain([remedies]).collect()
+}
+
+/// Why a kit fails, and what helps.
+fn failure_text(failure: &Failure) -> String {
+    format!("{}\n{}", failure.reason, remedies_text(&failure.remedies, &failure.hints))
+}
+
+/// What helps, with what to type, what may help, and what does not.
+fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
+    let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) = remedies.iter().partition(|remedy| remedy.helps());
     let typed = |remedy: &Remedy| {
         if remedy.flags.is_empty() { String::new() } else { format!("{}: ", remedy.flags) }
     };
     let helpful = helpful.into_iter().map(|remedy| format!("  remedy: {}{}\n", typed(remedy), remedy.words));
-    let hints = impossible.hints.iter().map(|hint| format!("  perhaps: {hint}\n"));
+    let hints = hints.iter().map(|hint| format!("  perhaps: {hint}\n"));
     let useless = useless.into_iter().map(|remedy| format!("  no remedy: {}\n", remedy.words));
-    choice.chain(warnings).chain(helpful).chain(hints).chain(useless).collect()
+    helpful.chain(hints).chain(useless).collect()
 }

@@ -39,7 +39,7 @@ impl Manner {
 }
 
 /// Writes a line to the standard error; a closed one is not a reason to stop.
-fn say(line: &str) {
+pub(super) fn say(line: &str) {
     let _ = writeln!(std::io::stderr().lock(), "{line}");
 }
 
@@ -70,7 +70,9 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
         }
         let label = if said.is_empty() { paint("error", RED, is_coloured) } else { "  caused by".to_owned() };
         let is_list = message.contains('\n');
-        for line in message.lines() {
+        // The head of a list says again what it is the cause of.
+        let is_head = |line: &&str| is_list && !said.is_empty() && line.ends_with(':');
+        for line in message.lines().filter(|line| !is_head(line)).map(str::trim_start) {
             let split = if is_list { None } else { line.split_once(REMEDY_MARK) };
             let (statement, remedy) =
                 split.map_or((line, None), |(statement, remedy)| (statement, Some(remedy)));

@@ -9,6 +9,10 @@ use crate::verify::Check;
 
 /// Shares below this are not told by their number, %: nobody prints so exactly.
 const SHOWN_PERCENT: f64 = 0.01;
+/// Shares above this say nothing of how far it is: the best value is next to zero, %.
+const FAR_PERCENT: f64 = 100.0;
+/// Lengths in mm and angles in degrees below this are told as less than it: nobody prints or balances so exactly.
+const SHOWN_OFF: f64 = 0.001;
 /// The order in which a person reads the solver's numbers.
 const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 
@@ -19,10 +23,11 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         Some(("filled solid", filled_solid(checklist))),
         Some(("at best", proved(checklist))),
         balance(checklist).map(|words| ("balance", words)),
+        Some(("size", size(checklist))),
         Some(("mass", masses(checklist))),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
-        Some(("promises", summary(&checklist.checks, manner))),
+        Some(("verdict", summary(&checklist.checks, manner))),
         checklist.timing_s.as_ref().map(|timing| ("time", times(timing.total_s(), &timing.0))),
         Some(("job sheet", out.join("checklist.html").display().to_string())),
     ];
@@ -49,6 +54,10 @@ fn proved(checklist: &Checklist) -> String {
     let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
     let written = match proof.written_value.map(away) {
         Some(percent) if percent < SHOWN_PERCENT => format!("; this kit is less than {SHOWN_PERCENT} % away"),
+        Some(percent) if percent > FAR_PERCENT => {
+            let written = proof.written_value.unwrap_or_default();
+            format!("; this kit reaches {}", figure(written, proof.figure.unit()))
+        }
         Some(percent) => format!("; this kit is {percent:.2} % away"),
         None => String::new(),
     };
@@ -60,8 +69,19 @@ fn balance(checklist: &Checklist) -> Option<String> {
     let tilt = checklist
         .assembly
         .axis_tilt_deg
-        .map_or(String::new(), |tilt| format!(", its principal axis {} off", figure(tilt, "°")));
-    Some(format!("centre of mass {} from the axis{tilt}", figure(offset_mm, "mm")))
+        .map_or(String::new(), |tilt| format!(", its principal axis {} off", small(tilt, "°")));
+    Some(format!("centre of mass {} from the axis{tilt}", small(offset_mm, "mm")))
+}
+
+/// What should be zero, no more exactly than it can be made.
+fn small(value: f64, unit: &str) -> String {
+    if value < SHOWN_OFF { format!("less than {}", figure(SHOWN_OFF, unit)) } else { figure(value, unit) }
+}
+
+/// The size of the finished object along the model's axes.
+fn size(checklist: &Checklist) -> String {
+    let size = checklist.model.size_mm.map(|mm| figure(mm, "")).join(" × ");
+    format!("{size} mm, from {}", checklist.model.file)
 }
 
 fn masses(checklist: &Checklist) -> String {
@@ -86,7 +106,9 @@ fn parts(checklist: &Checklist) -> String {
         counted(pins, "pin"),
         counted(checklist.voids.len(), "void"),
     ];
-    format!("{} for {}", counts.join(", "), checklist.printer.name)
+    let plates = checklist.files.keys().filter(|file| file.starts_with("plate")).count();
+    let plates = if plates > 0 { format!(" on {}", counted(plates, "plate")) } else { String::new() };
+    format!("{}{plates} for {}", counts.join(", "), checklist.printer.name)
 }
 
 /// The time of a run, and of the two stages that took most of it.
@@ -107,7 +129,7 @@ pub fn summary(checks: &[Check], manner: Manner) -> String {
 }
 
 /// What is wrong, a line each; nothing where all is well.
-fn broken(checks: &[Check], manner: Manner) -> String {
+pub fn broken(checks: &[Check], manner: Manner) -> String {
     let failed: Vec<Check> = checks.iter().filter(|check| !check.pass).cloned().collect();
     if failed.is_empty() { String::new() } else { checks_table(&failed, manner) }
 }
@@ -135,7 +157,7 @@ fn quantity(value: f64, unit: &str) -> String {
     let number = match value.abs() {
         magnitude if magnitude == 0.0 || (value.fract() == 0.0 && magnitude < 1e6) => format!("{value}"),
         magnitude if magnitude >= 100.0 => format!("{value:.1}"),
-        magnitude if magnitude >= 0.01 => format!("{value:.4}"),
+        magnitude if magnitude >= 0.01 => figure(value, ""),
         _ => format!("{value:.2e}"),
     };
     match unit {

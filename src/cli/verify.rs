@@ -5,8 +5,9 @@ use std::path::Path;
 
 use super::Exit;
 use super::prepare::Voice;
+use super::show::{GREEN, Manner, RED, paint, say};
 use super::summary::{checks_table, summary};
-use crate::verify::{VerifyError, verify_kit};
+use crate::verify::{Check, FILES_CHECK, FileChange, VerifyError, files_check, verify_kit};
 
 /// Why `verify` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -24,12 +25,53 @@ pub enum VerifyCommandError {
 
 /// Judges the kit in `folder` from its files; says on `out` what was found.
 pub fn verify(folder: &Path, voice: Voice, out: &mut dyn Write) -> Result<Exit, VerifyCommandError> {
-    let judgement = verify_kit(folder)?;
+    let judged = verify_kit(folder).map(|judgement| (judgement.checks, judgement.changes));
+    let (checks, changes) = judged.or_else(|error| match error.changes() {
+        changes if changes.is_empty() => Err(error),
+        changes => Ok((vec![files_check(&changes)], changes)),
+    })?;
+    let is_kept = checks.iter().all(|check| check.pass);
     if voice.json {
-        writeln!(out, "{}", serde_json::to_string_pretty(&judgement.checks)?)?;
+        writeln!(out, "{}", serde_json::to_string_pretty(&checks)?)?;
     } else if !voice.manner.quiet {
-        write!(out, "{}", checks_table(&judgement.checks, voice.manner))?;
-        writeln!(out, "{}", summary(&judgement.checks, voice.manner))?;
+        write!(out, "{}", text(&checks, &changes, voice.manner))?;
+    } else if !is_kept {
+        say(text(&checks, &changes, voice.manner).trim_end());
     }
-    Ok(if judgement.passes() { Exit::Kept } else { Exit::NotKept })
+    Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
+}
+
+/// What became of the files first, then what is broken besides, then all that was judged, and the sum.
+///
+/// Where a file has another shape, what fails with it is named only: it follows from that. With `-v` it is told in full.
+fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
+    let causes = changes.iter().map(|change| {
+        let label = paint("FAIL", RED, manner.is_output_coloured);
+        format!(
+            "{label} {change}\n  {}: {}\n",
+            paint("remedy", GREEN, manner.is_output_coloured),
+            change.remedy()
+        )
+    });
+    let mut text: String = causes.collect();
+    let told = |check: &&Check| !check.pass && !(check.name == FILES_CHECK && !changes.is_empty());
+    let broken: Vec<Check> = checks.iter().filter(told).cloned().collect();
+    let follows = changes.iter().any(FileChange::is_of_shape) && manner.verbose == 0;
+    if follows && !broken.is_empty() {
+        let names: Vec<&str> = broken.iter().map(|check| check.name.as_str()).collect();
+        text += &format!(
+            "  with it {} broken: {} (-v tells each)\n",
+            if names.len() == 1 {
+                "one promise is".to_owned()
+            } else {
+                format!("{} promises are", names.len())
+            },
+            names.join(", ")
+        );
+    } else if manner.verbose > 0 || changes.is_empty() {
+        text += &checks_table(checks, manner);
+    } else if !broken.is_empty() {
+        text += &checks_table(&broken, manner);
+    }
+    text + &summary(checks, manner) + "\n"
 }

@@ -10,6 +10,7 @@ mod float;
 mod hardware;
 mod place;
 mod request;
+mod resting;
 mod sites;
 mod stand;
 mod support;
@@ -29,6 +30,7 @@ pub use float::{Afloat, Hydrostatics, Liquid, Water, Waterline};
 pub use hardware::{Hardware, HardwareError, Rod, STEEL_G_CM3};
 pub use place::{GoalError, Stock, Weighed, place, place_made_of, place_weighed};
 pub use request::{GoalKind, Objective, Request, RequestError};
+pub use resting::{Resting, resting};
 pub use sites::{Contact, SpinPoint, Up};
 pub(crate) use support::edges as support_edges;
 pub(crate) use top::height_over_origin;
@@ -69,11 +71,26 @@ pub struct Placement {
 pub enum Warning {
     /// The contact point hangs below the surface.
     #[error(
-        "the contact point is in the air: the model begins {missing_mm:.3} mm above it; a tip of that height is needed"
+        "the contact point is in the air: the model begins {missing_mm:.3} mm above it, so that as printed it cannot spin there; put in a \
+         tip piece (--tip=DIAMETERxLENGTH), or give another --contact"
     )]
     ContactInAir {
         /// From the contact up along the axis to the surface, mm.
         missing_mm: f64,
+    },
+    /// A top that stands still on what should be its tip: its centre of mass is lower than the contact's radius of curvature.
+    #[error(
+        "it stands still on its foot without spinning, and rights itself when tilted up to {rights_to_deg:.0}°: its contact moves as \
+         that of a ball of {radius_mm:.0} mm radius, and its centre of mass is only {center_height_mm:.1} mm up; it spins upright as \
+         promised, but rubs, and does not fall when it is slow; for a top that falls put in a tip piece (--tip=DIAMETERxLENGTH)"
+    )]
+    FlatFoot {
+        /// The radius of curvature of the contact over a tilt of a degree, mm.
+        radius_mm: f64,
+        /// The height of the centre of mass, mm.
+        center_height_mm: f64,
+        /// It rights itself up to this tilt, degrees.
+        rights_to_deg: f64,
     },
     /// The spin axis does not pass through the model above the contact.
     #[error(

@@ -21,8 +21,8 @@ const HELD_RATIO: f64 = 0.5;
 pub enum SeatError {
     /// It comes out of the model, or its wall is too thin there.
     #[error(
-        "the {what}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; remedy: a shorter or thinner {what}, \
-         or another place for it"
+        "the {what}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; remedy: {}",
+        deepest(what, *most_mm)
     )]
     BreaksOut {
         /// What it is for.
@@ -31,6 +31,8 @@ pub enum SeatError {
         depth_mm: f64,
         /// The wall it was to have, mm.
         wall_mm: f64,
+        /// How deep it may be there, mm; none where no depth does.
+        most_mm: Option<f64>,
     },
     /// Too little of its depth has a wall around it.
     #[error(
@@ -47,6 +49,17 @@ pub enum SeatError {
         /// The wall it was to have, mm.
         wall_mm: f64,
     },
+}
+
+/// Depths that are tried where a socket breaks out, as parts of what was asked for. Fewer tell too little of what there is.
+const DEPTHS: usize = 20;
+
+/// What to do about a socket that breaks out.
+fn deepest(what: &str, most_mm: Option<f64>) -> String {
+    match most_mm.map(|mm| (mm * 10.0).floor() / 10.0) {
+        Some(mm) if mm > 0.0 => format!("{mm:.1} mm deep it has one (--{what}=DIAMETERxLENGTHx{mm:.1})"),
+        _ => format!("it has one at no depth there: a thinner {what}, or another place for it"),
+    }
 }
 
 /// A socket about the z axis of a frame, from its mouth to its bottom.
@@ -67,15 +80,31 @@ impl Bore {
         (self.bottom_mm - self.mouth_mm).abs()
     }
 
-    /// Whether the model has a wall around the bore and behind its bottom.
+    /// Whether the model has a wall around the bore and behind its bottom; where that breaks out, how deep it may be.
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
+        self.seated(model, frame).map_err(|error| match error {
+            SeatError::BreaksOut { what, depth_mm, wall_mm, .. } => {
+                let shorter = |i: &usize| Self { bottom_mm: self.at_depth(self.share(*i)), ..*self };
+                let fits = (1..DEPTHS).rev().find(|i| shorter(i).seated(model, frame).is_ok());
+                SeatError::BreaksOut { what, depth_mm, wall_mm, most_mm: fits.map(|i| self.share(i)) }
+            }
+            held => held,
+        })
+    }
+
+    /// So many twentieths of its depth, mm.
+    fn share(&self, i: usize) -> f64 {
+        self.depth_mm() * i as f64 / DEPTHS as f64
+    }
+
+    fn seated(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
         let heights = (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
         let around: Vec<bool> = heights.map(|z| self.walled(model, frame, z) == DIRECTIONS).collect();
         let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
         let Self { what, wall_mm, .. } = *self;
         let depth_mm = self.depth_mm();
         if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
-            return Err(SeatError::BreaksOut { what, depth_mm, wall_mm });
+            return Err(SeatError::BreaksOut { what, depth_mm, wall_mm, most_mm: None });
         }
         let held = around.iter().filter(|&&is_walled| is_walled).count();
         let held_mm = depth_mm * held as f64 / LOOKS as f64;

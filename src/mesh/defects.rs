@@ -76,7 +76,7 @@ pub struct Defect {
     pub kind: DefectKind,
     /// How often it occurs.
     pub count: usize,
-    /// The first places, at most three, mm.
+    /// The first places, at most three, in the mesh's own coordinates.
     pub places: Vec<Point>,
 }
 
@@ -88,9 +88,10 @@ impl fmt::Display for Defect {
         }
         for (i, p) in self.places.iter().enumerate() {
             let lead = if i == 0 { ", first at" } else { " and" };
-            write!(f, "{lead} ({}, {}, {}) mm", shown(p.x), shown(p.y), shown(p.z))?;
+            write!(f, "{lead} ({}, {}, {})", shown(p.x), shown(p.y), shown(p.z))?;
         }
-        write!(f, "; {}", self.kind.remedy())
+        let frame = if self.places.is_empty() { "" } else { " in the file's own coordinates" };
+        write!(f, "{frame}; {}", self.kind.remedy())
     }
 }
 

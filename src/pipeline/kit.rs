@@ -75,7 +75,7 @@ pub fn prepared(
     file_papers(&mut kit, &checklist, (&pictures, &view))?;
     watch.lap(phase::REPORT);
     checklist.timing_s = Some(watch.timing());
-    Ok(Prepared { kit, checklist })
+    Ok(Prepared { kit, checklist, failure: None })
 }
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run, and the list of all hashes.

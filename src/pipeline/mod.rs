@@ -17,6 +17,7 @@ mod printer_rows;
 mod rows;
 mod setup;
 mod solving;
+mod standing;
 mod stopwatch;
 mod tuner;
 mod tuning;
@@ -27,7 +28,7 @@ mod written;
 pub use assembly::Assembly;
 pub use bosses::{BossRound, KeptBoss};
 pub use cleaning::CleaningRound;
-pub use outcome::{Impossible, Outcome, Prepared};
+pub use outcome::{Failure, Impossible, Outcome, Prepared};
 pub use setup::{Model, Setup};
 pub use solving::Solved;
 pub use written::WrittenPart;
@@ -74,5 +75,6 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     };
     let assembly = Assembly::corrected(&setup, solved, progress, &mut watch)?;
     let assembly = packages::in_format(assembly, &setup)?;
-    Ok(Outcome::Prepared(Box::new(kit::prepared(&setup, &assembly, progress, watch)?)))
+    let prepared = kit::prepared(&setup, &assembly, progress, watch)?;
+    Ok(Outcome::Prepared(Box::new(advising::after(&setup, prepared, progress))))
 }

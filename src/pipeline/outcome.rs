@@ -21,6 +21,19 @@ pub struct Prepared {
     pub kit: Kit,
     /// The job sheet, with timings.
     pub checklist: Checklist,
+    /// Why it fails, and what helps; none where every promise is kept.
+    pub failure: Option<Failure>,
+}
+
+/// Why a kit fails though a hollowing that meets its goal exists, or another promise is broken.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Failure {
+    /// The reason in a sentence, with its numbers.
+    pub reason: String,
+    /// What helps, each confirmed by a solve.
+    pub remedies: Vec<Remedy>,
+    /// What might help besides.
+    pub hints: Vec<String>,
 }
 
 impl Prepared {

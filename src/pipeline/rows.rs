@@ -7,7 +7,7 @@ use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows
 use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
-use super::{Assembly, Setup, void_rows, written::WrittenPart};
+use super::{Assembly, Setup, standing, void_rows, written::WrittenPart};
 use crate::ballast::Placed;
 use crate::cut::{CutPlan, PinSite};
 use crate::geom::Vector;
@@ -296,7 +296,8 @@ fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
 
 fn warnings(sheet: &Sheet) -> Vec<String> {
     let setup = sheet.setup;
-    let placement = setup.placement.warnings.iter().map(ToString::to_string);
+    let foot = standing::flat_foot(sheet);
+    let placement = setup.placement.warnings.iter().chain(&foot).map(ToString::to_string);
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;

@@ -11,7 +11,7 @@ use crate::hollow::Fill;
 use crate::io;
 use crate::job::Job;
 use crate::mass::Moments;
-use crate::mesh::{Repairs, Solid, one_body, repair, scaled};
+use crate::mesh::{Defects, Repairs, Solid, one_body, repair, scaled};
 use crate::printer::{Material, Printer, WallChoice, leaves_room};
 use crate::progress::Progress;
 
@@ -133,8 +133,11 @@ fn load(job: &Job, printer: &Printer) -> Result<(Job, Model), Error> {
     let (mesh, repairs) = repair(mesh);
     let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
     printer.allows_length(scale_ratio * mesh.longest_side_mm())?;
-    let solid = Solid::new(scaled(&mesh, scale_ratio))
-        .map_err(|source| Error::NotSolid { path: job.model.path.clone(), source: Box::new(source) })?;
+    // Defects are told where they are to be found: in the file.
+    let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| {
+        let source = Box::new(Defects::of(&mesh).unwrap_or(defects));
+        Error::NotSolid { path: job.model.path.clone(), source }
+    })?;
     one_body(&solid)
         .map_err(|source| Error::NotOneBody { path: job.model.path.clone(), source: Box::new(source) })?;
     Ok((job, Model { solid, repairs, sha256: sha256_hex(&[&bytes]), scale_ratio }))

@@ -6,7 +6,9 @@ use std::path::Path;
 
 use super::{
     Check, Evidence, Fingerprint, Limit, PartEvidence, Promise, PromisedPart, VerifyError,
-    fingerprint::Likeness, kit::read_file, pegs::Felt,
+    fingerprint::Likeness,
+    kit::{HOLLOWED_FILE, read_file},
+    pegs::Felt,
 };
 use crate::digest::sha256_hex;
 
@@ -26,6 +28,8 @@ pub enum Change {
     Missing,
     /// It has other bytes, and no more is known of it.
     Altered,
+    /// It holds no mesh; why.
+    Unreadable(String),
     /// It was made for another checklist.
     OfAnother,
     /// Other bytes, the same triangles: another program saved it again.
@@ -51,6 +55,7 @@ impl fmt::Display for FileChange {
         let words = match &self.change {
             Change::Missing => "is missing".to_owned(),
             Change::Altered => "was changed: it has other bytes".to_owned(),
+            Change::Unreadable(why) => format!("holds no mesh: {why}"),
             Change::OfAnother => "speaks of another checklist.json".to_owned(),
             Change::Resaved => "was saved again: other bytes, the same triangles".to_owned(),
             Change::Touched => {
@@ -65,6 +70,36 @@ impl fmt::Display for FileChange {
             Change::Reshaped(pins) => format!("has another shape: it lacks the pins {}", pins.join(", ")),
         };
         write!(f, "{} {words}", self.file)
+    }
+}
+
+impl FileChange {
+    /// What to do about it.
+    pub fn remedy(&self) -> &'static str {
+        match self.change {
+            Change::Missing => {
+                "copy it again from where the kit was made, or make the kit again from its job.toml"
+            }
+            Change::Unreadable(_) => "copy it again: it was cut short or is another file",
+            Change::Altered | Change::OfAnother => {
+                "take the file as it was made; where it was meant to change, make the kit again from its job.toml"
+            }
+            Change::Resaved => "nothing of its shape was lost; print the original file to be sure",
+            Change::Exchanged(_) => "give the file its own name back, or copy it again",
+            Change::Scaled(_) => "print the original file again, at 100 %",
+            Change::Touched | Change::Moved(_) | Change::Turned | Change::Mirrored | Change::Reshaped(_) => {
+                "print the original file again; a part is turned and moved on the plate, not in its file"
+            }
+        }
+    }
+
+    /// Whether the shape that is judged is another for it, so that other promises fail by it.
+    pub fn is_of_shape(&self) -> bool {
+        match self.change {
+            Change::Altered => self.file == HOLLOWED_FILE,
+            Change::Missing | Change::OfAnother | Change::Resaved => false,
+            _ => true,
+        }
     }
 }
 
@@ -130,10 +165,13 @@ fn missing_pins(part: &PromisedPart, read: &PartEvidence) -> Vec<String> {
     part.pins.iter().filter(is_gone).map(|pin| pin.id.clone()).collect()
 }
 
+/// The name of the check that nothing was changed.
+pub const FILES_CHECK: &str = "changed files";
+
 /// The check that nothing was changed, with what became of each file that was.
 pub fn files_check(changes: &[FileChange]) -> Check {
     let words: Vec<String> = changes.iter().map(FileChange::to_string).collect();
     let promise = "every file is the one the checklist was made for";
-    Check::new("changed files", promise, Some(changes.len() as f64), Limit::at_most(0.0, ""))
+    Check::new(FILES_CHECK, promise, Some(changes.len() as f64), Limit::at_most(0.0, ""))
         .at((!words.is_empty()).then(|| words.join("; ")))
 }

@@ -5,7 +5,7 @@ use std::path::{Component, Path, PathBuf};
 use serde_json::Value;
 
 use super::{
-    Evidence, Judgement, PartEvidence, Promise, SCHEMA,
+    Change, Evidence, FileChange, Judgement, PartEvidence, Promise, SCHEMA,
     changes::{file_changes, files_check},
     judge,
     packages::packages_check,
@@ -79,6 +79,24 @@ pub enum VerifyError {
         /// What is wrong with it.
         source: ReadError,
     },
+}
+
+impl VerifyError {
+    /// What became of files without which a kit cannot be measured: its promises are broken all the same. Nothing where
+    /// there is no kit to be judged.
+    pub fn changes(&self) -> Vec<FileChange> {
+        match self {
+            Self::Missing { files, .. } => {
+                files.iter().map(|file| FileChange { file: file.clone(), change: Change::Missing }).collect()
+            }
+            Self::Mesh { path, source } => {
+                let causes = std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
+                let why = causes.last().map(ToString::to_string).unwrap_or_default();
+                vec![FileChange { file: path.display().to_string(), change: Change::Unreadable(why) }]
+            }
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// Reads every file of the kit in `folder` and judges it, without the solver: the checklist supplies the goal and the

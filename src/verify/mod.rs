@@ -37,7 +37,7 @@ mod water;
 
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
-pub use changes::{Change, FileChange};
+pub use changes::{Change, FILES_CHECK, FileChange, files_check};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,

@@ -110,7 +110,7 @@ pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement)
 }
 
 /// Whether a part has the triangles that its mark says; parts of kits without marks are taken as they are.
-fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
+pub(super) fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
     let mark = evidence.promise.parts[part].fingerprint.as_ref();
     let found = || Fingerprint::of(&evidence.parts[part].mesh);
     mark.is_none_or(|mark| mark.triangles_sha256 == found().triangles_sha256)

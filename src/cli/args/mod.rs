@@ -18,10 +18,11 @@ use super::args_printers::{CouponArgs, PrintersArgs};
 use crate::{units::Length, words::ChoiceError};
 
 const EXIT_CODES: &str = "\
-LENGTH takes a unit (100mm, 10cm, 0.1m, 4in); without one it is in mm.
-Exit codes: 0 every promise kept; 1 finished, but a check failed or the goal is impossible; 2 could not run.";
+LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.
+Exit codes: 0 every promise kept; 1 finished, but a promise is broken (a file of a kit that is missing or damaged breaks one) or \
+the goal is impossible; 2 could not run: bad arguments, a model that is not one solid body, no kit.";
 
-/// Hollow a 3D model so that its printed, glued parts spin, stand or balance as asked.
+/// Hollow a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
 #[derive(Debug, Parser)]
 #[command(name = "equipoise", version, after_help = EXIT_CODES)]
 pub struct Cli {

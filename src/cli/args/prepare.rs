@@ -23,9 +23,13 @@ use crate::{
     units::Length,
 };
 
+/// What must be given, and what may be.
+const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> [--printer <ID|FILE>] [OPTIONS]
+       equipoise prepare --job <FILE> [MODEL] [OPTIONS]";
+
 /// The arguments of `prepare`.
 #[derive(Debug, Args)]
-#[command(after_help = EXIT_CODES)]
+#[command(after_help = EXIT_CODES, override_usage = USAGE)]
 pub struct PrepareArgs {
     /// The model: an STL, OBJ, PLY or 3MF file that bounds a solid
     #[arg(required_unless_present = "job")]
@@ -177,7 +181,7 @@ pub enum ArgsError {
     Missing(&'static str),
     /// Neither the command line nor the shop names a printer.
     #[error(
-        "--printer is missing; remedy: give it, or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
+        "--printer is missing; remedy: give it (`equipoise printers list` shows the ids), or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
          your configuration folder"
     )]
     NoPrinter,

@@ -1,0 +1,24 @@
+//! What to mind of a top that stands still on its contact: its written figures, and the surface that touches the floor.
+
+use super::rows::Sheet;
+use crate::geom::Point;
+use crate::goal::{GoalKind, Warning, resting};
+
+/// The warning that a top stands on its foot without spinning; none where it falls over, as a top must.
+pub fn flat_foot(sheet: &Sheet) -> Option<Warning> {
+    let (setup, goal) = (sheet.setup, &sheet.setup.placement.goal);
+    if goal.kind != GoalKind::Top {
+        return None;
+    }
+    let mesh = setup.model.solid.mesh();
+    let mut points: Vec<Point> = mesh.vertices().iter().map(|p| goal.frame.to_local(p)).collect();
+    // A tip piece touches with its end, which is the origin.
+    let has_tip = setup.request.hardware.is_some_and(|hardware| hardware.tip.is_some());
+    points.extend(has_tip.then(Point::origin));
+    let center = goal.frame.to_local(&Point::from(sheet.judgement.assembly.center_mm));
+    resting(&points, &center).map(|found| Warning::FlatFoot {
+        radius_mm: found.radius_mm,
+        center_height_mm: found.center_height_mm,
+        rights_to_deg: found.rights_to_deg,
+    })
+}
