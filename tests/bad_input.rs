@@ -62,6 +62,42 @@ const FACES: [[[f32; 3]; 3]; 4] = [
 fn an_open_mesh_is_refused_with_its_holes() {
     let said = refused("open.stl", &stl(&FACES[..3]));
     assert!(said.contains("does not bound a solid") && said.contains("hole"), "{said}");
+    assert_eq!(said.matches("does not bound a solid").count(), 1, "{said}");
+}
+
+#[test]
+fn inspect_ends_as_prepare_does_and_tells_holes_where_they_are_in_the_file_even_when_quiet() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("open.stl");
+    fs::write(&model, stl(&FACES[..3])).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+        .args(["-q", "inspect", model.to_str().unwrap(), "--size", "80mm"])
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{said}");
+    // The rim goes through corners at 0 and 1 of the file, which are 80 mm apart in the print.
+    assert!(said.contains("1.00") && said.contains("in the file's own coordinates"), "{said}");
+    assert!(!said.contains("(80.00") && !said.contains(", 80.00"), "{said}");
+}
+
+#[test]
+fn a_model_of_a_millimetre_is_told_with_what_to_do_about_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let model = folder.path().join("small.stl");
+    fs::write(&model, stl(&FACES)).unwrap();
+    let inspected = |more: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+            .args(["inspect", model.to_str().unwrap()])
+            .args(more)
+            .output()
+            .unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let said = inspected(&[]);
+    assert!(said.contains("warning: its longest side would be 1 mm") && said.contains("--unit"), "{said}");
+    assert!(said.contains("a solid of 0.1667 mm³"), "{said}");
+    assert!(!inspected(&["--size", "80mm"]).contains("warning: its longest side"));
 }
 
 #[test]

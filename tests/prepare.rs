@@ -118,6 +118,8 @@ fn an_impossible_goal_is_an_answer_with_the_reason_and_remedies_and_writes_nothi
     assert_eq!(output.status.code(), Some(1), "{said}{}", text(&output.stderr));
     assert!(said.contains("Impossible") && said.contains("remedy"), "{said}");
     assert!(!out.exists());
+    let quiet = equipoise(&[&["-q"], &usual[..], &thick[..]].concat());
+    assert_eq!((text(&quiet.stderr), quiet.stdout.len(), quiet.status.code()), (said, 0, Some(1)));
 }
 
 #[test]

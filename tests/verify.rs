@@ -98,6 +98,11 @@ fn a_scaled_part_is_told_with_its_scale() {
     let kit = Kit::new();
     kit.write(0, &mapped(&kit.mesh(0), Matrix::identity() * 1.02));
     kit.must_tell(0, "was scaled to 102.000 % of its size");
+    let (_, said) = kit.verified();
+    // The cause stands first, with its remedy; what follows from it is one line, and no intact file is blamed.
+    let lines: Vec<&str> = said.lines().collect();
+    assert!(lines[0].starts_with("FAIL parts/") && lines[1].starts_with("  remedy: "), "{said}");
+    assert!(said.matches("FAIL").count() == 1 && !said.contains("3MF files"), "{said}");
 }
 
 #[test]
@@ -186,7 +191,7 @@ fn a_moved_part_is_told_with_the_way_it_went() {
 }
 
 #[test]
-fn missing_files_are_told_and_where_one_is_a_part_nothing_can_be_judged() {
+fn a_missing_file_breaks_a_promise_whatever_it_is_and_no_kit_is_another_thing() {
     let kit = Kit::new();
     fs::remove_file(kit.folder.join("assembly.3mf")).unwrap();
     let (code, said) = kit.verified();
@@ -194,9 +199,38 @@ fn missing_files_are_told_and_where_one_is_a_part_nothing_can_be_judged() {
     fs::remove_file(kit.folder.join(kit.file(1))).unwrap();
     let (code, said) = kit.verified();
     assert!(
-        code == Some(2) && said.contains(kit.file(1)) && said.contains("remedy: copy the kit again"),
+        code == Some(1) && said.contains(kit.file(1)) && said.contains("remedy: copy it again"),
         "{said}"
     );
+    fs::write(kit.folder.join(kit.file(1)), "no mesh").unwrap();
+    let (code, said) = kit.verified();
+    assert!(code == Some(1) && said.contains(&format!("{} holds no mesh", kit.file(1))), "{said}");
+    fs::remove_file(kit.folder.join("checklist.json")).unwrap();
+    assert_eq!(kit.verified().0, Some(2));
+}
+
+#[test]
+fn a_changed_number_of_the_checklist_and_a_changed_word_of_the_sheet_are_told() {
+    let kit = Kit::new();
+    let replaced = |file: &str, from: &str, to: &str| {
+        let path = kit.folder.join(file);
+        let whole = fs::read_to_string(&path).unwrap();
+        assert!(whole.contains(from), "{file} has no {from}");
+        fs::write(&path, whole.replacen(from, to, 1)).unwrap();
+        let told = kit.verified();
+        fs::write(&path, whole).unwrap();
+        told
+    };
+    for key in ["mass_g", "volume_mm3"] {
+        let stated = &kit.parts[1][key];
+        let (code, said) =
+            replaced("checklist.json", &format!("\"{key}\": {stated}"), &format!("\"{key}\": 29.5"));
+        let words = format!("parts[P02].{key} states 29.5, the files have {stated}");
+        assert!(code == Some(1) && said.contains(&words), "{words}: {said}");
+    }
+    let (code, said) = replaced("checklist.html", "rpm", "rpn");
+    assert!(code == Some(1) && said.contains("checklist.html was changed"), "{said}");
+    assert_eq!(kit.verified().0, Some(0));
 }
 
 #[test]

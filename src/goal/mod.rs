@@ -80,7 +80,7 @@ pub enum Warning {
     },
     /// A top that stands still on what should be its tip: its centre of mass is lower than the contact's radius of curvature.
     #[error(
-        "it stands still on its foot without spinning, and rights itself when tilted up to {rights_to_deg:.0}°: its contact moves as \
+        "it stands still on its foot without spinning, and rights itself when tilted by {rights_to_deg:.0}°: its contact moves as \
          that of a ball of {radius_mm:.0} mm radius, and its centre of mass is only {center_height_mm:.1} mm up; it spins upright as \
          promised, but rubs, and does not fall when it is slow; for a top that falls put in a tip piece (--tip=DIAMETERxLENGTH)"
     )]

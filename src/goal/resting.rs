@@ -14,7 +14,7 @@ const RAD_PER_DEG: f64 = std::f64::consts::PI / 180.0;
 /// Directions in which it is tilted. With fewer the narrow way over a square foot is missed.
 const DIRECTIONS: usize = 36;
 /// Tilts are tried up to this, rad: what stands up to there stands.
-const MOST_RAD: f64 = 30.0 * RAD_PER_DEG;
+const MOST_RAD: f64 = 45.0 * RAD_PER_DEG;
 
 /// How a body stands on its foot.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -83,8 +83,8 @@ pub enum VerifyError {
 
 impl VerifyError {
     /// What became of files without which a kit cannot be measured: its promises are broken all the same. Nothing where
-    /// there is no kit to be judged.
-    pub fn changes(&self) -> Vec<FileChange> {
+    /// there is no kit to be judged in `folder`.
+    pub fn changes(&self, folder: &Path) -> Vec<FileChange> {
         match self {
             Self::Missing { files, .. } => {
                 files.iter().map(|file| FileChange { file: file.clone(), change: Change::Missing }).collect()
@@ -92,7 +92,8 @@ impl VerifyError {
             Self::Mesh { path, source } => {
                 let causes = std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
                 let why = causes.last().map(ToString::to_string).unwrap_or_default();
-                vec![FileChange { file: path.display().to_string(), change: Change::Unreadable(why) }]
+                let file = path.strip_prefix(folder).unwrap_or(path).display().to_string();
+                vec![FileChange { file, change: Change::Unreadable(why) }]
             }
             _ => Vec::new(),
         }

@@ -26,14 +26,15 @@ pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>
     }
     let listed = listed(&String::from_utf8_lossy(&read_file(&folder.join(SUMS_FILE))?));
     let json = sha256_hex(&[&read_file(&folder.join(CHECKLIST_FILE))?]);
-    if listed.get(CHECKLIST_FILE) != Some(&json) {
+    let is_listed = listed.get(CHECKLIST_FILE) == Some(&json);
+    if !is_listed {
         changes.push(changed(CHECKLIST_FILE, Change::Altered));
     }
     if folder.join(SHEET_FILE).is_file() {
         let page = read_file(&folder.join(SHEET_FILE))?;
         if listed.get(SHEET_FILE) != Some(&sha256_hex(&[&page])) {
             changes.push(changed(SHEET_FILE, Change::Altered));
-        } else if !String::from_utf8_lossy(&page).contains(&json) {
+        } else if is_listed && !String::from_utf8_lossy(&page).contains(&json) {
             changes.push(changed(SHEET_FILE, Change::OfAnother));
         }
     }

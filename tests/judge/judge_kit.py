@@ -726,6 +726,15 @@ def digest(path):
     return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
+def check_sums(table, kit):
+    """The list of hashes, as sha256sum --check reads it, holds every file of the kit but itself."""
+    lines = (kit / "SHA256SUMS").read_text().splitlines() if (kit / "SHA256SUMS").exists() else []
+    listed = dict(reversed(line.split("  ", 1)) for line in lines)
+    there = {p.relative_to(kit).as_posix() for p in kit.rglob("*") if p.is_file()} - {"SHA256SUMS"}
+    wrong = [name for name in listed.keys() | there if name not in there or digest(kit / name) != listed.get(name)]
+    table.none("files unlike SHA256SUMS", len(wrong))
+
+
 def judge(kit):
     sheet = json.loads((kit / "checklist.json").read_text())
     goal, promised, table = sheet["goal"], sheet["assembly"], Table()
