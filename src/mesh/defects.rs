@@ -260,7 +260,7 @@ mod tests {
         assert!(
             lines[2].contains("holes")
                 && lines[2].contains(": 1, first at")
-                && lines[2].contains("(0.00, 0.00, 5.00) mm")
+                && lines[2].contains("(0.00, 0.00, 5.00) in the file's own")
                 && lines[2].contains("fill")
         );
     }

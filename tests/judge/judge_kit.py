@@ -739,6 +739,7 @@ def judge(kit):
     sheet = json.loads((kit / "checklist.json").read_text())
     goal, promised, table = sheet["goal"], sheet["assembly"], Table()
     print(f"{kit}: {goal['kind']}, {len(sheet['parts'])} parts\n  {'':39} {'promised/limit':>18} {'measured':>18}")
+    check_sums(table, kit)
     parts = [judge_part(table, kit, part, sheet["printer"]) for part in sheet["parts"]]
     hollowed = read_stl(kit / "hollowed.stl")
     whole = welded(hollowed)
