@@ -61,8 +61,19 @@ pub struct BossOrder<'a> {
     pub plan: &'a CutPlan,
     /// The pins that a person ordered: they get bosses where they need them, and no other pins are looked for.
     pub ordered: Option<&'a [PinSite]>,
+    /// Joints for which no bosses are looked for any more.
+    pub given_up: &'a [JointName],
     /// The quadric whose positive side is empty, and the frame it is given in.
     pub price: (Quadric, Frame),
+}
+
+/// A joint by the names of what meets there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JointName {
+    /// The cut's id.
+    pub cut: String,
+    /// The ids of the parts below and above the cut.
+    pub parts: [String; 2],
 }
 
 /// A pin with the material that is to be kept solid around it and its socket.
@@ -76,8 +87,16 @@ pub struct Boss {
     pub body: Option<TriMesh>,
 }
 
+impl Boss {
+    /// The joint that its pin aligns.
+    pub fn joint(&self) -> JointName {
+        JointName { cut: self.pin.cut.clone(), parts: self.parts.clone() }
+    }
+}
+
 /// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those that stand in
-/// too little material. A joint for which there is no place has none of them.
+/// too little material. A joint for which there is no place has none of them. Where no place leaves every void open, one is taken that
+/// closes some: what it closes is to be kept solid.
 ///
 /// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
 pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
@@ -101,9 +120,13 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         return Ok(pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect());
     }
     for (index, joint) in joints.iter().enumerate() {
-        if !placements[index].is_sound() {
+        if !placements[index].is_sound() && !order.given_up.contains(&search.name(joint)) {
             let others = placements.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, p)| p);
-            if let Some(found) = search.found(joint, &others.collect::<Vec<_>>())? {
+            let others: Vec<&Placement> = others.collect();
+            let is_bare = placements[index].sites.is_empty();
+            let pair = search.found(joint, &others)?;
+            let found = if pair.is_none() && is_bare { search.lone(joint, &others) } else { pair };
+            if let Some(found) = found {
                 bosses.extend(found.sites.iter().map(|pin| search.boss(joint, pin)));
                 placements[index] = found;
             }
@@ -175,10 +198,13 @@ impl Search<'_> {
         let mut pairs = size_pairs(self.order.request);
         let equal = pairs.pop();
         pairs.reverse();
-        for sizes in pairs.into_iter().chain(equal) {
+        let pairs: Vec<[Size; 2]> = pairs.into_iter().chain(equal).collect();
+        let ways =
+            [true, false].into_iter().flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
+        for (must_open, sizes) in ways {
             let mut best: Option<(f64, Placement)> = None;
             for is_upward in [true, false] {
-                let found = self.along(joint, (others, is_upward), &sizes)?;
+                let found = self.along(joint, (others, is_upward), sizes, must_open)?;
                 best = match (best, found) {
                     (Some(best), Some(found)) if found.0 >= best.0 => Some(best),
                     (best, found) => found.or(best),
@@ -191,12 +217,26 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The cheapest pattern of two pins of these sizes, and its price.
+    /// The cheapest single pin of the thinnest size for a joint without room for two; only the parts' outlines tell the turn then.
+    fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
+        let [_, size] = size_pairs(self.order.request).pop()?;
+        let along = |is_upward: bool| {
+            let face = Face::bare(self.filled, joint, (others, is_upward));
+            let sites = self.sites(joint, &face, (&size, is_upward)).into_iter();
+            let best = sites.min_by(|a, b| a.price.total_cmp(&b.price))?;
+            Some((best.price, face.placement(&[(best.at, size)], false)))
+        };
+        let found = [true, false].into_iter().filter_map(along);
+        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, placement)| placement)
+    }
+
+    /// The cheapest pattern of two pins of these sizes, and its price; with `must_open` of those that leave every void open.
     fn along(
         &self,
         joint: &Joint,
         (others, is_upward): (&[&Placement], bool),
         sizes: &[Size; 2],
+        must_open: bool,
     ) -> Result<Option<(f64, Placement)>, CutError> {
         let face = Face::bare(self.filled, joint, (others, is_upward));
         let sites = self.sites(joint, &face, (&sizes[0], is_upward));
@@ -207,7 +247,7 @@ impl Search<'_> {
                 continue;
             }
             let placement = face.placement(&pattern, true);
-            if self.leaves_open(joint, &placement.sites)? {
+            if !must_open || self.leaves_open(joint, &placement.sites)? {
                 return Ok(Some((sites[i].price + sites[j].price, placement)));
             }
             openings_left -= 1;
@@ -264,11 +304,15 @@ impl Search<'_> {
         [-(wall + back), size.depth + wall]
     }
 
+    fn name(&self, joint: &Joint) -> JointName {
+        let cut = self.order.plan.cuts[joint.cut].id.clone();
+        JointName { cut, parts: [part_id(joint.below), part_id(joint.above)] }
+    }
+
     /// The pin with its boss: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
     fn boss(&self, joint: &Joint, pin: &PinSite) -> Boss {
         let body = (!self.has_meat(self.hollow, joint, pin)).then(|| self.body(joint, pin)).flatten();
-        let parts = [part_id(joint.below), part_id(joint.above)];
-        let cut = self.order.plan.cuts[joint.cut].id.clone();
+        let JointName { cut, parts } = self.name(joint);
         Boss { pin: PinSite { cut, ..pin.clone() }, parts, body }
     }
 
