@@ -83,8 +83,10 @@ pub struct Boss {
     pub pin: PinSite,
     /// The ids of the parts it joins.
     pub parts: [String; 2],
-    /// Closed, facing outward, model frame, mm; it reaches into the wall. Nothing where the pin stands in material already.
-    pub body: Option<TriMesh>,
+    /// Closed, facing outward, model frame, mm; it reaches into the wall.
+    pub body: TriMesh,
+    /// Whether something of it is empty so far. A boss that is solid already is kept so when everything is solved again.
+    pub is_new: bool,
 }
 
 impl Boss {
@@ -127,7 +129,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
             let pair = search.found(joint, &others)?;
             let found = if pair.is_none() && is_bare { search.lone(joint, &others) } else { pair };
             if let Some(found) = found {
-                bosses.extend(found.sites.iter().map(|pin| search.boss(joint, pin)));
+                bosses.extend(found.sites.iter().filter_map(|pin| search.boss(joint, pin)));
                 placements[index] = found;
             }
         }
@@ -169,7 +171,7 @@ impl Search<'_> {
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
         let is_needy = !self.has_meat(self.hollow, joint, pin) && self.has_meat(self.filled, joint, pin);
-        is_needy.then(|| self.boss(joint, pin))
+        is_needy.then(|| self.boss(joint, pin)).flatten()
     }
 
     /// The outline of the filled body in a cut.
@@ -309,11 +311,11 @@ impl Search<'_> {
         JointName { cut, parts: [part_id(joint.below), part_id(joint.above)] }
     }
 
-    /// The pin with its boss: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
-    fn boss(&self, joint: &Joint, pin: &PinSite) -> Boss {
-        let body = (!self.has_meat(self.hollow, joint, pin)).then(|| self.body(joint, pin)).flatten();
+    /// The pin with its boss, none where it has no volume: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
+    fn boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
         let JointName { cut, parts } = self.name(joint);
-        Boss { pin: PinSite { cut, ..pin.clone() }, parts, body }
+        let is_new = !self.has_meat(self.hollow, joint, pin);
+        Some(Boss { pin: PinSite { cut, ..pin.clone() }, parts, body: self.body(joint, pin)?, is_new })
     }
 
     /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
@@ -351,7 +353,7 @@ impl Search<'_> {
 
     /// Whether every void stays open where these pins get bosses.
     fn leaves_open(&self, joint: &Joint, pins: &[PinSite]) -> Result<bool, CutError> {
-        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.boss(joint, pin).body).collect();
+        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.body(joint, pin)).collect();
         let Hollowed { voids, .. } = self.order.hollowed;
         let plain = voids.len().saturating_sub(self.order.request.seats.len());
         let needed_mm = |void: usize| self.order.request.needed_mm(void, voids.len());

@@ -352,7 +352,7 @@ const EVEN: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
 /// The body with bosses kept solid in its one void.
 fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
     let void = Csg::of_solid(&body.voids[0]).unwrap();
-    let bodies = bosses.iter().filter_map(|boss| boss.body.as_ref()).map(|body| Csg::of_mesh(body).unwrap());
+    let bodies = bosses.iter().map(|boss| Csg::of_mesh(&boss.body).unwrap());
     let rest = bodies.fold(void, |rest, boss| rest.subtract(&boss).unwrap());
     Hollowed { outer: body.outer.clone(), voids: vec![rest.to_solid().unwrap()] }
 }

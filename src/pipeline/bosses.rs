@@ -47,8 +47,8 @@ pub struct Bossed {
     pub rounds: Vec<BossRound>,
     /// Why no more bosses were made though pins lack room.
     pub notes: Vec<String>,
-    /// The pins that bosses were made for.
-    held: Vec<PinSite>,
+    /// The bosses of the plan's pins.
+    held: Vec<Boss>,
 }
 
 /// Keeps bosses solid until every joint has its pins, or no more can be had.
@@ -64,7 +64,7 @@ pub fn bossed(
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
         let found = bosses(&BossOrder { hollowed, request, plan, ordered, given_up: &given_up, price })?;
-        if found.iter().all(|boss| boss.body.is_none()) {
+        if !found.iter().any(|boss| boss.is_new) {
             break;
         }
         let Err(why) = tried(tuner, &mut state, &found, request)? else { continue };
@@ -106,10 +106,11 @@ fn tried(
     found: &[Boss],
     request: &PlanRequest,
 ) -> Result<Result<(), String>, Error> {
-    let held: Vec<PinSite> =
-        state.held.iter().cloned().chain(found.iter().map(|boss| boss.pin.clone())).collect();
+    let stays = |boss: &&Boss| !found.iter().any(|new| new.joint() == boss.joint());
+    let held: Vec<Boss> = state.held.iter().filter(stays).chain(found).cloned().collect();
     let ordered = ordered_pins(tuner);
-    let pins = Some(ordered.map_or(held.clone(), <[PinSite]>::to_vec));
+    let pins =
+        Some(ordered.map_or_else(|| held.iter().map(|boss| boss.pin.clone()).collect(), <[PinSite]>::to_vec));
     let terms = Terms {
         order: &CutOrder { pins, ..CutOrder::of(&state.plan) },
         is_ordered: ordered.is_some(),
@@ -118,15 +119,16 @@ fn tried(
         before: state.voids.solution.certificate,
     };
     let mut trial = tuner.clone();
-    let bodies: Vec<TriMesh> = found.iter().filter_map(|boss| boss.body.clone()).collect();
+    let bodies: Vec<TriMesh> = found.iter().map(|boss| boss.body.clone()).collect();
     let (voids, kept_mm3) = trial.keeping(&state.voids, &bodies)?;
     let Settled { voids, plan } = match settled(&mut trial, voids, &terms)? {
         Ok(settled) => settled,
         Err(why) => return Ok(Err(why)),
     };
-    let kept = found.iter().filter_map(|boss| {
-        let volume_mm3 = boss.body.as_ref()?.signed_volume_mm3();
-        Some(KeptBoss { pin: boss.pin.clone(), parts: boss.parts.clone(), volume_mm3 })
+    let kept = found.iter().filter(|boss| boss.is_new).map(|boss| KeptBoss {
+        pin: boss.pin.clone(),
+        parts: boss.parts.clone(),
+        volume_mm3: boss.body.signed_volume_mm3(),
     });
     state.rounds.push(BossRound {
         bosses: kept.collect(),
