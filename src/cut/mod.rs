@@ -9,6 +9,8 @@ mod error;
 mod face;
 mod family;
 mod further;
+#[cfg(test)]
+mod joinery_tests;
 mod label;
 mod layers;
 mod lumps;

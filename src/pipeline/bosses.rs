@@ -2,7 +2,7 @@
 
 use super::{
     Error,
-    settling::{Settled, Terms, settled},
+    settling::{self, Settled, Terms, settled},
     tuner::{Tuner, Voids},
 };
 use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
@@ -67,21 +67,24 @@ pub fn bossed(
         if !found.iter().any(|boss| boss.is_new) {
             break;
         }
-        let Err(why) = tried(tuner, &mut state, &found, request)? else { continue };
-        let joints: Vec<&[Boss]> = found.chunk_by(|a, b| a.joint() == b.joint()).collect();
-        for one in &joints {
-            let is_all = ordered.is_some() || joints.len() == 1;
-            let refused = if is_all { Err(why.clone()) } else { tried(tuner, &mut state, one, request)? };
-            if let Err(why) = refused {
+        let joints: Vec<&[Boss]> = match ordered {
+            Some(_) => vec![&found[..]],
+            None => found.chunk_by(|a, b| a.joint() == b.joint()).collect(),
+        };
+        // All at once, where nothing else need be kept solid for them; or joint by joint.
+        if joints.len() > 1 && tried(tuner, &mut state, (&found, 0), request)?.is_ok() {
+            continue;
+        }
+        for one in joints {
+            if let Err(why) = tried(tuner, &mut state, (one, settling::MAX_ROUNDS), request)? {
                 let name = one[0].joint();
                 let [below, above] = &name.parts;
-                state
-                    .notes
-                    .push(format!("joint {below}–{above}: bosses around pins would {why}: it has none"));
+                let note = format!("joint {below}–{above}: bosses around pins would {why}: it has none");
+                state.notes.push(note);
                 given_up.push(name);
             }
         }
-        if ordered.is_some() {
+        if ordered.is_some() && !given_up.is_empty() {
             break;
         }
     }
@@ -99,11 +102,11 @@ fn ordered_pins<'a>(tuner: &Tuner<'a>) -> Option<&'a [PinSite]> {
     tuner.setup().job.plan.as_ref().and_then(|order| order.pins.as_deref())
 }
 
-/// One round: the state and the tuner with these bosses, or as they were, and why.
+/// One round: the state and the tuner with these bosses, or as they were, and why; so many times more may be kept solid for them.
 fn tried(
     tuner: &mut Tuner,
     state: &mut Bossed,
-    found: &[Boss],
+    (found, rounds): (&[Boss], usize),
     request: &PlanRequest,
 ) -> Result<Result<(), String>, Error> {
     let stays = |boss: &&Boss| !found.iter().any(|new| new.joint() == boss.joint());
@@ -115,6 +118,7 @@ fn tried(
         order: &CutOrder { pins, ..CutOrder::of(&state.plan) },
         is_ordered: ordered.is_some(),
         request,
+        rounds,
         must_be_clean: are_clean(&state.plan),
         before: state.voids.solution.certificate,
     };

@@ -9,7 +9,7 @@ use crate::hollow::Certificate;
 use crate::mesh::TriMesh;
 
 /// How often something is kept solid for the sake of the same bosses. One round takes nearly all.
-const MAX_ROUNDS: usize = 4;
+pub const MAX_ROUNDS: usize = 4;
 /// Bosses that make more than themselves solid may worsen the goal's figure by this share: parts glued awry lose as much.
 const MAX_LOSS_RATIO: f64 = 0.1;
 
@@ -30,6 +30,8 @@ pub struct Terms<'a> {
     pub is_ordered: bool,
     /// What plans are asked for.
     pub request: &'a PlanRequest,
+    /// How often something more may be kept solid.
+    pub rounds: usize,
     /// Whether every void must be clean in the end.
     pub must_be_clean: bool,
     /// What the solver reached without the bosses.
@@ -40,7 +42,7 @@ pub struct Terms<'a> {
 /// or why that cannot be had, to be said after "bosses around pins would". The tuner is left as the last round left it.
 pub fn settled(tuner: &mut Tuner, mut voids: Voids, terms: &Terms) -> Result<Result<Settled, String>, Error> {
     let replan = if terms.is_ordered { plan_by } else { plan_around };
-    for round in 0..=MAX_ROUNDS {
+    for round in 0..=terms.rounds {
         if !voids.solution.is_usable() {
             return Ok(Err("make the goal impossible".to_owned()));
         }
