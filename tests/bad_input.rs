@@ -76,9 +76,8 @@ fn inspect_ends_as_prepare_does_and_tells_holes_where_they_are_in_the_file_even_
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{said}");
-    // The rim goes through corners at 0 and 1 of the file, which are 80 mm apart in the print.
-    assert!(said.contains("1.00") && said.contains("in the file's own coordinates"), "{said}");
-    assert!(!said.contains("(80.00") && !said.contains(", 80.00"), "{said}");
+    // The middle of the rim's first edge, which is (40, 40, 0) mm in the print.
+    assert!(said.contains("(0.500000, 0.500000, 0.00) in the file's own coordinates"), "{said}");
 }
 
 #[test]

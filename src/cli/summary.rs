@@ -23,8 +23,7 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         Some(("filled solid", filled_solid(checklist))),
         Some(("at best", proved(checklist))),
         balance(checklist).map(|words| ("balance", words)),
-        Some(("size", size(checklist))),
-        Some(("mass", masses(checklist))),
+        Some(("mass, size", format!("{}; {}", masses(checklist), size(checklist)))),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
         Some(("verdict", summary(&checklist.checks, manner))),
@@ -81,7 +80,7 @@ fn small(value: f64, unit: &str) -> String {
 /// The size of the finished object along the model's axes.
 fn size(checklist: &Checklist) -> String {
     let size = checklist.model.size_mm.map(|mm| figure(mm, "")).join(" × ");
-    format!("{size} mm, from {}", checklist.model.file)
+    format!("{size} mm")
 }
 
 fn masses(checklist: &Checklist) -> String {

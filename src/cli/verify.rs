@@ -54,7 +54,7 @@ fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
         )
     });
     let mut text: String = causes.collect();
-    let told = |check: &&Check| !check.pass && !(check.name == FILES_CHECK && !changes.is_empty());
+    let told = |check: &&Check| !check.pass && (check.name != FILES_CHECK || changes.is_empty());
     let broken: Vec<Check> = checks.iter().filter(told).cloned().collect();
     let follows = changes.iter().any(FileChange::is_of_shape) && manner.verbose == 0;
     if follows && !broken.is_empty() {
