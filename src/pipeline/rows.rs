@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use super::fitting::{half_of, halves, shallow_axle};
-use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows};
+use super::joinery_rows::{
+    bosses_mm3, cut_list, is_told_in_a_step, joint_id, joint_rows, joints_to_mind, round_rows,
+};
 use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
@@ -305,13 +307,15 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup)).collect()
+    let told = placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup));
+    told.chain(joints_to_mind(&sheet.assembly.plan)).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {
     let wall = sheet.setup.wall.why.clone();
     let scale = scaled(sheet.setup.printer.print_scale_ratio()).map(scale_note);
-    std::iter::once(wall).chain(scale).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
+    let planned = sheet.assembly.plan.notes.iter().filter(|note| !is_told_in_a_step(note)).cloned();
+    std::iter::once(wall).chain(scale).chain(planned).collect()
 }
 
 fn log_row(row: &hollow::LogRow) -> LogRow {

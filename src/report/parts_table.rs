@@ -33,7 +33,7 @@ fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
             td { (described(part)) }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
             td class="boxes" {
-                @for field in ["Machine", "Material lot", "Operator", "Weighed, g"] { span class="field" { (field) " " (blank()) } br; }
+                @for field in ["Machine", "Material lot", "Operator"] { span class="field" { (field) " " (blank()) } br; }
                 span class="field" { "Sound ☐" }
             }
         }
