@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::finished_rows::{cup_mm3, turn_row};
 use super::fitting::{half_of, halves, shallow_axle};
 use super::joinery_rows::{
     bosses_mm3, cut_list, is_told_in_a_step, joint_id, joint_rows, joints_to_mind, round_rows,
@@ -18,7 +19,7 @@ use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
     BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
-    SpeedRow, Tool, WallRow,
+    SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure, RotorOrder,
@@ -52,7 +53,14 @@ pub struct Sheet<'a> {
 
 /// The checklist, but for the hashes of the kit's files and the timings.
 pub fn checklist(sheet: &Sheet) -> Checklist {
+    let mut checklist = filled(sheet);
+    checklist.warnings.extend(cup_warning(&checklist));
+    checklist
+}
+
+fn filled(sheet: &Sheet) -> Checklist {
     let (setup, judgement) = (sheet.setup, sheet.judgement);
+    let parts = part_rows(sheet);
     Checklist {
         schema: Checklist::SCHEMA,
         tool: Tool { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() },
@@ -69,13 +77,15 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         wall: WallRow { required_mm: setup.wall.wall_mm, measured_min_mm: judgement.wall_min_mm },
         voids: void_rows::void_rows(sheet),
         cuts: cut_rows(sheet),
-        parts: part_rows(sheet),
+        turn: turn_row(sheet, &parts),
+        parts,
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
         hardware: setup.hardware(),
         dowels: dowels(&sheet.assembly.plan),
         cut_list: cut_list(sheet),
         string_gap_mm: setup.string_gap_mm(),
+        finished_size_mm: Some(finished_size_mm(&sheet.assembly.evidence(), &setup.hardware())),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
         rounds: round_rows(sheet),
@@ -232,6 +242,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
                 marks: part.labels.iter().map(mark).collect(),
                 half: half_of(written, &halves),
+                cup_mm3: cup_mm3(&written.read_back),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })

@@ -3,6 +3,8 @@
 use maud::{Markup, html};
 
 use super::Checklist;
+use super::figure::{Picture, Role, figures};
+use super::finished::turning;
 use super::words::quantity;
 use crate::geom::{Frame, Point};
 use crate::mesh::{TriMesh, primitives};
@@ -14,11 +16,13 @@ const SIDES: u32 = 32;
 const BALL_LEVEL: u32 = 2;
 
 /// The step in which the hardware is put in.
-pub(super) fn fitting(sheet: &Checklist) -> Markup {
+pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         @for half in ["A", "B"] {
             @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half) } " is " (parts) "." } }
         }
+        (turning(sheet))
+        (figures(pictures, Role::Halves))
         ul class="ticks" {
             @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) } }
         }

@@ -3,6 +3,7 @@
 use maud::{Markup, html};
 
 use super::Checklist;
+use super::finished::cup_warning;
 use super::words::quantity;
 
 /// What the names of the packages of whole plates begin with.
@@ -18,6 +19,7 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
             @if sheet.printer.build_volume_mm.is_none() {
                 li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
             }
+            @if let Some(cups) = cup_warning(sheet) { li { strong { "Mind: " } (cups) "." } }
             @if let Some(parts) = unmarked(sheet) {
                 li { strong { "Names: " } "write the id on these parts as they come off the plate, as it has no room in their cut faces: " strong { (parts) } "." }
             }
@@ -86,7 +88,7 @@ fn support(sheet: &Checklist) -> &'static str {
 }
 
 /// The parts that bear their id in no cut face, where there are several to be told apart.
-pub(super) fn unmarked(sheet: &Checklist) -> Option<String> {
+fn unmarked(sheet: &Checklist) -> Option<String> {
     let parts = sheet.parts.iter().filter(|part| part.marks.is_empty());
     let ids: Vec<&str> = parts.map(|part| part.id.as_str()).collect();
     (sheet.parts.len() > 1 && !ids.is_empty()).then(|| ids.join(", "))

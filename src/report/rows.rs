@@ -75,6 +75,9 @@ pub struct PartRow {
     /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<String>,
+    /// The volume of its open hollows whose only mouth lies flat on the plate, mm³: closed cups while it is printed.
+    #[serde(default)]
+    pub cup_mm3: f64,
     /// Its picture, relative to the kit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,

@@ -110,6 +110,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         dowels: vec![],
         cut_list: vec![],
         string_gap_mm: None,
+        finished_size_mm: Some(finished_size_mm(&evidence.parts, &[])),
+        turn: None,
         ballast: Vec::new(),
         fill: None,
         rounds: Vec::new(),
@@ -219,6 +221,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         sockets: vec![],
         marks: vec![],
         half: None,
+        cup_mm3: 0.0,
         picture: Some(part_picture_file(&promised.id)),
     }
 }

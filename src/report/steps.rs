@@ -43,7 +43,7 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
         sheet.fill.map(|fill| filling(sheet, fill)),
         (!sheet.ballast.is_empty()).then(|| ballast(sheet)),
         Some(html! { (glue(sheet)) (figures(pictures, Role::Exploded)) }),
-        (!sheet.hardware.is_empty()).then(|| fitting(sheet)),
+        (!sheet.hardware.is_empty()).then(|| fitting(sheet, pictures)),
         Some(weigh_whole(sheet)),
         Some(test(sheet)),
     ];

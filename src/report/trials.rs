@@ -26,7 +26,8 @@ pub(super) fn test(sheet: &Checklist) -> Markup {
 
 /// What to try, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
-    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&sheet.model.size_mm));
+    let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
+    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&size_mm));
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
         GoalKind::Yoyo => yoyo_lines(),
