@@ -55,7 +55,7 @@ impl<'a> Apart<'a> {
         Shot {
             file: "pictures/parts.svg".to_owned(),
             role: Role::Exploded,
-            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes."
+            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes; a dashed leader ends at something hidden. N: pins, H: hardware."
                 .to_owned(),
             alt: alt(promised),
             scene: Scene {
@@ -83,23 +83,10 @@ impl<'a> Apart<'a> {
     }
 
     fn labels(&self, promised: &[PromisedPart]) -> Vec<Label> {
-        let name = |(index, part): (usize, &TriMesh)| {
-            Label::At(
-                self.named_at(index, part),
-                promised.get(index).map_or(String::new(), |part| part.id.clone()),
-            )
-        };
-        let names = self.parts.iter().enumerate().map(name);
+        let name = |(index, part): (usize, &PromisedPart)| Label::On(index, part.id.clone());
+        let names = promised.iter().enumerate().map(name);
         let pins = pins(promised).filter_map(|(part, pin)| self.pin_labels(part, pin, promised)).flatten();
         names.chain(pins).collect()
-    }
-
-    /// A place of a part that names it: what lies farthest from the others, on its surface.
-    fn named_at(&self, index: usize, part: &TriMesh) -> Point {
-        let (shift, center) = (self.shifts[index], part.aabb().center());
-        let reach = |p: &Point| (p - center).dot(&shift);
-        let first = part.vertices().first().copied().unwrap_or(center);
-        part.vertices().iter().fold(first, |best, p| if reach(p) > reach(&best) { *p } else { best }) + shift
     }
 
     /// The line from a pin to its socket, and the pin's name at its tip.

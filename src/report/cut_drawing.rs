@@ -3,7 +3,7 @@
 use super::Checklist;
 use super::figure::{Drawn, Picture, Role};
 use super::palette::{HATCH, VOID, hex};
-use super::svg::{Drawing, Spot, Stroke};
+use super::svg::{Drawing, Mark, Spot, Stroke};
 use super::words::{number, quantity};
 use crate::geom::{Plane, Point, Vector};
 use crate::verify::Peg;
@@ -139,7 +139,7 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     for mouth in &face.mouths {
         let at = paper.at(mouth.at);
         drawing.circle(at, 0.5 * paper.scale * mouth.diameter_mm, (None, Stroke::DASHED));
-        marks.push((at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
+        marks.push(Mark::new(at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
     }
     for (pin, socket) in pegs {
         let at = paper.at(flat(&face.plane, &pin.center_mm));
@@ -148,10 +148,11 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
             at,
             [paper.scale * pin.diameter_mm, socket.map_or(0.0, |s| paper.scale * s.diameter_mm)],
         );
-        marks.push((at, peg_words(pin, *socket)));
+        let radius_px = 0.5 * paper.scale * socket.map_or(pin.diameter_mm, |s| s.diameter_mm);
+        marks.push(Mark { radius_px, ..Mark::new(at, peg_words(pin, *socket)) });
     }
     marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &paper)));
-    marks.extend(face.whole.iter().map(|at| (paper.at(*at), "stays whole".to_owned())));
+    marks.extend(face.whole.iter().map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())));
     drawing.callouts(&marks);
     drawing
 }
@@ -180,11 +181,11 @@ fn draw_peg(drawing: &mut Drawing, at: Spot, [pin_px, socket_px]: [f64; 2]) {
 }
 
 /// The thinnest wall as a thick line, and its words.
-fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> (Spot, String) {
+fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark {
     let [a, b] = ends.map(|end| paper.at(end));
     drawing.line([a, b], Stroke { width: 4.0, ..Stroke::THICK });
     let mm = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
-    ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
+    Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
 }
 
 /// The lengths over all.

@@ -13,6 +13,7 @@ mod figure;
 mod finished;
 mod gluing;
 mod grid;
+mod halves;
 mod hardware;
 mod inertia;
 mod joinery;
@@ -31,6 +32,7 @@ mod rows;
 mod running;
 #[cfg(test)]
 mod sample;
+mod seen;
 mod steps;
 mod svg;
 #[cfg(test)]
