@@ -74,7 +74,11 @@ fn filled(sheet: &Sheet) -> Checklist {
         hollowed: judgement.hollowed.clone(),
         assembly: judgement.assembly.clone(),
         certificate: certificate(sheet),
-        wall: WallRow { required_mm: setup.wall.wall_mm, measured_min_mm: judgement.wall_min_mm },
+        wall: WallRow {
+            required_mm: setup.wall.wall_mm,
+            asked_mm: setup.wall.asked_mm,
+            measured_min_mm: judgement.wall_min_mm,
+        },
         voids: void_rows::void_rows(sheet),
         cuts: cut_rows(sheet),
         turn: turn_row(sheet, &parts),

@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::apart::{Apart, parts_in_model};
+use super::apart::{self, Apart, parts_in_model};
 use super::figure::{Drawn, Picture, Role};
 use super::halves;
-use super::hardware::drawn;
-use super::palette::{BODY, HARDWARE, SECTION, VOID, part_color};
+use super::hardware::{drawn, drawn_lump};
+use super::palette::{BALLAST, BODY, HARDWARE, SECTION, VOID, part_color};
 use super::picture::{Camera, Color, Item, PictureError, Scene, render_seen};
 use super::plate;
 use super::projection::Projection;
@@ -15,7 +15,7 @@ use super::svg::{Drawing, Mark};
 use crate::geom::{Frame, Plane, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
-use crate::verify::{Aim, Hardware, PartEvidence, Peg, PromisedPart, Shells};
+use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
 
 /// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to mail.
 const SIZE_PX: [usize; 2] = [720, 560];
@@ -43,6 +43,18 @@ pub struct Sitting<'a> {
     pub aim: Aim,
     /// What is put in that is not printed, model frame.
     pub hardware: &'a [Hardware],
+    /// The stock parts in their pockets, model frame.
+    pub ballast: &'a [BallastOrder],
+}
+
+impl Sitting<'_> {
+    /// The planes along which the parts are drawn apart: those of the cuts, and the one between the halves of a yo-yo.
+    pub(super) fn partings(&self) -> Vec<Plane> {
+        let frame = self.aim.frame();
+        let has_halves = self.hardware.iter().any(|piece| piece.what == "axle");
+        let between = has_halves.then(|| Plane::through(&frame.origin, &frame.axis()));
+        self.cuts.iter().copied().chain(between).collect()
+    }
 }
 
 /// The file of the picture of one part.
@@ -55,8 +67,10 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let view = View::of(&outer, &sitting.aim.frame());
     let in_place = parts_in_model(sitting.parts);
-    let apart = Apart::of(&in_place, sitting.cuts);
+    let partings = sitting.partings();
+    let apart = Apart::of(&in_place, &partings);
     let hardware: Vec<TriMesh> = sitting.hardware.iter().map(drawn).collect();
+    let lumps: Vec<TriMesh> = sitting.ballast.iter().map(|order| drawn_lump(&order.lump)).collect();
     let plates: Vec<[TriMesh; 2]> =
         sitting.parts.iter().map(|part| plate::under(&part.mesh.aabb())).collect();
     let mut shots = vec![
@@ -70,10 +84,23 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let names =
         sitting.hardware.iter().enumerate().map(|(index, piece)| Label::On(count + index, piece.id.clone()));
     shots[2].labels.extend(names);
+    add_ballast(&mut shots[2], sitting, &lumps, &partings);
     shots.extend(halves::shot(sitting, &in_place, &hardware));
     let of_parts = sitting.parts.iter().zip(&plates).enumerate();
     shots.extend(of_parts.map(|(index, (part, plate))| plate::shot(part, plate, part_color(index))));
     shots.par_iter().map(Shot::take).collect()
+}
+
+/// Adds the ballast to the parts drawn apart: between the parts whose cut opens its pocket.
+fn add_ballast<'a>(shot: &mut Shot<'a>, sitting: &Sitting, lumps: &'a [TriMesh], partings: &[Plane]) {
+    let apart_mm = apart::apart_mm(&shot.scene.items);
+    for (order, mesh) in sitting.ballast.iter().zip(lumps) {
+        let (center, reach_mm) = (Point::from(order.lump.center_mm), order.lump.shape.radius_mm());
+        let away = partings.iter().filter(|plane| plane.distance(&center).abs() > reach_mm);
+        let shift = away.map(|plane| apart::away(plane, &center, apart_mm)).sum();
+        shot.labels.push(Label::On(shot.scene.items.len(), order.id.clone()));
+        shot.scene.items.push(Item { shift, ..still(mesh, BALLAST) });
+    }
 }
 
 /// What the picture of the whole is called.

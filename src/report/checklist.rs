@@ -246,8 +246,11 @@ pub struct HeightProof {
 /// The wall that was ordered and the one that was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WallRow {
-    /// The least wall ordered, mm.
+    /// The least wall promised, mm: what was asked for, rounded up to what the printer makes.
     pub required_mm: f64,
+    /// What was asked for, mm; none where the printer's least was taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asked_mm: Option<f64>,
     /// The least distance between a void and the outside on the written surfaces, mm; none without voids.
     pub measured_min_mm: Option<f64>,
 }

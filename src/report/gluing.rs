@@ -79,8 +79,9 @@ impl Closing<'_> {
             @for joint in &self.joints {
                 div {
                     @if !is_one { (joint.id) ": " }
-                    @if joint.pins == 0 { "no pins" } @else { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
-                    @if let Some(note) = &joint.note { "; " strong { (note) } }
+                    @if joint.pins > 0 { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
+                    @else if joint.note.is_none() { "no pins" }
+                    @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
                 }
             }
         }
@@ -96,7 +97,7 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
             @for closing in closings(sheet) {
                 @let [one, other] = closing.bodies();
                 li {
-                    strong { (closing.name()) } ": " (one) " on " (other) " along " (closing.cuts()) ". Pins seat fully; no gap and no step at the seam."
+                    strong { (closing.name()) } ": " (one) " on " (other) " along " (closing.cuts()) ". No gap and no step at the seam" @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" } "."
                     (closing.alignment())
                 }
             }

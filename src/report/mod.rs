@@ -50,7 +50,7 @@ pub use checklist::{
 };
 pub use cleaning::{CleaningRow, KeptRow, is_clean};
 pub use course::{Course, PassRow, SpeedRow};
-pub use cut_drawing::{CutFace, Mouth};
+pub use cut_drawing::{CutFace, Mouth, Region};
 pub use drawings::drawings;
 pub use figure::{Drawn, Picture, Role};
 pub use finished::{TurnRow, cup_warning, finished_size_mm};

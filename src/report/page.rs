@@ -100,6 +100,11 @@ fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     }
 }
 
+/// The path of a file, which breaks behind `/`, `_` and `-` where the line is too short.
+pub(super) fn file_name(path: &str) -> Markup {
+    html! { code { @for piece in path.split_inclusive(['/', '_', '-']) { (piece) wbr; } } }
+}
+
 /// A line to write on.
 pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }

@@ -4,6 +4,7 @@ use maud::{Markup, html};
 
 use super::Checklist;
 use super::finished::cup_warning;
+use super::page::file_name;
 use super::words::quantity;
 
 /// What the names of the packages of whole plates begin with.
@@ -26,7 +27,7 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
         }
         ul class="ticks" {
             @for part in &sheet.parts {
-                li { strong { (part.id) } ": " code { (part.file) } ", " (part.lies) ". Printed, and looks as in the table of parts." }
+                li { strong { (part.id) } ": " (file_name(&part.file)) ", " (part.lies) ". Printed, and looks as in the table of parts." }
             }
         }
     }

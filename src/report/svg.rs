@@ -196,9 +196,9 @@ impl Drawing {
         if (from[0] - to[0]).abs() < UPRIGHT_RATIO * (from[1] - to[1]).abs() {
             // Beside an upright line there may be no room.
             let top = if from[1] < to[1] { from } else { to };
-            return self.text([top[0], top[1] - 0.8 * self.text_px], Anchor::Middle, words);
+            return self.text([top[0], top[1] - self.text_px], Anchor::Middle, words);
         }
-        let out = 1.0 + 0.75 * self.text_px / length;
+        let out = 1.0 + self.text_px / length;
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let anchor = match aside[0] / length {
             lean if lean > 0.5 => Anchor::Start,
