@@ -7,10 +7,13 @@
 mod models;
 
 use equipoise::geom::{Point, Quadric};
-use equipoise::goal::{GoalKind, Objective, Placement, Request, SpinPoint, Up, Water, Waterline, place};
+use equipoise::goal::{
+    Contact, GoalKind, Objective, Placement, Request, SpinPoint, Up, Water, Waterline, place,
+};
 use equipoise::hollow::{Problem, Settings, Solution, Status, solve};
 use equipoise::interior::Columns;
-use equipoise::mesh::Solid;
+use equipoise::io::read_model;
+use equipoise::mesh::{Solid, weld};
 use equipoise::progress::Progress;
 use equipoise::shell::Shell;
 use equipoise::units::Length;
@@ -22,9 +25,11 @@ const THICK_WALL_MM: f64 = 25.0;
 const LONG_AXIS: [f64; 3] = [0.999_391, 0.001_826, -0.034_852];
 /// Columns a side of what is solved.
 const COLUMNS: usize = 100;
-/// The distance of the grid's points. A sum over them is exact to about the cells that the surface and the wall cut, with
+/// The distance of the grid's points for our own models and for large ones. A sum over them is exact to about the cells that the surface and the wall cut, with
 /// random signs: some 13 000 of them are wrong by a third of a cell each, 2e-3 of the volume together.
 const STEP_MM: f64 = 2.5;
+/// The distance for a part whose sides are but some 10 mm thick, so that the shell of 1 mm is more than half of it.
+const FINE_STEP_MM: f64 = 1.0;
 /// What the grid's integrals of q may be wrong by, as a part of ∫|q|.
 const GRID_RATIO: f64 = 4e-3;
 
@@ -34,6 +39,7 @@ struct Case {
     placement: Placement,
     solution: Solution,
     wall_mm: f64,
+    step_mm: f64,
 }
 
 impl Case {
@@ -43,13 +49,16 @@ impl Case {
 
     fn with_wall(model: &str, request: &Request, wall_mm: f64) -> Self {
         let (_, make) = models::MODELS.into_iter().find(|(name, _)| *name == model).unwrap();
-        let solid = models::solid(make).unwrap();
+        Self::of_solid(models::solid(make).unwrap(), request, wall_mm)
+    }
+
+    fn of_solid(solid: Solid, request: &Request, wall_mm: f64) -> Self {
         let placement = place(&solid, wall_mm, request).unwrap();
         let shell = Shell::new(&solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
         let columns = Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Progress::silent()).unwrap();
         let problem = Problem { goal: &placement.goal, fixed: placement.goal.solid, columns: &columns };
         let solution = solve(&problem, &Settings::default(), &Progress::silent());
-        Self { solid, placement, solution, wall_mm }
+        Self { solid, placement, solution, wall_mm, step_mm: STEP_MM }
     }
 
     /// The least that the integral of a quadric over any interior can be, and ∫|q| over the solid: every grid point inside
@@ -62,13 +71,13 @@ impl Case {
             [0, 1, 2].map(|axis| triangles.iter().flatten().map(|p| p[axis]).fold(from, pick))
         };
         let (low, high) = (box_of(f64::min, f64::INFINITY), box_of(f64::max, f64::NEG_INFINITY));
-        let count = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / STEP_MM).ceil() as usize);
+        let count = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / self.step_mm).ceil() as usize);
         let mut sums = [0.0; 2];
         for (j, k) in (0..count[1]).flat_map(|j| (0..count[2]).map(move |k| (j, k))) {
             // A little off the lattice, so that no ray meets an edge of these models.
-            let [y, z] = [(j, 1), (k, 2)].map(|(i, axis)| low[axis] + (i as f64 + 0.4987) * STEP_MM);
+            let [y, z] = [(j, 1), (k, 2)].map(|(i, axis)| low[axis] + (i as f64 + 0.4987) * self.step_mm);
             let crossings = crossings(&triangles, y, z);
-            for x in (0..count[0]).map(|i| low[0] + (i as f64 + 0.5) * STEP_MM) {
+            for x in (0..count[0]).map(|i| low[0] + (i as f64 + 0.5) * self.step_mm) {
                 if crossings.iter().filter(|&&crossing| crossing > x).count() % 2 == 1 {
                     let (point, q) = (Point::new(x, y, z), quadric.value(&Point::new(x, y, z)));
                     let counts = q < 0.0 || !self.may_be_emptied(&triangles, &point);
@@ -76,7 +85,7 @@ impl Case {
                 }
             }
         }
-        sums.map(|sum| sum * STEP_MM.powi(3))
+        sums.map(|sum| sum * self.step_mm.powi(3))
     }
 
     fn may_be_emptied(&self, triangles: &[[Point; 3]], point: &Point) -> bool {
@@ -176,6 +185,49 @@ fn a_yoyo_that_cannot_be_dominant_is_not_on_a_grid_either() {
     // λ_max − 1·I_zz > 0 for every interior; the quadric itself is that of λ_max − least_ratio·I_zz.
     let at_one = case.shifted(least_ratio - 1.0, [(7, 1.0), (8, 1.0)], 2);
     case.assert_separates(&at_one, 0.0);
+}
+
+/// Real models beside the checkout, for which the acceptance table expects that hollowing alone cannot do.
+const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
+
+/// A shared model, 100 mm long, with a wall of 1 mm; none where the shared models are not there.
+fn shared(name: &str, request: &Request) -> Option<Case> {
+    let path = std::path::Path::new(SHARED).join(name);
+    if !path.is_file() {
+        eprintln!("SKIPPED: {} is not there", path.display());
+        return None;
+    }
+    let mesh = weld(&read_model(&path).unwrap());
+    let scale = 100.0 / mesh.longest_side_mm();
+    let solid = Solid::new(mesh.map_vertices(|p| p * scale)).unwrap();
+    Some(Case::of_solid(solid, request, 1.0))
+}
+
+#[test]
+fn a_shared_armadillo_that_cannot_be_balanced_as_a_top_is_not_on_a_grid_either() {
+    let up = Up::Along([0.0, 1.0, 0.0]);
+    let top = Request { up, contact: Some(Contact::Center), ..Request::new(GoalKind::Top) };
+    let Some(case) = shared("armadillo.obj", &top) else { return };
+    let Status::ConstraintsInfeasible { least_miss, separator, .. } = case.solution.status else {
+        panic!("{:?}", case.solution.status)
+    };
+    assert!(least_miss > 0.0);
+    case.assert_separates(&separator, least_miss);
+}
+
+#[test]
+fn a_shared_rocker_arm_that_needs_ballast_needs_it_on_a_grid_too() {
+    let bore = Request {
+        up: Up::Along([1.0, 0.0, 0.0]),
+        spin_point: Some(SpinPoint::At([0.0, 6.7135, 8.4895])),
+        ..Request::new(GoalKind::Balance)
+    };
+    let Some(case) = shared("rocker-arm.obj", &bore) else { return };
+    let case = Case { step_mm: FINE_STEP_MM, ..case };
+    let Status::CannotBalance { separator, .. } = case.solution.status else {
+        panic!("{:?}", case.solution.status)
+    };
+    case.assert_separates(&separator, 0.0);
 }
 
 #[test]

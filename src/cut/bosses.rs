@@ -61,8 +61,19 @@ pub struct BossOrder<'a> {
     pub plan: &'a CutPlan,
     /// The pins that a person ordered: they get bosses where they need them, and no other pins are looked for.
     pub ordered: Option<&'a [PinSite]>,
+    /// Joints for which no bosses are looked for any more.
+    pub given_up: &'a [JointName],
     /// The quadric whose positive side is empty, and the frame it is given in.
     pub price: (Quadric, Frame),
+}
+
+/// A joint by the names of what meets there.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct JointName {
+    /// The cut's id.
+    pub cut: String,
+    /// The ids of the parts below and above the cut.
+    pub parts: [String; 2],
 }
 
 /// A pin with the material that is to be kept solid around it and its socket.
@@ -72,12 +83,22 @@ pub struct Boss {
     pub pin: PinSite,
     /// The ids of the parts it joins.
     pub parts: [String; 2],
-    /// Closed, facing outward, model frame, mm; it reaches into the wall. Nothing where the pin stands in material already.
-    pub body: Option<TriMesh>,
+    /// Closed, facing outward, model frame, mm; it reaches into the wall.
+    pub body: TriMesh,
+    /// Whether something of it is empty so far. A boss that is solid already is kept so when everything is solved again.
+    pub is_new: bool,
+}
+
+impl Boss {
+    /// The joint that its pin aligns.
+    pub fn joint(&self) -> JointName {
+        JointName { cut: self.pin.cut.clone(), parts: self.parts.clone() }
+    }
 }
 
 /// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those that stand in
-/// too little material. A joint for which there is no place has none of them.
+/// too little material. A joint for which there is no place has none of them. Where no place leaves every void open, one is taken that
+/// closes some: what it closes is to be kept solid.
 ///
 /// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
 pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
@@ -101,10 +122,14 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         return Ok(pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect());
     }
     for (index, joint) in joints.iter().enumerate() {
-        if !placements[index].is_sound() {
+        if !placements[index].is_sound() && !order.given_up.contains(&search.name(joint)) {
             let others = placements.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, p)| p);
-            if let Some(found) = search.found(joint, &others.collect::<Vec<_>>())? {
-                bosses.extend(found.sites.iter().map(|pin| search.boss(joint, pin)));
+            let others: Vec<&Placement> = others.collect();
+            let is_bare = placements[index].sites.is_empty();
+            let pair = search.found(joint, &others)?;
+            let found = if pair.is_none() && is_bare { search.lone(joint, &others) } else { pair };
+            if let Some(found) = found {
+                bosses.extend(found.sites.iter().filter_map(|pin| search.boss(joint, pin)));
                 placements[index] = found;
             }
         }
@@ -146,7 +171,7 @@ impl Search<'_> {
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
         let is_needy = !self.has_meat(self.hollow, joint, pin) && self.has_meat(self.filled, joint, pin);
-        is_needy.then(|| self.boss(joint, pin))
+        is_needy.then(|| self.boss(joint, pin)).flatten()
     }
 
     /// The outline of the filled body in a cut.
@@ -175,10 +200,13 @@ impl Search<'_> {
         let mut pairs = size_pairs(self.order.request);
         let equal = pairs.pop();
         pairs.reverse();
-        for sizes in pairs.into_iter().chain(equal) {
+        let pairs: Vec<[Size; 2]> = pairs.into_iter().chain(equal).collect();
+        let ways =
+            [true, false].into_iter().flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
+        for (must_open, sizes) in ways {
             let mut best: Option<(f64, Placement)> = None;
             for is_upward in [true, false] {
-                let found = self.along(joint, (others, is_upward), &sizes)?;
+                let found = self.along(joint, (others, is_upward), sizes, must_open)?;
                 best = match (best, found) {
                     (Some(best), Some(found)) if found.0 >= best.0 => Some(best),
                     (best, found) => found.or(best),
@@ -191,12 +219,26 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The cheapest pattern of two pins of these sizes, and its price.
+    /// The cheapest single pin of the thinnest size for a joint without room for two; only the parts' outlines tell the turn then.
+    fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
+        let [_, size] = size_pairs(self.order.request).pop()?;
+        let along = |is_upward: bool| {
+            let face = Face::bare(self.filled, joint, (others, is_upward));
+            let sites = self.sites(joint, &face, (&size, is_upward)).into_iter();
+            let best = sites.min_by(|a, b| a.price.total_cmp(&b.price))?;
+            Some((best.price, face.placement(&[(best.at, size)], false)))
+        };
+        let found = [true, false].into_iter().filter_map(along);
+        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, placement)| placement)
+    }
+
+    /// The cheapest pattern of two pins of these sizes, and its price; with `must_open` of those that leave every void open.
     fn along(
         &self,
         joint: &Joint,
         (others, is_upward): (&[&Placement], bool),
         sizes: &[Size; 2],
+        must_open: bool,
     ) -> Result<Option<(f64, Placement)>, CutError> {
         let face = Face::bare(self.filled, joint, (others, is_upward));
         let sites = self.sites(joint, &face, (&sizes[0], is_upward));
@@ -207,7 +249,7 @@ impl Search<'_> {
                 continue;
             }
             let placement = face.placement(&pattern, true);
-            if self.leaves_open(joint, &placement.sites)? {
+            if !must_open || self.leaves_open(joint, &placement.sites)? {
                 return Ok(Some((sites[i].price + sites[j].price, placement)));
             }
             openings_left -= 1;
@@ -264,12 +306,16 @@ impl Search<'_> {
         [-(wall + back), size.depth + wall]
     }
 
-    /// The pin with its boss: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
-    fn boss(&self, joint: &Joint, pin: &PinSite) -> Boss {
-        let body = (!self.has_meat(self.hollow, joint, pin)).then(|| self.body(joint, pin)).flatten();
-        let parts = [part_id(joint.below), part_id(joint.above)];
+    fn name(&self, joint: &Joint) -> JointName {
         let cut = self.order.plan.cuts[joint.cut].id.clone();
-        Boss { pin: PinSite { cut, ..pin.clone() }, parts, body }
+        JointName { cut, parts: [part_id(joint.below), part_id(joint.above)] }
+    }
+
+    /// The pin with its boss, none where it has no volume: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
+    fn boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
+        let JointName { cut, parts } = self.name(joint);
+        let is_new = !self.has_meat(self.hollow, joint, pin);
+        Some(Boss { pin: PinSite { cut, ..pin.clone() }, parts, body: self.body(joint, pin)?, is_new })
     }
 
     /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
@@ -307,7 +353,7 @@ impl Search<'_> {
 
     /// Whether every void stays open where these pins get bosses.
     fn leaves_open(&self, joint: &Joint, pins: &[PinSite]) -> Result<bool, CutError> {
-        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.boss(joint, pin).body).collect();
+        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.body(joint, pin)).collect();
         let Hollowed { voids, .. } = self.order.hollowed;
         let plain = voids.len().saturating_sub(self.order.request.seats.len());
         let needed_mm = |void: usize| self.order.request.needed_mm(void, voids.len());

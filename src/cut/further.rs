@@ -101,8 +101,7 @@ impl Tried {
 
 /// Whether a plane passes through a void.
 fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
-    let mut sides = scene.hollowed.voids[void].mesh().vertices().iter().map(|p| plane.distance(p) > 0.0);
-    sides.next().is_some_and(|first| sides.any(|side| side != first))
+    plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
 }
 
 /// About the share of its wall that a void lacks in sight between the planes; 0 where none must be in sight.

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     geom::{Plane, Point, Vector},
-    mesh::{Csg, Hollowed, TriMesh, bodies, union_find::UnionFind},
+    mesh::{Csg, Hollowed, Solid, TriMesh, bodies, union_find::UnionFind},
 };
 
 /// Hidden points nearer to each other than this many times their spacing are one place.
@@ -64,6 +64,21 @@ pub fn unclean(
         Ok(Unclean { void, why, lumps })
     };
     dirty.par_iter().map(of).collect()
+}
+
+/// The plain voids that none of the cuts meets: all of them must go.
+pub fn closed(hollowed: &Hollowed, cuts: &[Cut], request: &PlanRequest) -> Result<Vec<Unclean>, CutError> {
+    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<Plane>, _>>()?;
+    let count = hollowed.voids.len();
+    let voids = hollowed.voids.iter().enumerate().filter(|(void, _)| request.seat_of(*void, count).is_none());
+    let shut =
+        voids.filter(|(_, solid)| !planes.iter().any(|plane| plane.passes_through(solid.mesh().vertices())));
+    let all = |(void, solid): (usize, &Solid)| Unclean {
+        void,
+        why: "no cut opens it".to_owned(),
+        lumps: vec![solid.mesh().clone()],
+    };
+    Ok(shut.map(all).collect())
 }
 
 /// The pieces that let nothing out, and of the others the ends that are hidden, the largest first, until enough is seen.
@@ -145,7 +160,7 @@ fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutErr
 mod tests {
     use super::*;
     use crate::cut::{CutOrder, plan_by, scenes::request};
-    use crate::mesh::{Solid, primitives};
+    use crate::mesh::primitives;
     use crate::printer::{Cleaning, CleaningRule};
 
     /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked of it.

@@ -41,11 +41,11 @@ mod scenes;
 mod tests;
 
 pub use access::VoidAccess;
-pub use bosses::{Boss, BossOrder, bosses};
+pub use bosses::{Boss, BossOrder, JointName, bosses};
 pub use error::CutError;
 pub use label::{Label, LabelStyle};
 pub use layers::CutMove;
-pub use lumps::{Unclean, unclean};
+pub use lumps::{Unclean, closed, unclean};
 pub use order::{CutOrder, OrderError};
 pub use part::{Part, parts, parts_and_faces};
 pub use pin_shape::PinSite;

@@ -45,6 +45,9 @@ pub(crate) struct Bridge {
 /// * the piece is not in the way of what is taken off on its side of the cut,
 /// * both together fit the build volume.
 ///
+/// A piece thinner than the wall stays joined even where a void opens beside it: it is a bump of the void's wall that the plane
+/// grazes, or a sliver of the outside, and no part to print.
+///
 /// The smallest pieces are offered first; a piece that others stay joined to is not joined to a third.
 pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let joints = joints(pieces);
@@ -63,7 +66,7 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
         let host = joint.other(index);
         if !is_host[index]
             && !is_guest[host]
-            && !has_mouth(joint, pieces, &mouths)
+            && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, pieces, &mouths))
             && comes_free(cutting, pieces, (joint, index))
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
@@ -116,6 +119,12 @@ fn has_mouth(joint: &Joint, pieces: &[Piece], mouths: &[Vec<Point2>]) -> bool {
         near.into_iter().any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
     };
     joint.caps.iter().any(|&cap| on_edge(&pieces[joint.below].caps[cap]))
+}
+
+/// Whether a piece is thinner than the least wall over the face that it would be glued by.
+fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
+    let face_mm2: f64 = piece.caps.iter().filter(|cap| cap.cut == joint.cut).map(|cap| cap.area_mm2).sum();
+    piece.volume_mm3 < cutting.request.wall_mm * face_mm2
 }
 
 /// Whether what lies on the piece's side of the cut can be taken off along the normal while the piece stays.
@@ -268,6 +277,22 @@ mod tests {
         assert_eq!((cut, left.len()), (5, 2));
         let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
         assert!((volume - hollowed.to_mesh().signed_volume_mm3()).abs() < 1e-9 * volume);
+    }
+
+    #[test]
+    fn a_bump_of_a_voids_floor_that_the_plane_grazes_is_no_part() {
+        let outer = cuboid([0.0; 3], [30.0; 3]);
+        // A post in the void that reaches `over` mm beyond the plane z = 15.
+        let post = |over: f64| {
+            let void = Csg::of_solid(&cuboid([5.0; 3], [25.0; 3])).unwrap();
+            let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.0 + over])).unwrap();
+            Hollowed { outer: outer.clone(), voids: vec![void.subtract(&post).unwrap().to_solid().unwrap()] }
+        };
+        let (cut, left) = cut_at_15(&post(0.05));
+        assert_eq!((cut, left.len()), (3, 2));
+        // What is as thick as a wall can be printed and stays a part of its own.
+        let (cut, left) = cut_at_15(&post(2.0 * request().wall_mm));
+        assert_eq!((cut, left.len()), (3, 3));
     }
 
     #[test]

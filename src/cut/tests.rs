@@ -342,7 +342,8 @@ fn thin_shell() -> (Hollowed, CutPlan) {
 
 fn bosses_of(body: &Hollowed, plan: &CutPlan, price: Quadric) -> Vec<Boss> {
     let price = (price, crate::geom::Frame::identity());
-    bosses(&BossOrder { hollowed: body, request: &request(), plan, ordered: None, price }).unwrap()
+    bosses(&BossOrder { hollowed: body, request: &request(), plan, ordered: None, given_up: &[], price })
+        .unwrap()
 }
 
 /// The same everywhere.
@@ -351,7 +352,7 @@ const EVEN: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
 /// The body with bosses kept solid in its one void.
 fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
     let void = Csg::of_solid(&body.voids[0]).unwrap();
-    let bodies = bosses.iter().filter_map(|boss| boss.body.as_ref()).map(|body| Csg::of_mesh(body).unwrap());
+    let bodies = bosses.iter().map(|boss| Csg::of_mesh(&boss.body).unwrap());
     let rest = bodies.fold(void, |rest, boss| rest.subtract(&boss).unwrap());
     Hollowed { outer: body.outer.clone(), voids: vec![rest.to_solid().unwrap()] }
 }
@@ -399,8 +400,14 @@ fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
     let pins: Vec<PinSite> = bosses_of(&body, &plan, EVEN).into_iter().map(|boss| boss.pin).collect();
     let price = (EVEN, crate::geom::Frame::identity());
     let ask = |pins: &[PinSite]| {
-        let order =
-            BossOrder { hollowed: &body, request: &request(), plan: &plan, ordered: Some(pins), price };
+        let order = BossOrder {
+            hollowed: &body,
+            request: &request(),
+            plan: &plan,
+            ordered: Some(pins),
+            given_up: &[],
+            price,
+        };
         bosses(&order).unwrap().len()
     };
     assert_eq!((ask(&pins), ask(&pins[..1]), ask(&[])), (2, 1, 0));

@@ -23,6 +23,12 @@ impl Plane {
         self.normal.dot(&point.coords) - self.offset_mm
     }
 
+    /// Whether some of the points lie above the plane and others do not.
+    pub fn passes_through(&self, points: &[Point]) -> bool {
+        let mut sides = points.iter().map(|p| self.distance(p) > 0.0);
+        sides.next().is_some_and(|first| sides.any(|side| side != first))
+    }
+
     /// The point of the plane nearest to the origin.
     pub fn foot(&self) -> Point {
         Point::from(self.normal * self.offset_mm)

@@ -76,10 +76,10 @@ impl Assembly {
         let request = plan_request(setup);
         let Cleaned { voids, plan, rounds: cleaning } = cleaned(setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
-        let Bossed { voids, plan, rounds, note } = bossed(&mut tuner, (voids, plan), &request)?;
+        let Bossed { voids, plan, rounds, notes, .. } = bossed(&mut tuner, (voids, plan), &request)?;
         watch.lap("bosses");
         let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
-        assembly.plan.notes.extend(note);
+        assembly.plan.notes.extend(notes);
         watch.lap("parts");
         Ok(Self { value_before_cleaning, cleaning, bosses: rounds, ..assembly })
     }

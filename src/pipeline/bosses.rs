@@ -1,9 +1,11 @@
 //! Boss rounds: where pins have no room, material around them is kept solid and everything is solved again.
 
-use super::{Error, tuner::Tuner, tuner::Voids};
-use crate::cut::{
-    Boss, BossOrder, CutError, CutOrder, CutPlan, PinSite, PlanRequest, bosses, plan_around, plan_by,
+use super::{
+    Error,
+    settling::{Settled, Terms, settled},
+    tuner::{Tuner, Voids},
 };
+use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
 use crate::hollow::Certificate;
 use crate::mesh::TriMesh;
 
@@ -44,7 +46,9 @@ pub struct Bossed {
     /// The rounds, in their order.
     pub rounds: Vec<BossRound>,
     /// Why no more bosses were made though pins lack room.
-    pub note: Option<String>,
+    pub notes: Vec<String>,
+    /// The bosses of the plan's pins.
+    held: Vec<Boss>,
 }
 
 /// Keeps bosses solid until every joint has its pins, or no more can be had.
@@ -54,29 +58,31 @@ pub fn bossed(
     request: &PlanRequest,
 ) -> Result<Bossed, Error> {
     let ordered = ordered_pins(tuner);
-    let mut state = Bossed { voids, plan, rounds: Vec::new(), note: None };
-    let mut held: Vec<PinSite> = Vec::new();
+    let mut state = Bossed { voids, plan, rounds: Vec::new(), notes: Vec::new(), held: Vec::new() };
+    let mut given_up: Vec<JointName> = Vec::new();
     for _ in 0..MAX_ROUNDS {
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
-        let found = bosses(&BossOrder { hollowed, request, plan, ordered, price })?;
-        if found.iter().all(|boss| boss.body.is_none()) {
+        let found = bosses(&BossOrder { hollowed, request, plan, ordered, given_up: &given_up, price })?;
+        if !found.iter().any(|boss| boss.is_new) {
             break;
         }
-        held.extend(found.iter().map(|boss| boss.pin.clone()));
-        let pins = Some(ordered.map_or(held.clone(), <[PinSite]>::to_vec));
-        let order = CutOrder { pins, ..CutOrder::of(&state.plan) };
-        let mut trial = tuner.clone();
-        match round(&mut trial, &state, (&found, &order, request))? {
-            Ok((voids, plan, round)) => {
-                (state.voids, state.plan) = (voids, plan);
-                state.rounds.push(round);
-                *tuner = trial;
+        let Err(why) = tried(tuner, &mut state, &found, request)? else { continue };
+        let joints: Vec<&[Boss]> = found.chunk_by(|a, b| a.joint() == b.joint()).collect();
+        for one in &joints {
+            let is_all = ordered.is_some() || joints.len() == 1;
+            let refused = if is_all { Err(why.clone()) } else { tried(tuner, &mut state, one, request)? };
+            if let Err(why) = refused {
+                let name = one[0].joint();
+                let [below, above] = &name.parts;
+                state
+                    .notes
+                    .push(format!("joint {below}–{above}: bosses around pins would {why}: it has none"));
+                given_up.push(name);
             }
-            Err(note) => {
-                state.note = Some(note);
-                break;
-            }
+        }
+        if ordered.is_some() {
+            break;
         }
     }
     if let Some(pins) = ordered.filter(|pins| pins.len() > state.plan.pins.len()) {
@@ -93,43 +99,47 @@ fn ordered_pins<'a>(tuner: &Tuner<'a>) -> Option<&'a [PinSite]> {
     tuner.setup().job.plan.as_ref().and_then(|order| order.pins.as_deref())
 }
 
-/// One round: the voids and the plan with these bosses, or why they cannot be.
-fn round(
+/// One round: the state and the tuner with these bosses, or as they were, and why.
+fn tried(
     tuner: &mut Tuner,
-    state: &Bossed,
-    (found, order, request): (&[Boss], &CutOrder, &PlanRequest),
-) -> Result<Result<(Voids, CutPlan, BossRound), String>, Error> {
-    let bodies: Vec<TriMesh> = found.iter().filter_map(|boss| boss.body.clone()).collect();
-    let (voids, kept_mm3) = tuner.keeping(&state.voids, &bodies)?;
-    if !voids.solution.is_usable() {
-        return Ok(Err("bosses around pins would make the goal impossible: there are none".to_owned()));
-    }
-    let is_ordered = ordered_pins(tuner).is_some();
-    let replan = if is_ordered { plan_by } else { plan_around };
-    let plan = match replan(&voids.hollowed, request, order) {
-        Ok(plan) => plan,
-        Err(CutError::ClosedCavity { .. }) => {
-            return Ok(Err("bosses around pins would close a void: there are none".to_owned()));
-        }
-        Err(error) => return Err(error.into()),
+    state: &mut Bossed,
+    found: &[Boss],
+    request: &PlanRequest,
+) -> Result<Result<(), String>, Error> {
+    let stays = |boss: &&Boss| !found.iter().any(|new| new.joint() == boss.joint());
+    let held: Vec<Boss> = state.held.iter().filter(stays).chain(found).cloned().collect();
+    let ordered = ordered_pins(tuner);
+    let pins =
+        Some(ordered.map_or_else(|| held.iter().map(|boss| boss.pin.clone()).collect(), <[PinSite]>::to_vec));
+    let terms = Terms {
+        order: &CutOrder { pins, ..CutOrder::of(&state.plan) },
+        is_ordered: ordered.is_some(),
+        request,
+        must_be_clean: are_clean(&state.plan),
+        before: state.voids.solution.certificate,
     };
-    if are_clean(&state.plan) && !are_clean(&plan) {
-        let note = "bosses around pins would leave a void that cannot be cleaned: there are none more";
-        return Ok(Err(note.to_owned()));
-    }
-    let CutPlan { proofs, moves, .. } = state.plan.clone();
-    let plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
-    let kept = found.iter().filter_map(|boss| {
-        let volume_mm3 = boss.body.as_ref()?.signed_volume_mm3();
-        Some(KeptBoss { pin: boss.pin.clone(), parts: boss.parts.clone(), volume_mm3 })
+    let mut trial = tuner.clone();
+    let bodies: Vec<TriMesh> = found.iter().map(|boss| boss.body.clone()).collect();
+    let (voids, kept_mm3) = trial.keeping(&state.voids, &bodies)?;
+    let Settled { voids, plan } = match settled(&mut trial, voids, &terms)? {
+        Ok(settled) => settled,
+        Err(why) => return Ok(Err(why)),
+    };
+    let kept = found.iter().filter(|boss| boss.is_new).map(|boss| KeptBoss {
+        pin: boss.pin.clone(),
+        parts: boss.parts.clone(),
+        volume_mm3: boss.body.signed_volume_mm3(),
     });
-    let round = BossRound {
+    state.rounds.push(BossRound {
         bosses: kept.collect(),
         kept_mm3,
-        before: state.voids.solution.certificate,
+        before: terms.before,
         after: voids.solution.certificate,
-    };
-    Ok(Ok((voids, plan, round)))
+    });
+    let CutPlan { proofs, moves, .. } = state.plan.clone();
+    state.plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
+    (state.voids, state.held, *tuner) = (voids, held, trial);
+    Ok(Ok(()))
 }
 
 /// Whether every void of a plan is clean by the process's rule.

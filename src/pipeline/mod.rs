@@ -16,6 +16,7 @@ mod outcome;
 mod packages;
 mod printer_rows;
 mod rows;
+mod settling;
 mod setup;
 mod solving;
 mod stopwatch;

@@ -1,0 +1,109 @@
+//! Bosses and the voids about them brought to terms: what bosses close, or hide from the openings, is kept solid too.
+
+use super::{
+    Error,
+    tuner::{Tuner, Voids},
+};
+use crate::cut::{CutError, CutOrder, CutPlan, PlanRequest, Unclean, closed, plan_around, plan_by, unclean};
+use crate::hollow::Certificate;
+use crate::mesh::TriMesh;
+
+/// How often something is kept solid for the sake of the same bosses. One round takes nearly all.
+const MAX_ROUNDS: usize = 4;
+/// Bosses that make more than themselves solid may worsen the goal's figure by this share: parts glued awry lose as much.
+const MAX_LOSS_RATIO: f64 = 0.1;
+
+/// Voids with bosses in them, and the plan that opens them.
+pub struct Settled {
+    /// The voids.
+    pub voids: Voids,
+    /// The cuts and pins.
+    pub plan: CutPlan,
+}
+
+/// What voids are to be settled with.
+#[derive(Clone, Copy)]
+pub struct Terms<'a> {
+    /// The cuts and pins.
+    pub order: &'a CutOrder,
+    /// Whether a person ordered the pins, so that no joint gets others.
+    pub is_ordered: bool,
+    /// What plans are asked for.
+    pub request: &'a PlanRequest,
+    /// Whether every void must be clean in the end.
+    pub must_be_clean: bool,
+    /// What the solver reached without the bosses.
+    pub before: Certificate,
+}
+
+/// The voids with what the ordered cuts leave closed or unclean kept solid and the rest solved for again, until nothing is;
+/// or why that cannot be had, to be said after "bosses around pins would". The tuner is left as the last round left it.
+pub fn settled(tuner: &mut Tuner, mut voids: Voids, terms: &Terms) -> Result<Result<Settled, String>, Error> {
+    let replan = if terms.is_ordered { plan_by } else { plan_around };
+    for round in 0..=MAX_ROUNDS {
+        if !voids.solution.is_usable() {
+            return Ok(Err("make the goal impossible".to_owned()));
+        }
+        let loss = loss_ratio(&terms.before, &voids.solution.certificate);
+        if round > 0 && loss > MAX_LOSS_RATIO {
+            return Ok(Err(format!("cost {:.0} % of what the kit reaches", 100.0 * loss)));
+        }
+        let dirty = match replan(&voids.hollowed, terms.request, terms.order) {
+            Ok(plan) => {
+                let dirty = left_unclean(&voids, &plan, terms)?;
+                if dirty.is_empty() {
+                    return Ok(Ok(Settled { voids, plan }));
+                }
+                dirty
+            }
+            Err(CutError::ClosedCavity { .. }) => {
+                let closed = closed(&voids.hollowed, &terms.order.cuts, terms.request)?;
+                if closed.is_empty() {
+                    return Ok(Err("close a void".to_owned()));
+                }
+                closed
+            }
+            // What was kept solid has changed the faces that the bosses' pins stood in.
+            Err(CutError::PinOffFace { .. }) if !terms.is_ordered => {
+                return Ok(Err("move the joint away from its pins".to_owned()));
+            }
+            Err(error) => return Err(error.into()),
+        };
+        let bodies: Vec<TriMesh> = dirty.into_iter().flat_map(|unclean| unclean.lumps).collect();
+        voids = tuner.without(&voids, &bodies)?;
+    }
+    Ok(Err("leave a void that cannot be cleaned".to_owned()))
+}
+
+fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
+    if terms.must_be_clean { unclean(&voids.hollowed, plan, terms.request, false) } else { Ok(Vec::new()) }
+}
+
+/// By which share of itself the figure has become worse.
+fn loss_ratio(before: &Certificate, after: &Certificate) -> f64 {
+    let [was, is] = [before, after].map(|certificate| certificate.figure.cost(certificate.value));
+    (is - was) / was.abs().max(f64::MIN_POSITIVE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hollow::Figure;
+
+    #[test]
+    fn a_loss_is_a_share_of_what_was_reached_whichever_way_is_better() {
+        let reached = |figure, value| Certificate {
+            figure,
+            value,
+            bound: value,
+            gap_ratio: 0.0,
+            residual: 0.0,
+            bound_over_heights: None,
+        };
+        let rpm = |value| reached(Figure::CriticalSpeedRpm, value);
+        assert!((loss_ratio(&rpm(400.0), &rpm(420.0)) - 0.05).abs() < 1e-12);
+        let angle = |value| reached(Figure::TopplingAngleRad, value);
+        assert!((loss_ratio(&angle(0.5), &angle(0.4)) - 0.2).abs() < 1e-12);
+        assert!(loss_ratio(&angle(0.4), &angle(0.5)) < 0.0);
+    }
+}
