@@ -43,7 +43,7 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
     let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     html! {
         li {
-            strong { (void.id) } ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
+            strong { (void.id) } @if !void.parts.is_empty() { " in " (void.parts.join(", ")) } ", " (quantity(void.volume_mm3 / MM3_PER_CM3, "cm³")) ", "
             @if void.opened_by.is_empty() { strong class="fail" { "opened by no cut" } }
             @else {
                 "opened by " (void.opened_by.join(", ")) " to " (quantity(void.opening_mm, "mm")) " across ("

@@ -13,6 +13,9 @@ pub struct VoidRow {
     pub volume_mm3: f64,
     /// The ids of the cuts that open it.
     pub opened_by: Vec<String>,
+    /// The ids of the parts that hold a piece of it.
+    #[serde(default)]
+    pub parts: Vec<String>,
     /// The diameter of the largest disc that passes the opening of each of its pieces, mm.
     pub opening_mm: f64,
     /// The least opening it needs, mm.
