@@ -1,23 +1,58 @@
 //! The sections at the cuts, for the drawings of the job sheet.
 
 use super::void_rows::void_id;
-use super::{Assembly, Error};
+use super::{Assembly, Error, written::WrittenPart};
+use rayon::prelude::*;
+
 use crate::cut::{Point2, Ring, Section, UncutFace, VoidAccess};
 use crate::geom::{Plane, Point};
-use crate::report::{CutFace, Mouth};
+use crate::mesh::MeshDistance;
+use crate::report::{CutFace, Mouth, Region};
+
+/// How far beside the middle of its widest disc a region is looked at, as a share of the disc's diameter: within it, past a pin.
+const BESIDE_RATIO: f64 = 0.42;
+/// Directions in which that is tried.
+const LOOKS: usize = 8;
+/// How far off the cut a part is looked for, mm: past rounding, not past a wall.
+const OFF_MM: f64 = 0.02;
 
 /// The section of the uncut body at every cut.
 pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
     let body = assembly.hollowed.to_mesh();
     let plan = &assembly.plan;
+    let solid =
+        |written: &WrittenPart| (written.part.id.clone(), MeshDistance::new(written.part.solid.mesh()));
+    let solids: Vec<(String, MeshDistance)> = assembly.parts.par_iter().map(solid).collect();
     let face = |cut: &crate::cut::Cut| {
         let plane = cut.plane()?;
-        let rings: Vec<Vec<[f64; 2]>> = Section::of_mesh(&body, &plane).rings.iter().map(flat_ring).collect();
+        let section = Section::of_mesh(&body, &plane);
+        let regions = regions(&section, &plane, &solids);
+        let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
         let whole = plan.uncut.iter().filter(|face| face.cut == cut.id).map(|face| flat_point(&plane, face));
         let (wall, whole, mouths) = (thinnest(&rings), whole.collect(), mouths(assembly, &plane));
-        Ok(CutFace { cut: cut.id.clone(), plane, rings, wall, whole, mouths })
+        Ok(CutFace { cut: cut.id.clone(), plane, rings, wall, whole, regions, mouths })
     };
     plan.cuts.iter().map(face).collect()
+}
+
+/// Every region of material that the cut parts, with the parts below and above it: looked for beside the middle of its widest
+/// disc, where pins stand.
+fn regions(section: &Section, plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
+    let (u, v) = plane.basis();
+    let part_at = |at: [f64; 2], off_mm: f64| {
+        let point = plane.foot() + u * at[0] + v * at[1] + plane.normal * off_mm;
+        solids.iter().find(|(_, solid)| solid.signed(&point) > 0.0).map(|(id, _)| id.clone())
+    };
+    let region = |(middle, diameter_mm): (Point2, f64)| {
+        (0..LOOKS).find_map(|look| {
+            let (sin, cos) = (std::f64::consts::TAU * look as f64 / LOOKS as f64).sin_cos();
+            let reach_mm = BESIDE_RATIO * diameter_mm;
+            let at = [middle.x + reach_mm * cos, middle.y + reach_mm * sin];
+            let (below, above) = (part_at(at, -OFF_MM)?, part_at(at, OFF_MM)?);
+            (below != above).then_some(Region { at, parts: [below, above] })
+        })
+    };
+    section.largest_discs().into_iter().filter_map(region).collect()
 }
 
 /// Where the plane opens voids, each with the largest disc that passes there.

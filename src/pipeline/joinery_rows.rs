@@ -1,10 +1,12 @@
 //! The checklist's rows of how parts are joined.
 
+use std::collections::BTreeMap;
+
 use super::Setup;
 use super::bosses::{BossRound, KeptBoss};
 use super::joining::film;
 use super::rows::{Sheet, shown};
-use crate::cut::{CutPlan, Dowel, RodSource};
+use crate::cut::{CutPlan, Dowel, JointNote, RodSource};
 use crate::report::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::units::MM3_PER_CM3;
 use crate::verify::PromisedJoint;
@@ -65,9 +67,35 @@ pub fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
             pins: joint.pins.len(),
             clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
             glue: film(sheet.setup, joint),
-            note: (joint.pins.len() < 2).then(|| "no room for two pins: align by the outside".to_owned()),
+            note: to_mind(joint).map(str::to_owned),
         })
         .collect()
+}
+
+/// What to mind of a joint that has not at least two pins that fit one way only.
+fn to_mind(joint: &JointNote) -> Option<&'static str> {
+    match joint.pins.len() {
+        0 => Some("no room for pins: align the outlines by eye and touch"),
+        1 => Some("room for one pin only: mind the turn, align the outlines"),
+        _ if !joint.one_way => Some("the pins fit in more than one way: mind the turn, align the outlines"),
+        _ => None,
+    }
+}
+
+/// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and which parts bear no id at
+/// the printing.
+pub fn is_told_in_a_step(note: &str) -> bool {
+    ["joint ", "no room for an id "].iter().any(|start| note.starts_with(start))
+}
+
+/// The joints that are to be minded, in one warning; none where all fit one way only.
+pub fn joints_to_mind(plan: &CutPlan) -> Option<String> {
+    let minded = plan.joints.iter().enumerate().filter_map(|(index, joint)| Some((index, to_mind(joint)?)));
+    let mut by_what: BTreeMap<&str, Vec<String>> = BTreeMap::new();
+    minded.for_each(|(index, what)| by_what.entry(what).or_default().push(joint_id(index)));
+    let told: Vec<String> =
+        by_what.into_iter().map(|(what, joints)| format!("{}: {what}", joints.join(", "))).collect();
+    (!told.is_empty()).then(|| told.join("; "))
 }
 
 /// The boss rounds of a run.

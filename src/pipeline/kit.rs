@@ -90,8 +90,8 @@ fn file_papers(kit: &mut Kit, sheet: &Checklist, (pictures, view): (&[Picture], 
 
 /// What the pictures are taken of: the files as they are written.
 fn sitting<'a>(shells: &'a Shells, cuts: &'a [Plane], evidence: &'a Evidence) -> Sitting<'a> {
-    let Promise { goal, hardware, parts: promised, .. } = &evidence.promise;
-    Sitting { shells, parts: &evidence.parts, promised, cuts, aim: *goal, hardware }
+    let Promise { goal, hardware, ballast, parts: promised, .. } = &evidence.promise;
+    Sitting { shells, parts: &evidence.parts, promised, cuts, aim: *goal, hardware, ballast }
 }
 
 /// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.

@@ -6,6 +6,7 @@ mod ballasting;
 mod bosses;
 mod cleaning;
 mod faces;
+mod finished_rows;
 mod fitting;
 mod grid_rows;
 mod joinery_rows;

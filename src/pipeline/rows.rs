@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use super::finished_rows::{cup_mm3, turn_row};
 use super::fitting::{half_of, halves, shallow_axle};
-use super::joinery_rows::{bosses_mm3, cut_list, joint_id, joint_rows, round_rows};
+use super::joinery_rows::{
+    bosses_mm3, cut_list, is_told_in_a_step, joint_id, joint_rows, joints_to_mind, round_rows,
+};
 use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
@@ -16,7 +19,7 @@ use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
     BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
-    SpeedRow, Tool, WallRow,
+    SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure, RotorOrder,
@@ -50,7 +53,14 @@ pub struct Sheet<'a> {
 
 /// The checklist, but for the hashes of the kit's files and the timings.
 pub fn checklist(sheet: &Sheet) -> Checklist {
+    let mut checklist = filled(sheet);
+    checklist.warnings.extend(cup_warning(&checklist));
+    checklist
+}
+
+fn filled(sheet: &Sheet) -> Checklist {
     let (setup, judgement) = (sheet.setup, sheet.judgement);
+    let parts = part_rows(sheet);
     Checklist {
         schema: Checklist::SCHEMA,
         tool: Tool { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() },
@@ -64,16 +74,22 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
         hollowed: judgement.hollowed.clone(),
         assembly: judgement.assembly.clone(),
         certificate: certificate(sheet),
-        wall: WallRow { required_mm: setup.wall.wall_mm, measured_min_mm: judgement.wall_min_mm },
+        wall: WallRow {
+            required_mm: setup.wall.wall_mm,
+            asked_mm: setup.wall.asked_mm,
+            measured_min_mm: judgement.wall_min_mm,
+        },
         voids: void_rows::void_rows(sheet),
         cuts: cut_rows(sheet),
-        parts: part_rows(sheet),
+        turn: turn_row(sheet, &parts),
+        parts,
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
         hardware: setup.hardware(),
         dowels: dowels(&sheet.assembly.plan),
         cut_list: cut_list(sheet),
         string_gap_mm: setup.string_gap_mm(),
+        finished_size_mm: Some(finished_size_mm(&sheet.assembly.evidence(), &setup.hardware())),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
         rounds: round_rows(sheet),
@@ -230,6 +246,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
                 marks: part.labels.iter().map(mark).collect(),
                 half: half_of(written, &halves),
+                cup_mm3: cup_mm3(&written.read_back),
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })
@@ -306,13 +323,15 @@ fn warnings(sheet: &Sheet) -> Vec<String> {
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup)).collect()
+    let told = placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup));
+    told.chain(joints_to_mind(&sheet.assembly.plan)).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {
     let wall = sheet.setup.wall.why.clone();
     let scale = scaled(sheet.setup.printer.print_scale_ratio()).map(scale_note);
-    std::iter::once(wall).chain(scale).chain(sheet.assembly.plan.notes.iter().cloned()).collect()
+    let planned = sheet.assembly.plan.notes.iter().filter(|note| !is_told_in_a_step(note)).cloned();
+    std::iter::once(wall).chain(scale).chain(planned).collect()
 }
 
 fn log_row(row: &hollow::LogRow) -> LogRow {

@@ -1,9 +1,15 @@
 //! The checklist's rows about voids: how each is opened and cleaned, and what cleaning cost.
 
-use super::{CleaningRound, Setup, rows::Sheet};
+use super::{Assembly, CleaningRound, Setup, rows::Sheet, written::WrittenPart};
 use crate::cut::{CutPlan, VoidAccess};
+use crate::geom::{Bvh, Point};
 use crate::report::{CleaningRow, KeptRow, VoidRow, is_clean};
 use crate::verify::{PromisedCut, PromisedVoid};
+
+/// How near to a void's wall a corner lies on it, mm: the booleans keep corners to 1e-6 mm.
+const SAME_MM: f64 = 1e-5;
+/// Corners on a void's wall that make a part one of those that hold it: a pin may touch a mouth's rim with fewer.
+const LEAST_CORNERS: usize = 8;
 
 /// One row for each void.
 pub fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
@@ -13,6 +19,7 @@ pub fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
         VoidRow {
             volume_mm3: access.volume_mm3,
             opened_by: access.opened_by.clone(),
+            parts: holders(sheet.assembly, access.void),
             opening_mm: access.opening_mm,
             least_opening_mm: least_opening_mm(setup, plan, access.void),
             depth_mm: access.depth_mm,
@@ -24,6 +31,18 @@ pub fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
         }
     };
     plan.voids.iter().map(row).collect()
+}
+
+/// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does not cut.
+fn holders(assembly: &Assembly, void: usize) -> Vec<String> {
+    let Some(body) = assembly.hollowed.voids.get(void) else { return Vec::new() };
+    let wall = Bvh::new(body.mesh().iter_corners());
+    let holds = |written: &&WrittenPart| {
+        let corners = written.part.solid.mesh().vertices().iter();
+        let on_wall = |p: &&Point| wall.closest(p, SAME_MM, &[]).is_some();
+        corners.filter(on_wall).take(LEAST_CORNERS).count() == LEAST_CORNERS
+    };
+    assembly.parts.iter().filter(holds).map(|written| written.part.id.clone()).collect()
 }
 
 /// The name of a void on the sheet.

@@ -2,18 +2,20 @@
 
 use rayon::prelude::*;
 
-use super::apart::{Apart, parts_in_model};
+use super::apart::{self, Apart, parts_in_model};
 use super::figure::{Drawn, Picture, Role};
-use super::hardware::drawn;
-use super::palette::{BODY, HARDWARE, SECTION, VOID, part_color};
-use super::picture::{Camera, Color, Item, PictureError, Scene, render};
+use super::halves;
+use super::hardware::{drawn, drawn_lump};
+use super::palette::{BALLAST, BODY, HARDWARE, SECTION, VOID, part_color};
+use super::picture::{Camera, Color, Item, PictureError, Scene, render_seen};
 use super::plate;
 use super::projection::Projection;
-use super::svg::Drawing;
+use super::seen::Seen;
+use super::svg::{Drawing, Mark};
 use crate::geom::{Frame, Plane, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
-use crate::verify::{Aim, Hardware, PartEvidence, Peg, PromisedPart, Shells};
+use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
 
 /// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to mail.
 const SIZE_PX: [usize; 2] = [720, 560];
@@ -41,6 +43,18 @@ pub struct Sitting<'a> {
     pub aim: Aim,
     /// What is put in that is not printed, model frame.
     pub hardware: &'a [Hardware],
+    /// The stock parts in their pockets, model frame.
+    pub ballast: &'a [BallastOrder],
+}
+
+impl Sitting<'_> {
+    /// The planes along which the parts are drawn apart: those of the cuts, and the one between the halves of a yo-yo.
+    pub(super) fn partings(&self) -> Vec<Plane> {
+        let frame = self.aim.frame();
+        let has_halves = self.hardware.iter().any(|piece| piece.what == "axle");
+        let between = has_halves.then(|| Plane::through(&frame.origin, &frame.axis()));
+        self.cuts.iter().copied().chain(between).collect()
+    }
 }
 
 /// The file of the picture of one part.
@@ -53,8 +67,10 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let view = View::of(&outer, &sitting.aim.frame());
     let in_place = parts_in_model(sitting.parts);
-    let apart = Apart::of(&in_place, sitting.cuts);
+    let partings = sitting.partings();
+    let apart = Apart::of(&in_place, &partings);
     let hardware: Vec<TriMesh> = sitting.hardware.iter().map(drawn).collect();
+    let lumps: Vec<TriMesh> = sitting.ballast.iter().map(|order| drawn_lump(&order.lump)).collect();
     let plates: Vec<[TriMesh; 2]> =
         sitting.parts.iter().map(|part| plate::under(&part.mesh.aabb())).collect();
     let mut shots = vec![
@@ -64,9 +80,27 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     ];
     let whole = |mesh| Item { is_whole: true, ..still(mesh, HARDWARE) };
     shots.iter_mut().for_each(|shot| shot.scene.items.extend(hardware.iter().map(whole)));
+    let count = sitting.parts.len();
+    let names =
+        sitting.hardware.iter().enumerate().map(|(index, piece)| Label::On(count + index, piece.id.clone()));
+    shots[2].labels.extend(names);
+    add_ballast(&mut shots[2], sitting, &lumps, &partings);
+    shots.extend(halves::shot(sitting, &in_place, &hardware));
     let of_parts = sitting.parts.iter().zip(&plates).enumerate();
     shots.extend(of_parts.map(|(index, (part, plate))| plate::shot(part, plate, part_color(index))));
     shots.par_iter().map(Shot::take).collect()
+}
+
+/// Adds the ballast to the parts drawn apart: between the parts whose cut opens its pocket.
+fn add_ballast<'a>(shot: &mut Shot<'a>, sitting: &Sitting, lumps: &'a [TriMesh], partings: &[Plane]) {
+    let apart_mm = apart::apart_mm(&shot.scene.items);
+    for (order, mesh) in sitting.ballast.iter().zip(lumps) {
+        let (center, reach_mm) = (Point::from(order.lump.center_mm), order.lump.shape.radius_mm());
+        let away = partings.iter().filter(|plane| plane.distance(&center).abs() > reach_mm);
+        let shift = away.map(|plane| apart::away(plane, &center, apart_mm)).sum();
+        shot.labels.push(Label::On(shot.scene.items.len(), order.id.clone()));
+        shot.scene.items.push(Item { shift, ..still(mesh, BALLAST) });
+    }
 }
 
 /// What the picture of the whole is called.
@@ -95,6 +129,8 @@ pub(super) struct Shot<'a> {
 pub(super) enum Label {
     /// At the side, with a line to this point of the scene.
     At(Point, String),
+    /// At the side, with a line to where most of this item is seen.
+    On(usize, String),
     /// A line between two points of the scene.
     Between([Point; 2]),
     /// A length between two points of the scene, drawn this many pixels aside.
@@ -103,23 +139,38 @@ pub(super) enum Label {
 
 impl Shot<'_> {
     fn take(&self) -> Result<Picture, PictureError> {
-        let png = render(&self.scene, &self.camera).to_png()?;
-        let drawn = if self.labels.is_empty() { Drawn::Png(png) } else { Drawn::Svg(self.labelled(&png)) };
+        let (image, seen) = render_seen(&self.scene, &self.camera);
+        let png = image.to_png()?;
+        let drawn =
+            if self.labels.is_empty() { Drawn::Png(png) } else { Drawn::Svg(self.labelled(&png, &seen)) };
         let (file, caption, alt) = (self.file.clone(), self.caption.clone(), self.alt.clone());
         Ok(Picture { file, role: self.role, caption, alt, drawn })
     }
 
-    fn labelled(&self, png: &[u8]) -> Drawing {
+    /// The name of an item: at the middle of what is seen of it, or dashed at its own middle where it is hidden.
+    fn named(&self, item: usize, words: &str, (projection, seen): (&Projection, &Seen)) -> Mark {
+        let middle = || {
+            let of = self.scene.items.get(item).map(|item| item.mesh.aabb().center() + item.shift);
+            projection.at(&of.unwrap_or(Point::origin()))
+        };
+        let spot = seen.middle_of(item);
+        Mark { is_hidden: spot.is_none(), ..Mark::new(spot.unwrap_or_else(middle), words.to_owned()) }
+    }
+
+    fn labelled(&self, png: &[u8], seen: &Seen) -> Drawing {
         let projection = Projection::of(&self.scene, &self.camera, 1);
         let mut drawing = Drawing::new(self.camera.size_px, self.text_px);
         drawing.picture(png, 1.0);
         let mut marks = Vec::new();
         for label in &self.labels {
             match label {
-                Label::At(point, words) => marks.push((projection.at(point), words.clone())),
-                Label::Between(ends) => {
-                    drawing.line(ends.each_ref().map(|end| projection.at(end)), super::svg::Stroke::DASHED);
+                Label::At(point, words) => {
+                    let at = projection.at(point);
+                    let is_hidden = !seen.shows(at, projection.nearness_mm(point));
+                    marks.push(Mark { is_hidden, ..Mark::new(at, words.clone()) });
                 }
+                Label::On(item, words) => marks.push(self.named(*item, words, (&projection, seen))),
+                Label::Between(ends) => drawing.dashed(ends.each_ref().map(|end| projection.at(end))),
                 Label::Length(ends, aside, words) => {
                     drawing.dimension(ends.each_ref().map(|end| projection.at(end)), *aside, words);
                 }

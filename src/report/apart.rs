@@ -33,10 +33,23 @@ pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
 
 /// How far each part is drawn from its place: away from every cut, to its own side.
 pub(super) fn shifts(parts: &[TriMesh], cuts: &[Plane]) -> Vec<Vector> {
-    let all = parts.iter().map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
-    let apart_mm = APART_RATIO * all.size().max();
-    let side = |center: &Point, cut: &Plane| cut.normal * (0.5 * apart_mm * cut.distance(center).signum());
-    parts.iter().map(|part| cuts.iter().map(|cut| side(&part.aabb().center(), cut)).sum()).collect()
+    let apart_mm = of_longest_side_mm(parts.iter());
+    parts.iter().map(|part| cuts.iter().map(|cut| away(cut, &part.aabb().center(), apart_mm)).sum()).collect()
+}
+
+/// How far what has its centre here is drawn from a cut that parts `apart_mm`.
+pub(super) fn away(cut: &Plane, center: &Point, apart_mm: f64) -> Vector {
+    cut.normal * (0.5 * apart_mm * cut.distance(center).signum())
+}
+
+/// How far the parts of a scene are drawn apart at a cut, mm.
+pub(super) fn apart_mm(items: &[Item]) -> f64 {
+    of_longest_side_mm(items.iter().map(|item| item.mesh))
+}
+
+fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
+    let all = meshes.map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
+    APART_RATIO * all.size().max()
 }
 
 impl<'a> Apart<'a> {
@@ -55,7 +68,7 @@ impl<'a> Apart<'a> {
         Shot {
             file: "pictures/parts.svg".to_owned(),
             role: Role::Exploded,
-            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes."
+            caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes; a dashed leader ends at something hidden. N: pins, H: hardware, B: ballast."
                 .to_owned(),
             alt: alt(promised),
             scene: Scene {
@@ -83,23 +96,10 @@ impl<'a> Apart<'a> {
     }
 
     fn labels(&self, promised: &[PromisedPart]) -> Vec<Label> {
-        let name = |(index, part): (usize, &TriMesh)| {
-            Label::At(
-                self.named_at(index, part),
-                promised.get(index).map_or(String::new(), |part| part.id.clone()),
-            )
-        };
-        let names = self.parts.iter().enumerate().map(name);
+        let name = |(index, part): (usize, &PromisedPart)| Label::On(index, part.id.clone());
+        let names = promised.iter().enumerate().map(name);
         let pins = pins(promised).filter_map(|(part, pin)| self.pin_labels(part, pin, promised)).flatten();
         names.chain(pins).collect()
-    }
-
-    /// A place of a part that names it: what lies farthest from the others, on its surface.
-    fn named_at(&self, index: usize, part: &TriMesh) -> Point {
-        let (shift, center) = (self.shifts[index], part.aabb().center());
-        let reach = |p: &Point| (p - center).dot(&shift);
-        let first = part.vertices().first().copied().unwrap_or(center);
-        part.vertices().iter().fold(first, |best, p| if reach(p) > reach(&best) { *p } else { best }) + shift
     }
 
     /// The line from a pin to its socket, and the pin's name at its tip.

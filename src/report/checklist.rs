@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::cleaning::CleaningRow;
 use super::course::Course;
+use super::finished::TurnRow;
 use super::grid::GridRow;
 use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
@@ -69,6 +70,12 @@ pub struct Checklist {
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,
+    /// The extent of the finished object with its hardware, along the model's own axes, mm; none in kits of older versions.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub finished_size_mm: Option<[f64; 3]>,
+    /// What becomes of a yo-yo whose halves are not turned true against each other; none where there is one body.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub turn: Option<TurnRow>,
     /// The stock parts that are laid in before gluing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ballast: Vec<BallastRow>,
@@ -239,8 +246,11 @@ pub struct HeightProof {
 /// The wall that was ordered and the one that was measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WallRow {
-    /// The least wall ordered, mm.
+    /// The least wall promised, mm: what was asked for, rounded up to what the printer makes.
     pub required_mm: f64,
+    /// What was asked for, mm; none where the printer's least was taken.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub asked_mm: Option<f64>,
     /// The least distance between a void and the outside on the written surfaces, mm; none without voids.
     pub measured_min_mm: Option<f64>,
 }

@@ -7,7 +7,7 @@ use super::page::{Papers, blank};
 use super::qr::JobId;
 use super::running::{code, on_screen};
 use super::steps::step_names;
-use super::words::{self, extent, number, quantity, quantity_or_dash};
+use super::words::{self, extent, number, quantity};
 use super::{Checklist, Verdict};
 use crate::units::{MM3_PER_CM3, counted};
 
@@ -27,11 +27,11 @@ pub(super) fn cover(papers: &Papers, job: &JobId) -> Markup {
             div class="code" { (code(job)) p class="small" { "Name of the job and SHA-256 of checklist.json" } }
         }
         section aria-label="Overview" {
+            (order())
             (warnings(sheet))
             div class="cover-pictures" { (figures(papers.pictures, Role::Cover)) (figures(papers.pictures, Role::CutAway)) }
             (facts(sheet))
             (way(sheet))
-            (order())
         }
     }
 }
@@ -56,9 +56,9 @@ fn facts(sheet: &Checklist) -> Markup {
             tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
             tr { th scope="row" { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
             tr { th scope="row" { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
-            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
+            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) ", not weighed by this shop unless it says measured (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
             tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (counted(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
-            tr { th scope="row" { "Wall" } td { "ordered " (quantity(sheet.wall.required_mm, "mm")) ", thinnest measured " (quantity_or_dash(sheet.wall.measured_min_mm, "mm")) } }
+            tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }
     }
 }
@@ -77,7 +77,7 @@ fn pixels(sheet: &Checklist) -> String {
 /// What there is, and the steps with links to them.
 fn way(sheet: &Checklist) -> Markup {
     html! {
-        nav aria-label="Steps" {
+        nav class="steps" aria-label="Steps" {
             p {
                 "It comes as " strong { (counted(sheet.parts.len(), "part")) } " with " (counted(sheet.voids.len(), "void")) " inside, opened by "
                 (counted(sheet.cuts.len(), "cut")) " and joined at " (counted(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"

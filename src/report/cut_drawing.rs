@@ -3,7 +3,7 @@
 use super::Checklist;
 use super::figure::{Drawn, Picture, Role};
 use super::palette::{HATCH, VOID, hex};
-use super::svg::{Drawing, Spot, Stroke};
+use super::svg::{Drawing, Mark, Spot, Stroke};
 use super::words::{number, quantity};
 use crate::geom::{Plane, Point, Vector};
 use crate::verify::Peg;
@@ -33,10 +33,21 @@ pub struct CutFace {
     pub rings: Vec<Vec<[f64; 2]>>,
     /// Where the wall between the outside and a void is thinnest in it: its two ends, same coordinates.
     pub wall: Option<[[f64; 2]; 2]>,
+    /// Every region of material with the parts below and above it.
+    pub regions: Vec<Region>,
     /// A point of every face that the cut leaves whole, same coordinates.
     pub whole: Vec<[f64; 2]>,
     /// The voids it opens.
     pub mouths: Vec<Mouth>,
+}
+
+/// A region of material in a cut.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Region {
+    /// A point well inside, in the plane's coordinates, mm.
+    pub at: [f64; 2],
+    /// The ids of the parts below and above the cut there.
+    pub parts: [String; 2],
 }
 
 /// Where a cut opens a void.
@@ -99,10 +110,9 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
         caption: format!(
-            "Cut {}, seen against its normal {}. Orange: material; blue: open void, with the widest disc that passes. N: pins (full circle) in their \
-             sockets (dashed). Diameters in mm.",
-            face.cut,
-            super::words::coordinates(&face.plane.normal.into())
+            "Cut {}. P: the part behind the drawing | the part taken off it. Orange: material; blue: open void, with the widest disc that passes. \
+             N: pins (full circle) in their sockets (dashed). B: ballast and H: hardware (dash-dotted). Diameters in mm.",
+            face.cut
         ),
         alt: format!("Section at cut {} with its sizes, {pins}.", face.cut),
         drawn: Drawn::Svg(drawn(sheet, face, &pegs)),
@@ -139,7 +149,7 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     for mouth in &face.mouths {
         let at = paper.at(mouth.at);
         drawing.circle(at, 0.5 * paper.scale * mouth.diameter_mm, (None, Stroke::DASHED));
-        marks.push((at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
+        marks.push(Mark::new(at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
     }
     for (pin, socket) in pegs {
         let at = paper.at(flat(&face.plane, &pin.center_mm));
@@ -148,10 +158,14 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
             at,
             [paper.scale * pin.diameter_mm, socket.map_or(0.0, |s| paper.scale * s.diameter_mm)],
         );
-        marks.push((at, peg_words(pin, *socket)));
+        let radius_px = 0.5 * paper.scale * socket.map_or(pin.diameter_mm, |s| s.diameter_mm);
+        marks.push(Mark { radius_px, ..Mark::new(at, peg_words(pin, *socket)) });
     }
     marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &paper)));
-    marks.extend(face.whole.iter().map(|at| (paper.at(*at), "stays whole".to_owned())));
+    marks.extend(face.whole.iter().map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())));
+    let region = |region: &Region| Mark::new(paper.at(region.at), region.parts.join(" | "));
+    marks.extend(face.regions.iter().map(region));
+    marks.extend(draw_inserts(&mut drawing, sheet, &face.plane, &paper));
     drawing.callouts(&marks);
     drawing
 }
@@ -180,11 +194,41 @@ fn draw_peg(drawing: &mut Drawing, at: Spot, [pin_px, socket_px]: [f64; 2]) {
 }
 
 /// The thinnest wall as a thick line, and its words.
-fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> (Spot, String) {
+fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark {
     let [a, b] = ends.map(|end| paper.at(end));
     drawing.line([a, b], Stroke { width: 4.0, ..Stroke::THICK });
     let mm = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
-    ([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
+    Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
+}
+
+/// What is not printed and reaches through the cut: ballast as circles, rods as their outlines; with their names.
+fn draw_inserts(drawing: &mut Drawing, sheet: &Checklist, plane: &Plane, paper: &Sheet) -> Vec<Mark> {
+    let balls = sheet.ballast.iter().map(|row| {
+        let (center_mm, radius_mm) = (row.order.lump.center_mm, row.order.lump.shape.radius_mm());
+        (row.order.id.clone(), [center_mm, center_mm], radius_mm)
+    });
+    let rods = sheet.hardware.iter();
+    let rods = rods.map(|rod| (rod.id.clone(), [rod.from_mm, rod.to_mm], 0.5 * rod.diameter_mm));
+    let mut marks = Vec::new();
+    for (id, ends_mm, radius_mm) in balls.chain(rods) {
+        let [from, to] = ends_mm.map(|end| plane.distance(&Point::from(end)));
+        if from.min(to) > radius_mm || from.max(to) < -radius_mm {
+            continue;
+        }
+        let [a, b] = ends_mm.map(|end| paper.at(flat(plane, &end)));
+        let (way, wide) = ([b[0] - a[0], b[1] - a[1]], paper.scale * radius_mm);
+        let length = way[0].hypot(way[1]);
+        if length < wide {
+            drawing.circle(a, wide, (None, Stroke::DASH_DOT));
+        } else {
+            let side = [-way[1] * wide / length, way[0] * wide / length];
+            let corner = |p: Spot, sign: f64| [p[0] + sign * side[0], p[1] + sign * side[1]];
+            let outline = vec![corner(a, 1.0), corner(b, 1.0), corner(b, -1.0), corner(a, -1.0)];
+            drawing.path(&[outline], true, (None, Stroke::DASH_DOT));
+        }
+        marks.push(Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], id));
+    }
+    marks
 }
 
 /// The lengths over all.
@@ -219,6 +263,7 @@ mod tests {
             rings: vec![square(0.0, 10.0)],
             wall: None,
             whole: vec![],
+            regions: vec![],
             mouths: vec![],
         };
         for up in [[0.0, 1.0], [1.0, 0.0], [-0.6, 0.8]] {

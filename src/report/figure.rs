@@ -18,6 +18,8 @@ pub enum Role {
     Part,
     /// A cut with its pins, beside the dry fit.
     Cut,
+    /// The halves of a yo-yo on their axle, beside the hardware.
+    Halves,
     /// Mass properties before and after.
     Inertia,
     /// How the proof came about.
@@ -27,7 +29,7 @@ pub enum Role {
 impl Role {
     /// Whether its pictures are shown one below the other, large.
     fn is_wide(self) -> bool {
-        matches!(self, Self::Cut | Self::Exploded)
+        matches!(self, Self::Cut | Self::Exploded | Self::Halves)
     }
 }
 

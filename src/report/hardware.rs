@@ -3,8 +3,12 @@
 use maud::{Markup, html};
 
 use super::Checklist;
+use super::figure::{Picture, Role, figures};
+use super::finished::turning;
+use super::page::blank;
 use super::words::quantity;
-use crate::geom::{Frame, Point};
+use crate::geom::{Frame, Point, Vector};
+use crate::mass::Lump;
 use crate::mesh::{TriMesh, primitives};
 use crate::verify::Hardware;
 
@@ -14,13 +18,15 @@ const SIDES: u32 = 32;
 const BALL_LEVEL: u32 = 2;
 
 /// The step in which the hardware is put in.
-pub(super) fn fitting(sheet: &Checklist) -> Markup {
+pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         @for half in ["A", "B"] {
             @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half) } " is " (parts) "." } }
         }
+        (turning(sheet))
+        (figures(pictures, Role::Halves))
         ul class="ticks" {
-            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) } }
+            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) " Weighed, g " (blank()) } }
         }
         p class="small" { "Weigh each piece before it goes in: what differs from the mass above moves the centre of mass, or slows it down." }
     }
@@ -63,6 +69,18 @@ fn described(sheet: &Checklist, piece: &Hardware) -> String {
         ),
         _ => format!("{rod}: glued {depth} deep into the {socket} socket on top; {out} stand out."),
     }
+}
+
+/// A piece of ballast as it is drawn: nuts and coins as discs.
+pub(super) fn drawn_lump(lump: &Lump) -> TriMesh {
+    let (center, shape) = (Point::from(lump.center_mm), &lump.shape);
+    if shape.is_ball() {
+        return primitives::ball(&center, shape.radius_mm(), BALL_LEVEL);
+    }
+    let frame = Frame::with_axis(center, &Vector::from(lump.axis).normalize());
+    let low = Point::new(0.0, 0.0, -shape.half_height_mm());
+    let disc = primitives::cylinder(shape.radius_mm(), 2.0 * shape.half_height_mm(), SIDES);
+    disc.map_vertices(|p| frame.to_model(&(low + p.coords)))
 }
 
 /// A piece as it is drawn: rings as if they had no hole.

@@ -10,7 +10,10 @@ mod cover;
 mod cut_drawing;
 mod drawings;
 mod figure;
+mod finished;
+mod gluing;
 mod grid;
+mod halves;
 mod hardware;
 mod inertia;
 mod joinery;
@@ -21,6 +24,7 @@ mod parts_table;
 mod picture;
 mod plate;
 mod plot;
+mod printing;
 mod projection;
 mod proof;
 mod qr;
@@ -28,6 +32,7 @@ mod rows;
 mod running;
 #[cfg(test)]
 mod sample;
+mod seen;
 mod steps;
 mod svg;
 #[cfg(test)]
@@ -35,6 +40,7 @@ mod tests;
 mod timing;
 mod trials;
 mod view;
+mod weighing;
 mod words;
 
 pub use album::{Sitting, album, part_picture_file};
@@ -44,9 +50,10 @@ pub use checklist::{
 };
 pub use cleaning::{CleaningRow, KeptRow, is_clean};
 pub use course::{Course, PassRow, SpeedRow};
-pub use cut_drawing::{CutFace, Mouth};
+pub use cut_drawing::{CutFace, Mouth, Region};
 pub use drawings::drawings;
 pub use figure::{Drawn, Picture, Role};
+pub use finished::{TurnRow, cup_warning, finished_size_mm};
 pub use grid::GridRow;
 pub use joinery::{BossRow, CutListRow, RoundRow};
 pub use kit::{COUPON_FILE, Existing, Kit, KitError};

@@ -8,8 +8,9 @@ use super::parts_table::parts;
 use super::proof;
 use super::qr::JobId;
 use super::running::style;
-use super::steps::steps;
+use super::steps::{step_names, steps};
 use super::view::{View, viewer};
+use super::weighing::printed_g;
 use super::words::{number, quantity};
 use super::{Checklist, grid};
 
@@ -42,7 +43,7 @@ pub fn page(papers: &Papers) -> String {
             @if let Some(view) = papers.view { (viewer(view)) }
             (parts(sheet, pictures))
             (steps(sheet, pictures))
-            (sign_off())
+            (sign_off(sheet))
             (grid::table(&sheet.grid))
             (proof::checks(&sheet.checks))
             (proof::proof(sheet, pictures))
@@ -74,15 +75,15 @@ fn written(title: &str, body: &Markup, style: &str) -> String {
     .into_string()
 }
 
-/// The mass, and what a sound print may weigh where the density was measured; else its share of the whole, which no
-/// density changes.
+/// The mass of something printed, and what a sound print of it may weigh where the density was measured; else its share of all
+/// parts, which no density changes.
 pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
     html! {
         (quantity(mass_g, "g"))
         @if let Some(spread) = sheet.material.density_spread_ratio { (window(mass_g, spread)) }
         @else {
             br;
-            span class="small" { (number(100.0 * mass_g / sheet.assembly.mass_g)) " % of the whole" }
+            span class="small" { (number(100.0 * mass_g / printed_g(sheet))) " % of all parts" }
         }
     }
 }
@@ -99,19 +100,26 @@ fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     }
 }
 
+/// The path of a file, which breaks behind `/`, `_` and `-` where the line is too short.
+pub(super) fn file_name(path: &str) -> Markup {
+    html! { code { @for piece in path.split_inclusive(['/', '_', '-']) { (piece) wbr; } } }
+}
+
 /// A line to write on.
 pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }
 }
 
-fn sign_off() -> Markup {
+/// A line for every step, in the order of the sheet.
+fn sign_off(sheet: &Checklist) -> Markup {
+    let steps = step_names(sheet).into_iter();
     html! {
         section {
             h2 id="sign-off" { "Sign-off" }
             table {
                 thead { tr { th scope="col" { "Step" } th scope="col" { "Name" } th scope="col" { "Date" } th scope="col" { "Remarks" } } }
                 tbody {
-                    @for step in ["prepared", "printed", "cleaned", "weighed", "glued", "tested", "released"] {
+                    @for step in ["Prepare"].into_iter().chain(steps).chain(["Release"]) {
                         tr { th scope="row" { (step) } td { (blank()) } td { (blank()) } td { "\u{a0}" } }
                     }
                 }

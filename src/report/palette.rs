@@ -12,11 +12,25 @@ pub const SECTION: Color = [213, 94, 0];
 pub const HATCH: Color = [255, 214, 170];
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
+/// Ballast: light steel.
+pub const BALLAST: Color = [176, 180, 190];
 /// The squares of a plate, two by two.
 pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
-/// Parts, in turn: neighbours in this order differ in lightness too.
-pub const PARTS: [Color; 6] =
-    [[240, 228, 66], [0, 114, 178], [86, 180, 233], [0, 158, 115], [230, 159, 0], [204, 121, 167]];
+/// Parts, in turn: six of Okabe and Ito, then paler and darker ones; neighbours in this order differ in lightness too.
+pub const PARTS: [Color; 12] = [
+    [240, 228, 66],
+    [0, 114, 178],
+    [86, 180, 233],
+    [0, 158, 115],
+    [230, 159, 0],
+    [204, 121, 167],
+    [255, 245, 200],
+    [150, 100, 40],
+    [190, 225, 255],
+    [130, 140, 40],
+    [170, 240, 190],
+    [150, 90, 190],
+];
 
 /// The colour of a part.
 pub fn part_color(index: usize) -> Color {
@@ -63,7 +77,7 @@ mod tests {
         for pair in PARTS.windows(2) {
             assert!(contrast(pair[0], pair[1]) > 1.3, "{pair:?}");
         }
-        assert!(contrast(PARTS[5], PARTS[0]) > 1.3);
+        assert!(contrast(PARTS[11], PARTS[0]) > 1.3);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 use maud::{Markup, html};
 
 use super::figure::Picture;
-use super::page::{blank, mass_with_window};
+use super::page::{blank, file_name, mass_with_window};
 use super::words::{extent, quantity};
 use super::{Checklist, PartRow};
 use crate::units::{MM3_PER_CM3, counted};
@@ -33,7 +33,7 @@ fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
             td { (described(part)) }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
             td class="boxes" {
-                @for field in ["Machine", "Material lot", "Operator", "Weighed, g"] { span class="field" { (field) " " (blank()) } br; }
+                @for field in ["Machine", "Material lot", "Operator"] { span class="field" { (field) " " (blank()) } br; }
                 span class="field" { "Sound ☐" }
             }
         }
@@ -44,7 +44,7 @@ fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
 fn described(part: &PartRow) -> Markup {
     html! {
         strong class="part-id" { (part.id) } @if let Some(half) = &part.half { ", half " (half) } br;
-        code { (part.file) } br;
+        (file_name(&part.file)) br;
         "SHA-256 " code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) "…" } br;
         (extent(&part.size_mm)) br;
         (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (part.triangles) " triangles" br;

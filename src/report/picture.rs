@@ -2,6 +2,7 @@
 
 use super::palette::HATCH;
 use super::projection::Projection;
+use super::seen::Seen;
 use super::svg::INK;
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::TriMesh;
@@ -102,6 +103,11 @@ impl Image {
 ///
 /// About 0.1 s for 100 000 triangles at 900 × 700.
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
+    render_seen(scene, camera).0
+}
+
+/// The same with what is seen at every pixel.
+pub(super) fn render_seen(scene: &Scene, camera: &Camera) -> (Image, Seen) {
     let mut canvas = Canvas::new(scene, camera);
     for (index, item) in scene.items.iter().enumerate() {
         let cut = scene.cut.as_ref().filter(|_| !item.is_whole);
@@ -110,7 +116,7 @@ pub fn render(scene: &Scene, camera: &Camera) -> Image {
         }
     }
     canvas.outline();
-    canvas.resolve()
+    (canvas.resolve(), canvas.seen())
 }
 
 /// What is seen at a sample.
@@ -229,6 +235,20 @@ impl Canvas {
         let is_bent = f64::from(cosine) < CREASE_COSINE || (here.depth - there.depth).abs() > step_mm;
         let is_edge = here.surface != there.surface || is_of_item && is_bent;
         is_edge.then_some(if there.depth > here.depth { next } else { at })
+    }
+
+    /// What is seen at the first sample of each pixel.
+    fn seen(&self) -> Seen {
+        let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
+        let first =
+            |pixel: usize| self.samples[pixel / width * SAMPLES * self.width + pixel % width * SAMPLES];
+        let item = |sample: Sample| (sample.surface % 2 == 1).then_some(sample.surface / 2);
+        let pixels = || (0..width * height).map(first);
+        Seen {
+            width,
+            items: pixels().map(item).collect(),
+            nearness_mm: pixels().map(|sample| sample.depth).collect(),
+        }
     }
 
     /// The mean of the samples of each pixel.

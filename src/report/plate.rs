@@ -14,7 +14,7 @@ const SIZE_PX: [usize; 2] = [560, 460];
 /// Height of words, pixels: 8 points at a third of the width of an A4 page.
 const TEXT_PX: f64 = 24.0;
 /// The share of the picture left free on each side for lengths.
-const MARGIN_RATIO: f64 = 0.14;
+const MARGIN_RATIO: f64 = 0.17;
 /// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow that is open upward.
 const LIFT: f64 = 0.7;
 /// How far to the right, radians.
@@ -74,7 +74,7 @@ pub(super) fn shot<'a>(part: &'a PartEvidence, plate: &'a [TriMesh; 2], color: C
 fn lengths(part: &Aabb) -> Vec<Label> {
     let (low, high) = (part.min, part.max);
     let size = part.size();
-    let words = |axis: &str, mm: f64| format!("{axis} {}\u{a0}mm", number(mm));
+    let words = |axis: &str, mm: f64| format!("{axis} {}", number(mm));
     let right = Point::new(high.x, low.y, low.z);
     vec![
         Label::Length([low, right], [-0.3 * ASIDE_PX, ASIDE_PX], words("x", size.x)),

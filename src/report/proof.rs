@@ -10,6 +10,12 @@ use super::page::Papers;
 use super::words::{self, coordinates, number, quantity, quantity_or_dash};
 use crate::verify::{Check, Figures};
 
+/// What an engineer reads here, for those who are none.
+const READING: &str = "For engineers. I_a ≤ I_b ≤ I_c are the moments of inertia about the three principal axes through the centre of mass. \
+    The axis of I_c is the one a body spins about stably; the farther I_b/I_c is below 1 the better. Spin-It's functional adds the squares of such \
+    ratios (for a top with the centre's height): the lower the better. It is what was made best where the sheet says so, and is another figure than \
+    the ratio or the speed on the first page. The score of a cut adds up what speaks against it: 0 is best.";
+
 /// Every promise with its verdict.
 pub(super) fn checks(checks: &[Check]) -> Markup {
     html! {
@@ -41,6 +47,7 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         section {
             h2 { "How good it is" }
+            p class="small" { (READING) }
             @for sentence in words::certificate(sheet) { p { (sentence) } }
             (cost(sheet))
             (joinery::rounds(sheet))

@@ -13,6 +13,9 @@ pub struct VoidRow {
     pub volume_mm3: f64,
     /// The ids of the cuts that open it.
     pub opened_by: Vec<String>,
+    /// The ids of the parts that hold a piece of it.
+    #[serde(default)]
+    pub parts: Vec<String>,
     /// The diameter of the largest disc that passes the opening of each of its pieces, mm.
     pub opening_mm: f64,
     /// The least opening it needs, mm.
@@ -75,6 +78,9 @@ pub struct PartRow {
     /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<String>,
+    /// The volume of its open hollows whose only mouth lies flat on the plate, mm³: closed cups while it is printed.
+    #[serde(default)]
+    pub cup_mm3: f64,
     /// Its picture, relative to the kit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,

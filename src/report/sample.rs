@@ -43,9 +43,16 @@ pub fn sample() -> (Checklist, Evidence) {
 pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
-    let Promise { goal: aim, parts: promised, hardware, .. } = &evidence.promise;
-    let sitting =
-        Sitting { shells: &shells, parts: &evidence.parts, promised, cuts: &cuts, aim: *aim, hardware };
+    let Promise { goal: aim, parts: promised, hardware, ballast, .. } = &evidence.promise;
+    let sitting = Sitting {
+        shells: &shells,
+        parts: &evidence.parts,
+        promised,
+        cuts: &cuts,
+        aim: *aim,
+        hardware,
+        ballast,
+    };
     let frame = |[x, y]: [f64; 2]| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
     let face = CutFace {
         cut: "C1".into(),
@@ -53,6 +60,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
         rings: vec![frame([30.0, 20.0]), frame([27.0, 17.0]).into_iter().rev().collect()],
         wall: Some([[27.0, 0.0], [30.0, 0.0]]),
         whole: vec![],
+        regions: vec![Region { at: [28.5, 0.0], parts: ["P01".into(), "P02".into()] }],
         mouths: vec![Mouth { void: "V1".into(), at: [0.0, 0.0], diameter_mm: 34.0 }],
     };
     let mut pictures = album(&sitting).unwrap();
@@ -100,7 +108,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             written_value: Some(speed),
             course: Some(course(speed)),
         },
-        wall: WallRow { required_mm: 3.0, measured_min_mm: found.wall_min_mm },
+        wall: WallRow { required_mm: 3.0, asked_mm: None, measured_min_mm: found.wall_min_mm },
         voids: vec![the_void()],
         cuts: vec![CutRow { id: "C1".into(), point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }],
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
@@ -110,6 +118,8 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         dowels: vec![],
         cut_list: vec![],
         string_gap_mm: None,
+        finished_size_mm: Some(finished_size_mm(&evidence.parts, &[])),
+        turn: None,
         ballast: Vec::new(),
         fill: None,
         rounds: Vec::new(),
@@ -180,6 +190,7 @@ fn the_void() -> VoidRow {
         id: "V1".into(),
         volume_mm3: 54.0 * 34.0 * 6.0,
         opened_by: vec!["C1".into()],
+        parts: vec!["P01".into(), "P02".into()],
         opening_mm: 34.0,
         least_opening_mm: 4.0,
         depth_mm: 3.0,
@@ -219,6 +230,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         sockets: vec![],
         marks: vec![],
         half: None,
+        cup_mm3: 0.0,
         picture: Some(part_picture_file(&promised.id)),
     }
 }

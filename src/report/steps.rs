@@ -4,28 +4,30 @@ use maud::{Markup, html};
 
 use super::cleaning::clean_one;
 use super::figure::{Picture, Role, figures};
+use super::gluing::{dry_fit, glue};
 use super::hardware::fitting;
-use super::joinery::{cut_list, films};
 use super::page::{blank, mass_window};
-use super::trials::{test, weigh};
+use super::printing::print;
+use super::trials::test;
+use super::weighing::{weigh_parts, weigh_whole};
 use super::words::{coordinates, quantity};
-use super::{BallastRow, Checklist, JointRow};
-use crate::goal::GoalKind;
-use crate::units::{MM3_PER_CM3, counted};
+use super::{BallastRow, Checklist};
+use crate::units::MM3_PER_CM3;
 use crate::verify::FillOrder;
 
-/// The names of the steps in their order: print, clean, dry fit, fill the voids or lay in the ballast where that is asked for,
-/// glue, put in what is not printed, weigh, test.
+/// The names of the steps in their order: print, clean, weigh the parts while they can still be cleaned, dry fit, fill the voids
+/// or lay in the ballast where that is asked for, glue, put in what is not printed, weigh the whole, test.
 pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
     let names = [
         Some("Print"),
         Some("Clean every void"),
+        Some("Weigh the parts"),
         Some("Dry fit"),
         sheet.fill.map(|_| "Fill every void"),
         (!sheet.ballast.is_empty()).then_some("Lay in the ballast"),
         Some("Glue"),
         (!sheet.hardware.is_empty()).then_some("Put in the hardware"),
-        Some("Weigh"),
+        Some("Weigh the whole"),
         Some("Test"),
     ];
     names.into_iter().flatten().collect()
@@ -36,12 +38,13 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     let steps = [
         Some(print(sheet)),
         Some(html! { (clean(sheet)) (mouths_note(sheet)) }),
+        Some(weigh_parts(sheet)),
         Some(html! { (dry_fit(sheet)) (figures(pictures, Role::Cut)) }),
         sheet.fill.map(|fill| filling(sheet, fill)),
         (!sheet.ballast.is_empty()).then(|| ballast(sheet)),
         Some(html! { (glue(sheet)) (figures(pictures, Role::Exploded)) }),
-        (!sheet.hardware.is_empty()).then(|| fitting(sheet)),
-        Some(weigh(sheet)),
+        (!sheet.hardware.is_empty()).then(|| fitting(sheet, pictures)),
+        Some(weigh_whole(sheet)),
         Some(test(sheet)),
     ];
     html! {
@@ -115,81 +118,11 @@ fn ballast_sources(sheet: &Checklist) -> Vec<&String> {
     sources
 }
 
-fn print(sheet: &Checklist) -> Markup {
-    html! {
-        p {
-            "Files are in mm, each in its print pose, resting on z = 0. Do not turn, scale or repair them, and do not let the slicer fill the voids."
-        }
-        ul class="ticks" {
-            @for part in &sheet.parts {
-                li {
-                    strong { (part.id) } ": " code { (part.file) } ", " (part.lies) ", layers of " (quantity(sheet.printer.layer_mm, "mm"))
-                    ". Printed, and looks as in the table of parts."
-                }
-            }
-        }
-    }
-}
-
 fn clean(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.voids.is_empty() { p { "There are no voids: nothing to clean." } }
         ul class="ticks" {
             @for void in &sheet.voids { (clean_one(sheet, void)) }
-        }
-    }
-}
-
-fn dry_fit(sheet: &Checklist) -> Markup {
-    html! {
-        @if sheet.joints.is_empty() { p { "It is one part: nothing to fit." } }
-        (cut_list(sheet))
-        ul class="ticks" {
-            @for joint in &sheet.joints {
-                li {
-                    strong { (joint.id) } ": " (joint.parts[0]) " on " (joint.parts[1]) " along " (joint.cut) ". "
-                    @if joint.pins == 0 { "No pins: align the outlines by eye and touch." }
-                    @else { (counted(joint.pins, "pin")) " must seat fully. No gap and no step at the seam." }
-                }
-            }
-        }
-    }
-}
-
-fn glue(sheet: &Checklist) -> Markup {
-    html! {
-        @if sheet.joints.is_empty() { p { "Nothing to glue." } }
-        @else {
-            p { "In this order; each joint sets before the next." }
-            table {
-                tr {
-                    th { "Done" } th { "Joint" } th { "Parts" } th { "Cut" } th class="n" { "Area" } th { "Alignment" } th { "Adhesive, clamped until" }
-                }
-                @for joint in &sheet.joints { (glue_line(joint)) }
-            }
-            @if sheet.goal.aim.kind == GoalKind::Float {
-                p { strong { "Seal every joint all around: " } "a void that fills with water sinks it or turns it over." }
-            }
-            (films(sheet))
-            p class="small" { "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance." }
-        }
-    }
-}
-
-fn glue_line(joint: &JointRow) -> Markup {
-    html! {
-        tr {
-            td { "☐" }
-            td { strong { (joint.id) } }
-            td { (joint.parts.join(" + ")) }
-            td { (joint.cut) }
-            td class="n" { (quantity(joint.area_mm2, "mm²")) }
-            td {
-                @if joint.pins == 0 { "no room for pins" }
-                @else { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
-                @if let Some(note) = &joint.note { br; (note) }
-            }
-            td { (blank()) }
         }
     }
 }

@@ -19,6 +19,9 @@ pub const PAPER: Color = [255, 255, 255];
 /// A line is upright where it goes aside less than this share of its height.
 const UPRIGHT_RATIO: f64 = 0.1;
 
+/// The dot at the end of a line, pixels: larger ones hide small pins, smaller ones are lost in print.
+const DOT_PX: f64 = 3.5;
+
 /// How a line looks.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stroke {
@@ -52,6 +55,33 @@ impl Stroke {
             format!(" stroke-dasharray=\"{}\"", self.dashes)
         };
         format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.color), self.width)
+    }
+}
+
+/// What words at the edge of a drawing name.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Mark {
+    /// Where it is.
+    pub at: Spot,
+    /// Its words.
+    pub words: String,
+    /// What it is drawn as is a circle of this radius, at whose rim the line ends without a dot; zero for a dot.
+    pub radius_px: f64,
+    /// Whether it lies behind something: then the line is dashed and the dot hollow.
+    pub is_hidden: bool,
+}
+
+impl Mark {
+    /// A name for what is seen at a spot.
+    pub fn new(at: Spot, words: String) -> Self {
+        Self { at, words, radius_px: 0.0, is_hidden: false }
+    }
+
+    /// Where a line from `start` ends: at its rim.
+    fn end_from(&self, start: Spot) -> Spot {
+        let way = [start[0] - self.at[0], start[1] - self.at[1]];
+        let share = (self.radius_px / way[0].hypot(way[1]).max(f64::MIN_POSITIVE)).min(1.0);
+        [self.at[0] + share * way[0], self.at[1] + share * way[1]]
     }
 }
 
@@ -166,9 +196,9 @@ impl Drawing {
         if (from[0] - to[0]).abs() < UPRIGHT_RATIO * (from[1] - to[1]).abs() {
             // Beside an upright line there may be no room.
             let top = if from[1] < to[1] { from } else { to };
-            return self.text([top[0], top[1] - 0.8 * self.text_px], Anchor::Middle, words);
+            return self.text([top[0], top[1] - self.text_px], Anchor::Middle, words);
         }
-        let out = 1.0 + 0.75 * self.text_px / length;
+        let out = 1.0 + self.text_px / length;
         let middle = [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])];
         let anchor = match aside[0] / length {
             lean if lean > 0.5 => Anchor::Start,
@@ -179,23 +209,38 @@ impl Drawing {
     }
 
     /// Adds words at the left and right edges, each with a line to what it names, in the order of their heights.
-    pub fn callouts(&mut self, marks: &[(Spot, String)]) {
+    pub fn callouts(&mut self, marks: &[Mark]) {
         let [width, height] = self.size_px();
         for (edge, anchor, is_left) in [(8.0, Anchor::Start, true), (width - 8.0, Anchor::End, false)] {
-            let mut side: Vec<&(Spot, String)> =
-                marks.iter().filter(|(at, _)| (at[0] < 0.5 * width) == is_left).collect();
-            side.sort_by(|a, b| a.0[1].total_cmp(&b.0[1]));
-            let wanted: Vec<f64> = side.iter().map(|(at, _)| at[1]).collect();
+            let mut side: Vec<&Mark> =
+                marks.iter().filter(|mark| (mark.at[0] < 0.5 * width) == is_left).collect();
+            side.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
+            let wanted: Vec<f64> = side.iter().map(|mark| mark.at[1]).collect();
             let heights = spread(&wanted, 1.35 * self.text_px, [self.text_px, height - self.text_px]);
-            for ((at, words), y) in side.into_iter().zip(heights) {
-                let reach = 0.62 * self.text_px * words.chars().count() as f64;
-                let end = [if is_left { edge + reach } else { edge - reach }, y];
-                self.line([end, *at], Stroke { color: PAPER, width: 5.0, dashes: "" });
-                self.line([end, *at], Stroke::THIN);
-                self.circle(*at, 4.0, (Some(&hex(INK)), Stroke { color: PAPER, width: 1.5, dashes: "" }));
-                self.text([edge, y], anchor, words);
+            for (mark, y) in side.into_iter().zip(heights) {
+                let reach = 0.62 * self.text_px * mark.words.chars().count() as f64;
+                self.leader([if is_left { edge + reach } else { edge - reach }, y], mark);
+                self.text([edge, y], anchor, &mark.words);
             }
         }
+    }
+
+    /// Adds the line from words to what they name, on a rim of paper so that it is seen on anything.
+    fn leader(&mut self, start: Spot, mark: &Mark) {
+        let end = mark.end_from(start);
+        self.line([start, end], Stroke { color: PAPER, width: 5.0, dashes: "" });
+        self.line([start, end], if mark.is_hidden { Stroke::DASHED } else { Stroke::THIN });
+        let fill = hex(if mark.is_hidden { PAPER } else { INK });
+        let rim = Stroke { color: if mark.is_hidden { INK } else { PAPER }, width: 1.5, dashes: "" };
+        if mark.radius_px == 0.0 {
+            self.circle(end, DOT_PX, (Some(&fill), rim));
+        }
+    }
+
+    /// Adds a dashed line that is seen on dark colours too.
+    pub fn dashed(&mut self, ends: [Spot; 2]) {
+        self.line(ends, Stroke { color: PAPER, width: 4.5, dashes: "" });
+        self.line(ends, Stroke { width: 2.0, ..Stroke::DASHED });
     }
 
     /// Adds SVG as it is.
@@ -264,6 +309,15 @@ mod tests {
     fn labels_are_spread_in_order_and_stay_on_the_paper() {
         let placed = spread(&[5.0, 6.0, 50.0, 99.0, 100.0], 10.0, [0.0, 100.0]);
         assert_eq!(placed, [5.0, 15.0, 50.0, 90.0, 100.0]);
+    }
+
+    #[test]
+    fn a_line_to_a_circle_ends_at_its_rim_and_leaves_it_free() {
+        let pin = Mark { radius_px: 5.0, ..Mark::new([10.0, 20.0], "N1".to_owned()) };
+        assert_eq!(pin.end_from([40.0, 60.0]), [13.0, 24.0]);
+        let mut drawing = Drawing::new([100, 100], 5.0);
+        drawing.callouts(&[pin]);
+        assert!(!drawing.inline("x").contains("<circle"));
     }
 
     #[test]

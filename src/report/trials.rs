@@ -1,9 +1,9 @@
-//! The last steps: weigh it, and try what it was made for, with the figures to expect.
+//! The last step: trying what it was made for, with the figures to expect.
 
 use maud::{Markup, html};
 
 use super::Checklist;
-use super::page::{blank, mass_window, mass_with_window};
+use super::page::blank;
 use super::words::{extent, number, quantity};
 use crate::goal::GoalKind;
 
@@ -13,53 +13,6 @@ const FILM_PER_S: f64 = 240.0;
 const S_PER_MIN: f64 = 60.0;
 /// The length of the board of the tilt test, mm: long enough to measure a degree (5 mm), short enough to be at hand.
 const BOARD_MM: f64 = 300.0;
-
-/// Every part and the whole on the scales.
-pub(super) fn weigh(sheet: &Checklist) -> Markup {
-    html! {
-        @if sheet.material.density_spread_ratio.is_none() {
-            p {
-                "The density is not measured (" (sheet.material.density_sure) "), so no window is given, only each part's share of the whole, which no density changes. "
-                "Print and weigh coupons for a window: " code { "equipoise coupon --printer " (sheet.printer.id) }
-            }
-        }
-        table {
-            tr { th scope="col" { "What" } th scope="col" class="n" { "Expected" } th scope="col" { "Weighed, g" } th scope="col" { @if sheet.material.density_spread_ratio.is_some() { "In the window" } @else { "Share of the whole, %" } } }
-            @for part in &sheet.parts {
-                tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
-            }
-            tr {
-                td { strong { (all_glued(sheet)) } } td class="n" { (assembled_mass(sheet)) } td { (blank()) } td { (tick_or_blank(sheet)) }
-            }
-        }
-        p class="small" { "A part too heavy still holds support or powder: clean it again before gluing." }
-    }
-}
-
-/// A box to tick where there is a window, a line to write a share on where there is none.
-fn tick_or_blank(sheet: &Checklist) -> Markup {
-    if sheet.material.density_spread_ratio.is_some() {
-        html! { "☐" }
-    } else {
-        blank()
-    }
-}
-
-fn all_glued(sheet: &Checklist) -> &'static str {
-    if sheet.hardware.is_empty() { "all, glued" } else { "all, glued, with the hardware" }
-}
-
-/// The mass of everything, with the window that the print's density and the pieces of ballast leave.
-fn assembled_mass(sheet: &Checklist) -> Markup {
-    let printed_g: f64 = sheet.parts.iter().map(|part| part.mass_g).sum();
-    let spread_g: f64 = sheet.ballast.iter().map(|row| row.order.lump.mass_g * row.mass_spread_ratio).sum();
-    let mass_g = sheet.assembly.mass_g;
-    match sheet.material.density_spread_ratio {
-        // A filling is as heavy as it was mixed: its own spread is not known here.
-        Some(ratio) => mass_window(mass_g, (ratio * printed_g + spread_g) / mass_g),
-        None => mass_with_window(sheet, mass_g),
-    }
-}
 
 /// Where it balances, and what it must do.
 pub(super) fn test(sheet: &Checklist) -> Markup {
@@ -73,7 +26,8 @@ pub(super) fn test(sheet: &Checklist) -> Markup {
 
 /// What to try, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
-    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&sheet.model.size_mm));
+    let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
+    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&size_mm));
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
         GoalKind::Yoyo => yoyo_lines(),

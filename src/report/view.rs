@@ -82,7 +82,7 @@ impl View {
 /// The parts and the hardware, simplified, in the goal's frame.
 fn items(sitting: &Sitting) -> Vec<Item> {
     let in_place = parts_in_model(sitting.parts);
-    let shifts = shifts(&in_place, sitting.cuts);
+    let shifts = shifts(&in_place, &sitting.partings());
     let frame = sitting.aim.frame();
     let budget = TRIANGLES / in_place.len().max(1);
     let parts = sitting.parts.par_iter().zip(&in_place).zip(&shifts).enumerate();

@@ -1,6 +1,6 @@
 //! Numbers and promises as people read them.
 
-use super::{Certificate, Checklist, GoalRow};
+use super::{Certificate, Checklist, GoalRow, WallRow};
 use crate::goal::GoalKind;
 use crate::verify::Figures;
 
@@ -179,6 +179,20 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
     words
 }
 
+/// The wall that was asked for, what the printer makes of it, and what was measured.
+pub fn wall(wall: &WallRow) -> String {
+    let given = quantity(wall.required_mm, "mm");
+    let ordered = match wall.asked_mm {
+        Some(asked_mm) if (asked_mm - wall.required_mm).abs() > SMALL * asked_mm => {
+            format!("{} ordered, {given} as the printer gives it", quantity(asked_mm, "mm"))
+        }
+        Some(_) => format!("{given} ordered"),
+        None => format!("{given}, the least this printer makes"),
+    };
+    let measured = quantity_or_dash(wall.measured_min_mm, "mm");
+    format!("{ordered}; thinnest measured {measured}, of which 1 % less is allowed for facets")
+}
+
 /// What the proof takes as solid besides the wall.
 fn kept_solid(proof: &Certificate) -> &'static str {
     match (proof.kept_solid_mm3 > 0.0, proof.bosses_mm3 > 0.0) {
@@ -237,6 +251,14 @@ mod tests {
         assert!(is_said(&sheet));
         sheet.certificate.bosses_mm3 = 5.0;
         assert!(is_said(&sheet) && certificate(&sheet)[0].contains("in bosses around pins"));
+    }
+
+    #[test]
+    fn a_wall_is_told_as_it_was_ordered_and_as_the_printer_gives_it() {
+        let told = |asked_mm| wall(&WallRow { required_mm: 1.016, asked_mm, measured_min_mm: Some(1.01) });
+        assert!(told(Some(1.0)).starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer gives it"));
+        assert!(told(Some(1.016)).starts_with("1.016\u{a0}mm ordered; thinnest"));
+        assert!(told(None).contains("the least this printer makes"));
     }
 
     #[test]

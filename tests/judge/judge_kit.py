@@ -272,6 +272,22 @@ def judge_hardware(table, sheet, outer):
         table.line("parts by halves", "A, B", ", ".join(sorted({str(p.get("half")) for p in sheet["parts"]})), {p.get("half") for p in sheet["parts"]} == {"A", "B"})
 
 
+def judge_size(table, sheet, parts):
+    """Whether the finished size is that of the parts put together with what stands out of them."""
+    if "finished_size_mm" not in sheet:
+        return
+    points = [np.concatenate(part).reshape(-1, 3) for part in parts]
+    for rod in sheet.get("hardware", []):
+        start, end = np.array(rod["from_mm"], float), np.array(rod["to_mm"], float)
+        along, radius = (end - start) / np.linalg.norm(end - start), rod["diameter_mm"] / 2
+        flat = radius * np.sqrt(np.maximum(1 - along**2, 0))
+        last = [end - along * radius - radius, end - along * radius + radius] if rod["round_end"] else [end - flat, end + flat]
+        points.append(np.array([start - flat, start + flat, *last]))
+    points = np.concatenate(points)
+    for axis, promised, found in zip("xyz", sheet["finished_size_mm"], points.max(axis=0) - points.min(axis=0)):
+        table.same(f"finished size along {axis}, mm", promised, found, 1e-4)
+
+
 def frame(goal):
     """Origin and rotation (rows: x, y, z of the goal) with z along the axis."""
     z = np.array(goal["axis"], float)
@@ -759,6 +775,7 @@ def judge(kit):
     judge_goal(table, goal, sheet.get("promise"), found)
     judge_whole(table, sheet, volume, moments(hollowed)[0])
     judge_hardware(table, sheet, outer)
+    judge_size(table, sheet, parts)
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
