@@ -1,6 +1,7 @@
 //! Proofs of impossibility, held against the model itself: its triangles and a grid of points, no columns and no roots.
 
 #![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 #![allow(dead_code, reason = "the models' module also serves the program that writes them")]
 
 #[path = "../examples/make_models/models.rs"]

@@ -8,6 +8,7 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 
 use super::{
+    boss_places::{Site, cheapest_pairs, grid},
     error::CutError,
     face::Face,
     opening::opening,
@@ -27,16 +28,8 @@ use crate::{
     mesh::{Csg, Hollowed, Solid, TriMesh, bodies},
 };
 
-/// About how many places of a cut are looked at; more find room in narrower walls.
-const PLACES_PER_CUT: f64 = 6000.0;
-/// Places nearer together than this tell nothing new, mm.
-const MIN_PITCH_MM: f64 = 0.15;
 /// Places whose price is found, at most.
 const PRICED_PLACES: usize = 300;
-/// A pair of pins is at least this share of the widest possible distance apart: nearer ones align worse.
-const SPREAD_RATIO: f64 = 0.5;
-/// How many pairs are tried for a pattern that fits one way only and leaves the voids open.
-const TRIED_PAIRS: usize = 400;
 /// How many of them have their openings looked at, each of which costs a boolean.
 const TRIED_OPENINGS: usize = 8;
 /// How much wider than needed a boss is, mm: far above the rounding of booleans, below any pixel.
@@ -142,12 +135,6 @@ fn filled(order: &BossOrder) -> TriMesh {
     let Hollowed { outer, voids } = order.hollowed;
     let seats = voids.len().saturating_sub(order.request.seats.len());
     Hollowed { outer: outer.clone(), voids: voids[seats..].to_vec() }.to_mesh()
-}
-
-/// A place for a pin with what it costs to keep the material around it.
-struct Site {
-    at: Point2,
-    price: f64,
 }
 
 struct Search<'a> {
@@ -388,28 +375,4 @@ fn disc(center: &Point, normal: &Vector, radius_mm: f64) -> Vec<Point> {
         center + (u * cos + v * sin) * corner_mm
     };
     (0..SIDES).map(corner).collect()
-}
-
-/// A square grid over what an outline holds.
-fn grid(outline: &Outline) -> Vec<Point2> {
-    let Some((min, max)) = outline.bounds() else { return Vec::new() };
-    let size = max - min;
-    let pitch = (size.x * size.y / PLACES_PER_CUT).sqrt().max(MIN_PITCH_MM);
-    let [columns, rows] = [size.x, size.y].map(|extent| (extent / pitch).floor() as usize);
-    let at = |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
-    (0..columns).flat_map(|i| (0..rows).map(move |j| at(i, j))).collect()
-}
-
-/// Pairs of sites that are far enough apart, the cheapest first and of equally cheap ones the farthest,
-/// [`TRIED_PAIRS`] at most.
-fn cheapest_pairs(sites: &[Site], gap_mm: f64) -> Vec<(usize, usize)> {
-    let indices = || (0..sites.len()).flat_map(|i| (i + 1..sites.len()).map(move |j| (i, j)));
-    let apart = |(i, j): (usize, usize)| (sites[i].at - sites[j].at).norm();
-    let widest = indices().map(apart).fold(0.0, f64::max);
-    let least = gap_mm.max(SPREAD_RATIO * widest);
-    let price = |(i, j): (usize, usize)| sites[i].price + sites[j].price;
-    let mut pairs: Vec<(usize, usize)> = indices().filter(|&pair| apart(pair) >= least).collect();
-    pairs.sort_by(|&a, &b| price(a).total_cmp(&price(b)).then(apart(b).total_cmp(&apart(a))).then(a.cmp(&b)));
-    pairs.truncate(TRIED_PAIRS);
-    pairs
 }

@@ -1,6 +1,7 @@
 //! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
 
 mod access;
+mod boss_places;
 mod bosses;
 mod chamber;
 mod cover;

@@ -125,7 +125,7 @@ impl Walls {
         let wall: Vec<[Point; 3]> = void.mesh().iter_corners().collect();
         let area: f64 = wall.iter().map(area_mm2).sum();
         let points = spread_points(&wall, SAMPLES as usize).into_iter().map(|point| point.at).collect();
-        Self { bvh: Bvh::new(wall.into_iter()), points, share_mm2: area / SAMPLES }
+        Self { bvh: Bvh::new(wall), points, share_mm2: area / SAMPLES }
     }
 
     /// About the share of the wall that is in sight through these mouths, each of a cut, before the void is cut: what lies
