@@ -89,8 +89,8 @@ impl Boss {
     }
 }
 
-/// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those that stand in
-/// too little material. A joint for which there is no place has none of them. Where no place leaves every void open, one is taken that
+/// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those of
+/// joints in which one stands in too little material. A joint for which there is no place has none of them. Where no place leaves every void open, one is taken that
 /// closes some: what it closes is to be kept solid.
 ///
 /// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
@@ -112,7 +112,10 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let search = Search { order, hollow: &hollow, filled: &filled, air, outer };
     let mut bosses = Vec::new();
     if let Some(pins) = order.ordered {
-        return Ok(pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect());
+        let able: Vec<Boss> = pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect();
+        // As when the planner finds a pattern: all of a joint's pins keep their material, or none needs to.
+        let is_needy = |boss: &&Boss| able.iter().any(|other| other.is_new && other.joint() == boss.joint());
+        return Ok(able.iter().filter(is_needy).cloned().collect());
     }
     for (index, joint) in joints.iter().enumerate() {
         if !placements[index].is_sound() && !order.given_up.contains(&search.name(joint)) {
@@ -150,15 +153,14 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// The boss of an ordered pin that has not its material, but could have.
+    /// The boss of an ordered pin that has its material, or could have.
     fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
         let cut = self.order.plan.cuts.iter().position(|cut| cut.id == pin.cut)?;
         let (plane, outline) = (&self.filled.planes[cut], self.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
-        let is_needy = !self.has_meat(self.hollow, joint, pin) && self.has_meat(self.filled, joint, pin);
-        is_needy.then(|| self.boss(joint, pin)).flatten()
+        self.has_meat(self.filled, joint, pin).then(|| self.boss(joint, pin)).flatten()
     }
 
     /// The outline of the filled body in a cut.
