@@ -12,8 +12,9 @@ use crate::units::MM3_PER_CM3;
 pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
 /// The same for the model and its voids, which the checklist knows from before they were rounded to a file's digits.
 const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
-/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two large ones cancel.
-const NOTHING: f64 = 1e-9;
+/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two large ones cancel. The same
+/// triangles in another order move an axis by 1e-8 mm and tilt it by 1e-7°; a nanometre is of no consequence to anybody.
+const NOTHING: f64 = 1e-6;
 /// So many of the places that differ are told; the rest are counted.
 const TOLD: usize = 6;
 
