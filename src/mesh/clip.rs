@@ -160,14 +160,14 @@ impl Csg {
     /// The same body with fewer triangles, no point of its surface moved by more than about
     /// `tolerance_mm`; the body itself where fewer triangles would make it intersect itself.
     pub fn simplify(&self, tolerance_mm: f64) -> Self {
-        let simple = Self(self.0.simplify(tolerance_mm));
+        let simple = self.coarsened(tolerance_mm);
         let worse = simple.0.status() != Error::NoError
             || simple.is_empty() != self.is_empty()
             || simple.has_self_intersections();
         if worse { self.clone() } else { simple }
     }
 
-    /// The same as [`Self::simplify`] for pictures: many times faster, as nobody looks whether it intersects itself.
+    /// The same as [`Self::simplify`] for pictures: nobody looks whether it intersects itself.
     pub fn coarsened(&self, tolerance_mm: f64) -> Self {
         Self(self.0.simplify(tolerance_mm))
     }
