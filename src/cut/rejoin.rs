@@ -219,25 +219,41 @@ impl Shadow {
         })
     }
 
-    /// The least and greatest height of a triangle, and the cells its bounding box meets.
+    /// The least and greatest height of a triangle, and the cells it meets.
     fn span(&self, corners: &[Point; 3]) -> (f64, f64, impl Iterator<Item = usize> + use<>) {
         let heights = corners.map(|p| self.sign * self.plane.distance(&p));
-        let flat = corners.map(|p| self.chart.flat(&p) - self.min);
+        let places = corners.map(|p| (self.chart.flat(&p) - self.min).component_div(&self.cell));
         let range = |axis: usize| {
-            let places = flat.map(|p| p[axis] / self.cell[axis]);
-            let (from, to) = (
-                places.iter().copied().fold(f64::INFINITY, f64::min),
-                places.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-            );
+            let (from, to) = extent(places.map(|p| p[axis]));
             // Casts saturate: a triangle beside the grid has an empty range.
             let first = if to < 0.0 { SHADOW_CELLS } else { from.max(0.0) as usize };
             first..((to.max(0.0) as usize).saturating_add(1)).min(SHADOW_CELLS)
         };
         let (columns, rows) = (range(0), range(1));
-        let cells = columns.flat_map(move |i| rows.clone().map(move |j| i * SHADOW_CELLS + j));
-        let low = heights.into_iter().fold(f64::INFINITY, f64::min);
-        (low, heights.into_iter().fold(f64::NEG_INFINITY, f64::max), cells)
+        let cells = columns.flat_map(move |i| rows.clone().map(move |j| [i, j]));
+        let met = cells.filter(move |cell| meets(&places, *cell)).map(|[i, j]| i * SHADOW_CELLS + j);
+        let (low, high) = extent(heights);
+        (low, high, met)
     }
+}
+
+fn extent(values: [f64; 3]) -> (f64, f64) {
+    (
+        values.iter().copied().fold(f64::INFINITY, f64::min),
+        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    )
+}
+
+/// Whether a triangle meets a unit cell whose box its own box meets: no side of it has all of the cell beyond it.
+fn meets(places: &[nalgebra::Vector2<f64>; 3], cell: [usize; 2]) -> bool {
+    let middle = nalgebra::Vector2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5);
+    let area = (places[1] - places[0]).perp(&(places[2] - places[0]));
+    let is_beyond = |from: usize| {
+        let side = places[(from + 1) % 3] - places[from];
+        let reach = (side.x.abs() + side.y.abs()) / 2.0;
+        side.perp(&(middle - places[from])) * area.signum() < -reach
+    };
+    !(0..3).any(is_beyond)
 }
 
 #[cfg(test)]
@@ -293,6 +309,38 @@ mod tests {
         // What is as thick as a wall can be printed and stays a part of its own.
         let (cut, left) = cut_at_15(&post(2.0 * request().wall_mm));
         assert_eq!((cut, left.len()), (3, 3));
+    }
+
+    #[test]
+    fn a_bump_is_held_back_only_by_what_lies_over_it_and_not_by_what_has_it_in_its_box() {
+        // A void with a post that reaches past a level cut, and a cut askew beside it: the boxes about the large triangles of the
+        // faces hold the post.
+        let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
+        let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
+        let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];
+        let hollowed = Hollowed { outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]), voids };
+        let level = Plane { normal: Vector::z(), offset_mm: 15.0 };
+        let askew = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
+        let planes = [level, askew];
+        let pieces = split(&hollowed.to_mesh(), &planes).unwrap();
+        let bridges =
+            bridges(&Cutting { hollowed: &hollowed, planes: &planes, request: &request() }, &pieces);
+        let left = rejoined(pieces.clone(), &planes, &bridges).unwrap();
+        assert_eq!((pieces.len(), left.len()), (5, 4));
+    }
+
+    #[test]
+    fn a_triangle_meets_the_cells_it_covers_and_crosses_and_no_others() {
+        let corner = nalgebra::Vector2::new;
+        for triangle in [
+            [corner(0.0, 0.0), corner(9.0, 0.5), corner(0.5, 9.0)],
+            [corner(0.0, 0.0), corner(0.5, 9.0), corner(9.0, 0.5)],
+        ] {
+            assert!(meets(&triangle, [0, 0]) && meets(&triangle, [2, 2]) && meets(&triangle, [4, 4]));
+            assert!(!meets(&triangle, [5, 5]) && !meets(&triangle, [8, 8]));
+        }
+        let needle = [corner(0.2, 0.2), corner(8.8, 8.8), corner(8.8, 8.8)];
+        assert!(meets(&needle, [3, 3]), "a degenerate triangle counts as meeting, which is the safe side");
     }
 
     #[test]
