@@ -8,10 +8,10 @@ use std::f64::consts::{PI, TAU};
 use rayon::prelude::*;
 
 use super::{
-    boss_places::{Site, cheapest_pairs, grid},
+    boss_places::{Cost, OpenPairs, Site, best_pairs, grid},
+    boss_view::BossView,
     error::CutError,
     face::Face,
-    opening::opening,
     order::CutOrder,
     outline::Outline,
     pin_shape::PinSite,
@@ -24,14 +24,12 @@ use super::{
     split::{Joint, joints, split},
 };
 use crate::{
-    geom::{Bvh, Frame, Plane, Point, Quadric, Vector, orthonormal_basis},
-    mesh::{Csg, Hollowed, Solid, TriMesh, bodies},
+    geom::{Bvh, Frame, Point, Quadric, Vector, orthonormal_basis},
+    mesh::{Csg, Hollowed, TriMesh},
 };
 
 /// Places whose price is found, at most.
 const PRICED_PLACES: usize = 300;
-/// How many of them have their openings looked at, each of which costs a boolean.
-const TRIED_OPENINGS: usize = 8;
 /// How much wider than needed a boss is, mm: far above the rounding of booleans, below any pixel.
 const MARGIN_MM: f64 = 0.01;
 /// Sides of a boss.
@@ -56,6 +54,8 @@ pub struct BossOrder<'a> {
     pub ordered: Option<&'a [PinSite]>,
     /// Joints for which no bosses are looked for any more.
     pub given_up: &'a [JointName],
+    /// Where bosses stood that cost too much, model frame, mm: none is looked for beside them.
+    pub refused: &'a [[f64; 3]],
     /// The quadric whose positive side is empty, and the frame it is given in.
     pub price: (Quadric, Frame),
 }
@@ -109,7 +109,8 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let joints = joints(&pieces);
     let mut placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
     let [air, outer] = [hollow.material, filled.material].map(|mesh| Bvh::new(mesh.iter_corners()));
-    let search = Search { order, hollow: &hollow, filled: &filled, air, outer };
+    let view = BossView::new(order.hollowed, &planes, order.request)?;
+    let search = Search { order, hollow: &hollow, filled: &filled, air, outer, view };
     let mut bosses = Vec::new();
     if let Some(pins) = order.ordered {
         let able: Vec<Boss> = pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect();
@@ -150,6 +151,8 @@ struct Search<'a> {
     air: Bvh,
     /// The surface of the filled body.
     outer: Bvh,
+    /// What is seen of its voids.
+    view: BossView<'a>,
 }
 
 impl Search<'_> {
@@ -193,11 +196,11 @@ impl Search<'_> {
         let ways =
             [true, false].into_iter().flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
         for (must_open, sizes) in ways {
-            let mut best: Option<(f64, Placement)> = None;
+            let mut best: Option<(Cost, Placement)> = None;
             for is_upward in [true, false] {
                 let found = self.along(joint, (others, is_upward), sizes, must_open)?;
                 best = match (best, found) {
-                    (Some(best), Some(found)) if found.0 >= best.0 => Some(best),
+                    (Some(best), Some(found)) if found.0.order(&best.0).is_ge() => Some(best),
                     (best, found) => found.or(best),
                 };
             }
@@ -214,35 +217,34 @@ impl Search<'_> {
         let along = |is_upward: bool| {
             let face = Face::bare(self.filled, joint, (others, is_upward));
             let sites = self.sites(joint, &face, (&size, is_upward)).into_iter();
-            let best = sites.min_by(|a, b| a.price.total_cmp(&b.price))?;
-            Some((best.price, face.placement(&[(best.at, size)], false)))
+            let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
+            let (cost, at) = costs.min_by(|a, b| a.0.order(&b.0))?;
+            Some((cost, face.placement(&[(at, size)], false)))
         };
         let found = [true, false].into_iter().filter_map(along);
-        found.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, placement)| placement)
+        found.min_by(|a, b| a.0.order(&b.0)).map(|(_, placement)| placement)
     }
 
-    /// The cheapest pattern of two pins of these sizes, and its price; with `must_open` of those that leave every void open.
+    /// The best pattern of two pins of these sizes, and what it costs; with `must_open` of those that leave every void open.
     fn along(
         &self,
         joint: &Joint,
         (others, is_upward): (&[&Placement], bool),
         sizes: &[Size; 2],
         must_open: bool,
-    ) -> Result<Option<(f64, Placement)>, CutError> {
+    ) -> Result<Option<(Cost, Placement)>, CutError> {
         let face = Face::bare(self.filled, joint, (others, is_upward));
         let sites = self.sites(joint, &face, (&sizes[0], is_upward));
-        let mut openings_left = TRIED_OPENINGS;
-        for (i, j) in cheapest_pairs(&sites, face.gap_mm(&sizes[0])) {
+        let mut open = OpenPairs::new(&self.view, &sites, sizes[0].room_mm(self.order.request) / 2.0);
+        for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
+            let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            if is_confused(&face.end_views(&pattern), others) {
-                continue;
+            let is_taken =
+                !is_confused(&face.end_views(&pattern), others) && (!must_open || open.holds(pair.sites)?);
+            if is_taken {
+                return Ok(Some((pair.cost, face.placement(&pattern, true))));
             }
-            let placement = face.placement(&pattern, true);
-            if !must_open || self.leaves_open(joint, &placement.sites)? {
-                return Ok(Some((sites[i].price + sites[j].price, placement)));
-            }
-            openings_left -= 1;
-            if openings_left == 0 {
+            if open.is_over() {
                 break;
             }
         }
@@ -255,18 +257,26 @@ impl Search<'_> {
         let plane = &self.filled.planes[joint.cut];
         let outline = self.outline(joint.cut);
         let room = size.room_mm(request) / 2.0 + MARGIN_MM;
+        let chart = Chart::of_plane(plane);
+        let refused: Vec<Point2> = self.order.refused.iter().map(|p| chart.flat(&Point::from(*p))).collect();
         let is_near = |p: &Point2| (room..2.0 * room).contains(&outline.signed_distance(p));
+        let is_refused = |p: &Point2| refused.iter().any(|at| (at - p).norm() < room);
         let places: Vec<Point2> = grid(&outline)
             .into_par_iter()
-            .filter(|p| is_near(p) && self.is_of_joint(joint, &outline, p) && face.has_meat(p, size))
+            .filter(|p| {
+                is_near(p) && !is_refused(p) && self.is_of_joint(joint, &outline, p) && face.has_meat(p, size)
+            })
             .collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
-        let priced = |&at: &Point2| {
+        let priced = |&at: &Point2| -> Option<Site> {
             let sign = if is_upward { 1.0 } else { -1.0 };
-            let mouth = Chart::of_plane(plane).lift(plane, &at);
-            Site { at, price: self.price(&mouth, &(plane.normal * sign), size) }
+            let mouth = chart.lift(plane, &at);
+            let along = plane.normal * sign;
+            let price = self.price(&mouth, &along, size);
+            let body = self.body(joint, (&mouth, &along), size)?;
+            Some(Site { at, price, hides: self.view.hidden_by(&body), body })
         };
-        places.par_iter().step_by(stride).map(priced).collect()
+        places.par_iter().step_by(stride).filter_map(priced).collect()
     }
 
     /// What the boss of a pin costs, to first order and up to a factor: the integral of the quadric over what it fills.
@@ -304,21 +314,20 @@ impl Search<'_> {
     fn boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
         let JointName { cut, parts } = self.name(joint);
         let is_new = !self.has_meat(self.hollow, joint, pin);
-        Some(Boss { pin: PinSite { cut, ..pin.clone() }, parts, body: self.body(joint, pin)?, is_new })
+        let axis = (&Point::from(pin.center_mm), &Vector::from(pin.direction));
+        let body = self.body(joint, axis, &Size::of(pin))?;
+        Some(Boss { pin: PinSite { cut, ..pin.clone() }, parts, body, is_new })
     }
 
     /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
     /// would stay between.
-    fn body(&self, joint: &Joint, pin: &PinSite) -> Option<TriMesh> {
-        let size = Size::of(pin);
+    fn body(&self, joint: &Joint, (middle, along): (&Point, &Vector), size: &Size) -> Option<TriMesh> {
         let radius = size.room_mm(self.order.request) / 2.0 + MARGIN_MM;
-        let along = Vector::from(pin.direction);
-        let middle = Point::from(pin.center_mm);
-        let ends = self.ends_mm(&size).map(|height| middle + along * height);
-        let ribs = ends.iter().filter_map(|end| self.rib(end, &along, radius));
-        let ribs = ribs.chain([self.root(joint, &middle, radius)]);
+        let ends = self.ends_mm(size).map(|height| middle + along * height);
+        let ribs = ends.iter().filter_map(|end| self.rib(end, along, radius));
+        let ribs = ribs.chain([self.root(joint, middle, radius)]);
         let centers: Vec<Point> = ends.iter().copied().chain(ribs).collect();
-        let points: Vec<Point> = centers.iter().flat_map(|center| disc(center, &along, radius)).collect();
+        let points: Vec<Point> = centers.iter().flat_map(|center| disc(center, along, radius)).collect();
         Csg::convex_hull(&points).ok()?.to_mesh().ok()
     }
 
@@ -338,33 +347,6 @@ impl Search<'_> {
         let gap = outward.norm() - radius;
         let across = (outward - along * along.dot(&outward)).try_normalize(0.0)?;
         (gap > 0.0 && gap < request.wall_mm + request.min_opening_mm).then(|| end + across * gap)
-    }
-
-    /// Whether every void stays open where these pins get bosses.
-    fn leaves_open(&self, joint: &Joint, pins: &[PinSite]) -> Result<bool, CutError> {
-        let bodies: Vec<TriMesh> = pins.iter().filter_map(|pin| self.body(joint, pin)).collect();
-        let Hollowed { voids, .. } = self.order.hollowed;
-        let plain = voids.len().saturating_sub(self.order.request.seats.len());
-        let needed_mm = |void: usize| self.order.request.needed_mm(void, voids.len());
-        let is_open = |(index, void): (usize, &Solid)| self.stays_open(void, &bodies, needed_mm(index));
-        let open = voids[..plain].par_iter().enumerate().map(is_open).collect::<Result<Vec<bool>, _>>()?;
-        Ok(open.into_iter().all(|is_open| is_open))
-    }
-
-    /// Whether what bosses leave of a void is opened by a disc of `needed_mm` in all its pieces but crumbs, which will be filled.
-    fn stays_open(&self, void: &Solid, bosses: &[TriMesh], needed_mm: f64) -> Result<bool, CutError> {
-        let mut rest = Csg::of_solid(void)?;
-        for boss in bosses {
-            rest = rest.subtract(&Csg::of_mesh(boss)?)?;
-        }
-        let crumb_mm3 = PI / 6.0 * needed_mm.powi(3);
-        let planes = self.hollow.planes;
-        let opens = |piece: &TriMesh, plane: &Plane| opening(piece, plane).map_or(0.0, |o| o.diameter_mm);
-        let is_open = |piece: &TriMesh| {
-            piece.signed_volume_mm3() < crumb_mm3
-                || planes.iter().any(|plane| opens(piece, plane) >= needed_mm)
-        };
-        Ok(bodies(&rest.to_mesh()?).iter().all(is_open))
     }
 }
 

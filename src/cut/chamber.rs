@@ -7,12 +7,12 @@ use super::{
     outline::Outline,
     request::PlanRequest,
     section::Section,
-    sight::{Look, Walls},
+    sight::{Look, Sightlines, Walls},
     split::{Piece, split_body},
 };
 use crate::{
     geom::Plane,
-    mesh::{Csg, Hollowed, Solid},
+    mesh::{Csg, Hollowed, Solid, TriMesh},
 };
 
 /// A void with what cutting it and looking into it need, made once.
@@ -41,13 +41,29 @@ impl<'a> Chamber<'a> {
     /// About the share of its wall that is in sight once these planes cut it, from its sections alone: a tenth of the work of
     /// cutting it. A mouth that another plane crosses counts whole, so the share may be too large there by slivers.
     pub(crate) fn glance(&self, planes: &[Plane], request: &PlanRequest) -> f64 {
+        self.walls.glimpsed(&self.mouths(planes), &Look::new(planes, request))
+    }
+
+    /// About where each point of its wall is seen from once these planes cut it, as in [`Self::glance`].
+    pub(crate) fn sightlines(&self, planes: &[Plane], request: &PlanRequest) -> Vec<Sightlines> {
+        self.walls.sightlines(&self.mouths(planes), &Look::new(planes, request))
+    }
+
+    /// What some bodies leave of it.
+    pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
+        let rest =
+            bodies.iter().try_fold(self.body.clone(), |rest, body| rest.subtract(&Csg::of_mesh(body)?))?;
+        Ok(rest.to_mesh()?)
+    }
+
+    /// The outlines of its sections, each with its cut.
+    fn mouths(&self, planes: &[Plane]) -> Vec<(usize, Outline)> {
         let mouths = |(cut, plane): (usize, &Plane)| {
             let section = Section::of_mesh(self.solid.mesh(), plane);
             let outlines = section.groups().into_iter().map(|rings| (cut, section.outline(&rings)));
             outlines.collect::<Vec<(usize, Outline)>>()
         };
-        let mouths: Vec<(usize, Outline)> = planes.iter().enumerate().flat_map(mouths).collect();
-        self.walls.glimpsed(&mouths, &Look::new(planes, request))
+        planes.iter().enumerate().flat_map(mouths).collect()
     }
 }
 
@@ -56,7 +72,7 @@ mod tests {
     use super::*;
     use crate::cut::{access::accesses, scenes::request};
     use crate::geom::{Point, Vector};
-    use crate::mesh::{TriMesh, primitives};
+    use crate::mesh::primitives;
     use crate::printer::{Cleaning, CleaningRule};
 
     fn solid(mesh: TriMesh) -> Solid {

@@ -25,7 +25,7 @@ fn order_of<'a>(
     request: &'a PlanRequest,
 ) -> BossOrder<'a> {
     let price = (price, crate::geom::Frame::identity());
-    BossOrder { hollowed, request, plan, ordered: None, given_up: &[], price }
+    BossOrder { hollowed, request, plan, ordered: None, given_up: &[], refused: &[], price }
 }
 
 fn bosses_of(body: &Hollowed, plan: &CutPlan, price: Quadric) -> Vec<Boss> {
@@ -112,6 +112,7 @@ fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
             plan: &plan,
             ordered: Some(pins),
             given_up: &[],
+            refused: &[],
             price,
         };
         bosses(&order).unwrap().len()

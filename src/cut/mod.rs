@@ -2,6 +2,7 @@
 
 mod access;
 mod boss_places;
+mod boss_view;
 mod bosses;
 mod chamber;
 mod cover;

@@ -111,6 +111,18 @@ pub(crate) struct Seen {
     pub(crate) share_mm2: f64,
 }
 
+/// A point of a wall, and the places in mouths that it is seen from.
+pub(crate) struct Sightlines {
+    pub(crate) at: Point,
+    pub(crate) eyes: Vec<Point>,
+}
+
+impl Sightlines {
+    pub(crate) fn is_seen(&self) -> bool {
+        !self.eyes.is_empty()
+    }
+}
+
 /// The walls of one void.
 pub(crate) struct Walls {
     bvh: Bvh,
@@ -134,6 +146,27 @@ impl Walls {
         let mouths: Vec<(usize, &Outline)> = mouths.iter().map(|(cut, outline)| (*cut, outline)).collect();
         let (_, visible) = self.looked_at(self.points.clone(), &mouths, look);
         visible.len() as f64 / self.points.len().max(1) as f64
+    }
+
+    /// Every point of the sample with the places in these mouths, each of a cut, that see it before the void is cut: from many
+    /// places only where few do not.
+    pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
+        let mouths: Vec<(usize, &Outline)> = mouths.iter().map(|(cut, outline)| (*cut, outline)).collect();
+        let [few, many] = [EYES_ACROSS, CLOSER_EYES_ACROSS].map(|count| look.eyes(&mouths, count));
+        let seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
+            eyes.iter().filter(|eye| self.sees(eye, at, look)).map(|eye| eye.at).collect()
+        };
+        let lines = |at: &Point| {
+            let eyes = seeing(at, &few);
+            let eyes = if eyes.is_empty() { seeing(at, &many) } else { eyes };
+            Sightlines { at: *at, eyes }
+        };
+        self.points.par_iter().map(lines).collect()
+    }
+
+    /// The area of the wall, mm².
+    pub(crate) fn area_mm2(&self) -> f64 {
+        SAMPLES * self.share_mm2
     }
 
     /// What is in sight of the piece's own mouths and within reach; nothing if the piece has none.
@@ -168,13 +201,15 @@ impl Walls {
 
     /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
     fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
-        let sees = |eye: &Eye, at: &Point| {
-            let line = at - eye.at;
-            line.norm() <= look.reach_mm
-                && look.is_before(eye, at)
-                && !self.bvh.is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
-        };
-        points.into_par_iter().partition(|at| !eyes.iter().any(|eye| sees(eye, at)))
+        points.into_par_iter().partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
+    }
+
+    /// Whether a point is in sight of an eye and within reach.
+    fn sees(&self, eye: &Eye, at: &Point, look: &Look) -> bool {
+        let line = at - eye.at;
+        line.norm() <= look.reach_mm
+            && look.is_before(eye, at)
+            && !self.bvh.is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
     }
 }
 

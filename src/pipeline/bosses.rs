@@ -12,6 +12,8 @@ use crate::mesh::TriMesh;
 /// How often bosses are looked for: solving again moves the voids, which may take room from pins that had it. The first round
 /// takes nearly all; one that needs more than three goes in circles.
 const MAX_ROUNDS: usize = 3;
+/// How many patterns are tried for a joint, each away from those that cost too much.
+const MAX_PATTERNS: usize = 3;
 
 /// A round in which bosses were kept solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,11 +61,12 @@ pub fn bossed(
 ) -> Result<Bossed, Error> {
     let ordered = ordered_pins(tuner);
     let mut state = Bossed { voids, plan, rounds: Vec::new(), notes: Vec::new(), held: Vec::new() };
-    let mut given_up: Vec<JointName> = Vec::new();
-    for _ in 0..MAX_ROUNDS {
+    let mut failed = Failed::default();
+    for _ in 0..MAX_ROUNDS + MAX_PATTERNS - 1 {
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
-        let found = bosses(&BossOrder { hollowed, request, plan, ordered, given_up: &given_up, price })?;
+        let (given_up, refused) = (&failed.given_up[..], &failed.places[..]);
+        let found = bosses(&BossOrder { hollowed, request, plan, ordered, given_up, refused, price })?;
         if !found.iter().any(|boss| boss.is_new) {
             break;
         }
@@ -77,17 +80,16 @@ pub fn bossed(
         }
         for one in joints {
             if let Err(why) = tried(tuner, &mut state, (one, settling::MAX_ROUNDS), request)? {
-                let name = one[0].joint();
-                let [below, above] = &name.parts;
-                let note = format!("joint {below}–{above}: bosses around pins would {why}: it has none");
-                state.notes.push(note);
-                given_up.push(name);
+                failed.add(one, (why, ordered.is_some()));
+            } else {
+                failed.reasons.retain(|(name, _)| *name != one[0].joint());
             }
         }
-        if ordered.is_some() && !given_up.is_empty() {
+        if ordered.is_some() && !failed.given_up.is_empty() {
             break;
         }
     }
+    state.notes.extend(failed.notes());
     if let Some(pins) = ordered.filter(|pins| pins.len() > state.plan.pins.len()) {
         // Some pin has no place, and the error says which.
         let order = CutOrder { pins: Some(pins.to_vec()), ..CutOrder::of(&state.plan) };
@@ -95,6 +97,42 @@ pub fn bossed(
     }
     name_pins(&mut state);
     Ok(state)
+}
+
+/// Bosses that could not be had.
+#[derive(Default)]
+struct Failed {
+    /// The joints of those that failed, once for each pattern.
+    joints: Vec<JointName>,
+    /// Why the last pattern of each joint that has none failed.
+    reasons: Vec<(JointName, String)>,
+    /// The joints for which no more patterns are tried.
+    given_up: Vec<JointName>,
+    /// Where the bosses stood, mm.
+    places: Vec<[f64; 3]>,
+}
+
+impl Failed {
+    /// Remembers a joint's pattern, and why it failed. An ordered one is the joint's only one.
+    fn add(&mut self, bosses: &[Boss], (why, is_ordered): (String, bool)) {
+        let name = bosses[0].joint();
+        self.joints.push(name.clone());
+        self.places.extend(bosses.iter().map(|boss| boss.pin.center_mm));
+        if is_ordered || self.joints.iter().filter(|joint| **joint == name).count() >= MAX_PATTERNS {
+            self.given_up.push(name.clone());
+        }
+        self.reasons.retain(|(other, _)| *other != name);
+        self.reasons.push((name, why));
+    }
+
+    /// What is said of the joints that got none.
+    fn notes(&self) -> impl Iterator<Item = String> {
+        let note = |(name, why): &(JointName, String)| {
+            let [below, above] = &name.parts;
+            format!("joint {below}–{above}: bosses around pins would {why}: it has none")
+        };
+        self.reasons.iter().map(note)
+    }
 }
 
 /// The pins that the job orders.
