@@ -55,6 +55,11 @@ impl Tried {
         Self { planes, voids, lack_mm2 }
     }
 
+    /// The areas of all voids as [`VoidAccess::area_mm2`] has them, mm².
+    fn area_mm2(&self) -> f64 {
+        self.voids.iter().map(VoidAccess::area_mm2).sum()
+    }
+
     /// Whether every void can be cleaned.
     pub(crate) fn is_clean(&self) -> bool {
         self.voids.iter().all(|void| void.is_clean)
@@ -168,7 +173,9 @@ pub(crate) fn furthered(scene: &Scene, mut tried: Tried, notes: &mut Vec<String>
             break;
         }
         let Some(next) = one_more(scene, &tried)? else { break };
-        if next.lack_mm2 > (1.0 - WORTH_RATIO) * tried.lack_mm2 {
+        let gain_mm2 = tried.lack_mm2 - next.lack_mm2;
+        if gain_mm2 < WORTH_RATIO * tried.lack_mm2 || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
+        {
             break;
         }
         notes.push(note(&tried, &next));

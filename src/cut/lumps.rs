@@ -22,7 +22,10 @@ const LINK_RATIO: f64 = 3.0;
 /// begin a little behind the first.
 const BEGIN_SHARE: f64 = 0.25;
 /// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved again.
-const LEFT_HIDDEN_RATIO: f64 = 0.6;
+const LEFT_HIDDEN_RATIO: f64 = 0.8;
+/// So many hidden places are weighed against each other in a round: each costs a cut of the void; smaller ones are left to the
+/// next round, and hide next to nothing.
+const WEIGHED_ENDS: usize = 16;
 /// What is to be kept solid beyond this share of a piece is all of it.
 const WHOLE_RATIO: f64 = 0.5;
 
@@ -81,30 +84,52 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut], request: &PlanRequest) -> Resul
     Ok(shut.map(all).collect())
 }
 
-/// The pieces that let nothing out, and of the others the ends that are hidden, the largest first, until enough is seen.
+/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen: those first that are solid for
+/// the least volume over what they hide.
 fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let pieces = opened.chamber.split(opened.planes)?;
     let seen = opened.seen_each(&pieces);
     let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
-    let (mut lumps, mut ends) = (Vec::new(), Vec::new());
+    let (mut lumps, mut hidden) = (Vec::new(), Vec::new());
     for (piece, seen) in pieces.iter().zip(&seen) {
         if opened.lets_out(&Mouths::of(piece, opened.planes)) {
-            ends.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
+            hidden.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
         } else {
             lumps.push(piece.mesh.clone());
         }
     }
-    ends.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
-    let mut hidden_mm2: f64 = ends.iter().map(|(place, ..)| place.area_mm2).sum();
+    hidden.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
+    let mut hidden_mm2: f64 = hidden.iter().map(|(place, ..)| place.area_mm2).sum();
     let left_mm2 = LEFT_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
-    for (place, piece, seen) in ends {
+    for end in cheapest_ends(&hidden)? {
         if hidden_mm2 <= left_mm2 {
             break;
         }
-        hidden_mm2 -= place.area_mm2;
-        lumps.extend(end(piece, seen, &place)?);
+        hidden_mm2 -= end.area_mm2;
+        lumps.extend(end.bodies);
     }
     Ok(lumps)
+}
+
+/// What is to be kept solid for one hidden place.
+struct End {
+    bodies: Vec<TriMesh>,
+    area_mm2: f64,
+    volume_mm3: f64,
+}
+
+/// The ends for the largest hidden places, those first that cost the least volume over the hidden area.
+fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError> {
+    let of = |(place, piece, seen): &(Place, &Piece, &Seen)| {
+        let bodies = end(piece, seen, place)?;
+        let volume_mm3 = bodies.iter().map(TriMesh::signed_volume_mm3).sum();
+        Ok(End { bodies, area_mm2: place.area_mm2, volume_mm3 })
+    };
+    let ends = hidden[..hidden.len().min(WEIGHED_ENDS)].par_iter().map(of);
+    let mut ends = ends.collect::<Result<Vec<End>, CutError>>()?;
+    let price_mm = |end: &End| end.volume_mm3 / end.area_mm2;
+    ends.sort_by(|a, b| price_mm(a).total_cmp(&price_mm(b)));
+    Ok(ends)
 }
 
 /// A place of a piece's wall that is hidden.

@@ -15,6 +15,9 @@ pub struct PlanRequest {
     pub min_opening_mm: f64,
     /// When a void counts as clean, besides its opening.
     pub cleaning: Cleaning,
+    /// The least share of all voids' walls that a cut for their cleaning alone must bring into sight: what less would open is left
+    /// unclean, to be kept solid. 0: any cut is worth its joint.
+    pub worth_ratio: f64,
     /// What fits into the printer: x, y and z, mm. Unset: anything fits.
     pub build_volume_mm: Option<[f64; 3]>,
     /// Least thickness of material around a socket and under a pin, mm.

@@ -55,6 +55,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
 /// Settings like those of a PolyJet printer, about an axis along z through a point below everything.
 pub(crate) fn request() -> PlanRequest {
     PlanRequest {
+        worth_ratio: 0.0,
         min_opening_mm: 3.0,
         cleaning: Cleaning::MELT_OUT,
         build_volume_mm: None,

@@ -2,7 +2,7 @@
 
 use super::{
     Error, Setup,
-    tuner::{Tuner, Voids},
+    tuner::{REFUSED_MARGIN_RATIO, Tuner, Voids},
 };
 use crate::cut::{self, CutError, CutOrder, CutPlan, PlanRequest, Unclean, plan_by, unclean};
 use crate::job::CutMode;
@@ -13,6 +13,10 @@ use crate::mesh::TriMesh;
 const SHRINKING_ROUNDS: usize = 4;
 /// Rounds in all; in the last ones what cannot be cleaned goes altogether, so that the sequence ends.
 const MAX_ROUNDS: usize = 8;
+
+/// Hidden ends of voids are kept solid with so much around them, in minimum openings. More costs solid that could be cleaned, less
+/// takes more rounds.
+const END_MARGIN_RATIO: f64 = 0.5;
 
 /// One round: what was kept solid, and what that costs.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,25 +53,36 @@ pub fn cleaned<'a>(
     request: &PlanRequest,
 ) -> Result<Cleaned, Error> {
     let mut rounds = Vec::new();
+    let mut request = request.clone();
     loop {
-        let planned = planned_once(setup, &voids, request);
+        let planned = planned_once(setup, &voids, &request);
         let whole = rounds.len() >= SHRINKING_ROUNDS;
-        let dirty = match &planned {
-            Ok(plan) if setup.job.cut != CutMode::Never => unclean(&voids.hollowed, plan, request, whole)?,
-            Err(CutError::Unopenable { voids: closed, .. }) if are_plain(setup, &voids, closed) => {
-                unopened(&voids, closed)
+        let ends = if whole { REFUSED_MARGIN_RATIO } else { END_MARGIN_RATIO };
+        let (dirty, openings) = match &planned {
+            Ok(plan) if setup.job.cut != CutMode::Never => {
+                (unclean(&voids.hollowed, plan, &request, whole)?, ends)
             }
-            _ => Vec::new(),
+            Err(CutError::Unopenable { voids: closed, .. }) if are_plain(setup, &voids, closed) => {
+                (unopened(&voids, closed), REFUSED_MARGIN_RATIO)
+            }
+            _ => (Vec::new(), ends),
         };
         let is_last = dirty.is_empty() || rounds.len() == MAX_ROUNDS;
         if is_last {
             return Ok(Cleaned { voids, plan: planned?, rounds });
         }
-        let (round, less) = kept_solid(tuner, &voids, &dirty)?;
-        rounds.push(round);
+        let (round, less) = kept_solid(tuner, &voids, (&dirty, openings))?;
         match (less, planned) {
-            (Some(less), _) => voids = less,
-            (None, planned) => return Ok(Cleaned { voids, plan: planned?, rounds }),
+            (Some(less), _) => {
+                voids = less;
+                rounds.push(round);
+            }
+            // Rather any further cut than a goal that cannot be met.
+            (None, Ok(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
+            (None, planned) => {
+                rounds.push(round);
+                return Ok(Cleaned { voids, plan: planned?, rounds });
+            }
         }
     }
 }
@@ -77,11 +92,11 @@ pub fn cleaned<'a>(
 fn kept_solid(
     tuner: &mut Tuner,
     voids: &Voids,
-    dirty: &[Unclean],
+    (dirty, openings): (&[Unclean], f64),
 ) -> Result<(CleaningRound, Option<Voids>), Error> {
     let bodies: Vec<TriMesh> = dirty.iter().flat_map(|unclean| unclean.lumps.clone()).collect();
     let before = tuner.clone();
-    let less = tuner.without(voids, &bodies)?;
+    let less = tuner.without(voids, (&bodies, openings))?;
     let less = less.solution.is_usable().then_some(less);
     if less.is_none() {
         *tuner = before;

@@ -20,7 +20,7 @@ const FINEST_SURFACE_TOLERANCE_MM: f64 = 0.02;
 /// What is refused is kept solid with so much around it, in minimum openings: what lies nearer would hardly be cleaned
 /// either. Less takes more rounds, as slices beside it are refused one after the other; on the armadillo the critical
 /// speed reached is the same to 4e-7 from 0.25 to 2, and 2e-5 worse at 3.
-const REFUSED_MARGIN_RATIO: f64 = 2.0;
+pub const REFUSED_MARGIN_RATIO: f64 = 2.0;
 /// A refused void below this share of the model's volume may come back in a later round: at 50 mm from the axis it moves
 /// the centre of mass by a tenth of a micrometre.
 const SIGNIFICANT_RATIO: f64 = 2e-6;
@@ -110,9 +110,9 @@ impl<'a> Tuner<'a> {
         (printed + inside(self.setup, &voids.hollowed)).in_frame(&self.setup.placement.goal.frame)
     }
 
-    /// The voids with these bodies and what lies near them kept solid, and solved for again.
-    pub fn without(&mut self, voids: &Voids, refused: &[TriMesh]) -> Result<Voids, Error> {
-        self.refuse(refused)?;
+    /// The voids with these bodies and what lies so many minimum openings near them kept solid, and solved for again.
+    pub fn without(&mut self, voids: &Voids, (refused, openings): (&[TriMesh], f64)) -> Result<Voids, Error> {
+        self.refuse(refused, openings)?;
         let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
         let written = self.written(&less, Moments::default());
         let less = self.again(&less, written)?;
@@ -153,7 +153,7 @@ impl<'a> Tuner<'a> {
         let significant: Vec<TriMesh> =
             bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > least_mm3).collect();
         let refused_mm3 = self.refused_mm3 + crumbs_mm3;
-        self.refuse(&significant)?;
+        self.refuse(&significant, REFUSED_MARGIN_RATIO)?;
         let mut hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
         for pocket in self.setup.load.pockets() {
             hollowed.voids.push(Solid::new(pocket.mesh()).map_err(VoidError::from)?);
@@ -161,13 +161,13 @@ impl<'a> Tuner<'a> {
         Ok(Voids { solution, fixed, hollowed, refused_mm3, rounds })
     }
 
-    /// Keeps these bodies solid from now on.
-    fn refuse(&mut self, bodies: &[TriMesh]) -> Result<(), Error> {
+    /// Keeps these bodies, and what lies so many minimum openings near them, solid from now on.
+    fn refuse(&mut self, bodies: &[TriMesh], openings: f64) -> Result<(), Error> {
         if bodies.is_empty() {
             return Ok(());
         }
         let all = bodies.iter().fold(TriMesh::default(), |all, body| all.joined(body));
-        let margin_mm = REFUSED_MARGIN_RATIO * self.setup.printer.min_opening_mm.value;
+        let margin_mm = openings * self.setup.printer.min_opening_mm.value;
         let solid = grown(&all, margin_mm)?;
         self.refused_mm3 += all.signed_volume_mm3();
         self.keep(&solid)
