@@ -18,7 +18,7 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, Course, CutRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
+    BallastRow, Certificate, Checklist, Course, CutRow, FootRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
     SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
 };
 use crate::verify::{
@@ -61,6 +61,7 @@ pub fn checklist(sheet: &Sheet) -> Checklist {
 fn filled(sheet: &Sheet) -> Checklist {
     let (setup, judgement) = (sheet.setup, sheet.judgement);
     let parts = part_rows(sheet);
+    let foot = standing::foot_row(sheet);
     Checklist {
         schema: Checklist::SCHEMA,
         tool: Tool { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() },
@@ -82,6 +83,7 @@ fn filled(sheet: &Sheet) -> Checklist {
         voids: void_rows::void_rows(sheet),
         cuts: cut_rows(sheet),
         turn: turn_row(sheet, &parts),
+        foot,
         parts,
         joints: joint_rows(sheet),
         grid: super::grid_rows::grid_rows(sheet),
@@ -95,7 +97,7 @@ fn filled(sheet: &Sheet) -> Checklist {
         rounds: round_rows(sheet),
         checks: judgement.checks.clone(),
         verdict: verdict(judgement),
-        warnings: warnings(sheet),
+        warnings: warnings(sheet, foot.as_ref()),
         notes: notes(sheet),
         files: BTreeMap::new(),
         timing_s: None,
@@ -311,9 +313,9 @@ fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
     .collect()
 }
 
-fn warnings(sheet: &Sheet) -> Vec<String> {
+fn warnings(sheet: &Sheet, foot: Option<&FootRow>) -> Vec<String> {
     let setup = sheet.setup;
-    let foot = standing::flat_foot(sheet);
+    let foot = foot.map(standing::flat_foot);
     let placement = setup.placement.warnings.iter().chain(&foot).map(ToString::to_string);
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));

@@ -3,9 +3,10 @@
 use super::rows::Sheet;
 use crate::geom::Point;
 use crate::goal::{GoalKind, Warning, resting};
+use crate::report::FootRow;
 
-/// The warning that a top stands on its foot without spinning; none where it falls over, as a top must.
-pub fn flat_foot(sheet: &Sheet) -> Option<Warning> {
+/// How a top stands on its foot without spinning; none where it falls over, as a top must.
+pub fn foot_row(sheet: &Sheet) -> Option<FootRow> {
     let (setup, goal) = (sheet.setup, &sheet.setup.placement.goal);
     if goal.kind != GoalKind::Top {
         return None;
@@ -16,9 +17,15 @@ pub fn flat_foot(sheet: &Sheet) -> Option<Warning> {
     let has_tip = setup.request.hardware.is_some_and(|hardware| hardware.tip.is_some());
     points.extend(has_tip.then(Point::origin));
     let center = goal.frame.to_local(&Point::from(sheet.judgement.assembly.center_mm));
-    resting(&points, &center).map(|found| Warning::FlatFoot {
+    resting(&points, &center).map(|found| FootRow {
         radius_mm: found.radius_mm,
         center_height_mm: found.center_height_mm,
         rights_to_deg: found.rights_to_deg,
     })
+}
+
+/// What to mind of such a foot.
+pub fn flat_foot(foot: &FootRow) -> Warning {
+    let FootRow { radius_mm, center_height_mm, rights_to_deg } = *foot;
+    Warning::FlatFoot { radius_mm, center_height_mm, rights_to_deg }
 }

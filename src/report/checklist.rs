@@ -11,6 +11,7 @@ use super::grid::GridRow;
 use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
+use super::trials::FootRow;
 use crate::verify::{Aim, Check, Cleaning, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
@@ -76,6 +77,9 @@ pub struct Checklist {
     /// What becomes of a yo-yo whose halves are not turned true against each other; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnRow>,
+    /// How a top stands when it does not spin; none where it falls over, as a top does, and where it is no top.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub foot: Option<FootRow>,
     /// The stock parts that are laid in before gluing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ballast: Vec<BallastRow>,

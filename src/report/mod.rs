@@ -65,5 +65,6 @@ pub use qr::JobId;
 pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 pub use svg::{Anchor, Drawing, Spot, Stroke};
 pub use timing::Timing;
+pub use trials::FootRow;
 pub use view::View;
 pub use words::{promise, quantity};

@@ -120,6 +120,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         string_gap_mm: None,
         finished_size_mm: Some(finished_size_mm(&evidence.parts, &[])),
         turn: None,
+        foot: None,
         ballast: Vec::new(),
         fill: None,
         rounds: Vec::new(),

@@ -1,6 +1,7 @@
 //! The last step: trying what it was made for, with the figures to expect.
 
 use maud::{Markup, html};
+use serde::{Deserialize, Serialize};
 
 use super::Checklist;
 use super::page::blank;
@@ -11,8 +12,21 @@ use crate::goal::GoalKind;
 const FILM_PER_S: f64 = 240.0;
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
+/// Up to this tilt a foot was tried, degrees: what rights itself from there is not told to fall from farther.
+const MOST_TILT_DEG: f64 = 45.0;
 /// The length of the board of the tilt test, mm: long enough to measure a degree (5 mm), short enough to be at hand.
 const BOARD_MM: f64 = 300.0;
+
+/// How a top stands on its contact when it does not spin; see [`crate::goal::Resting`].
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct FootRow {
+    /// The radius of curvature of the contact over a tilt of a degree, mm: larger than the height, so it stands.
+    pub radius_mm: f64,
+    /// The height of the centre of mass over the floor, mm.
+    pub center_height_mm: f64,
+    /// It rights itself up to this tilt, to a degree, degrees; 45 where it does so at least up to there.
+    pub rights_to_deg: f64,
+}
 
 /// Where it balances, and what it must do.
 pub(super) fn test(sheet: &Checklist) -> Markup {
@@ -46,21 +60,46 @@ fn hang(place: &str) -> String {
     )
 }
 
-/// How to try a top.
+/// How to try a top: one that falls when it is slow, or one that stands on its foot.
 fn top_lines(sheet: &Checklist) -> Vec<String> {
     let height = quantity(sheet.assembly.center_height_mm, "mm");
-    let spin = sheet.assembly.critical_speed_rpm.map(|rpm| {
+    let hang = hang(&format!("on the spin axis, {height} above the contact point"));
+    let rpm = sheet.assembly.critical_speed_rpm;
+    let spin: Vec<String> = match sheet.foot {
+        Some(foot) => foot_lines(&foot, rpm).collect(),
+        None => rpm.map(falling_line).into_iter().collect(),
+    };
+    tip(sheet).into_iter().chain([hang]).chain(spin).collect()
+}
+
+/// How to try a top that falls when it is slow.
+fn falling_line(rpm: f64) -> String {
+    format!(
+        "Spin it upright on its contact point, on a hard smooth table, faster than {}, which is {} turns a second. It stays upright; \
+         as friction slows it below that speed it leans over and falls. To see its speed, put a mark on its side and film it with \
+         {FILM_PER_S} pictures a second: at that speed a turn takes {} pictures.",
+        quantity(rpm, "rpm"),
+        number(rpm / S_PER_MIN),
+        number((FILM_PER_S * S_PER_MIN / rpm).round())
+    )
+}
+
+/// How to try a top that stands on its foot: no fall shows the speed that is promised.
+fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> {
+    let tilt = quantity(foot.rights_to_deg, "°");
+    let beyond = if foot.rights_to_deg < MOST_TILT_DEG { "; leaned further it falls over" } else { "" };
+    let rest = format!(
+        "Set it on its contact without spinning it: it stands, as its foot is flatter than its centre of mass is high. Leaned by up to {tilt} \
+         and let go, it comes back{beyond}."
+    );
+    let spin = rpm.map(|rpm| {
         format!(
-            "Spin it upright on its contact point, on a hard smooth table, faster than {}, which is {} turns a second. It stays upright; \
-             as friction slows it below that speed it leans over and falls. To see its speed, put a mark on its side and film it with \
-             {FILM_PER_S} pictures a second: at that speed a turn takes {} pictures.",
-            quantity(rpm, "rpm"),
-            number(rpm / S_PER_MIN),
-            number((FILM_PER_S * S_PER_MIN / rpm).round())
+            "Spin it upright on a hard smooth table: it turns about its axis, rubs on its foot, slows down and stops standing. It does not fall \
+             when it is slow, so the {} promised, which are for a contact in one point, cannot be seen from a fall; they can with a tip under it.",
+            quantity(rpm, "rpm")
         )
     });
-    let hang = hang(&format!("on the spin axis, {height} above the contact point"));
-    tip(sheet).into_iter().chain([hang]).chain(spin).collect()
+    [rest].into_iter().chain(spin)
 }
 
 /// How to try a yo-yo.
@@ -128,4 +167,28 @@ fn tip(sheet: &Checklist) -> Option<String> {
         let gap = quantity(gap_mm, "mm");
         format!("Its contact point hangs {gap} below it: glue on a tip of that length, as light as may be; the figures do not count its mass.")
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::sample;
+    use super::*;
+
+    fn told(foot: Option<FootRow>) -> String {
+        let mut sheet = sample().0;
+        sheet.foot = foot;
+        test(&sheet).into_string()
+    }
+
+    #[test]
+    fn a_top_on_a_point_falls_when_slow_and_one_on_a_flat_foot_does_not() {
+        let (falls, stays) = ("leans over and falls", "does not fall when it is slow");
+        let on_a_point = told(None);
+        assert!(on_a_point.contains(falls) && !on_a_point.contains(stays));
+        let foot = FootRow { radius_mm: 500.0, center_height_mm: 16.0, rights_to_deg: 45.0 };
+        let on_a_foot = told(Some(foot));
+        assert!(!on_a_foot.contains(falls) && on_a_foot.contains(stays) && on_a_foot.contains("45° and let go"));
+        assert!(!on_a_foot.contains("leaned further"), "nothing is known beyond 45°");
+        assert!(told(Some(FootRow { rights_to_deg: 7.0, ..foot })).contains("leaned further it falls over"));
+    }
 }
