@@ -13,6 +13,8 @@ pub const STANDARD_GRAVITY_MM_S2: f64 = STANDARD_GRAVITY_M_S2 * 1000.0;
 /// Millimetres in an inch, exact by definition (1959).
 pub const MM_PER_INCH: f64 = 25.4;
 
+/// Square millimetres in a square centimetre.
+pub const MM2_PER_CM2: f64 = 100.0;
 /// Cubic millimetres in a cubic centimetre.
 pub const MM3_PER_CM3: f64 = 1000.0;
 

@@ -21,6 +21,7 @@ mod setup;
 mod solving;
 mod standing;
 mod stopwatch;
+mod support_rows;
 mod tuner;
 mod tuning;
 mod void_rows;

@@ -10,6 +10,7 @@ use super::joinery_rows::{
 use super::joining::{dowels, joined, mark};
 use super::kit::{figure_name, verdict};
 use super::printer_rows::{material_row, printer_row, scale_note, scaled};
+use super::support_rows::{Surfaces, support_row};
 use super::{Assembly, Setup, standing, void_rows, written::WrittenPart};
 use crate::ballast::Placed;
 use crate::cut::{CutPlan, PinSite};
@@ -226,6 +227,7 @@ fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
     let found = &sheet.judgement.parts;
     let halves = halves(sheet.setup);
+    let surfaces = Surfaces::of(sheet.assembly);
     sheet
         .assembly
         .parts
@@ -233,6 +235,10 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
         .zip(found)
         .map(|(written, facts)| {
             let part = &written.part;
+            let pins: Vec<Peg> = part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect();
+            let sockets: Vec<Peg> =
+                part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect();
+            let support = support_row(sheet.setup, &surfaces, written, [&pins, &sockets]);
             PartRow {
                 id: part.id.clone(),
                 file: written.file.clone(),
@@ -244,11 +250,12 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 size_mm: facts.size_mm,
                 lies: lies(written, sheet),
                 print_from_model: written.evidence().pose,
-                pins: part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect(),
-                sockets: part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect(),
+                pins,
+                sockets,
                 marks: part.labels.iter().map(mark).collect(),
                 half: half_of(written, &halves),
                 cup_mm3: cup_mm3(&written.read_back),
+                support,
                 picture: Some(crate::report::part_picture_file(&part.id)),
             }
         })

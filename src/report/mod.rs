@@ -34,6 +34,7 @@ mod running;
 mod sample;
 mod seen;
 mod steps;
+mod support;
 mod svg;
 #[cfg(test)]
 mod tests;
@@ -63,6 +64,7 @@ pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
 pub use projection::Projection;
 pub use qr::JobId;
 pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
+pub use support::SupportRow;
 pub use svg::{Anchor, Drawing, Spot, Stroke};
 pub use timing::Timing;
 pub use trials::FootRow;

@@ -2,10 +2,10 @@
 
 use maud::{Markup, html};
 
-use super::Checklist;
 use super::finished::cup_warning;
 use super::page::file_name;
 use super::words::quantity;
+use super::{Checklist, support};
 
 /// What the names of the packages of whole plates begin with.
 const PLATE: &str = "plate";
@@ -16,7 +16,7 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
         ul class="plain" {
             li { strong { "Load: " } (load(sheet)) }
             li { strong { "Solid, 100 % infill: " } (solid(sheet)) }
-            li { strong { "Support: " } (support(sheet)) }
+            li { strong { "Support: " } (support::of_all(sheet)) }
             @if sheet.printer.build_volume_mm.is_none() {
                 li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
             }
@@ -27,7 +27,10 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
         }
         ul class="ticks" {
             @for part in &sheet.parts {
-                li { strong { (part.id) } ": " (file_name(&part.file)) ", " (part.lies) ". Printed, and looks as in the table of parts." }
+                li {
+                    strong { (part.id) } ": " (file_name(&part.file)) ", " (part.lies) ". Printed, and looks as in the table of parts."
+                    @if let Some(told) = support::of_part(part) { br; (told) }
+                }
             }
         }
     }
@@ -71,20 +74,6 @@ fn solid(sheet: &Checklist) -> Markup {
     html! {
         (how) " The voids are in the files and stay empty: the slicer must neither fill nor add any. "
         "With walls that are not solid every mass on this sheet is wrong, and so is the balance."
-    }
-}
-
-/// Where support belongs.
-fn support(sheet: &Checklist) -> &'static str {
-    match (sheet.printer.support.as_str(), sheet.printer.process.as_str()) {
-        ("none", _) => "none; the powder holds every part.",
-        ("breakaway", "sla") => {
-            "on, outside and under what overhangs in an open hollow; none on cut faces, pins and sockets. It comes out in the next step."
-        }
-        ("breakaway", _) => {
-            "on where a part overhangs; none in sockets. What stands in an open hollow comes out in the next step."
-        }
-        _ => "as the machine lays it; what it lays in the voids comes out in the next step.",
     }
 }
 

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::support::SupportRow;
 use crate::verify::{BallastOrder, Fingerprint, GlueFilm, Mark, Peg, Pose};
 
 /// One void and how it is cleaned.
@@ -81,6 +82,9 @@ pub struct PartRow {
     /// The volume of its open hollows whose only mouth lies flat on the plate, mm³: closed cups while it is printed.
     #[serde(default)]
     pub cup_mm3: f64,
+    /// What of it hangs in the air as it lies; none where the printer does not say which surfaces print without support.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support: Option<SupportRow>,
     /// Its picture, relative to the kit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub picture: Option<String>,

@@ -232,6 +232,7 @@ fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRo
         marks: vec![],
         half: None,
         cup_mm3: 0.0,
+        support: None,
         picture: Some(part_picture_file(&promised.id)),
     }
 }

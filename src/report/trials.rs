@@ -187,7 +187,9 @@ mod tests {
         assert!(on_a_point.contains(falls) && !on_a_point.contains(stays));
         let foot = FootRow { radius_mm: 500.0, center_height_mm: 16.0, rights_to_deg: 45.0 };
         let on_a_foot = told(Some(foot));
-        assert!(!on_a_foot.contains(falls) && on_a_foot.contains(stays) && on_a_foot.contains("45° and let go"));
+        assert!(
+            !on_a_foot.contains(falls) && on_a_foot.contains(stays) && on_a_foot.contains("45° and let go")
+        );
         assert!(!on_a_foot.contains("leaned further"), "nothing is known beyond 45°");
         assert!(told(Some(FootRow { rights_to_deg: 7.0, ..foot })).contains("leaned further it falls over"));
     }
