@@ -31,7 +31,7 @@ fn a_yoyo_on_its_axle_keeps_its_promises_and_its_job_makes_the_same_kit_again() 
     let job = kit.join("job.toml");
     let replay = ["-q", "prepare", "--job", job.to_str().unwrap(), "--out", again.to_str().unwrap()];
     assert_eq!(equipoise(&replay).status.code(), Some(0));
-    for file in ["checklist.json", "hollowed.stl", "pictures/cut-away.png"] {
+    for file in ["checklist.json", "hollowed.stl", "pictures/cut-away.svg"] {
         assert!(std::fs::read(kit.join(file)).unwrap() == std::fs::read(again.join(file)).unwrap(), "{file}");
     }
 }

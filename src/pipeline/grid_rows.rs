@@ -120,7 +120,8 @@ fn faces<'a>(sheet: &'a Sheet, written: &'a WrittenPart, ruler: Ruler) -> impl I
         let moved_mm = decided.map_or(0.0, |to| to.moved_mm * up);
         let what = format!("cut face {} of {}, height over the plate", cut.id, part.id);
         let length = Length { what, asked_mm: shown_mm(height_mm - moved_mm), drawn_mm: shown_mm(height_mm) };
-        is_level.then(|| ruler.nearest(length))
+        // What lies on the plate is at no height.
+        (is_level && length.drawn_mm > 0.0).then(|| ruler.nearest(length))
     })
 }
 
@@ -167,7 +168,7 @@ fn pin_lengths(setup: &Setup, pin: &PinSite) -> [Length; 2] {
     let asked_mm = pin.diameter_mm * printer.pin_length_ratio.value;
     let least_mm = printer.pin_min_diameter_mm.value;
     [
-        Length { what: "pin, diameter".to_owned(), asked_mm: least_mm, drawn_mm: pin.diameter_mm },
+        Length { what: "pin, diameter, at least".to_owned(), asked_mm: least_mm, drawn_mm: pin.diameter_mm },
         Length { what: "pin, length".to_owned(), asked_mm, drawn_mm: pin.length_mm },
     ]
 }

@@ -6,7 +6,9 @@ use super::apart::{self, Apart, parts_in_model};
 use super::figure::{Drawn, Picture, Role};
 use super::halves;
 use super::hardware::{drawn, drawn_lump};
-use super::palette::{BALLAST, BODY, HARDWARE, SECTION, VOID, part_color};
+use super::hatch::{Hatch, Key, legend};
+use super::inserts::convex_section;
+use super::palette::{BALLAST, BODY, HARDWARE, VOID, part_color};
 use super::picture::{Camera, Color, Item, PictureError, Scene, render_seen};
 use super::plate;
 use super::projection::Projection;
@@ -21,6 +23,12 @@ use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart
 const SIZE_PX: [usize; 2] = [720, 560];
 /// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
 pub(super) const TEXT_PX: f64 = 22.0;
+/// The same on the cover, whose pictures are smaller, pixels: 7 points at 48 mm of height.
+const COVER_TEXT_PX: f64 = 30.0;
+/// The height of a legend, in heights of its words.
+const LEGEND_TEXTS: f64 = 1.8;
+/// How far from the left edge a legend begins, pixels.
+const LEGEND_PX: f64 = 14.0;
 /// The share of a picture left free for words at its sides.
 const LABEL_RATIO: f64 = 0.12;
 /// How far the viewer stands to the right of the cut's normal and above the ground, radians: enough to tell depth
@@ -65,7 +73,7 @@ pub fn part_picture_file(id: &str) -> String {
 /// Takes every picture; the same bytes on any number of threads.
 pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
-    let view = View::of(&outer, &sitting.aim.frame());
+    let view = View::of(&outer, &sitting.aim.frame()).through(sitting);
     let in_place = parts_in_model(sitting.parts);
     let partings = sitting.partings();
     let apart = Apart::of(&in_place, &partings);
@@ -75,11 +83,13 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
         sitting.parts.iter().map(|part| plate::under(&part.mesh.aabb())).collect();
     let mut shots = vec![
         model_shot(&outer, &view, upright(sitting.aim.kind)),
-        cut_away_shot([&outer, &voids], &view),
+        cut_away_shot([&outer, &voids], &view, sitting),
         apart.shot(&sitting.aim.frame(), sitting.promised),
     ];
-    let whole = |mesh| Item { is_whole: true, ..still(mesh, HARDWARE) };
-    shots.iter_mut().for_each(|shot| shot.scene.items.extend(hardware.iter().map(whole)));
+    let rod = |mesh| Item { hatch: Hatch::RODS, ..still(mesh, HARDWARE) };
+    shots.iter_mut().for_each(|shot| shot.scene.items.extend(hardware.iter().map(rod)));
+    let lump = |mesh| Item { hatch: Hatch::BALLAST, ..still(mesh, BALLAST) };
+    shots[1].scene.items.extend(lumps.iter().map(lump));
     let count = sitting.parts.len();
     let names =
         sitting.hardware.iter().enumerate().map(|(index, piece)| Label::On(count + index, piece.id.clone()));
@@ -95,9 +105,7 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
 fn add_ballast<'a>(shot: &mut Shot<'a>, sitting: &Sitting, lumps: &'a [TriMesh], partings: &[Plane]) {
     let apart_mm = apart::apart_mm(&shot.scene.items);
     for (order, mesh) in sitting.ballast.iter().zip(lumps) {
-        let (center, reach_mm) = (Point::from(order.lump.center_mm), order.lump.shape.radius_mm());
-        let away = partings.iter().filter(|plane| plane.distance(&center).abs() > reach_mm);
-        let shift = away.map(|plane| apart::away(plane, &center, apart_mm)).sum();
+        let shift = apart::lump_shift(&order.lump, partings, apart_mm);
         shot.labels.push(Label::On(shot.scene.items.len(), order.id.clone()));
         shot.scene.items.push(Item { shift, ..still(mesh, BALLAST) });
     }
@@ -123,6 +131,8 @@ pub(super) struct Shot<'a> {
     /// The height of words, pixels, and what names things.
     pub text_px: f64,
     pub labels: Vec<Label>,
+    /// What the legend below the picture names; none without entries.
+    pub keys: Vec<(Key, &'static str)>,
 }
 
 /// Words on a picture.
@@ -141,8 +151,8 @@ impl Shot<'_> {
     fn take(&self) -> Result<Picture, PictureError> {
         let (image, seen) = render_seen(&self.scene, &self.camera);
         let png = image.to_png()?;
-        let drawn =
-            if self.labels.is_empty() { Drawn::Png(png) } else { Drawn::Svg(self.labelled(&png, &seen)) };
+        let is_bare = self.labels.is_empty() && self.keys.is_empty();
+        let drawn = if is_bare { Drawn::Png(png) } else { Drawn::Svg(self.labelled(&png, &seen)) };
         let (file, caption, alt) = (self.file.clone(), self.caption.clone(), self.alt.clone());
         Ok(Picture { file, role: self.role, caption, alt, drawn })
     }
@@ -159,8 +169,11 @@ impl Shot<'_> {
 
     fn labelled(&self, png: &[u8], seen: &Seen) -> Drawing {
         let projection = Projection::of(&self.scene, &self.camera, 1);
-        let mut drawing = Drawing::new(self.camera.size_px, self.text_px);
-        drawing.picture(png, 1.0);
+        let [width, height] = self.camera.size_px;
+        let below_px = if self.keys.is_empty() { 0.0 } else { LEGEND_TEXTS * self.text_px };
+        let mut drawing = Drawing::new([width, height + below_px as usize], self.text_px);
+        drawing.picture(png, self.camera.size_px, 1.0);
+        legend(&mut drawing, [LEGEND_PX, height as f64 + 0.5 * below_px], &self.keys);
         let mut marks = Vec::new();
         for label in &self.labels {
             match label {
@@ -200,16 +213,26 @@ impl View {
         let toward = turned(&cut.normal, &frame.axis(), [TURN, LIFT]);
         Self { camera: camera(toward, frame.axis()), cut }
     }
+
+    /// The same with its cut through what is not printed: through the axis where there is hardware on it, else through the first
+    /// piece of ballast.
+    fn through(self, sitting: &Sitting) -> Self {
+        let rods = (!sitting.hardware.is_empty()).then(|| sitting.aim.frame().origin);
+        let lump = sitting.ballast.first().map(|order| Point::from(order.lump.center_mm));
+        let cut = rods.or(lump).map_or(self.cut, |at| Plane::through(&at, &self.cut.normal));
+        let margin_ratio = [if rods.or(lump).is_some() { LABEL_RATIO } else { 0.0 }, 0.0];
+        Self { camera: Camera { margin_ratio, ..self.camera }, cut }
+    }
 }
 
 /// A camera for pictures of the whole, without room for words.
 pub(super) fn camera(toward_viewer: Vector, up: Vector) -> Camera {
-    Camera { toward_viewer, up, size_px: SIZE_PX, margin_ratio: 0.0 }
+    Camera { toward_viewer, up, size_px: SIZE_PX, margin_ratio: [0.0; 2] }
 }
 
 /// The same with room for words at its sides.
 pub(super) fn labelled_camera(toward_viewer: Vector, up: Vector) -> Camera {
-    Camera { margin_ratio: LABEL_RATIO, ..camera(toward_viewer, up) }
+    Camera { margin_ratio: [LABEL_RATIO, 0.0], ..camera(toward_viewer, up) }
 }
 
 /// The direction to a viewer who faces `normal` from `turn` radians to the right and `lift` radians above.
@@ -219,7 +242,7 @@ pub(super) fn turned(normal: &Vector, up: &Vector, [turn, lift]: [f64; 2]) -> Ve
 }
 
 pub(super) fn still(mesh: &TriMesh, color: Color) -> Item<'_> {
-    Item { mesh, color, shift: Vector::zeros(), is_whole: false }
+    Item { mesh, color, shift: Vector::zeros(), hatch: Hatch::PRINTED }
 }
 
 fn model_shot<'a>(outer: &'a TriMesh, view: &View, caption: &str) -> Shot<'a> {
@@ -232,22 +255,40 @@ fn model_shot<'a>(outer: &'a TriMesh, view: &View, caption: &str) -> Shot<'a> {
         camera: view.camera,
         text_px: TEXT_PX,
         labels: Vec::new(),
+        keys: Vec::new(),
     }
 }
 
-fn cut_away_shot<'a>([outer, voids]: [&'a TriMesh; 2], view: &View) -> Shot<'a> {
+fn cut_away_shot<'a>([outer, voids]: [&'a TriMesh; 2], view: &View, sitting: &Sitting) -> Shot<'a> {
+    let keys = [
+        (true, Key::Cut(Hatch::PRINTED), "material"),
+        (true, Key::Void, "void"),
+        (!sitting.hardware.is_empty(), Key::Cut(Hatch::RODS), "hardware"),
+        (!sitting.ballast.is_empty(), Key::Cut(Hatch::BALLAST), "ballast"),
+    ];
     Shot {
-        file: "pictures/cut-away.png".to_owned(),
+        file: "pictures/cut-away.svg".to_owned(),
         role: Role::CutAway,
-        caption: "Cut open from top to bottom: material orange and hatched, voids blue.".to_owned(),
-        alt: "The object cut open along its axis, its front half taken away. What is cut is orange with stripes; the \
+        caption: "Cut open from top to bottom.".to_owned(),
+        alt: "The object cut open, its front half taken away. What is cut is striped: material orange, hardware and ballast grey; the \
               surfaces of the voids inside are blue."
             .to_owned(),
-        scene: Scene { items: vec![still(outer, BODY), still(voids, VOID)], cut: Some((view.cut, SECTION)) },
+        scene: Scene { items: vec![still(outer, BODY), still(voids, VOID)], cut: Some(view.cut) },
         camera: view.camera,
-        text_px: TEXT_PX,
-        labels: Vec::new(),
+        text_px: COVER_TEXT_PX,
+        labels: cut_names(view, sitting),
+        keys: keys.into_iter().filter(|(is_there, ..)| *is_there).map(|(_, key, words)| (key, words)).collect(),
     }
+}
+
+/// The names of the hardware and the ballast that the cut-away passes through.
+fn cut_names(view: &View, sitting: &Sitting) -> Vec<Label> {
+    let rods = sitting.hardware.iter().map(|piece| (&piece.id, drawn(piece)));
+    let lumps = sitting.ballast.iter().map(|order| (&order.id, drawn_lump(&order.lump)));
+    let is_cut = |mesh: &TriMesh| !convex_section(mesh, &view.cut).is_empty();
+    let cut = rods.chain(lumps).filter(|(_, mesh)| is_cut(mesh));
+    let on_cut = |at: Point| at - view.cut.normal * view.cut.distance(&at);
+    cut.map(|(id, mesh)| Label::At(on_cut(mesh.aabb().center()), id.clone())).collect()
 }
 
 /// The pins that stand out of a part, by the parts in the order of the sheet.

@@ -2,9 +2,11 @@
 
 use super::album::{Label, Shot, TEXT_PX, labelled_camera, pins, turned};
 use super::figure::Role;
+use super::hatch::Hatch;
 use super::palette::part_color;
 use super::picture::{Item, Scene};
 use crate::geom::{Aabb, Frame, Plane, Point, Vector};
+use crate::mass::Lump;
 use crate::mesh::TriMesh;
 use crate::verify::{PartEvidence, Peg, PromisedPart};
 
@@ -38,8 +40,15 @@ pub(super) fn shifts(parts: &[TriMesh], cuts: &[Plane]) -> Vec<Vector> {
 }
 
 /// How far what has its centre here is drawn from a cut that parts `apart_mm`.
-pub(super) fn away(cut: &Plane, center: &Point, apart_mm: f64) -> Vector {
+fn away(cut: &Plane, center: &Point, apart_mm: f64) -> Vector {
     cut.normal * (0.5 * apart_mm * cut.distance(center).signum())
+}
+
+/// How far ballast is drawn from its place: between the parts whose cut opens its pocket.
+pub(super) fn lump_shift(lump: &Lump, partings: &[Plane], apart_mm: f64) -> Vector {
+    let (center, reach_mm) = (Point::from(lump.center_mm), lump.shape.radius_mm());
+    let past = partings.iter().filter(|plane| plane.distance(&center).abs() > reach_mm);
+    past.map(|plane| away(plane, &center, apart_mm)).sum()
 }
 
 /// How far the parts of a scene are drawn apart at a cut, mm.
@@ -47,7 +56,8 @@ pub(super) fn apart_mm(items: &[Item]) -> f64 {
     of_longest_side_mm(items.iter().map(|item| item.mesh))
 }
 
-fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
+/// The same for meshes in place.
+pub(super) fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
     let all = meshes.map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
     APART_RATIO * all.size().max()
 }
@@ -63,7 +73,7 @@ impl<'a> Apart<'a> {
             mesh,
             color: part_color(index),
             shift,
-            is_whole: false,
+            hatch: Hatch::PRINTED,
         };
         Shot {
             file: "pictures/parts.svg".to_owned(),
@@ -78,6 +88,7 @@ impl<'a> Apart<'a> {
             camera: labelled_camera(self.toward_viewer(frame), frame.axis()),
             text_px: TEXT_PX,
             labels: self.labels(promised),
+            keys: Vec::new(),
         }
     }
 

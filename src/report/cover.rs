@@ -56,7 +56,7 @@ fn facts(sheet: &Checklist) -> Markup {
             tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
             tr { th scope="row" { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
             tr { th scope="row" { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
-            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) ", not weighed by this shop unless it says measured (" (sheet.material.density_sure) ": " (sheet.material.density_source) ")" } }
+            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) @if sheet.material.density_spread_ratio.is_none() { ", not measured by this shop" } ": " (sheet.material.density_source) ")" } }
             tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (counted(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
             tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
         }

@@ -2,7 +2,9 @@
 
 use super::Checklist;
 use super::figure::{Drawn, Picture, Role};
-use super::palette::{HATCH, VOID, hex};
+use super::hatch::{Hatch, Key, draw_peg, legend};
+use super::inserts::{Insert, inserts};
+use super::palette::{VOID, hex};
 use super::svg::{Drawing, Mark, Spot, Stroke};
 use super::words::{number, quantity};
 use crate::geom::{Plane, Point, Vector};
@@ -10,8 +12,10 @@ use crate::verify::Peg;
 
 /// Width, pixels.
 const WIDTH_PX: usize = 1000;
-/// What is left below the section for its width, pixels.
-const BELOW_PX: f64 = 75.0;
+/// What is left below the section for its width and the legend, pixels.
+const BELOW_PX: f64 = 120.0;
+/// How far above the lower edge the middle of the legend is, and how far from the left one it begins, pixels.
+const LEGEND_PX: [f64; 2] = [20.0, 14.0];
 /// Height of words, pixels: 8 points at the width of an A4 page.
 const TEXT_PX: f64 = 19.0;
 /// The room of the section inside the drawing: left, top, right, bottom, pixels; beside it stand names and lengths.
@@ -110,8 +114,7 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
         caption: format!(
-            "Cut {}. P: the part behind the drawing | the part taken off it. Orange: material; blue: open void, with the widest disc that passes. \
-             N: pins (full circle) in their sockets (dashed). B: ballast and H: hardware (dash-dotted). Diameters in mm.",
+            "Cut {}. P: the part behind the drawing | the part taken off it; N: pins; V: voids. Diameters in mm.",
             face.cut
         ),
         alt: format!("Section at cut {} with its sizes, {pins}.", face.cut),
@@ -143,7 +146,9 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
         .map(|(spots, _)| spots.clone())
         .collect();
     drawing.path(&outer, true, (Some(&hex(VOID)), Stroke::NONE));
-    drawing.path(&rings, true, (Some(&hex(HATCH)), Stroke { width: 2.0, ..Stroke::THIN }));
+    Hatch::PRINTED.fill(&mut drawing, &rings, Stroke { width: 2.0, ..Stroke::THIN });
+    let inserts = inserts(sheet, &face.plane);
+    draw_legend(&mut drawing, face, (!pegs.is_empty(), &inserts));
     draw_size(&mut drawing, &rings, paper.scale);
     let mut marks = Vec::new();
     for mouth in &face.mouths {
@@ -165,7 +170,7 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     marks.extend(face.whole.iter().map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())));
     let region = |region: &Region| Mark::new(paper.at(region.at), region.parts.join(" | "));
     marks.extend(face.regions.iter().map(region));
-    marks.extend(draw_inserts(&mut drawing, sheet, &face.plane, &paper));
+    marks.extend(inserts.iter().map(|insert| draw_insert(&mut drawing, insert, &paper)));
     drawing.callouts(&marks);
     drawing
 }
@@ -188,11 +193,6 @@ fn peg_words(pin: &Peg, socket: Option<&Peg>) -> String {
     format!("{} ⌀{}{socket}", pin.id, number(pin.diameter_mm))
 }
 
-fn draw_peg(drawing: &mut Drawing, at: Spot, [pin_px, socket_px]: [f64; 2]) {
-    drawing.circle(at, 0.5 * socket_px, (Some("#ffffff"), Stroke::DASHED));
-    drawing.circle(at, 0.5 * pin_px, (None, Stroke::THIN));
-}
-
 /// The thinnest wall as a thick line, and its words.
 fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark {
     let [a, b] = ends.map(|end| paper.at(end));
@@ -201,34 +201,29 @@ fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark 
     Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
 }
 
-/// What is not printed and reaches through the cut: ballast as circles, rods as their outlines; with their names.
-fn draw_inserts(drawing: &mut Drawing, sheet: &Checklist, plane: &Plane, paper: &Sheet) -> Vec<Mark> {
-    let balls = sheet.ballast.iter().map(|row| {
-        let (center_mm, radius_mm) = (row.order.lump.center_mm, row.order.lump.shape.radius_mm());
-        (row.order.id.clone(), [center_mm, center_mm], radius_mm)
-    });
-    let rods = sheet.hardware.iter();
-    let rods = rods.map(|rod| (rod.id.clone(), [rod.from_mm, rod.to_mm], 0.5 * rod.diameter_mm));
-    let mut marks = Vec::new();
-    for (id, ends_mm, radius_mm) in balls.chain(rods) {
-        let [from, to] = ends_mm.map(|end| plane.distance(&Point::from(end)));
-        if from.min(to) > radius_mm || from.max(to) < -radius_mm {
-            continue;
-        }
-        let [a, b] = ends_mm.map(|end| paper.at(flat(plane, &end)));
-        let (way, wide) = ([b[0] - a[0], b[1] - a[1]], paper.scale * radius_mm);
-        let length = way[0].hypot(way[1]);
-        if length < wide {
-            drawing.circle(a, wide, (None, Stroke::DASH_DOT));
-        } else {
-            let side = [-way[1] * wide / length, way[0] * wide / length];
-            let corner = |p: Spot, sign: f64| [p[0] + sign * side[0], p[1] + sign * side[1]];
-            let outline = vec![corner(a, 1.0), corner(b, 1.0), corner(b, -1.0), corner(a, -1.0)];
-            drawing.path(&[outline], true, (None, Stroke::DASH_DOT));
-        }
-        marks.push(Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], id));
-    }
-    marks
+/// The section of something that is not printed, and its name.
+fn draw_insert(drawing: &mut Drawing, insert: &Insert, paper: &Sheet) -> Mark {
+    let ring = insert.ring.iter().map(|at| paper.at(*at)).collect();
+    insert.hatch.fill(drawing, &[ring], Stroke::THIN);
+    Mark::new(paper.at(insert.middle()), insert.id.clone())
+}
+
+/// What is drawn how, of what there is.
+fn draw_legend(drawing: &mut Drawing, face: &CutFace, (has_pins, inserts): (bool, &[Insert])) {
+    let has = |hatch: Hatch| inserts.iter().any(|insert| insert.hatch == hatch);
+    let keys = [
+        (true, Key::Cut(Hatch::PRINTED), "material"),
+        (!face.mouths.is_empty(), Key::Void, "open void"),
+        (!face.mouths.is_empty(), Key::Disc, "widest disc that passes"),
+        (has_pins, Key::Pin, "pin in its socket"),
+        (has(Hatch::RODS), Key::Cut(Hatch::RODS), "hardware"),
+        (has(Hatch::BALLAST), Key::Cut(Hatch::BALLAST), "ballast"),
+    ];
+    let keys: Vec<(Key, &str)> =
+        keys.into_iter().filter(|key| key.0).map(|(_, key, words)| (key, words)).collect();
+    let [up, left] = LEGEND_PX;
+    let [_, height] = drawing.size_px();
+    legend(drawing, [left, height - up], &keys);
 }
 
 /// The lengths over all.

@@ -27,9 +27,13 @@ pub enum Role {
 }
 
 impl Role {
-    /// Whether its pictures are shown one below the other, large.
-    fn is_wide(self) -> bool {
-        matches!(self, Self::Cut | Self::Exploded | Self::Halves)
+    /// How its pictures are laid out: two beside each other, or one below the other, drawings with small words wider.
+    fn class(self) -> &'static str {
+        match self {
+            Self::Cut => "pictures wide",
+            Self::Exploded | Self::Halves => "pictures wide whole",
+            _ => "pictures",
+        }
     }
 }
 
@@ -86,7 +90,7 @@ pub(super) fn figure(picture: &Picture) -> Markup {
 pub(super) fn figures(pictures: &[Picture], role: Role) -> Markup {
     html! {
         @if pictures.iter().any(|picture| picture.role == role) {
-            div class=(if role.is_wide() { "pictures wide" } else { "pictures" }) { @for picture in pictures.iter().filter(|p| p.role == role) { (figure(picture)) } }
+            div class=(role.class()) { @for picture in pictures.iter().filter(|p| p.role == role) { (figure(picture)) } }
         }
     }
 }

@@ -111,12 +111,12 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
         @if sheet.joints.is_empty() { p { "No printed part is glued to another." } }
         @else {
             p { "In this order; each row sets before the next. Joints in one row close in one movement: put glue on all of them first." }
+            p { (sparing(sheet.goal.aim.kind)) }
+            (films(sheet))
             table {
                 thead { tr { th scope="col" { "Done" } th scope="col" { "Joint" } th scope="col" { "Bodies" } th scope="col" { "Cut" } th scope="col" class="n" { "Area" } th scope="col" { "Alignment" } th scope="col" { "Adhesive, clamped until" } } }
                 tbody { @for closing in closings(sheet) { (line(&closing)) } }
             }
-            (films(sheet))
-            p class="small" { (sparing(sheet.goal.aim.kind)) }
         }
     }
 }

@@ -41,5 +41,6 @@ pub(super) fn shot<'a>(sitting: &Sitting, parts: &'a [TriMesh], hardware: &'a [T
         ),
         text_px: TEXT_PX,
         labels: parts.iter().enumerate().map(name).chain(rods).collect(),
+        keys: Vec::new(),
     })
 }

@@ -26,7 +26,7 @@ pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
         (turning(sheet))
         (figures(pictures, Role::Halves))
         ul class="ticks" {
-            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) " Weighed, g " (blank()) } }
+            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) " " span class="field" { "Weighed, g " (blank()) } } }
         }
         p class="small" { "Weigh each piece before it goes in: what differs from the mass above moves the centre of mass, or slows it down." }
     }

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Checklist;
 use super::album::{Sitting, View, camera, still};
 use super::figure::{Drawn, Picture, Role};
-use super::palette::{BODY, SECTION, VOID, hex};
+use super::palette::{BODY, VOID, hex};
 use super::picture::{Camera, PictureError, Scene, render};
 use super::projection::Projection;
 use super::svg::{Anchor, Drawing, INK, PAPER, Spot, Stroke, short};
@@ -40,8 +40,8 @@ pub(super) fn pictures(sheet: &Checklist, sitting: &Sitting) -> Result<Vec<Pictu
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let frame = sitting.aim.frame();
     let view = View::of(&outer, &frame);
-    let side = Camera { margin_ratio: 0.14, ..camera(view.cut.normal, frame.axis()) };
-    let cut = Some((view.cut, SECTION));
+    let side = Camera { margin_ratio: [0.14; 2], ..camera(view.cut.normal, frame.axis()) };
+    let cut = Some(view.cut);
     let states = [
         State {
             file: "pictures/inertia-before.svg",
@@ -62,7 +62,7 @@ pub(super) fn pictures(sheet: &Checklist, sitting: &Sitting) -> Result<Vec<Pictu
 fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {
     let projection = Projection::of(&state.scene, side, 1);
     let mut drawing = Drawing::new(side.size_px, TEXT_PX);
-    drawing.picture(&render(&state.scene, side).to_png()?, PALE);
+    drawing.picture(&render(&state.scene, side).to_png()?, side.size_px, PALE);
     let body = Body {
         mass_g: state.body.mass_g,
         center: Point::from(state.body.center_mm),

@@ -12,8 +12,12 @@ pub const SECTION: Color = [213, 94, 0];
 pub const HATCH: Color = [255, 214, 170];
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
+/// The stripes of hardware where it is cut: pale grey.
+pub const RODS: Color = [222, 225, 230];
 /// Ballast: light steel.
 pub const BALLAST: Color = [176, 180, 190];
+/// The ground of ballast where it is cut, between crossed stripes: darker than hardware.
+pub const CROSSED: Color = [52, 56, 64];
 /// The squares of a plate, two by two.
 pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
 /// Parts, in turn: six of Okabe and Ito, then paler and darker ones; neighbours in this order differ in lightness too.

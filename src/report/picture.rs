@@ -1,6 +1,6 @@
 //! A small z-buffer: shaded and outlined meshes to PNG, the same bytes on every machine thread count.
 
-use super::palette::HATCH;
+use super::hatch::Hatch;
 use super::projection::Projection;
 use super::seen::Seen;
 use super::svg::INK;
@@ -18,8 +18,6 @@ const SAMPLES: usize = 2;
 const AMBIENT_RATIO: f64 = 0.5;
 /// Where the lamp stands, in (right, up, toward the viewer): over the viewer's left shoulder.
 const LAMP: [f64; 3] = [-0.4, 0.5, 0.77];
-/// Samples from one stripe of the hatching to the next, and how many of them are stripe: fewer melt together in print.
-const HATCH_SAMPLES: [usize; 2] = [14, 4];
 /// A step in depth of more than this share of the scene's draws an outline; a smooth surface has such steps only within
 /// 2° of its silhouette.
 const STEP_RATIO: f64 = 0.02;
@@ -35,8 +33,8 @@ pub struct Item<'a> {
     pub color: Color,
     /// Where it is moved to for the picture, mm.
     pub shift: Vector,
-    /// Whether it is shown whole where the others are cut.
-    pub is_whole: bool,
+    /// What it is filled with where it is cut.
+    pub hatch: Hatch,
 }
 
 /// What is drawn.
@@ -44,8 +42,8 @@ pub struct Item<'a> {
 pub struct Scene<'a> {
     /// The meshes, solids together.
     pub items: Vec<Item<'a>>,
-    /// What is cut away: everything on the positive side of the plane; the cut itself gets the colour, hatched.
-    pub cut: Option<(Plane, Color)>,
+    /// What is cut away: everything on the positive side of the plane; the cut itself is hatched.
+    pub cut: Option<Plane>,
 }
 
 /// A parallel projection that shows all of a scene.
@@ -57,8 +55,8 @@ pub struct Camera {
     pub up: Vector,
     /// Width and height of the picture, pixels.
     pub size_px: [usize; 2],
-    /// The share of the picture left free on each side for words; never less than a little.
-    pub margin_ratio: f64,
+    /// The share of the picture left free for words at the left and the right, and above and below; never less than a little.
+    pub margin_ratio: [f64; 2],
 }
 
 /// Why a picture cannot be written.
@@ -99,7 +97,7 @@ impl Image {
 }
 
 /// Draws the scene, fitted to the picture, flat shaded and outlined. Sides turned away from the viewer are the inside of
-/// material seen through the cut, and get the cut's colour: that draws the cut face without building it.
+/// material seen through the cut, and get the item's hatching: that draws the cut face without building it.
 ///
 /// About 0.1 s for 100 000 triangles at 900 × 700.
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
@@ -110,9 +108,8 @@ pub fn render(scene: &Scene, camera: &Camera) -> Image {
 pub(super) fn render_seen(scene: &Scene, camera: &Camera) -> (Image, Seen) {
     let mut canvas = Canvas::new(scene, camera);
     for (index, item) in scene.items.iter().enumerate() {
-        let cut = scene.cut.as_ref().filter(|_| !item.is_whole);
         for corners in item.mesh.iter_corners() {
-            canvas.draw(corners.map(|corner| corner + item.shift), (item.color, index), cut);
+            canvas.draw(corners.map(|corner| corner + item.shift), (item, index), scene.cut.as_ref());
         }
     }
     canvas.outline();
@@ -130,7 +127,7 @@ struct Sample {
     normal: [f32; 3],
 }
 
-/// The surface of every cut face; those of items are odd.
+/// The surface of the first kind of cut face, the next are even too; those of items are odd.
 const CUT_FACE: u32 = 2;
 /// Nothing but paper.
 const EMPTY: Sample = Sample { depth: f64::NEG_INFINITY, color: BACKGROUND, surface: 0, normal: [0.0; 3] };
@@ -153,23 +150,23 @@ impl Canvas {
         Self { width, height, projection, samples: vec![EMPTY; width * height] }
     }
 
-    fn project(&self, p: &Point, cut: Option<&(Plane, Color)>) -> Corner {
-        let beyond = cut.map_or(-1.0, |(plane, _)| plane.distance(p));
+    fn project(&self, p: &Point, cut: Option<&Plane>) -> Corner {
+        let beyond = cut.map_or(-1.0, |plane| plane.distance(p));
         let [right, down] = self.projection.at(p);
         [right, down, self.projection.nearness_mm(p), beyond]
     }
 
-    fn draw(&mut self, corners: [Point; 3], (color, item): (Color, usize), cut: Option<&(Plane, Color)>) {
+    fn draw(&mut self, corners: [Point; 3], (item, index): (&Item, usize), cut: Option<&Plane>) {
         let [a, b, c] = corners.each_ref().map(|corner| self.project(corner, cut));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 || area.is_nan() {
             return;
         }
-        let surface = 2 * item as u32 + 1;
         // Rows count downward, so a triangle that faces the viewer turns the other way here.
-        let drawn = match cut {
-            Some((_, inside)) if area > 0.0 => Sample { color: *inside, surface: CUT_FACE, ..EMPTY },
-            _ => self.shaded(&corners, color, surface),
+        let hatch = (cut.is_some() && area > 0.0).then_some(item.hatch);
+        let drawn = match hatch {
+            Some(hatch) => Sample { surface: CUT_FACE + 2 * hatch.runs as u32, ..EMPTY },
+            None => self.shaded(&corners, item.color, 2 * index as u32 + 1),
         };
         let span = |axis: usize, limit: usize| {
             let low = a[axis].min(b[axis]).min(c[axis]).floor().max(0.0) as usize;
@@ -178,13 +175,18 @@ impl Canvas {
         };
         for y in span(1, self.height) {
             for x in span(0, self.width) {
-                self.draw_sample([x, y], [a, b, c], drawn);
+                self.draw_sample([x, y], [a, b, c], (drawn, hatch));
             }
         }
     }
 
     /// Draws one sample if the triangle covers it, in front of what is there, on this side of the cut.
-    fn draw_sample(&mut self, [x, y]: [usize; 2], [a, b, c]: [Corner; 3], drawn: Sample) {
+    fn draw_sample(
+        &mut self,
+        [x, y]: [usize; 2],
+        [a, b, c]: [Corner; 3],
+        (drawn, hatch): (Sample, Option<Hatch>),
+    ) {
         let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
         let side = |p: Corner, q: Corner| (q[0] - p[0]) * (py - p[1]) - (q[1] - p[1]) * (px - p[0]);
         let (u, v, w) = (side(b, c), side(c, a), side(a, b));
@@ -195,8 +197,8 @@ impl Canvas {
         let mix = |i: usize| (u * a[i] + v * b[i] + w * c[i]) / sum;
         let sample = &mut self.samples[y * self.width + x];
         if mix(3) <= 0.0 && mix(2) > sample.depth {
-            let is_stripe = drawn.surface == CUT_FACE && (x + y) % HATCH_SAMPLES[0] < HATCH_SAMPLES[1];
-            *sample = Sample { depth: mix(2), color: if is_stripe { HATCH } else { drawn.color }, ..drawn };
+            let color = hatch.map_or(drawn.color, |hatch| hatch.color_at([x, y]));
+            *sample = Sample { depth: mix(2), color, ..drawn };
         }
     }
 
@@ -273,17 +275,15 @@ mod tests {
     use crate::verify::test_meshes::{ball, block};
 
     const RED: Color = [255, 0, 0];
-    const CUT: Color = [0, 0, 255];
+    const CUT: Hatch = Hatch { dark: [0, 0, 255], ..Hatch::PRINTED };
 
     fn from_above() -> Camera {
-        Camera { toward_viewer: Vector::z(), up: Vector::y(), size_px: [100, 100], margin_ratio: 0.0 }
+        Camera { toward_viewer: Vector::z(), up: Vector::y(), size_px: [100, 100], margin_ratio: [0.0; 2] }
     }
 
-    fn draw(meshes: &[&TriMesh], cut: Option<(Plane, Color)>) -> Image {
-        let items = meshes
-            .iter()
-            .map(|mesh| Item { mesh, color: RED, shift: Vector::zeros(), is_whole: false })
-            .collect();
+    fn draw(meshes: &[&TriMesh], cut: Option<Plane>) -> Image {
+        let items =
+            meshes.iter().map(|mesh| Item { mesh, color: RED, shift: Vector::zeros(), hatch: CUT }).collect();
         render(&Scene { items, cut }, &from_above())
     }
 
@@ -318,13 +318,13 @@ mod tests {
         let outer = block(Point::origin(), [10.0; 3]);
         let void = block(Point::new(2.0, 2.0, 2.0), [6.0; 3]).reversed();
         let plane = Plane::through(&Point::new(0.0, 0.0, 5.0), &Vector::z());
-        let image = draw(&[&outer, &void], Some((plane, CUT)));
+        let image = draw(&[&outer, &void], Some(plane));
         let is_floor = |pixel: &Color| pixel[0] > 0 && pixel[2] == 0;
         let cut = share_of(&image, |pixel| *pixel != BACKGROUND && !is_floor(pixel));
         assert!((cut - 0.92 * 0.92 * 0.64).abs() < 0.02);
         assert!(share_of(&image, is_floor) > 0.28);
         // Four diagonals of fourteen are hatched, so three pixels of seven are stripe, in part or whole: the rest is 0.31.
-        assert!(share_of(&image, |pixel| *pixel == CUT) > 0.25);
+        assert!(share_of(&image, |pixel| *pixel == CUT.dark) > 0.25);
     }
 
     #[test]

@@ -63,10 +63,11 @@ pub(super) fn shot<'a>(part: &'a PartEvidence, plate: &'a [TriMesh; 2], color: C
             toward_viewer: turned(&-Vector::y(), &Vector::z(), [TURN, LIFT]),
             up: Vector::z(),
             size_px: SIZE_PX,
-            margin_ratio: MARGIN_RATIO,
+            margin_ratio: [MARGIN_RATIO; 2],
         },
         text_px: TEXT_PX,
         labels: lengths(&part.mesh.aabb()),
+        keys: Vec::new(),
     }
 }
 

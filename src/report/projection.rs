@@ -25,9 +25,9 @@ impl Projection {
         let seen = |p: Point| Point::from(Vector::from(axes.map(|axis| axis.dot(&p.coords))));
         let moved = scene.items.iter().flat_map(|i| i.mesh.vertices().iter().map(move |p| seen(p + i.shift)));
         let bounds = moved.fold(Aabb::EMPTY, |bounds, point| bounds.grown_over(&point));
-        let margin_ratio = MARGIN_RATIO.max(camera.margin_ratio);
-        let fit = |pixels: usize, mm: f64| pixels as f64 * (1.0 - 2.0 * margin_ratio) / mm;
-        let scale = fit(width, bounds.size().x).min(fit(height, bounds.size().y));
+        let [aside, over] = camera.margin_ratio.map(|ratio| MARGIN_RATIO.max(ratio));
+        let fit = |pixels: usize, margin_ratio: f64, mm: f64| pixels as f64 * (1.0 - 2.0 * margin_ratio) / mm;
+        let scale = fit(width, aside, bounds.size().x).min(fit(height, over, bounds.size().y));
         let offset =
             [0.5 * width as f64 - scale * bounds.center().x, 0.5 * height as f64 + scale * bounds.center().y];
         Self { axes, scale, offset }

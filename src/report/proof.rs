@@ -131,8 +131,8 @@ pub(super) fn files(papers: &Papers) -> Markup {
                 code { (sheet.material.id) } ". The same numbers are in checklist.json; job.toml repeats the run."
             }
             @for note in &sheet.notes { p class="small" { (note) } }
-            p class="small" { "What the printer's numbers rest on, and how sure they are:" }
-            @for source in &sheet.printer.sources { p class="small" { (source) } }
+            h3 { "What the printer's numbers rest on, and how sure they are" }
+            ul class="sources small" { @for source in &sheet.printer.sources { li { (source) } } }
         }
     }
 }

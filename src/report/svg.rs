@@ -120,9 +120,8 @@ impl Drawing {
         self.text_px
     }
 
-    /// Adds a picture that fills the drawing, `opacity` from 0 to 1.
-    pub fn picture(&mut self, png: &[u8], opacity: f64) {
-        let [width, height] = self.size_px;
+    /// Adds a picture of this width and height at the upper left, `opacity` from 0 to 1.
+    pub fn picture(&mut self, png: &[u8], [width, height]: [usize; 2], opacity: f64) {
         self.add(&format!(
             "<image width=\"{width}\" height=\"{height}\" opacity=\"{opacity}\" href=\"data:image/png;base64,{}\"/>",
             base64(png)

@@ -171,7 +171,7 @@ fn the_pictures_and_the_view_are_the_same_on_one_thread_and_on_four() {
     let one = on(1);
     let expected = [
         "model.png",
-        "cut-away.png",
+        "cut-away.svg",
         "parts.svg",
         "P01.svg",
         "P02.svg",

@@ -44,7 +44,7 @@ fn test_lines(sheet: &Checklist) -> Vec<String> {
     let size = format!("Measure it over all, along the model's own axes: {}.", extent(&size_mm));
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
-        GoalKind::Yoyo => yoyo_lines(),
+        GoalKind::Yoyo => yoyo_lines(sheet),
         GoalKind::Stand => standing_lines(sheet),
         GoalKind::Float => floating_lines(sheet),
         GoalKind::Balance => rotor_lines(sheet),
@@ -103,12 +103,20 @@ fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> 
 }
 
 /// How to try a yo-yo.
-fn yoyo_lines() -> Vec<String> {
-    vec![
+fn yoyo_lines(sheet: &Checklist) -> Vec<String> {
+    let string = sheet.string_gap_mm.map(|gap_mm| {
+        format!(
+            "Tie a string thinner than {} round the axle in the gap, wind it up, hold its end and let the yo-yo fall: it runs down the string \
+             and up again without leaning to either side.",
+            quantity(gap_mm, "mm")
+        )
+    });
+    let held = [
         hang("in the spin point, on the axis"),
         "Hold it between two points on its axis: it stays however it is turned, as its centre of mass lies on the axis.".to_owned(),
         "Spin it up about its axis and let go in the air: it goes on turning about that axis and does not wobble.".to_owned(),
-    ]
+    ];
+    held.into_iter().chain(string).collect()
 }
 
 /// How to try what stands.

@@ -24,15 +24,17 @@
   const FRAGMENT = `#version 300 es
     precision highp float;
     in vec3 model, seen;
-    uniform vec3 color, cutColor, hatchColor;
+    uniform vec3 color, cutColor, stripeColor;
+    uniform int runs;                   // of the stripes: 0 up, 1 down, 2 both ways
     uniform vec4 plane;                 // what lies beyond it is cut away
     uniform bool isCut;
     out vec4 pixel;
     void main() {
       if (isCut && dot(model, plane.xyz) > plane.w) discard;
       if (isCut && !gl_FrontFacing) {   // the inside of material, seen through the cut
-        float stripe = mod(gl_FragCoord.x + gl_FragCoord.y, 10.0);
-        pixel = vec4(stripe < 2.5 ? hatchColor : cutColor, 1.0);
+        bool up = mod(gl_FragCoord.x - gl_FragCoord.y, 10.0) < 2.5, down = mod(gl_FragCoord.x + gl_FragCoord.y, 10.0) < 2.5;
+        bool isStripe = runs == 0 ? up : runs == 1 ? down : up || down;
+        pixel = vec4(isStripe ? stripeColor : cutColor, 1.0);
         return;
       }
       vec3 normal = normalize(cross(dFdx(seen), dFdy(seen)));
@@ -51,7 +53,7 @@
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) return;
   gl.useProgram(program);
   const at = Object.fromEntries(["low", "size", "shift", "turn", "middle", "scale", "depth", "color", "cutColor",
-    "hatchColor", "plane", "isCut"].map((name) => [name, gl.getUniformLocation(program, name)]));
+    "stripeColor", "runs", "plane", "isCut"].map((name) => [name, gl.getUniformLocation(program, name)]));
 
   const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
   const items = data.items.map((item) => {
@@ -66,7 +68,7 @@
     gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
     gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, triangles, gl.STATIC_DRAW);
     const type = item.wide ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT;
-    return { array, type, count: triangles.length / (item.wide ? 4 : 2), color: item.color, shift: item.shift, isShown: true };
+    return { ...item, array, type, count: triangles.length / (item.wide ? 4 : 2), isShown: true };
   });
 
   const [low, high] = data.box;
@@ -99,8 +101,6 @@
     gl.uniformMatrix3fv(at.turn, false, turn());
     gl.uniform2f(at.scale, unit / width, unit / height);
     gl.uniform1f(at.depth, 0.5 / (radius + far));
-    gl.uniform3fv(at.cutColor, data.cut);
-    gl.uniform3fv(at.hatchColor, data.hatch);
     gl.uniform1i(at.isCut, view.axis >= 0 ? 1 : 0);
     const normal = [0, 1, 2].map((axis) => (axis === view.axis ? 1 : 0));
     const offset = view.axis < 0 ? 0 : low[view.axis] + view.share * size[view.axis];
@@ -109,6 +109,9 @@
       gl.bindVertexArray(item.array);
       gl.uniform3fv(at.shift, item.shift.map((value) => value * view.apart));
       gl.uniform3fv(at.color, item.color);
+      gl.uniform3fv(at.cutColor, item.cut);
+      gl.uniform3fv(at.stripeColor, item.stripe);
+      gl.uniform1i(at.runs, item.runs);
       gl.drawElements(gl.TRIANGLES, item.count, item.type, 0);
     }
   };

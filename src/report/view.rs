@@ -6,10 +6,11 @@ use serde::Serialize;
 
 use super::ChecklistError;
 use super::album::Sitting;
-use super::apart::{parts_in_model, shifts};
+use super::apart::{lump_shift, of_longest_side_mm, parts_in_model, shifts};
 use super::base64::base64;
-use super::hardware::drawn;
-use super::palette::{HARDWARE, HATCH, SECTION, hex, part_color};
+use super::hardware::{drawn, drawn_lump};
+use super::hatch::Hatch;
+use super::palette::{BALLAST, HARDWARE, hex, part_color};
 use super::picture::Color;
 use crate::geom::{Aabb, Vector};
 use crate::mesh::{Csg, TriMesh, weld};
@@ -38,6 +39,7 @@ struct Item {
     name: String,
     mesh: TriMesh,
     color: Color,
+    hatch: Hatch,
     shift: Vector,
 }
 
@@ -46,8 +48,6 @@ struct Item {
 struct Packed {
     #[serde(rename = "box")]
     bounds: [[f64; 3]; 2],
-    cut: [f64; 3],
-    hatch: [f64; 3],
     items: Vec<PackedItem>,
 }
 
@@ -56,6 +56,10 @@ struct Packed {
 #[derive(Serialize)]
 struct PackedItem {
     color: [f64; 3],
+    /// The ground and the stripes of its cut, and how they run: 0 up, 1 down, 2 both ways.
+    cut: [f64; 3],
+    stripe: [f64; 3],
+    runs: u8,
     shift: [f64; 3],
     wide: bool,
     vertices: String,
@@ -70,8 +74,6 @@ impl View {
             items.iter().map(|item| item.mesh.aabb()).fold(Aabb::EMPTY, |all, next| all.union(&next));
         let packed = Packed {
             bounds: [bounds.min, bounds.max].map(|corner| corner.coords.into()),
-            cut: shares(SECTION),
-            hatch: shares(HATCH),
             items: items.iter().map(|item| packed(item, &bounds)).collect(),
         };
         let packed = serde_json::to_string(&packed)?;
@@ -91,6 +93,7 @@ fn items(sitting: &Sitting) -> Vec<Item> {
             name: part.id.clone(),
             mesh: simplified(mesh, budget).in_frame(&frame),
             color: part_color(index),
+            hatch: Hatch::PRINTED,
             shift: frame.direction_to_local(shift),
         })
         .collect();
@@ -98,7 +101,16 @@ fn items(sitting: &Sitting) -> Vec<Item> {
         name: piece.id.clone(),
         mesh: drawn(piece).in_frame(&frame),
         color: HARDWARE,
+        hatch: Hatch::RODS,
         shift: Vector::zeros(),
+    }));
+    let apart_mm = of_longest_side_mm(in_place.iter());
+    items.extend(sitting.ballast.iter().map(|order| Item {
+        name: order.id.clone(),
+        mesh: drawn_lump(&order.lump).in_frame(&frame),
+        color: BALLAST,
+        hatch: Hatch::BALLAST,
+        shift: frame.direction_to_local(&lump_shift(&order.lump, &sitting.partings(), apart_mm)),
     }));
     items
 }
@@ -140,6 +152,9 @@ fn packed(item: &Item, bounds: &Aabb) -> PackedItem {
     };
     PackedItem {
         color: shares(item.color),
+        cut: shares(item.hatch.dark),
+        stripe: shares(item.hatch.pale),
+        runs: item.hatch.runs as u8,
         shift: item.shift.into(),
         wide,
         vertices: base64(&coordinates.flat_map(u16::to_le_bytes).collect::<Vec<u8>>()),
@@ -211,7 +226,13 @@ mod tests {
     #[test]
     fn coordinates_are_packed_to_a_65_thousandth_of_the_box() {
         let mesh = ball(Point::new(1.0, 2.0, 3.0), 5.0, 12);
-        let item = Item { name: "x".into(), mesh: mesh.clone(), color: [255, 0, 0], shift: Vector::zeros() };
+        let item = Item {
+            name: "x".into(),
+            mesh: mesh.clone(),
+            color: [255, 0, 0],
+            hatch: Hatch::PRINTED,
+            shift: Vector::zeros(),
+        };
         let packed = packed(&item, &mesh.aabb());
         assert!(!packed.wide && packed.color == [1.0, 0.0, 0.0]);
         assert_eq!(

@@ -108,7 +108,7 @@ pub fn promise(sheet: &Checklist) -> String {
         (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
         (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
             format!(
-                "Spins stably: its moment of inertia across the axis is at most {} of the one about it.",
+                "Spins stably: its moment of inertia across the axis is at most {} of the one about it; below 1 is stable.",
                 number(ratio)
             )
         }
@@ -190,7 +190,7 @@ pub fn wall(wall: &WallRow) -> String {
         None => format!("{given}, the least this printer makes"),
     };
     let measured = quantity_or_dash(wall.measured_min_mm, "mm");
-    format!("{ordered}; thinnest measured {measured}, of which 1 % less is allowed for facets")
+    format!("{ordered}; thinnest measured {measured}, where 1 % less than the wall is allowed for facets")
 }
 
 /// What the proof takes as solid besides the wall.
