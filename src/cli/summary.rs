@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::show::{GREEN, Manner, RED, paint, table, verdict};
-use crate::report::{Checklist, LogRow, promise, quantity as figure};
+use crate::report::{Checklist, Course, LogRow, PassRow, promise, quantity as figure};
 use crate::units::counted;
 use crate::verify::Check;
 
@@ -180,11 +180,11 @@ pub fn details(checklist: &Checklist, manner: Manner) -> String {
     for note in &checklist.notes {
         text += &format!("note: {note}\n");
     }
-    text + &iterations(&checklist.log)
+    text + &steps(&checklist.log) + &certificate.course.as_ref().map_or(String::new(), iterations)
 }
 
 /// The solver's steps, a row each, with a column for every number that one of them has.
-fn iterations(log: &[LogRow]) -> String {
+fn steps(log: &[LogRow]) -> String {
     let mut names: Vec<&str> = Vec::new();
     for name in log.iter().flat_map(|row| row.figures.keys()) {
         if !names.contains(&name.as_str()) {
@@ -203,6 +203,17 @@ fn iterations(log: &[LogRow]) -> String {
     };
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(log.iter().map(row)).collect();
     if log.is_empty() { String::new() } else { table(&rows) }
+}
+
+/// The solver's last ascent, on coarse columns: what it found and what nothing beats, pass by pass.
+fn iterations(course: &Course) -> String {
+    let head = ["pass on coarse columns", "value", "bound"].map(str::to_owned);
+    let row = |(index, pass): (usize, &PassRow)| {
+        [index.to_string(), step_number(pass.value), step_number(pass.bound)]
+    };
+    let rows: Vec<[String; 3]> =
+        std::iter::once(head).chain(course.passes.iter().enumerate().map(row)).collect();
+    if course.passes.is_empty() { String::new() } else { table(&rows) }
 }
 
 /// A count as it is, anything else to seven digits.
@@ -233,13 +244,22 @@ mod tests {
     }
 
     #[test]
-    fn the_iteration_table_has_a_column_for_every_number_and_gaps_where_a_step_has_none() {
-        let text = iterations(&[
-            row("first", &[("passes", 3.0)]),
-            row("second", &[("bound", 0.5), ("passes", 12.0)]),
-        ]);
+    fn value_and_bound_are_told_pass_by_pass_where_they_were_recorded() {
+        let pass = |value, bound| PassRow { value, bound };
+        let course = Course { passes: vec![pass(2.5, 0.5), pass(1.5, 1.5)], speeds: vec![] };
+        assert_eq!(
+            iterations(&course),
+            "pass on coarse columns  value       bound\n0                       2.500000e0  5.000000e-1\n1                       1.500000e0  1.500000e0\n"
+        );
+        assert_eq!(iterations(&Course::default()), "");
+    }
+
+    #[test]
+    fn the_table_of_steps_has_a_column_for_every_number_and_gaps_where_a_step_has_none() {
+        let text =
+            steps(&[row("first", &[("passes", 3.0)]), row("second", &[("bound", 0.5), ("passes", 12.0)])]);
         assert_eq!(text, "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n");
-        assert_eq!(iterations(&[]), "");
+        assert_eq!(steps(&[]), "");
     }
 
     #[test]

@@ -158,7 +158,8 @@ fn hanging(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> Suppor
 
 fn row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
     let area_mm2 = |wanted: Side| {
-        places.iter().filter(|((_, side), _)| *side == wanted).map(|(_, place)| place.area_mm2).sum()
+        let of_side = places.iter().filter(|((_, side), _)| *side == wanted);
+        of_side.fold(0.0, |sum, (_, place)| sum + place.area_mm2)
     };
     let heights = || places.values().filter_map(|place| place.heights_mm);
     let from_mm = heights().map(|[low, _]| low).fold(f64::INFINITY, f64::min);

@@ -34,12 +34,14 @@ pub(super) fn table(rows: &[GridRow]) -> Markup {
         @if !rows.is_empty() {
             h2 { "What the machine makes of it" }
             table {
-                tr { th { "What" } th { "Along" } th class="n" { "Asked" } th class="n" { "Drawn" } th { "The machine gives" } }
-                @for (row, along) in gathered(rows) {
-                    tr {
-                        td { (row.what) } td { (along) }
-                        td class="n" { (quantity(row.asked_mm, "mm")) } td class="n" { (quantity(row.drawn_mm, "mm")) }
-                        td { (given(row)) }
+                thead { tr { th scope="col" { "What" } th scope="col" { "Along" } th scope="col" class="n" { "Asked" } th scope="col" class="n" { "Drawn" } th scope="col" { "The machine gives" } } }
+                tbody {
+                    @for (row, along) in gathered(rows) {
+                        tr {
+                            td { (row.what) } td { (along) }
+                            td class="n" { (quantity(row.asked_mm, "mm")) } td class="n" { (quantity(row.drawn_mm, "mm")) }
+                            td { (given(row)) }
+                        }
                     }
                 }
             }

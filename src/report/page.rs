@@ -114,7 +114,7 @@ pub(super) fn blank() -> Markup {
 fn sign_off(sheet: &Checklist) -> Markup {
     let steps = step_names(sheet).into_iter();
     html! {
-        section {
+        section class="together" {
             h2 id="sign-off" { "Sign-off" }
             table {
                 thead { tr { th scope="col" { "Step" } th scope="col" { "Name" } th scope="col" { "Date" } th scope="col" { "Remarks" } } }
