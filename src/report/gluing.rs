@@ -110,9 +110,11 @@ pub(super) fn glue(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.joints.is_empty() { p { "No printed part is glued to another." } }
         @else {
-            p { "In this order; each row sets before the next. Joints in one row close in one movement: put glue on all of them first." }
-            p { (sparing(sheet.goal.aim.kind)) }
-            (films(sheet))
+            div class="lead" {
+                p { "In this order; each row sets before the next. Joints in one row close in one movement: put glue on all of them first." }
+                p { (sparing(sheet.goal.aim.kind)) }
+                (films(sheet))
+            }
             table {
                 thead { tr { th scope="col" { "Done" } th scope="col" { "Joint" } th scope="col" { "Bodies" } th scope="col" { "Cut" } th scope="col" class="n" { "Area" } th scope="col" { "Alignment" } th scope="col" { "Adhesive, clamped until" } } }
                 tbody { @for closing in closings(sheet) { (line(&closing)) } }

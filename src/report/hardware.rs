@@ -20,8 +20,10 @@ const BALL_LEVEL: u32 = 2;
 /// The step in which the hardware is put in.
 pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
-        @for half in ["A", "B"] {
-            @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half) } " is " (parts) "." } }
+        div class="lead" {
+            @for half in ["A", "B"] {
+                @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half) } " is " (parts) "." } }
+            }
         }
         (turning(sheet))
         (figures(pictures, Role::Halves))

@@ -31,7 +31,7 @@ pub struct FootRow {
 /// Where it balances, and what it must do.
 pub(super) fn test(sheet: &Checklist) -> Markup {
     html! {
-        ul class="ticks" {
+        ul class="ticks together" {
             @for line in test_lines(sheet) { li { (line) } }
             li { "Result: " (blank()) }
         }
