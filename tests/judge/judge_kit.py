@@ -49,6 +49,8 @@ PAIRS_LIMIT = 40_000_000
 # How many points of a void's wall are looked at, from so many places across each mouth in two directions.
 SIGHT_SAMPLES = 400
 SIGHT_ACROSS = 20
+# Hanging places smaller than a square of so many line widths a side are carried by what is beside them.
+SUPPORT_LINES = 3
 # How many points of the voids are measured to the outside.
 WALL_SAMPLES = 50_000
 
@@ -715,6 +717,66 @@ def judge_marks(table, sheet, parts):
             table.at_most(f"{part['id']} '{mark['text']}' in {mark['cut']}, depth off by, mm", 1e-3, np.abs(depths - mark["depth_mm"]).max())
 
 
+def judge_support(table, sheet, parts, whole):
+    """What hangs in the air outside and in hollows is as the sheet says: triangles that look down too steeply and lie on the uncut body."""
+    printer = sheet["printer"]
+    lean = (printer.get("cleaning") or {}).get("overhang_deg")
+    least = (SUPPORT_LINES * printer["pixel_mm"][0]) ** 2
+    for row, corners in zip(sheet["parts"], parts):
+        if "support" not in row or lean is None:
+            continue
+        pose, stated = np.array(row["print_from_model"], float), row["support"]
+        printed = corners @ pose[:3, :3].T + pose[:3, 3]
+        normal = np.cross(printed[:, 1] - printed[:, 0], printed[:, 2] - printed[:, 0])
+        height = printed[:, :, 2] - printed[:, :, 2].min()
+        steep = -normal[:, 2] > math.cos(math.radians(lean)) * np.linalg.norm(normal, axis=1)
+        hung = np.flatnonzero(steep & ~(height < printer["layer_mm"]).all(axis=1))
+        if len(hung):
+            _, distance, _ = trimesh.proximity.closest_point(whole, corners[hung].mean(axis=1))
+            hung = hung[distance <= 0.01]
+        area = -normal[hung, 2] / 2
+        mesh = welded(corners)
+        faces = mesh.faces[hung]
+        edges = faces[:, [[0, 1], [1, 2]]].reshape(-1, 2)
+        place = trimesh.graph.connected_component_labels(edges, node_count=len(mesh.vertices))[faces[:, 0]] if len(hung) else hung
+        of_place = np.bincount(place, weights=area)[place] if len(hung) else area
+        # Small places are left out; one that is outside and in a hollow counts as two, so twice the least is sure to count.
+        sure = of_place >= 2 * least
+        told = stated["outside_mm2"] + stated["hollow_mm2"]
+        table.at_most(f"{row['id']} hangs, told too much by, mm²", 1e-3 + 1e-6 * area.sum(), told - area.sum())
+        table.at_most(f"{row['id']} hangs, told too little by, mm²", 1e-3 + area[~sure].sum() + least * len(set(place[sure])), area.sum() - told)
+        if sure.any():
+            table.at_least(f"{row['id']} hangs from, mm", stated["from_mm"] - 1e-6, height[hung][sure].min())
+            table.at_most(f"{row['id']} hangs to, mm", stated["to_mm"] + 1e-6, height[hung][sure].max())
+
+
+def judge_foot(table, sheet, outer, center):
+    """Whether a top stands when it does not spin: the height of its centre of mass over the floor grows however it is tilted."""
+    goal = sheet["goal"]
+    if goal["kind"] != "top" or "finished_size_mm" not in sheet:
+        return
+    origin, axes = frame(goal)
+    has_tip = any(rod["what"] == "tip" for rod in sheet.get("hardware", []))
+    points = np.concatenate([np.concatenate(outer).reshape(-1, 3)] + ([origin[None]] if has_tip else []))
+    points, center = (points - origin) @ axes.T, axes @ (center - origin)
+    turns = np.radians(np.arange(0, 360, 10))
+
+    def least_rise(degrees):
+        """The least by which a tilt lifts the centre of mass over the floor, of all directions."""
+        tilt = math.radians(degrees)
+        ups = np.stack([-np.cos(turns) * math.sin(tilt), -np.sin(turns) * math.sin(tilt), np.full(len(turns), math.cos(tilt))], axis=1)
+        return (ups @ center - (points @ ups.T).min(axis=0)).min()
+
+    rest = center[2] - points[:, 2].min()
+    stands = least_rise(1) > rest
+    table.line("stands without spinning", "foot" in sheet, bool(stands), ("foot" in sheet) == bool(stands))
+    if "foot" in sheet:
+        degrees = int(round(sheet["foot"]["rights_to_deg"]))
+        heights = [least_rise(d) for d in range(1, degrees + 1)]
+        table.line("rights itself up to, °", float(degrees), float(degrees), all(b > a for a, b in zip(heights, heights[1:])))
+        table.same("centre over the floor, mm", sheet["foot"]["center_height_mm"], rest, 1e-4)
+
+
 def judge_part(table, kit, part, printer):
     """Checks one file and returns its corners in the model frame."""
     path, room = kit / part["file"], printer.get("build_volume_mm")
@@ -776,6 +838,8 @@ def judge(kit):
     judge_whole(table, sheet, volume, moments(hollowed)[0])
     judge_hardware(table, sheet, outer)
     judge_size(table, sheet, parts)
+    judge_foot(table, sheet, outer, center)
+    judge_support(table, sheet, parts, whole)
     for part in ballast:
         table.at_least(f"{part['id']} ({part['part']}) room, mm", 0.0, ballast_room(part, whole, voids))
     judge_pins(table, sheet, parts)
