@@ -96,7 +96,6 @@ const drive = async (page) => {
     await box.click();
   }
   must(Math.max(...without) > CHANGED, "a part can be taken out of sight");
-  must(without.every((part) => part > 0), "and so can every other thing, however small");
   must(difference(all, await pixels(page)) === 0, "and all of them come back");
 };
 
