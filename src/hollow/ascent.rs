@@ -12,6 +12,8 @@ use crate::progress::Progress;
 pub(super) const COLD_DAMPING: f64 = 1e-2;
 /// The first damping near a known answer, where the model is good. A hundred times more costs a pass an ascent.
 pub(super) const WARM_DAMPING: f64 = 1e-4;
+/// The first damping where a scout has been: the model is all but exact there.
+pub(super) const SCOUTED_DAMPING: f64 = 1e-7;
 /// Damping below this part is none; above the greatest the steps are shorter than rounding.
 const LEAST_DAMPING: f64 = 1e-12;
 const GREATEST_DAMPING: f64 = 1e9;
@@ -54,7 +56,7 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    fn new(reach: &Reach, programme: &Programme, point: DualPoint) -> Self {
+    pub fn new(reach: &Reach, programme: &Programme, point: DualPoint) -> Self {
         let quadric = programme.quadric(&point);
         let extreme = reach.extreme(&quadric);
         let dual = quadric.dot(&extreme.s) + extreme.cost - programme.rhs.dot(&point.lambda);
@@ -72,7 +74,7 @@ impl Visit {
     }
 
     /// Its ratio and its bound.
-    fn pass(&self) -> Pass {
+    pub fn pass(&self) -> Pass {
         Pass { value: self.value, bound: self.bound }
     }
 
@@ -107,7 +109,7 @@ impl Visit {
         promised - self.bound <= slack.share * promised.abs() || self.bound >= slack.enough
     }
 
-    fn is_within(&self, tolerance: f64) -> bool {
+    pub fn is_within(&self, tolerance: f64) -> bool {
         self.residual() <= tolerance && self.gap_ratio().abs() <= tolerance
     }
 
@@ -138,6 +140,19 @@ pub(super) struct Climb {
     pub end: End,
     /// Value and bound of every point it was at, the last one `best`.
     pub course: Vec<Pass>,
+}
+
+impl Climb {
+    /// No ascent, but the visit that others have led to.
+    pub fn at(best: Visit, course: Vec<Pass>) -> Self {
+        Self { best, end: End::Converged, course }
+    }
+
+    /// The same ascent with a visit it began after.
+    pub fn after(mut self, visit: &Visit) -> Self {
+        self.course.insert(0, visit.pass());
+        self
+    }
 }
 
 /// When a bound is good enough.

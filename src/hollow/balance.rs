@@ -16,7 +16,7 @@ use crate::goal::{Objective, Spindle};
 /// material is as good as any.
 pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_least_removed();
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     let is_balanced = work.accepts(&climb) || objective == Objective::LeastRemoved;
     if is_balanced && !matches!(climb.end, End::Infeasible(_)) {
         return Answer::new(Objective::LeastRemoved, climb);
@@ -31,7 +31,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
 
 fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_unbalance(&work.reach, ends);
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     Answer::new(Objective::LeastUnbalance, climb)
 }
 

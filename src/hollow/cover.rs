@@ -2,7 +2,8 @@
 
 use super::ascent::{End, Slack, Visit};
 use super::heights::Heights;
-use super::programme::DualPoint;
+use super::programme::{DualPoint, Programme};
+use super::reach::Vector10;
 use super::solution::Stage;
 use super::valley::Bottom;
 
@@ -44,14 +45,12 @@ pub(super) struct Cover<'a> {
     pub level_ratio: f64,
 }
 
-/// What is known of a claim.
+/// Why a claim was not proved.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Claim {
-    /// It holds.
-    Proved,
+pub(super) enum Doubt {
     /// An interior below the target has its centre at this height.
     Refuted(f64),
-    /// Neither was found out.
+    /// It was not found out.
     Open,
 }
 
@@ -64,6 +63,23 @@ pub(super) struct Post {
     /// How far from it the share of the margin is left.
     pub reach: f64,
     pub point: DualPoint,
+    /// What it rests on.
+    pub stake: Stake,
+}
+
+/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme point of K.
+#[derive(Debug, Clone)]
+pub(super) struct Stake {
+    /// g
+    pub direction: Vector10,
+    pub least: f64,
+}
+
+impl Stake {
+    /// That no interior has a ratio below τ, by the dual point with this τ: D ≥ 0.
+    fn of(programme: &Programme, point: &DualPoint) -> Self {
+        Self { direction: programme.quadric(point), least: programme.rhs.dot(&point.lambda) }
+    }
 }
 
 impl<'a> Cover<'a> {
@@ -72,16 +88,16 @@ impl<'a> Cover<'a> {
         Self { heights, target, lever: None, level_ratio: 0.0 }
     }
 
-    /// Whether the claim holds at every height of the range, by posts from the bottom of a valley up and down.
-    pub fn claim(&self, bottom: &Bottom) -> Claim {
+    /// The posts that prove the claim at every height of the range, from the bottom of a valley up and down.
+    pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let best = &bottom.sample.climb.best;
         let margin = (best.bound - self.target) * best.denominator / best.mass();
         let start = DualPoint { tau: margin, ..best.point.clone() };
-        self.posts(bottom.sample.at, start).map_or_else(|claim| claim, |_| Claim::Proved)
+        self.posts(bottom.sample.at, start)
     }
 
     /// The posts of a claim that holds, the first at `height`, which is best where the margin is least.
-    pub fn posts(&self, height: f64, start: DualPoint) -> Result<Vec<Post>, Claim> {
+    pub fn posts(&self, height: f64, start: DualPoint) -> Result<Vec<Post>, Doubt> {
         let middle = self.post(height, start)?;
         let [low, high] = self.heights.range;
         let up = self.march(&middle, None, high)?;
@@ -90,7 +106,7 @@ impl<'a> Cover<'a> {
     }
 
     /// Posts from the middle one to an end of the range, each overlapping the one before.
-    fn march(&self, middle: &Post, other: Option<&Post>, end: f64) -> Result<Vec<Post>, Claim> {
+    fn march(&self, middle: &Post, other: Option<&Post>, end: f64) -> Result<Vec<Post>, Doubt> {
         let side = (end - middle.at).signum();
         let (mut edge, mut reach_ratio) = (middle.reach, FIRST_REACH);
         let (mut posts, mut before, mut last) = (Vec::new(), other.cloned(), middle.clone());
@@ -109,11 +125,11 @@ impl<'a> Cover<'a> {
             }
             before = Some(std::mem::replace(&mut last, post));
         }
-        Err(Claim::Open)
+        Err(Doubt::Open)
     }
 
     /// A post at a height, or what its margin says of the claim if that is not positive.
-    fn post(&self, at: f64, start: DualPoint) -> Result<Post, Claim> {
+    fn post(&self, at: f64, start: DualPoint) -> Result<Post, Doubt> {
         let work = self.heights.work;
         let mut programme = self.heights.programme(at);
         if let Some(lever) = self.lever {
@@ -125,21 +141,23 @@ impl<'a> Cover<'a> {
         let slack = Slack { share: MARGIN_SLACK, enough };
         let climb = work.climb_to_bound(&programme, start, slack);
         if matches!(climb.end, End::Infeasible(_) | End::Cancelled) {
-            return Err(Claim::Open);
+            return Err(Doubt::Open);
         }
-        let margin = climb.best.bound;
+        let margin = work.claimed_ratio * climb.best.bound;
         if margin <= 0.0 {
             return Err(self.refutation(&climb.best));
         }
         let weight = self.heights.weight(&climb.best.point).max(0.0);
         let reach = ((1.0 - self.level_ratio) * margin / weight).sqrt();
-        Ok(Post { at, margin, reach, point: climb.best.point })
+        let point = DualPoint { tau: margin, ..climb.best.point };
+        let stake = Stake::of(&programme, &point);
+        Ok(Post { at, margin, reach, point, stake })
     }
 
     /// Whether an interior that all but meets the constraints is below the target.
-    fn refutation(&self, best: &Visit) -> Claim {
+    fn refutation(&self, best: &Visit) -> Doubt {
         let is_one = best.value < 0.0 && best.residual() <= self.heights.work.settings.accepted_residual;
-        if is_one { Claim::Refuted(best.center_height()) } else { Claim::Open }
+        if is_one { Doubt::Refuted(best.center_height()) } else { Doubt::Open }
     }
 }
 
@@ -190,8 +208,8 @@ mod tests {
                 [(-1e-1, true), (-1e-3, true), (-1e-6, true), (1e-3, false), (1e-1, false)]
             {
                 let cover = Cover::of_all(&heights, best + worse * best.abs());
-                let claim = cover.claim(&bottom);
-                assert_eq!(claim == Claim::Proved, expected, "{objective:?} {worse}: {claim:?}");
+                let proof = cover.proof(&bottom);
+                assert_eq!(proof.is_ok(), expected, "{objective:?} {worse}: {proof:?}");
             }
         }
     }

@@ -19,7 +19,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         return answer;
     }
     let programme = Programme::float_lowest_center(&work.reach, &afloat);
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     if climb.end != End::Cancelled
         && !work.accepts(&climb)
         && let Some(proof) = cannot_trim(work, objective, &afloat)

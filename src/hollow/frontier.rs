@@ -1,6 +1,6 @@
 //! The proof over every height and lever, for Spin-It's functional where it weighs the lever.
 
-use super::cover::{Claim, Cover, Post};
+use super::cover::{Cover, Doubt, Post, Stake};
 use super::heights::Heights;
 use super::lever::Weighed;
 use super::programme::{DualPoint, LEVER_ROW, index};
@@ -65,43 +65,38 @@ struct Walk {
 }
 
 impl Frontier<'_> {
-    /// Whether the claim holds, from the best height and lever on.
-    pub fn claim(&self, bottom: &Bottom) -> Claim {
-        self.prove(bottom).map_or_else(|claim| claim, |()| Claim::Proved)
-    }
-
-    fn prove(&self, bottom: &Bottom) -> Result<(), Claim> {
+    /// The posts that prove the claim, from the best height and lever on.
+    pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let sample = &bottom.sample;
-        let lever = sample.lever.ok_or(Claim::Open)?.at;
+        let lever = sample.lever.ok_or(Doubt::Open)?.at;
         let best = &sample.climb.best;
         let touch = (lever / self.greatest()).min(1.0).acos();
         let mut half = FIRST_ANGLE_RATIO * (1.0 - self.target / sample.value).max(0.0).sqrt();
-        let start = Post {
-            at: sample.at,
-            margin: 0.0,
-            reach: 0.0,
-            point: DualPoint { tau: 0.0, ..best.point.clone() },
-        };
+        let stake = Stake { direction: best.quadric, least: 0.0 };
+        let point = DualPoint { tau: 0.0, ..best.point.clone() };
+        let start = Post { at: sample.at, margin: 0.0, reach: 0.0, point, stake };
         for _ in 0..MOST_SIDES {
             let ends = [1.0, -1.0].map(|side| self.corner(self.at(touch, side * half), &start));
             let [low, high] = ends;
             let (low, high) = (low?, high?);
             if self.is_above(&low, &high) {
-                self.walk(Walk { side: 1.0, touch, offset: half }, (&high, &low))?;
-                return self.walk(Walk { side: -1.0, touch, offset: half }, (&low, &high));
+                let left = self.walk(Walk { side: 1.0, touch, offset: half }, (&high, &low))?;
+                let right = self.walk(Walk { side: -1.0, touch, offset: half }, (&low, &high))?;
+                return Ok([low.posts, high.posts, left, right].concat());
             }
             half *= SHRINKAGE;
         }
-        Err(Claim::Open)
+        Err(Doubt::Open)
     }
 
-    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what interiors can have.
-    fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<(), Claim> {
+    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what interiors can have; the
+    /// posts of the new ones.
+    fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<Vec<Post>, Doubt> {
         let Walk { side, mut touch, mut offset } = walk;
-        let (mut before, mut last) = (before.clone(), last.clone());
+        let (mut before, mut last, mut posts) = (before.clone(), last.clone(), Vec::new());
         for _ in 0..MOST_SIDES {
             if self.is_end(&last, side) {
-                return Ok(());
+                return Ok(posts);
             }
             // From a corner beyond its point of contact another tangent goes on.
             if offset > 0.0 {
@@ -110,10 +105,11 @@ impl Frontier<'_> {
             }
             let distance = (touch + side * offset - walk.touch).abs();
             let (next, stepped) = self.step(Walk { side, touch, offset }, (&before, &last), distance)?;
+            posts.extend_from_slice(&next.posts);
             before = std::mem::replace(&mut last, next);
             offset += stepped;
         }
-        Err(Claim::Open)
+        Err(Doubt::Open)
     }
 
     /// The next corner on the same tangent, as far on as all interiors are above the side to it, and how far on.
@@ -122,10 +118,10 @@ impl Frontier<'_> {
         walk: Walk,
         (before, last): (&Corner, &Corner),
         distance: f64,
-    ) -> Result<(Corner, f64), Claim> {
+    ) -> Result<(Corner, f64), Doubt> {
         let Walk { side, touch, offset } = walk;
         let mut step = self.foreseen((before, last), distance);
-        let mut failed = Claim::Open;
+        let mut failed = Doubt::Open;
         while step > NARROWEST {
             let at = self.at(touch, side * (offset + step));
             let fits = |next: &Corner| {
@@ -134,7 +130,7 @@ impl Frontier<'_> {
             match self.corner(at, &aimed(before, last, at[0])) {
                 Ok(next) if fits(&next) => return Ok((next, step)),
                 Ok(_) => {}
-                Err(claim) => failed = claim,
+                Err(doubt) => failed = doubt,
             }
             step *= SHRINKAGE;
         }
@@ -175,7 +171,7 @@ impl Frontier<'_> {
         [radius * angle.cos() / self.weighed.lever.sqrt(), radius * angle.sin() / self.weighed.inertia.sqrt()]
     }
 
-    fn corner(&self, [lever, target]: [f64; 2], start: &Post) -> Result<Corner, Claim> {
+    fn corner(&self, [lever, target]: [f64; 2], start: &Post) -> Result<Corner, Doubt> {
         let cover = Cover { heights: self.heights, target, lever: Some(lever), level_ratio: LEVEL_RATIO };
         Ok(Corner { lever, target, posts: cover.posts(start.at, start.point.clone())? })
     }
@@ -257,8 +253,8 @@ mod tests {
             for (share, expected) in [(0.9, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false), (1.1, false)] {
                 let target = share * bottom.sample.value;
                 let weighed = Weighed::of(objective, &work).unwrap();
-                let claim = Frontier { heights: &heights, weighed, target }.claim(&bottom);
-                assert_eq!(claim == Claim::Proved, expected, "{gamma_c} {share}: {claim:?}");
+                let proof = Frontier { heights: &heights, weighed, target }.proof(&bottom);
+                assert_eq!(proof.is_ok(), expected, "{gamma_c} {share}: {proof:?}");
             }
         }
     }

@@ -53,6 +53,35 @@ impl<'a> Heights<'a> {
         Ok([low.max(LEAST_HEIGHT_RATIO * high), high])
     }
 
+    /// The heights an interior's centre can have, by the multipliers a scout finds and one pass over all columns for each end;
+    /// none where those do not tell.
+    pub fn scouted_range(work: &Work, scout: &Work) -> Option<[f64; 2]> {
+        let end = |sense: f64| {
+            let programme = Programme::top_height(&work.reach, sense);
+            let start = programme.cold_start(&work.reach);
+            let climb = scout.climb_to_bound(&programme, start, RANGE_SLACK);
+            let is_found = !matches!(climb.end, End::Infeasible(_) | End::Cancelled);
+            is_found.then(|| sense * work.bound_at(&programme, &climb.best.point))
+        };
+        let (low, high) = (end(1.0)?, end(-1.0)?);
+        let low = low.max(LEAST_HEIGHT_RATIO * high);
+        (low < high).then_some([low, high])
+    }
+
+    /// A visit as the bottom of a valley whose place and curvature are known.
+    pub fn bottom_of(&self, (height, lever): (Tangent, Option<Tangent>), climb: Climb) -> Bottom {
+        Bottom { sample: self.sample_of(height.at, lever, climb), curvature: height.curvature }
+    }
+
+    /// Whether no other height, and no other lever where that is weighed, promises anything worth the while.
+    pub fn is_level(&self, bottom: &Bottom) -> bool {
+        let Sample { slope, lever, climb, .. } = &bottom.sample;
+        let of_lever = Weighed::of(self.objective, self.work).zip(*lever).is_none_or(|(weighed, lever)| {
+            bottom.is_level(weighed.slope(lever.at, &climb.best), lever.curvature)
+        });
+        of_lever && bottom.is_level(*slope, bottom.curvature)
+    }
+
     /// The bottom of the valley that slopes away from a height; none where nothing could be solved.
     pub fn bottom_from(&self, height: f64) -> Option<Bottom> {
         self.bottom(Valley::from(height, self.range), None)
@@ -71,12 +100,19 @@ impl<'a> Heights<'a> {
             return Levers { heights: self, weighed, height }.best(near, tolerance);
         }
         let climb = self.work.climb_near(&self.programme(height), near.map(|(point, _)| point), tolerance)?;
+        Some(self.sample_of(height, None, climb))
+    }
+
+    /// The sample that an ascent at a height, and at the best lever where that is weighed, makes.
+    pub fn sample_of(&self, height: f64, lever: Option<Tangent>, climb: Climb) -> Sample {
         let (ratio, [slope, bend]) = (climb.best.value, self.slopes(height, &climb.best));
         let (value, chain) = match self.objective {
             Objective::SpinIt { gamma_i, .. } => (gamma_i * ratio * ratio, 2.0 * gamma_i * ratio),
             _ => (ratio, 1.0),
         };
-        Some(Sample { at: height, value, slope: chain * slope, bend: chain * bend, climb, lever: None })
+        let weighed = Weighed::of(self.objective, self.work).zip(lever);
+        let of_lever = weighed.map_or(0.0, |(weighed, lever)| weighed.lever * lever.at * lever.at);
+        Sample { at: height, value: value + of_lever, slope: chain * slope, bend: chain * bend, climb, lever }
     }
 
     /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what it grows with ℓ at
@@ -102,6 +138,12 @@ impl<'a> Heights<'a> {
             Objective::Dominance => Programme::top_dominance(reach, height),
             _ => Programme::top_critical_speed(reach, height, self.range),
         }
+    }
+
+    /// The same for interiors of a lever, where there is one.
+    pub fn programme_at(&self, height: f64, lever: Option<Tangent>) -> Programme {
+        let programme = self.programme(height);
+        lever.map_or(programme.clone(), |lever| programme.with_lever(&self.work.reach, lever.at))
     }
 
     /// What a run that found nothing shows: how far it came at the middle height.

@@ -1,5 +1,6 @@
 //! Spin-It's functional where it weighs the lever: at each height also the best lever has to be found.
 
+use super::ascent::Visit;
 use super::heights::{Heights, Start};
 use super::programme::{DualPoint, LEVER_ROW, index};
 use super::solution::Tangent;
@@ -35,6 +36,15 @@ impl Weighed {
     }
 }
 
+impl Weighed {
+    /// The derivative by the lever of the least that it can be: by the envelope theorem the least ratio falls by the row's
+    /// multiplier.
+    pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
+        let falling = 2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
+        2.0 * self.lever * lever - falling
+    }
+}
+
 /// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
 ///
 /// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant and the second is.
@@ -57,11 +67,7 @@ impl Levers<'_> {
             let near = place.near.map(|sample| &sample.climb.best.point).or(start.as_ref());
             self.sample(place.at, near, tolerance.max(place.tolerance))
         })?;
-        let best = &bottom.sample.climb.best;
-        let chain = 2.0 * self.weighed.inertia * best.value;
-        let [slope, bend] = self.heights.slopes(self.height, best).map(|slope| chain * slope);
-        let lever = Some(bottom.tangent());
-        Some(Sample { at: self.height, slope, bend, lever, ..bottom.sample })
+        Some(self.heights.sample_of(self.height, Some(bottom.tangent()), bottom.sample.climb))
     }
 
     /// The lever of the interior whose inertia alone is best: the best one is less.
@@ -82,9 +88,7 @@ impl Levers<'_> {
         let climb = work.climb_near(&programme, near, tolerance)?;
         let (Weighed { lever: k, inertia: gamma }, best) = (self.weighed, &climb.best);
         let value = k * lever * lever + gamma * best.value * best.value;
-        // By the envelope theorem the least ratio falls by the row's multiplier.
-        let falling = 2.0 * gamma * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
-        let (slope, bend) = (2.0 * k * lever - falling, 2.0 * k);
-        Some(Sample { at: lever, value, slope, bend, climb, lever: None })
+        let slope = self.weighed.slope(lever, best);
+        Some(Sample { at: lever, value, slope, bend: 2.0 * k, climb, lever: None })
     }
 }

@@ -1,9 +1,12 @@
 //! The reachable set K of moments: for any direction, the extreme interior and how it turns with the direction.
 
+use std::borrow::Cow;
 use std::cell::Cell;
 
 use nalgebra::SVector;
+use rayon::prelude::*;
 
+use super::mend::Mend;
 use super::programme::index;
 use crate::geom::{Frame, Quadric};
 use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_positive};
@@ -60,10 +63,11 @@ pub(super) struct Heavy {
 /// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the passes made over it; with a
 /// heavy material, β may also be as far below zero as its density allows.
 pub(super) struct Reach<'a> {
-    columns: &'a Columns,
+    columns: Cow<'a, Columns>,
     /// From moments in the columns' coordinates to moments in the goal's; none where they are the same.
     turn: Option<Matrix10>,
     heavy: Option<Heavy>,
+    mend: Option<Mend>,
     pub scale: Scale,
     /// The moments with nothing emptied.
     pub solid: Vector10,
@@ -88,8 +92,31 @@ pub(super) struct Extreme {
 impl<'a> Reach<'a> {
     pub fn new(columns: &'a Columns, fixed: &Moments, scale: Scale) -> Self {
         let solid = scale.moments_to_units(fixed);
-        let (turn, heavy, passes) = (None, None, Cell::new(0));
-        Self { columns, turn, heavy, scale, solid, shell: solid, fullest: solid, passes }.bounded()
+        let (turn, heavy, mend, passes) = (None, None, None, Cell::new(0));
+        let columns = Cow::Borrowed(columns);
+        Self { columns, turn, heavy, mend, scale, solid, shell: solid, fullest: solid, passes }.bounded()
+    }
+
+    /// Whether there is a heavy material to be had.
+    pub fn has_heavy(&self) -> bool {
+        self.heavy.is_some()
+    }
+
+    /// How many columns a pass goes over.
+    pub fn columns(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The set as a `step`² times smaller number of its columns shows it, with the outermost moments of all of them.
+    pub fn thinned(&self, step: usize) -> Self {
+        let columns = Cow::Owned(self.columns.thinned(step));
+        Self { columns, mend: None, passes: Cell::new(0), ..*self }
+    }
+
+    /// The same set, mapped so that it has the extreme point and the derivative that all columns have along g.
+    pub fn mended(self, g: &Vector10, all: &Extreme) -> Self {
+        let mend = Mend::new(g, all, |g| self.plain_extreme(g));
+        Self { mend: Some(mend), ..self }
     }
 
     /// The same for columns given in model coordinates, while everything else is in the coordinates of `frame`.
@@ -116,6 +143,11 @@ impl<'a> Reach<'a> {
 
     /// The extreme point along g and its derivative; one pass, two where there is a heavy material.
     pub fn extreme(&self, g: &Vector10) -> Extreme {
+        let Some(mend) = self.mend else { return self.plain_extreme(g) };
+        mend.extreme(&self.plain_extreme(&mend.direction(g)))
+    }
+
+    fn plain_extreme(&self, g: &Vector10) -> Extreme {
         let quadric = self.scale.quadric_to_mm(g);
         let (emptied, w) = self.region(&quadric);
         let lightest = Extreme { s: self.solid - emptied, w, cost: 0.0 };
@@ -131,11 +163,26 @@ impl<'a> Reach<'a> {
 
     /// The extreme point along g alone; cheaper passes.
     pub fn least(&self, g: &Vector10) -> Vector10 {
+        let Some(mend) = self.mend else { return self.plain_least(g) };
+        mend.point(&self.plain_least(&mend.direction(g)))
+    }
+
+    fn plain_least(&self, g: &Vector10) -> Vector10 {
         let quadric = self.scale.quadric_to_mm(g);
         let emptied = self.solid - self.moments_of(&quadric);
         let filled =
             |heavy: Heavy| self.moments_of(&self.filled(&quadric, heavy)) * (heavy.density_ratio - 1.0);
         self.heavy.map_or(emptied, |heavy| emptied + filled(heavy))
+    }
+
+    /// The extreme points along many directions, where there is no heavy material; a cheaper pass each, side by side.
+    pub fn least_of_each(&self, directions: &[Vector10]) -> Vec<Vector10> {
+        self.passes.set(self.passes.get() + directions.len());
+        let (columns, turn, scale, solid) = (&self.columns, self.turn, self.scale, self.solid);
+        let over_columns = |g: &Vector10| over_columns(turn.as_ref(), &scale.quadric_to_mm(g));
+        let emptied = |g: &Vector10| moments_where_positive(columns, &over_columns(g));
+        let emptied: Vec<Moments> = directions.par_iter().map(emptied).collect();
+        emptied.iter().map(|moments| solid - self.seen(*moments)).collect()
     }
 
     /// Where the heavy material is worth its price: the quadric of g must be so far below zero that what it gains more than
@@ -160,7 +207,8 @@ impl<'a> Reach<'a> {
     /// pass.
     fn region(&self, quadric: &Quadric) -> (Vector10, Matrix10) {
         self.passes.set(self.passes.get() + 1);
-        let (moments, derivative) = moments_and_derivative(self.columns, &self.over_columns(quadric));
+        let (moments, derivative) =
+            moments_and_derivative(&self.columns, &over_columns(self.turn.as_ref(), quadric));
         let derivative = self.turn.map_or(derivative, |turn| turn * derivative * turn.transpose());
         let unit = self.scale.units().map(f64::recip);
         let w = derivative.zip_map(&(unit * unit.transpose()), |entry, factor| entry * factor);
@@ -170,12 +218,7 @@ impl<'a> Reach<'a> {
     /// The moments alone; one cheaper pass.
     fn moments_of(&self, quadric: &Quadric) -> Vector10 {
         self.passes.set(self.passes.get() + 1);
-        self.seen(moments_where_positive(self.columns, &self.over_columns(quadric)))
-    }
-
-    /// A quadric of the goal's coordinates over the columns' own.
-    fn over_columns(&self, quadric: &Quadric) -> Quadric {
-        self.turn.map_or(*quadric, |turn| Quadric((turn.transpose() * Vector10::from(quadric.0)).into()))
+        self.seen(moments_where_positive(&self.columns, &over_columns(self.turn.as_ref(), quadric)))
     }
 
     /// Moments in the columns' coordinates as the solver's.
@@ -188,6 +231,11 @@ impl<'a> Reach<'a> {
     pub fn passes(&self) -> usize {
         self.passes.get()
     }
+}
+
+/// A quadric of the goal's coordinates over the columns' own.
+fn over_columns(turn: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
+    turn.map_or(*quadric, |turn| Quadric(turn.tr_mul(&Vector10::from(quadric.0)).into()))
 }
 
 #[cfg(test)]

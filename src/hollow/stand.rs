@@ -12,7 +12,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         Objective::LowestCenter => Programme::stand_lowest_center(&work.reach),
         _ => Programme::stand_toppling(&work.reach, work.goal),
     };
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     let least = climb.best.bound;
     let answer = Answer::new(objective, climb);
     if objective == Objective::TopplingAngle && least >= 0.0 {

@@ -1,7 +1,8 @@
 //! The top: the best height of the centre, whether any is stable, and the proof over all of them.
 
 use super::answer::Answer;
-use super::cover::{Claim, Cover};
+use super::ascent::Climb;
+use super::cover::{Cover, Doubt, Post};
 use super::frontier::Frontier;
 use super::heights::Heights;
 use super::lever::Weighed;
@@ -17,9 +18,53 @@ use crate::goal::Objective;
 const COVER_RATIO: f64 = 5e-7;
 /// How often a better valley may be found by the proof that there is none.
 const MOST_VALLEYS: usize = 16;
+/// Looks at all columns after which a scout is not asked again. Three are the rule.
+const MOST_LOOKS: usize = 8;
 
 /// The best interior of a top, or the proof that no interior makes it stable.
 pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
+    scouted(work, objective, None).unwrap_or_else(|| from_nothing(work, objective))
+}
+
+/// The same by way of a scout. None where there is none, or where what it saw does not hold: then all is to be asked of all
+/// columns.
+fn scouted(work: &Work, objective: Objective, known: Option<&Warm>) -> Option<Answer> {
+    let scout = work.scout()?;
+    let range = Heights::scouted_range(work, &scout)?;
+    let heights = Heights { work, objective, range };
+    let mut seen = match known {
+        Some(known) => known.clone(),
+        None => {
+            let (rough, solid) = (Heights { work: &scout, ..heights }, &work.reach.solid);
+            rough.bottom_from(solid[index::Z] / solid[index::ONE])?.warm()
+        }
+    };
+    let mut scout = scout;
+    let mut course = Vec::new();
+    for _ in 0..MOST_LOOKS {
+        let tangent = seen.height?;
+        let here = work.look(&heights.programme_at(tangent.at, seen.lever), seen.point);
+        course.push(here.pass());
+        scout = scout.mended(&here);
+        let bottom = heights.bottom_of((tangent, seen.lever), Climb::at(here, course.clone()));
+        if work.is_exact(&bottom.sample.climb.best) && heights.is_level(&bottom) {
+            let is_good = is_stable(work, &bottom.sample);
+            let bound_over_heights = Some(planned(&heights, &scout, &bottom)?);
+            return is_good.then(|| Found { bottom, bound_over_heights }.answer(objective));
+        }
+        let mended = Heights { work: &scout, ..heights };
+        seen = mended.bottom(Valley::near(tangent), Some(bottom.sample.start()))?.warm();
+    }
+    None
+}
+
+/// A bound just below the bottom of a valley that holds at every height, by posts that a scout finds and all columns bear.
+fn planned(heights: &Heights, scout: &Work, bottom: &Bottom) -> Option<f64> {
+    let (bound, proof) = proof(&Heights { work: scout, ..*heights }, bottom);
+    heights.work.hold(&proof.ok()?).then_some(bound)
+}
+
+fn from_nothing(work: &Work, objective: Objective) -> Answer {
     let heights = match Heights::new(work, objective) {
         Ok(heights) => heights,
         Err(climb) => return Answer::new(objective, *climb),
@@ -32,13 +77,16 @@ pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
     }
     match objective {
         Objective::CriticalSpeed => unstable(heights, found),
-        _ => solve(work, Objective::CriticalSpeed),
+        _ => from_nothing(work, Objective::CriticalSpeed),
     }
 }
 
 /// The same search near a known answer, in a few passes: its dual point, height and curvature are aimed by. None where
 /// the ground has changed too much for that.
 pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
+    if let Some(answer) = scouted(work, objective, Some(warm)) {
+        return Some(answer);
+    }
     let hint = warm.height?;
     let heights = Heights { work, objective, range: [0.5 * hint.at, 2.0 * hint.at] };
     let bottom = heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?;
@@ -68,11 +116,11 @@ fn lowest(heights: &Heights) -> Option<Found> {
     let solid = &heights.work.reach.solid;
     let mut bottom = heights.bottom_from(solid[index::Z] / solid[index::ONE])?;
     for _ in 0..MOST_VALLEYS {
-        let (bound, claim) = claim(heights, &bottom);
-        match claim {
-            Claim::Proved => return Some(Found { bottom, bound_over_heights: Some(bound) }),
-            Claim::Open => break,
-            Claim::Refuted(height) => match heights.bottom_from(height) {
+        let (bound, proof) = proof(heights, &bottom);
+        match proof {
+            Ok(_) => return Some(Found { bottom, bound_over_heights: Some(bound) }),
+            Err(Doubt::Open) => break,
+            Err(Doubt::Refuted(height)) => match heights.bottom_from(height) {
                 Some(lower) if lower.sample.value < bottom.sample.value => bottom = lower,
                 _ => break,
             },
@@ -81,17 +129,17 @@ fn lowest(heights: &Heights) -> Option<Found> {
     Some(Found { bottom, bound_over_heights: None })
 }
 
-/// A bound just below the bottom of a valley, and whether it holds at every height.
-fn claim(heights: &Heights, bottom: &Bottom) -> (f64, Claim) {
+/// A bound just below the bottom of a valley, and the posts that prove it at every height.
+fn proof(heights: &Heights, bottom: &Bottom) -> (f64, Result<Vec<Post>, Doubt>) {
     let best = &bottom.sample.climb.best;
     let Some(weighed) = Weighed::of(heights.objective, heights.work) else {
         let target = target_below(heights.objective, best.bound);
-        return (target, Cover::of_all(heights, target).claim(bottom));
+        return (target, Cover::of_all(heights, target).proof(bottom));
     };
     let target = bottom.sample.value * (1.0 - COVER_RATIO);
     // As the ratio with which the interior at hand would have this value.
     let bound = ((target - weighed.lever * best.lever().powi(2)) / weighed.inertia).max(0.0).sqrt();
-    (bound, Frontier { heights, weighed, target }.claim(bottom))
+    (bound, Frontier { heights, weighed, target }.proof(bottom))
 }
 
 /// What is claimed of all heights where the bottom of one valley is this low.

@@ -2,7 +2,7 @@
 
 use super::ascent::Climb;
 use super::programme::DualPoint;
-use super::solution::Tangent;
+use super::solution::{Tangent, Warm};
 
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
@@ -62,6 +62,17 @@ impl Bottom {
     /// What a later search of a similar function starts from.
     pub fn tangent(&self) -> Tangent {
         Tangent { at: self.sample.at, curvature: self.curvature }
+    }
+
+    /// The same with the dual point.
+    pub fn warm(&self) -> Warm {
+        let Sample { climb, lever, .. } = &self.sample;
+        Warm { point: climb.best.point.clone(), height: Some(self.tangent()), lever: *lever }
+    }
+
+    /// Whether a slope of this curvature promises nothing worth the while, of a value as large as this one's.
+    pub fn is_level(&self, slope: f64, curvature: f64) -> bool {
+        0.5 * slope * slope <= PROMISE_RATIO * curvature * self.sample.value.abs().max(LEAST_VALUE)
     }
 }
 

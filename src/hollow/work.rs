@@ -2,12 +2,13 @@
 
 use std::cell::RefCell;
 
-use super::ascent::{Budget, COLD_DAMPING, Climb, End, Slack, WARM_DAMPING, climb};
+use super::ascent::{Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb};
+use super::cover::Post;
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Reach, Scale};
 use super::settings::Settings;
-use super::solution::LogRow;
+use super::solution::{LogRow, Stage};
 use crate::goal::Goal;
 use crate::progress::Progress;
 
@@ -18,7 +19,20 @@ pub(super) struct Work<'a> {
     pub settings: &'a Settings,
     progress: &'a Progress<'a>,
     first_damping: f64,
+    /// The share of the margins found here that is claimed: all of them, but for a scout's.
+    pub claimed_ratio: f64,
     log: RefCell<Vec<LogRow>>,
+}
+
+/// The share of a margin on thinned columns that all columns are expected to hold. More, and claims fail; less, and more
+/// posts are needed.
+const SCOUTED_RATIO: f64 = 0.9;
+
+/// What one ascent is to reach.
+struct Aim {
+    tolerance: f64,
+    slack: Option<Slack>,
+    damping: f64,
 }
 
 impl<'a> Work<'a> {
@@ -27,7 +41,15 @@ impl<'a> Work<'a> {
         let scale = Scale::of(&problem.goal.solid);
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
         let first_damping = COLD_DAMPING;
-        Self { goal: problem.goal, reach, settings, progress, first_damping, log: RefCell::default() }
+        let (claimed_ratio, log) = (1.0, RefCell::default());
+        Self { goal: problem.goal, reach, settings, progress, first_damping, claimed_ratio, log }
+    }
+
+    /// A bench like this with thinned columns.
+    pub fn thinned(&self, reach: Reach<'a>) -> Self {
+        let Self { goal, settings, progress, first_damping, .. } = *self;
+        let (claimed_ratio, log) = (SCOUTED_RATIO, RefCell::default());
+        Self { goal, reach, settings, progress, first_damping, claimed_ratio, log }
     }
 
     /// The same bench, its columns given in model coordinates.
@@ -42,6 +64,12 @@ impl<'a> Work<'a> {
         Self { reach, ..self }
     }
 
+    /// The same bench, its thinned columns mended by what all of them have at the point of a visit.
+    pub fn mended(self, visit: &Visit) -> Self {
+        let reach = self.reach.mended(&visit.quadric, &visit.extreme);
+        Self { reach, ..self }
+    }
+
     /// The same bench for a search that starts near its answer.
     pub fn warmed(self) -> Self {
         Self { first_damping: WARM_DAMPING, ..self }
@@ -49,37 +77,58 @@ impl<'a> Work<'a> {
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
     pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
-        self.climb_within(programme, start, (tolerance, None))
+        self.climb_within(programme, start, Aim { tolerance, slack: None, damping: self.first_damping })
+    }
+
+    /// The same from where a scout has been.
+    pub fn climb_scouted(&self, programme: &Programme, start: DualPoint) -> Climb {
+        self.climb_within(programme, start, Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING })
     }
 
     /// The same until the bound is good enough, whatever the constraints are missed by.
     pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: Slack) -> Climb {
-        self.climb_within(programme, start, (0.0, Some(slack)))
+        let aim = Aim { tolerance: 0.0, slack: Some(slack), damping: self.first_damping };
+        self.climb_within(programme, start, aim)
     }
 
-    fn climb_within(
-        &self,
-        programme: &Programme,
-        start: DualPoint,
-        (tolerance, slack): (f64, Option<Slack>),
-    ) -> Climb {
+    fn climb_within(&self, programme: &Programme, start: DualPoint, aim: Aim) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
-            tolerance: tolerance.max(self.settings.tolerance),
-            slack,
+            tolerance: aim.tolerance.max(self.settings.tolerance),
+            slack: aim.slack,
             passes: self.settings.passes_per_ascent,
-            first_damping: self.first_damping,
+            first_damping: aim.damping,
             progress: self.progress,
         };
         let climb = climb(&self.reach, programme, start, budget);
-        self.log.borrow_mut().push(LogRow {
-            stage: programme.stage,
-            passes: self.reach.passes() - before,
-            value: climb.best.value,
-            bound: climb.best.bound,
-            residual: climb.best.residual(),
-        });
+        self.note(programme.stage, self.reach.passes() - before, &climb.best);
         climb
+    }
+
+    /// The bound that a dual point proves, where there is no heavy material; one cheaper pass.
+    pub fn bound_at(&self, programme: &Programme, point: &DualPoint) -> f64 {
+        let direction = programme.quadric(point);
+        let dual = direction.dot(&self.reach.least(&direction)) - programme.rhs.dot(&point.lambda);
+        programme.bound(point.tau, dual)
+    }
+
+    /// One pass at a dual point.
+    pub fn look(&self, programme: &Programme, point: DualPoint) -> Visit {
+        let visit = Visit::new(&self.reach, programme, point);
+        self.note(programme.stage, 1, &visit);
+        visit
+    }
+
+    /// Logs a post that was held against all columns, and what was to spare.
+    pub fn note_post(&self, post: &Post, spare: f64) {
+        let stage = Stage::Cover { height_mm: self.to_mm(post.at) };
+        let (value, bound) = (post.margin + spare, post.margin);
+        self.log.borrow_mut().push(LogRow { stage, passes: 1, value, bound, residual: 0.0 });
+    }
+
+    fn note(&self, stage: Stage, passes: usize, best: &Visit) {
+        let (value, bound, residual) = (best.value, best.bound, best.residual());
+        self.log.borrow_mut().push(LogRow { stage, passes, value, bound, residual });
     }
 
     /// The same from a near dual point; none where it was stopped or the rows cannot be met.
@@ -91,6 +140,11 @@ impl<'a> Work<'a> {
     ) -> Option<Climb> {
         let climb = self.climb(programme, programme.start_near(&self.reach, near), tolerance);
         (!matches!(climb.end, End::Infeasible(_) | End::Cancelled)).then_some(climb)
+    }
+
+    /// Whether nothing is left to be gained at a visit.
+    pub fn is_exact(&self, visit: &Visit) -> bool {
+        visit.is_within(self.settings.tolerance)
     }
 
     /// Whether an ascent is good enough to stand as an answer.

@@ -13,7 +13,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         return dominance(work, start);
     }
     let programme = Programme::yoyo_functional(&work.reach);
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     if matches!(climb.end, End::Infeasible(_) | End::Cancelled) || is_dominant(work, &climb) {
         return Answer::new(objective, climb);
     }
@@ -23,7 +23,7 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
 /// The interior whose axis is the most dominant; at a ratio of 1 or more none is stable.
 fn dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::yoyo_dominance(&work.reach);
-    let climb = work.climb(&programme, programme.start_near(&work.reach, start), 0.0);
+    let climb = work.ascend(&programme, start);
     let least_ratio = climb.best.bound;
     let answer = Answer::new(Objective::Dominance, climb);
     if least_ratio >= 1.0 { answer.with_verdict(Status::NotDominant { least_ratio }) } else { answer }

@@ -1,7 +1,7 @@
 //! What a method empties, piece by piece along each column, so that the answers of different methods can be compared.
 
 use super::Columns;
-use super::integrate::crossing_of_column;
+use super::section::crossing_of_column;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 

@@ -6,6 +6,8 @@ use nalgebra::SMatrix;
 use rayon::prelude::*;
 
 use super::Columns;
+use super::pack::{Pack, RowSums};
+use super::section::{Section, cell_variance};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
@@ -15,10 +17,6 @@ pub type Matrix10 = SMatrix<f64, 10, 10>;
 /// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about 50 000 a coarse
 /// interior no longer feeds every core. The pieces, and so the bits of the sums, are the same for any thread count.
 const BLOCK_COLUMNS: usize = 2048;
-
-/// A surface counts as upright in a cell when q changes along the column by less than this part of what it changes
-/// across the cell. Much above 1, exact derivatives are replaced by means; much below, upright planes are not seen.
-const UPRIGHT_RATIO: f64 = 0.5;
 
 /// The exponents (i, j, k) of x, y, z in each of the ten monomials.
 const EXPONENTS: [[usize; 3]; 10] = [
@@ -73,165 +71,27 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
 /// Sums one block, row by row: columns of equal y share the powers of y and half of q's coefficients.
 fn sum_block<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric, block: Range<usize>) -> Sums {
     let mut sums = Sums::default();
-    let mut row = Row::new(quadric, columns.pitch_mm, 0.0);
-    let ends = columns.starts[block.start..=block.end].windows(2);
-    for (&[x, y], ends) in columns.centers[block].iter().zip(ends) {
-        if y != row.y {
-            sums.add_row::<DERIVATIVE>(&row);
-            row = Row::new(quadric, columns.pitch_mm, y);
+    let mut pack = Pack::new();
+    let rows = columns.centers[block.clone()].chunk_by(|one, next| one[1] == next[1]);
+    let mut first = block.start;
+    for row in rows {
+        let Some(&[_, y]) = row.first() else { continue };
+        let section = Section::new(quadric, columns.pitch_mm, y);
+        let mut of_row = RowSums::default();
+        let ends = columns.starts[first..=first + row.len()].windows(2);
+        for (&[x, _], ends) in row.iter().zip(ends) {
+            for &stretch in &columns.intervals[ends[0] as usize..ends[1] as usize] {
+                pack.push(x, stretch);
+                if pack.is_full() {
+                    pack.empty_into::<DERIVATIVE>(&section, &mut of_row);
+                }
+            }
         }
-        row.add_column::<DERIVATIVE>(x, &columns.intervals[ends[0] as usize..ends[1] as usize]);
+        pack.empty_into::<DERIVATIVE>(&section, &mut of_row);
+        sums.add_row::<DERIVATIVE>(&of_row, y);
+        first += row.len();
     }
-    sums.add_row::<DERIVATIVE>(&row);
     sums
-}
-
-/// One row of columns: q(x, z) = c₀(x) + c₁(x) z + c₂ z² at its y, and the sums gathered so far.
-struct Row {
-    y: f64,
-    c0: [f64; 3],
-    c1: [f64; 2],
-    c2: f64,
-    /// The halves of a cell's sides times ∂q/∂x = a₀ + a₁x + a₂z and ∂q/∂y = b₀ + b₁x + b₂z.
-    across: [[f64; 3]; 2],
-    /// ∫1, x∫1, x²∫1, ∫z, x∫z, ∫z² over what is emptied.
-    emptied: [f64; 6],
-    /// xⁱ Σ zᵏ/|∂q/∂z| over the roots, at `[k][i]` for i + k ≤ 4.
-    roots: [[f64; 5]; 5],
-}
-
-/// The z where q changes sign on one column: q > 0 between the two, or everywhere but between them.
-struct Crossing {
-    lo: f64,
-    hi: f64,
-    empties_outside: bool,
-    /// 1/|∂q/∂z|, the same at both roots: the root of the discriminant is |∂q/∂z| there.
-    weight: f64,
-}
-
-impl Row {
-    fn new(quadric: &Quadric, pitch_mm: [f64; 2], y: f64) -> Self {
-        let [g, gx, gy, gz, gxy, gyz, gxz, gxx, gyy, gzz] = quadric.0;
-        let [var_x, var_y] = pitch_mm.map(cell_variance);
-        Self {
-            y,
-            c0: [g + gy * y + gyy * (y * y + var_y) + gxx * var_x, gx + gxy * y, gxx],
-            c1: [gz + gyz * y, gxz],
-            c2: gzz + 0.0, // turns −0 into +0, on which the roots at infinity rely
-            across: [
-                [gx + gxy * y, 2.0 * gxx, gxz].map(|slope| slope * 0.5 * pitch_mm[0]),
-                [gy + 2.0 * gyy * y, gxy, gyz].map(|slope| slope * 0.5 * pitch_mm[1]),
-            ],
-            emptied: [0.0; 6],
-            roots: [[0.0; 5]; 5],
-        }
-    }
-
-    /// The stable quadratic formula: no cancellation, and a vanishing leading term sends one root to infinity.
-    #[inline]
-    fn crossing(&self, x: f64) -> Crossing {
-        let c0 = self.c0[0] + x * (self.c0[1] + x * self.c0[2]);
-        let c1 = self.c1[0] + x * self.c1[1];
-        let discriminant = c1 * c1 - 4.0 * self.c2 * c0;
-        if discriminant <= 0.0 {
-            let everywhere = self.c2 > 0.0 || (self.c2 == 0.0 && c0 > 0.0);
-            return Crossing { lo: 0.0, hi: 0.0, empties_outside: everywhere, weight: 0.0 };
-        }
-        let slope = discriminant.sqrt();
-        let half = -0.5 * (c1 + slope.copysign(c1));
-        let (one, other) = (half / self.c2, c0 / half);
-        Crossing {
-            lo: one.min(other),
-            hi: one.max(other),
-            empties_outside: self.c2 >= 0.0,
-            weight: slope.recip(),
-        }
-    }
-
-    #[inline]
-    fn add_column<const DERIVATIVE: bool>(&mut self, x: f64, intervals: &[[f64; 2]]) {
-        let crossing = self.crossing(x);
-        for &[a, b] in intervals {
-            let (lo, hi) = (crossing.lo.clamp(a, b), crossing.hi.clamp(a, b));
-            let mut integrals = powers_between(lo, hi);
-            if crossing.empties_outside {
-                let whole = powers_between(a, b);
-                integrals = std::array::from_fn(|k| whole[k] - integrals[k]);
-            }
-            self.add_emptied(x, integrals);
-            if DERIVATIVE {
-                let inside = |z: f64| if a < z && z < b { crossing.weight } else { 0.0 };
-                let roots = [(lo, inside(crossing.lo)), (hi, inside(crossing.hi))];
-                self.add_roots(x, self.wall_through_cell(x, [a, b]).unwrap_or(roots));
-            }
-        }
-    }
-
-    /// Where q hardly changes along an interval but does across its cell, the surface stands upright in the cell and
-    /// the column's own roots say nothing of it. Its density, as two Gauss points of the interval; none elsewhere.
-    #[inline]
-    fn wall_through_cell(&self, x: f64, [a, b]: [f64; 2]) -> Option<[(f64, f64); 2]> {
-        let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
-        let spread: f64 = self.across.iter().map(|[s, sx, sz]| (s + sx * x + sz * middle).abs()).sum();
-        let slope = self.c1[0] + x * self.c1[1] + 2.0 * self.c2 * middle;
-        if half * slope.abs() + half * half * self.c2.abs() >= UPRIGHT_RATIO * spread {
-            return None;
-        }
-        let value = self.c0[0] + x * (self.c0[1] + x * self.c0[2]) + middle * (slope - middle * self.c2);
-        let weight = if value.abs() < spread { half / (2.0 * spread) } else { 0.0 };
-        let offset = half / 3f64.sqrt();
-        Some([(middle - offset, weight), (middle + offset, weight)])
-    }
-
-    #[inline]
-    fn add_emptied(&mut self, x: f64, [one, z, zz]: [f64; 3]) {
-        let terms = [one, x * one, x * x * one, z, x * z, zz];
-        self.emptied.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
-    }
-
-    #[inline]
-    fn add_roots(&mut self, x: f64, [(lo, w_lo), (hi, w_hi)]: [(f64, f64); 2]) {
-        if w_lo + w_hi == 0.0 {
-            return;
-        }
-        let (mut low, mut high) = (w_lo, w_hi);
-        for k in 0..5 {
-            let mut term = low + high;
-            for sum in &mut self.roots[k][..5 - k] {
-                *sum += term;
-                term *= x;
-            }
-            low *= lo;
-            high *= hi;
-        }
-    }
-}
-
-/// q on a column as c₀ + c₁z + c₂z², by its cell's means in x and y.
-pub(super) fn mean_on_column(columns: &Columns, column: usize, quadric: &Quadric) -> [f64; 3] {
-    let [x, y] = columns.centers[column];
-    let row = Row::new(quadric, columns.pitch_mm, y);
-    [row.c0[0] + x * (row.c0[1] + x * row.c0[2]), row.c1[0] + x * row.c1[1], row.c2]
-}
-
-/// Where q changes sign on a column, and whether it is positive outside of the two or between them.
-pub(super) fn crossing_of_column(columns: &Columns, quadric: &Quadric, column: usize) -> ([f64; 2], bool) {
-    let [x, y] = columns.centers[column];
-    let crossing = Row::new(quadric, columns.pitch_mm, y).crossing(x);
-    ([crossing.lo, crossing.hi], crossing.empties_outside)
-}
-
-/// ∫1, ∫z and ∫z² from `lo` to `hi`.
-#[inline]
-fn powers_between(lo: f64, hi: f64) -> [f64; 3] {
-    let length = hi - lo;
-    let sum = lo + hi;
-    [length, 0.5 * length * sum, length * (sum * sum - lo * hi) / 3.0]
-}
-
-/// The mean of x² over a cell of width `pitch_mm` centred at zero.
-fn cell_variance(pitch_mm: f64) -> f64 {
-    pitch_mm * pitch_mm / 12.0
 }
 
 /// Sums over columns, per unit cell area.
@@ -256,27 +116,27 @@ impl Sums {
         own.iter_mut().zip(other.roots.as_flattened().as_flattened()).for_each(|(sum, term)| *sum += term);
     }
 
-    fn add_row<const DERIVATIVE: bool>(&mut self, row: &Row) {
+    fn add_row<const DERIVATIVE: bool>(&mut self, row: &RowSums, y: f64) {
         const X_AND_Z: [[usize; 2]; 6] = [[0, 0], [1, 0], [2, 0], [0, 1], [1, 1], [0, 2]];
         for ([i, k], sum) in X_AND_Z.into_iter().zip(row.emptied) {
             let mut term = sum;
             for j in 0..=2 - i - k {
                 self.emptied[i][j][k] += term;
-                term *= row.y;
+                term *= y;
             }
         }
         if DERIVATIVE {
-            self.add_row_roots(row);
+            self.add_row_roots(row, y);
         }
     }
 
-    fn add_row_roots(&mut self, row: &Row) {
+    fn add_row_roots(&mut self, row: &RowSums, y: f64) {
         for k in 0..5 {
             for i in 0..5 - k {
                 let mut term = row.roots[k][i];
                 for j in 0..5 - k - i {
                     self.roots[i][j][k] += term;
-                    term *= row.y;
+                    term *= y;
                 }
             }
         }

@@ -17,8 +17,10 @@ mod moments;
 mod octree;
 mod octree_neighbours;
 mod outside;
+mod pack;
 mod rays;
 mod row;
+mod section;
 mod voxels;
 mod without;
 
@@ -32,5 +34,5 @@ pub use octree::{Levels, Octree};
 pub use rays::Rays;
 pub use voxels::Voxels;
 
-use integrate::mean_on_column;
 use moments::{BLOCK, block_sums};
+use section::mean_on_column;

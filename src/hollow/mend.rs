@@ -1,0 +1,94 @@
+//! An affine map of the moments that makes the reachable set of a few columns osculate that of all columns.
+
+use super::reach::{Extreme, Vector10};
+use crate::interior::Matrix10;
+
+/// Derivatives below this part of the mean count as none: there the map is the identity. Far larger, and directions that
+/// hardly turn the extreme point are not mended; far smaller, and it stretches what is only noise.
+const NOISE_RATIO: f64 = 1e-5;
+
+/// s ↦ Ts + b, with a symmetric positive definite T.
+///
+/// Of a convex set with support function h(g) = min g·s the image has h(Tg) + b·g: again a convex set, whose extreme
+/// point along g is T s(Tg) + b with the derivative T W(Tg) T. So for a given g it has the extreme point and the derivative
+/// of another set if T W(g) T = W′(g), Tg = g and b = s′ − Ts. Of all T of the first kind one is symmetric and positive,
+/// the map of optimal transport between the Gaussians of covariance W and W′ (Olkin and Pukelsheim, "The distance between
+/// two random vectors with given dispersion matrices", Linear Algebra and its Applications 48, 1982):
+///
+/// ```text
+/// T = W^(−½) (W^½ W′ W^½)^½ W^(−½)
+/// ```
+///
+/// and it leaves g alone where both derivatives do, which they must, since extreme points do not feel g's length.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Mend {
+    stretch: Matrix10,
+    shift: Vector10,
+}
+
+impl Mend {
+    /// The map that gives the set with the extreme points `few` the extreme point and the derivative `all` along g.
+    pub fn new(g: &Vector10, all: &Extreme, few: impl Fn(&Vector10) -> Extreme) -> Self {
+        let stretch = transport(&few(g).w, &all.w);
+        Self { stretch, shift: all.s - stretch * few(&(stretch * g)).s }
+    }
+
+    /// The direction in the set that is mapped, for one in the image.
+    pub fn direction(&self, g: &Vector10) -> Vector10 {
+        self.stretch * g
+    }
+
+    /// The image of a point.
+    pub fn point(&self, s: &Vector10) -> Vector10 {
+        self.stretch * s + self.shift
+    }
+
+    /// The image of an extreme point.
+    pub fn extreme(&self, extreme: &Extreme) -> Extreme {
+        let w = self.stretch * extreme.w * self.stretch;
+        Extreme { s: self.point(&extreme.s), w, cost: extreme.cost }
+    }
+}
+
+/// The symmetric positive T with T W T = W′, both but for the noise.
+fn transport(few: &Matrix10, all: &Matrix10) -> Matrix10 {
+    let noise = Matrix10::identity() * (NOISE_RATIO * 0.1 * all.trace()).max(f64::MIN_POSITIVE);
+    let (root, inverse) = (power(&(few + noise), f64::sqrt), power(&(few + noise), |x| x.sqrt().recip()));
+    let middle = power(&(root * (all + noise) * root), f64::sqrt);
+    inverse * middle * inverse
+}
+
+/// A function of a symmetric positive matrix.
+fn power(matrix: &Matrix10, function: impl Fn(f64) -> f64) -> Matrix10 {
+    let eigen = matrix.symmetric_eigen();
+    let least = f64::EPSILON * eigen.eigenvalues.max();
+    let values = eigen.eigenvalues.map(|value| function(value.max(least)));
+    eigen.eigenvectors * Matrix10::from_diagonal(&values) * eigen.eigenvectors.transpose()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::reach::{Reach, Scale};
+    use super::super::worlds;
+    use super::*;
+    use crate::goal::Objective;
+
+    #[test]
+    fn thinned_columns_osculate_all_of_them_where_they_are_mended_and_still_make_a_convex_set() {
+        let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
+        let all = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
+        let along = |seed| Vector10::from(worlds::some_quadric(seed, 1.0).0);
+        for seed in 0..8 {
+            let g = along(seed);
+            let there = all.extreme(&g);
+            let (few, mended) = (all.thinned(3), all.thinned(3).mended(&g, &there));
+            let [plain, image] = [few.extreme(&g), mended.extreme(&g)];
+            assert!((image.s - there.s).amax() < 1e-12);
+            let error = |w: &Matrix10| (w - there.w).norm() / there.w.norm();
+            assert!(error(&image.w) < 1e-3 && error(&image.w) < 0.1 * error(&plain.w), "{}", error(&image.w));
+            // No extreme point of a convex set is lower along g than the one along g.
+            let least = g.dot(&image.s);
+            assert!((20..60).all(|other| g.dot(&mended.extreme(&along(other)).s) >= least - 1e-9), "{seed}");
+        }
+    }
+}

@@ -1,0 +1,67 @@
+//! A look ahead on a few of the columns, so that few passes over all of them do.
+//!
+//! Every `step`-th column of every `step`-th row shows the reachable set to a per cent or so, at 1/step² of the cost. Two uses
+//! are made of that, and neither rests on it:
+//!
+//! * **The search.** An ascent on the thinned columns ends near the answer. One pass over all columns there says by what the
+//!   thinned ones err in the extreme point and in its derivative; added to them as a constant and a linear term ([`Reach::mended`])
+//!   that makes their dual agree with the true one in value, slope and curvature. The ascent on what is so mended ends where
+//!   only the third derivative errs, by a twentieth of what a Newton step would, and from there one or two passes finish. The
+//!   correction of a coarse model to first order is the "manifold mapping" of Echeverría and Hemker ("Space mapping and defect
+//!   correction", Computational Methods in Applied Mathematics 5, 2005); that to second order is what a Newton method has at
+//!   hand anyway.
+//! * **The proof over all heights.** A dual bound holds at any multipliers. Which are wanted is found out on the mended
+//!   columns; each is then held against all columns in one pass that needs no derivative, all side by side (`cover`).
+
+use super::ascent::Climb;
+use super::cover::Post;
+use super::programme::{DualPoint, Programme};
+use super::reach::Vector10;
+use super::work::Work;
+
+/// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a Newton step; more cost as
+/// much as the passes they save.
+const FEW_COLUMNS: usize = 300;
+/// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any more beside a pass over all.
+const GREATEST_STEP: usize = 16;
+/// How exact the first look is: thinned columns err by more.
+const FIRST_TOLERANCE: f64 = 1e-3;
+/// How exact the look on mended columns is: what they err by after it is seldom less.
+const MENDED_TOLERANCE: f64 = 1e-7;
+
+impl<'a> Work<'a> {
+    /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material is to be had.
+    pub fn scout(&self) -> Option<Self> {
+        let step = ((self.reach.columns() / FEW_COLUMNS) as f64).sqrt() as usize;
+        (step >= 2 && !self.reach.has_heavy())
+            .then(|| self.thinned(self.reach.thinned(step.min(GREATEST_STEP))))
+    }
+
+    /// Climbs to the settings' tolerance from a known dual point, or from nothing; by way of a scout where one helps.
+    pub fn ascend(&self, programme: &Programme, known: Option<&DualPoint>) -> Climb {
+        let start = programme.start_near(&self.reach, known);
+        let seen = self.scout().and_then(|scout| {
+            let first = match known {
+                Some(_) => start.clone(),
+                None => scout.climb_near(programme, Some(&start), FIRST_TOLERANCE)?.best.point,
+            };
+            let here = self.look(programme, first);
+            let ahead = scout.mended(&here).climb_near(programme, Some(&here.point), MENDED_TOLERANCE)?;
+            Some((here, ahead.best.point))
+        });
+        match seen {
+            Some((here, next)) => self.climb_scouted(programme, next).after(&here),
+            None => self.climb(programme, start, 0.0),
+        }
+    }
+
+    /// Whether posts that a scout found stand on all columns; one cheaper pass each.
+    pub fn hold(&self, posts: &[Post]) -> bool {
+        let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
+        let extremes = self.reach.least_of_each(&directions);
+        let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
+        let spares: Vec<f64> = posts.iter().zip(&extremes).map(spare).collect();
+        posts.iter().zip(&spares).for_each(|(post, spare)| self.note_post(post, *spare));
+        spares.iter().all(|&spare| spare >= 0.0)
+    }
+}
