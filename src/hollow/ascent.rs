@@ -143,14 +143,14 @@ pub(super) struct Climb {
 }
 
 impl Climb {
-    /// No ascent, but the visit that others have led to.
-    pub fn at(best: Visit, course: Vec<Pass>) -> Self {
-        Self { best, end: End::Converged, course }
+    /// No ascent, only a visit.
+    pub fn of(visit: Visit) -> Self {
+        Self { course: vec![visit.pass()], best: visit, end: End::Stalled }
     }
 
-    /// The same ascent with a visit it began after.
-    pub fn after(mut self, visit: &Visit) -> Self {
-        self.course.insert(0, visit.pass());
+    /// The same ascent with what it began after.
+    pub fn after(mut self, course: &[Pass]) -> Self {
+        self.course.splice(0..0, course.iter().copied());
         self
     }
 }
@@ -175,15 +175,15 @@ pub(super) struct Budget<'a> {
     pub progress: &'a Progress<'a>,
 }
 
-/// Climbs from `start` until residual and gap are within the budget's tolerance.
+/// Climbs from a visit until residual and gap are within the budget's tolerance.
 ///
 /// D(y, λ, τ) = min_K g·s is concave; {D ≥ 0} is convex and the greatest τ in it is the optimum. Each pass gives D,
 /// its gradient and its curvature, and each step maximises the damped quadratic model over y ∈ Y and all λ, with τ
 /// moved to where D vanishes (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967). Damping
 /// follows Levenberg and Marquardt. Near the optimum every step squares the error.
-pub(super) fn climb(reach: &Reach, programme: &Programme, start: DualPoint, budget: Budget) -> Climb {
-    let last_pass = reach.passes() + budget.passes;
-    let mut here = Visit::new(reach, programme, start);
+pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
+    let last_pass = reach.passes() + budget.passes.saturating_sub(1);
+    let mut here = start;
     let mut stride = Stride::first(programme, budget);
     let mut course = vec![here.pass()];
     loop {
@@ -349,6 +349,7 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
         return None;
     }
+    let start = Visit::new(reach, &feasibility, start);
     let proof =
         climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
     let end = End::Infeasible(proof.best.bound);
@@ -410,7 +411,8 @@ mod tests {
             first_damping: COLD_DAMPING,
             progress: &progress,
         };
-        let best = climb(&reach, &programme, programme.cold_start(&reach), budget);
+        let start = Visit::new(&reach, &programme, programme.cold_start(&reach));
+        let best = climb(&reach, &programme, start, budget);
         assert_eq!(best.end, End::Converged);
         for i in 0..60 {
             let mut other = point.clone();

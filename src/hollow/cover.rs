@@ -143,7 +143,7 @@ impl<'a> Cover<'a> {
         if matches!(climb.end, End::Infeasible(_) | End::Cancelled) {
             return Err(Doubt::Open);
         }
-        let margin = work.claimed_ratio * climb.best.bound;
+        let margin = work.prudence.map_or(climb.best.bound, |prudence| prudence.claim(climb.best.bound));
         if margin <= 0.0 {
             return Err(self.refutation(&climb.best));
         }

@@ -89,7 +89,7 @@ impl<'a> Heights<'a> {
 
     /// The bottom of a valley, from an answer nearby.
     pub fn bottom(&self, valley: Valley, known: Start) -> Option<Bottom> {
-        valley.bottom(|Place { at, near, tolerance }| {
+        valley.within(self.work.tolerance).bottom(|Place { at, near, tolerance }| {
             self.sample(at, near.map(Sample::start).or(known), tolerance)
         })
     }

@@ -346,6 +346,12 @@ mod tests {
         assert!(weighed.0[3] < 0.9 * free.0[3]);
     }
 
+    /// The passes that were not made for the proof over all heights.
+    fn passes_of_search(solution: &Solution) -> usize {
+        let is_of_search = |row: &&LogRow| !matches!(row.stage, Stage::Cover { .. });
+        solution.log.iter().filter(is_of_search).map(|row| row.passes).sum()
+    }
+
     #[test]
     fn finer_columns_take_few_passes_from_a_coarse_answer() {
         let coarse = worlds::egg_on_its_side(Objective::CriticalSpeed);
@@ -353,7 +359,7 @@ mod tests {
         let known = solved(&coarse);
         let refined = refine(&fine.problem(), &Settings::default(), &known, &Progress::silent());
         assert_eq!(refined.status, Status::Solved);
-        assert!(refined.passes <= 15, "{}", refined.passes);
+        assert!(passes_of_search(&refined) <= 8, "{:?}", refined.log);
         let fresh = solved(&fine);
         assert!((refined.certificate.value / fresh.certificate.value - 1.0).abs() < 1e-7);
     }
@@ -365,7 +371,11 @@ mod tests {
         let pin = Moments(Moments::monomials(9.0, 4.0, 6.0)) * (2e-4 * world.fixed.0[0]);
         world.fixed += pin;
         let corrected = refine(&world.problem(), &Settings::default(), &known, &Progress::silent());
-        assert!(corrected.passes <= 15 && corrected.status == Status::Solved, "{}", corrected.passes);
+        assert!(
+            corrected.status == Status::Solved && passes_of_search(&corrected) <= 6,
+            "{:?}",
+            corrected.log
+        );
         assert!(figures(&world.goal, &corrected.moments).off_axis_mm < 1e-6);
     }
 

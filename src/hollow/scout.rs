@@ -24,10 +24,37 @@ use super::work::Work;
 const FEW_COLUMNS: usize = 300;
 /// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any more beside a pass over all.
 const GREATEST_STEP: usize = 16;
-/// How exact the first look is: thinned columns err by more.
-const FIRST_TOLERANCE: f64 = 1e-3;
-/// How exact the look on mended columns is: what they err by after it is seldom less.
-const MENDED_TOLERANCE: f64 = 1e-7;
+/// How exact ascents on thinned columns are: those err by more.
+pub(super) const ROUGH_TOLERANCE: f64 = 1e-3;
+/// How exact ascents on mended columns are: what is left is for the last Newton steps on all columns.
+pub(super) const MENDED_TOLERANCE: f64 = 1e-6;
+
+/// How much less than what a scout sees is claimed of all columns.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Prudence {
+    /// The share of a margin that is claimed where the columns are mended. More, and claims fail; less, and more posts are
+    /// needed.
+    near_ratio: f64,
+}
+
+impl Default for Prudence {
+    fn default() -> Self {
+        Self { near_ratio: 0.92 }
+    }
+}
+
+impl Prudence {
+    /// The prudence after claims have failed.
+    pub fn doubled(self) -> Self {
+        Self { near_ratio: 2.0 * self.near_ratio - 1.0 }
+    }
+
+    /// What to claim of a margin. It grows with the square of the distance from where the columns are mended, and what
+    /// they err by grows with the distance.
+    pub fn claim(self, margin: f64) -> f64 {
+        self.near_ratio * margin / (1.0 + margin.max(0.0).sqrt())
+    }
+}
 
 impl<'a> Work<'a> {
     /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material is to be had.
@@ -43,14 +70,16 @@ impl<'a> Work<'a> {
         let seen = self.scout().and_then(|scout| {
             let first = match known {
                 Some(_) => start.clone(),
-                None => scout.climb_near(programme, Some(&start), FIRST_TOLERANCE)?.best.point,
+                None => scout.climb_near(programme, Some(&start), 0.0)?.best.point,
             };
             let here = self.look(programme, first);
-            let ahead = scout.mended(&here).climb_near(programme, Some(&here.point), MENDED_TOLERANCE)?;
+            let ahead = scout.mended(&here).climb_near(programme, Some(&here.point), 0.0)?;
             Some((here, ahead.best.point))
         });
         match seen {
-            Some((here, next)) => self.climb_scouted(programme, next).after(&here),
+            Some((here, next)) => {
+                self.climb_from(programme, self.look(programme, next)).after(&[here.pass()])
+            }
             None => self.climb(programme, start, 0.0),
         }
     }

@@ -18,50 +18,63 @@ use crate::goal::Objective;
 const COVER_RATIO: f64 = 5e-7;
 /// How often a better valley may be found by the proof that there is none.
 const MOST_VALLEYS: usize = 16;
+/// Plans of a proof that may fail before it is made on all columns. The second claims so much less that few fail.
+const MOST_PLANS: usize = 2;
 /// Looks at all columns after which a scout is not asked again. Three are the rule.
 const MOST_LOOKS: usize = 8;
 
 /// The best interior of a top, or the proof that no interior makes it stable.
 pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
-    scouted(work, objective, None).unwrap_or_else(|| from_nothing(work, objective))
+    scouted(work, objective).unwrap_or_else(|| from_nothing(work, objective))
 }
 
 /// The same by way of a scout. None where there is none, or where what it saw does not hold: then all is to be asked of all
 /// columns.
-fn scouted(work: &Work, objective: Objective, known: Option<&Warm>) -> Option<Answer> {
+fn scouted(work: &Work, objective: Objective) -> Option<Answer> {
     let scout = work.scout()?;
-    let range = Heights::scouted_range(work, &scout)?;
-    let heights = Heights { work, objective, range };
-    let mut seen = match known {
-        Some(known) => known.clone(),
-        None => {
-            let (rough, solid) = (Heights { work: &scout, ..heights }, &work.reach.solid);
-            rough.bottom_from(solid[index::Z] / solid[index::ONE])?.warm()
-        }
-    };
-    let mut scout = scout;
+    let heights = Heights { work, objective, range: Heights::scouted_range(work, &scout)? };
+    let rough = Heights { work: &scout, ..heights };
+    let solid = &work.reach.solid;
+    let seen = rough.bottom_from(solid[index::Z] / solid[index::ONE])?.warm();
+    let (bottom, scout) = looked_up(&heights, scout, seen)?;
+    let bound_over_heights = Some(planned(&heights, scout, &bottom)?);
+    Some(Found { bottom, bound_over_heights }.answer(objective))
+}
+
+/// The bottom of the valley near what a scout has seen: each look at all columns mends the scout's for the next, until there is
+/// nothing to be gained by another height and Newton's method ends it. With the scout as mended there.
+fn looked_up<'a>(heights: &Heights, mut scout: Work<'a>, mut seen: Warm) -> Option<(Bottom, Work<'a>)> {
     let mut course = Vec::new();
     for _ in 0..MOST_LOOKS {
-        let tangent = seen.height?;
-        let here = work.look(&heights.programme_at(tangent.at, seen.lever), seen.point);
-        course.push(here.pass());
+        let (height, lever) = (seen.height?, seen.lever);
+        let programme = heights.programme_at(height.at, lever);
+        let here = heights.work.look(&programme, seen.point);
         scout = scout.mended(&here);
-        let bottom = heights.bottom_of((tangent, seen.lever), Climb::at(here, course.clone()));
-        if work.is_exact(&bottom.sample.climb.best) && heights.is_level(&bottom) {
-            let is_good = is_stable(work, &bottom.sample);
-            let bound_over_heights = Some(planned(&heights, &scout, &bottom)?);
-            return is_good.then(|| Found { bottom, bound_over_heights }.answer(objective));
+        let at = |climb: Climb| heights.bottom_of((height, lever), climb);
+        if heights.is_level(&at(Climb::of(here.clone()))) {
+            let bottom = at(heights.work.climb_from(&programme, here.clone()).after(&course));
+            if heights.work.accepts(&bottom.sample.climb) && heights.is_level(&bottom) {
+                let scout = scout.mended(&bottom.sample.climb.best);
+                return is_stable(heights.work, &bottom.sample).then_some((bottom, scout));
+            }
         }
-        let mended = Heights { work: &scout, ..heights };
-        seen = mended.bottom(Valley::near(tangent), Some(bottom.sample.start()))?.warm();
+        course.push(here.pass());
+        let mended = Heights { work: &scout, ..*heights };
+        seen = mended.bottom(Valley::near(height), Some((&here.point, lever)))?.warm();
     }
     None
 }
 
 /// A bound just below the bottom of a valley that holds at every height, by posts that a scout finds and all columns bear.
-fn planned(heights: &Heights, scout: &Work, bottom: &Bottom) -> Option<f64> {
-    let (bound, proof) = proof(&Heights { work: scout, ..*heights }, bottom);
-    heights.work.hold(&proof.ok()?).then_some(bound)
+fn planned(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Option<f64> {
+    for _ in 0..MOST_PLANS {
+        let (bound, proof) = proof(&Heights { work: &scout, ..*heights }, bottom);
+        if heights.work.hold(&proof.ok()?) {
+            return Some(bound);
+        }
+        scout = scout.doubly_prudent();
+    }
+    None
 }
 
 fn from_nothing(work: &Work, objective: Objective) -> Answer {
@@ -84,12 +97,13 @@ fn from_nothing(work: &Work, objective: Objective) -> Answer {
 /// The same search near a known answer, in a few passes: its dual point, height and curvature are aimed by. None where
 /// the ground has changed too much for that.
 pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
-    if let Some(answer) = scouted(work, objective, Some(warm)) {
-        return Some(answer);
-    }
     let hint = warm.height?;
     let heights = Heights { work, objective, range: [0.5 * hint.at, 2.0 * hint.at] };
-    let bottom = heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?;
+    let looked = work.scout().and_then(|scout| looked_up(&heights, scout, warm.clone()));
+    let bottom = match looked {
+        Some((bottom, _)) => bottom,
+        None => heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?,
+    };
     let usable = is_stable(work, &bottom.sample) && work.accepts(&bottom.sample.climb);
     usable.then(|| Found { bottom, bound_over_heights: None }.answer(objective))
 }

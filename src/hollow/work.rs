@@ -7,6 +7,7 @@ use super::cover::Post;
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Reach, Scale};
+use super::scout::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
 use super::settings::Settings;
 use super::solution::{LogRow, Stage};
 use crate::goal::Goal;
@@ -19,14 +20,12 @@ pub(super) struct Work<'a> {
     pub settings: &'a Settings,
     progress: &'a Progress<'a>,
     first_damping: f64,
-    /// The share of the margins found here that is claimed: all of them, but for a scout's.
-    pub claimed_ratio: f64,
+    /// How exact ascents are at most.
+    pub tolerance: f64,
+    /// How much of the margins found here is claimed; none where all of it is.
+    pub prudence: Option<Prudence>,
     log: RefCell<Vec<LogRow>>,
 }
-
-/// The share of a margin on thinned columns that all columns are expected to hold. More, and claims fail; less, and more
-/// posts are needed.
-const SCOUTED_RATIO: f64 = 0.9;
 
 /// What one ascent is to reach.
 struct Aim {
@@ -41,15 +40,15 @@ impl<'a> Work<'a> {
         let scale = Scale::of(&problem.goal.solid);
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
         let first_damping = COLD_DAMPING;
-        let (claimed_ratio, log) = (1.0, RefCell::default());
-        Self { goal: problem.goal, reach, settings, progress, first_damping, claimed_ratio, log }
+        let (tolerance, prudence, log) = (settings.tolerance, None, RefCell::default());
+        Self { goal: problem.goal, reach, settings, progress, first_damping, tolerance, prudence, log }
     }
 
     /// A bench like this with thinned columns.
     pub fn thinned(&self, reach: Reach<'a>) -> Self {
         let Self { goal, settings, progress, first_damping, .. } = *self;
-        let (claimed_ratio, log) = (SCOUTED_RATIO, RefCell::default());
-        Self { goal, reach, settings, progress, first_damping, claimed_ratio, log }
+        let (tolerance, prudence) = (self.tolerance.max(ROUGH_TOLERANCE), Some(Prudence::default()));
+        Self { goal, reach, settings, progress, first_damping, tolerance, prudence, log: RefCell::default() }
     }
 
     /// The same bench, its columns given in model coordinates.
@@ -67,7 +66,13 @@ impl<'a> Work<'a> {
     /// The same bench, its thinned columns mended by what all of them have at the point of a visit.
     pub fn mended(self, visit: &Visit) -> Self {
         let reach = self.reach.mended(&visit.quadric, &visit.extreme);
-        Self { reach, ..self }
+        Self { reach, tolerance: self.settings.tolerance.max(MENDED_TOLERANCE), ..self }
+    }
+
+    /// The same bench claiming less of what it sees.
+    pub fn doubly_prudent(self) -> Self {
+        let prudence = self.prudence.map(Prudence::doubled);
+        Self { prudence, ..self }
     }
 
     /// The same bench for a search that starts near its answer.
@@ -80,9 +85,9 @@ impl<'a> Work<'a> {
         self.climb_within(programme, start, Aim { tolerance, slack: None, damping: self.first_damping })
     }
 
-    /// The same from where a scout has been.
-    pub fn climb_scouted(&self, programme: &Programme, start: DualPoint) -> Climb {
-        self.climb_within(programme, start, Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING })
+    /// The same from a visit to where a scout has been.
+    pub fn climb_from(&self, programme: &Programme, visit: Visit) -> Climb {
+        self.climb_on(programme, visit, Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING })
     }
 
     /// The same until the bound is good enough, whatever the constraints are missed by.
@@ -92,16 +97,23 @@ impl<'a> Work<'a> {
     }
 
     fn climb_within(&self, programme: &Programme, start: DualPoint, aim: Aim) -> Climb {
+        let visit = self.look(programme, start);
+        self.climb_on(programme, visit, aim)
+    }
+
+    /// Climbs from a visit that is the last in the log, and logs how it went instead.
+    fn climb_on(&self, programme: &Programme, visit: Visit, aim: Aim) -> Climb {
         let before = self.reach.passes();
         let budget = Budget {
-            tolerance: aim.tolerance.max(self.settings.tolerance),
+            tolerance: aim.tolerance.max(self.tolerance),
             slack: aim.slack,
             passes: self.settings.passes_per_ascent,
             first_damping: aim.damping,
             progress: self.progress,
         };
-        let climb = climb(&self.reach, programme, start, budget);
-        self.note(programme.stage, self.reach.passes() - before, &climb.best);
+        let climb = climb(&self.reach, programme, visit, budget);
+        self.log.borrow_mut().pop();
+        self.note(programme.stage, 1 + self.reach.passes() - before, &climb.best);
         climb
     }
 
@@ -140,11 +152,6 @@ impl<'a> Work<'a> {
     ) -> Option<Climb> {
         let climb = self.climb(programme, programme.start_near(&self.reach, near), tolerance);
         (!matches!(climb.end, End::Infeasible(_) | End::Cancelled)).then_some(climb)
-    }
-
-    /// Whether nothing is left to be gained at a visit.
-    pub fn is_exact(&self, visit: &Visit) -> bool {
-        visit.is_within(self.settings.tolerance)
     }
 
     /// Whether an ascent is good enough to stand as an answer.

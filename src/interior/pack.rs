@@ -111,7 +111,7 @@ impl Pack {
             let slope = c1[0] + x * c1[1];
             let discriminant = slope * slope - 4.0 * c2 * value;
             let is_real = discriminant > 0.0;
-            let steepness = either(is_real, discriminant, 1.0).sqrt();
+            let steepness = either(is_real, discriminant, 0.0).sqrt();
             let half = -0.5 * (slope + steepness.copysign(slope));
             let (first, second) = (half * inverse, value / half);
             let is_ordered = first < second;
