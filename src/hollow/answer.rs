@@ -100,9 +100,19 @@ impl Answer {
 
     /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
     pub fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
+        Self::figure_of_ratio(work, (self.objective, figure), &self.climb.best.extreme.s, ratio)
+    }
+
+    /// The same for an interior of these moments.
+    pub fn figure_of_ratio(
+        work: &Work,
+        (objective, figure): (Objective, Figure),
+        s: &Vector10,
+        ratio: f64,
+    ) -> f64 {
         match figure {
             Figure::CriticalSpeedRpm => to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt()),
-            Figure::SpinIt => functional(work, self.objective, &self.climb.best.extreme.s, ratio),
+            Figure::SpinIt => functional(work, objective, s, ratio),
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),

@@ -349,6 +349,17 @@ fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budge
     if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
         return None;
     }
+    refusal(reach, programme, start, budget)
+}
+
+/// The same from where the proof is to be looked for: multipliers of the rows, as the weights of [`Programme::feasibility`].
+pub(super) fn refusal(
+    reach: &Reach,
+    programme: &Programme,
+    start: DualPoint,
+    budget: Budget,
+) -> Option<Climb> {
+    let feasibility = programme.feasibility();
     let start = Visit::new(reach, &feasibility, start);
     let proof =
         climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });

@@ -1,11 +1,15 @@
 //! An affine map of the moments that makes the reachable set of a few columns osculate that of all columns.
 
+use nalgebra::{Const, SymmetricEigen};
+
 use super::reach::{Extreme, Vector10};
 use crate::interior::Matrix10;
 
 /// Derivatives below this part of the mean count as none: there the map is the identity. Far larger, and directions that
 /// hardly turn the extreme point are not mended; far smaller, and it stretches what is only noise.
 const NOISE_RATIO: f64 = 1e-5;
+
+type Eigen10 = SymmetricEigen<f64, Const<10>>;
 
 /// s ↦ Ts + b, with a symmetric positive definite T.
 ///
@@ -59,14 +63,14 @@ fn across(g: &Vector10, w: &Matrix10) -> Matrix10 {
 /// The symmetric positive T with T W T = W′, both but for the noise.
 fn transport(few: &Matrix10, all: &Matrix10) -> Matrix10 {
     let noise = Matrix10::identity() * (NOISE_RATIO * 0.1 * all.trace()).max(f64::MIN_POSITIVE);
-    let (root, inverse) = (power(&(few + noise), f64::sqrt), power(&(few + noise), |x| x.sqrt().recip()));
-    let middle = power(&(root * (all + noise) * root), f64::sqrt);
+    let eigen = (few + noise).symmetric_eigen();
+    let (root, inverse) = (of_eigen(&eigen, f64::sqrt), of_eigen(&eigen, |value| value.sqrt().recip()));
+    let middle = of_eigen(&(root * (all + noise) * root).symmetric_eigen(), f64::sqrt);
     inverse * middle * inverse
 }
 
-/// A function of a symmetric positive matrix.
-fn power(matrix: &Matrix10, function: impl Fn(f64) -> f64) -> Matrix10 {
-    let eigen = matrix.symmetric_eigen();
+/// A function of a symmetric positive matrix, by its eigenvalues.
+fn of_eigen(eigen: &Eigen10, function: impl Fn(f64) -> f64) -> Matrix10 {
     let least = f64::EPSILON * eigen.eigenvalues.max();
     let values = eigen.eigenvalues.map(|value| function(value.max(least)));
     eigen.eigenvectors * Matrix10::from_diagonal(&values) * eigen.eigenvectors.transpose()

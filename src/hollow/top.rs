@@ -108,6 +108,17 @@ pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
     usable.then(|| Found { bottom, bound_over_heights: None }.answer(objective))
 }
 
+/// A lower bound of the ratio over all heights and levers, proved on all columns near a known answer; none where that
+/// does not succeed.
+pub(super) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
+    let scout = work.scout()?;
+    let heights = Heights { work, objective, range: Heights::scouted_range(work, &scout)? };
+    let height = warm.height?;
+    let here = work.look(&heights.programme_at(height.at, warm.lever), warm.point.clone());
+    let scout = scout.mended(&here);
+    planned(&heights, scout, &heights.bottom_of((height, warm.lever), Climb::of(here)))
+}
+
 /// The lowest valley, and what is proved of all the others.
 struct Found {
     bottom: Bottom,
@@ -178,4 +189,86 @@ fn unstable(heights: Heights, tried: Found) -> Answer {
     let proved = answer.bound_over_heights.filter(|&bound| bound >= 1.0);
     let least_ratio = proved.unwrap_or(answer.climb.best.bound);
     answer.with_verdict(Status::UnstableForEveryInterior { least_ratio, proved: proved.is_some() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Settings, worlds};
+    use super::*;
+    use crate::geom::Quadric;
+    use crate::interior::moments_where_positive;
+    use crate::progress::Progress;
+
+    const OBJECTIVES: [Objective; 3] = [
+        Objective::CriticalSpeed,
+        Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 },
+        Objective::SpinIt { gamma_c: 0.8, gamma_i: 1.2 },
+    ];
+
+    fn with_work(objective: Objective, check: impl Fn(&worlds::World, &Work)) {
+        let world = worlds::egg_on_its_side(objective);
+        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        check(&world, &Work::new(&problem, &settings, &progress));
+    }
+
+    #[test]
+    fn what_a_scout_leads_to_is_what_all_columns_find_alone_in_more_passes() {
+        for objective in OBJECTIVES {
+            with_work(objective, |_, work| {
+                let by_scout = scouted(work, objective).expect("the egg has columns enough");
+                let passes = work.reach.passes();
+                let alone = from_nothing(work, objective);
+                let [one, other] = [&by_scout, &alone].map(|answer| answer.climb.best.value);
+                // Two heights within the bottom's precision of 1e-8 of the value differ by so much in it.
+                assert!((one - other).abs() < 1e-6 * other.abs(), "{objective:?}: {one} {other}");
+                // Posts take no derivative; both have about as many of them.
+                assert!(
+                    2 * passes < work.reach.passes(),
+                    "{objective:?}: {passes} of {}",
+                    work.reach.passes()
+                );
+            });
+        }
+    }
+
+    #[test]
+    fn every_post_of_a_scout_is_an_inequality_that_all_interiors_meet() {
+        for objective in OBJECTIVES {
+            with_work(objective, |world, work| {
+                let (heights, bottom, scout) = ready(work, objective);
+                let posts =
+                    proof(&Heights { work: &scout, ..heights }, &bottom).1.expect("the claim is true");
+                assert!(work.hold(&posts));
+                for seed in 0..40 {
+                    let Quadric(random) = worlds::some_quadric(seed, 12.0);
+                    let emptied = moments_where_positive(&world.columns, &Quadric(random));
+                    let s = work.reach.scale.moments_to_units(&(world.fixed - emptied));
+                    let spare = posts.iter().map(|post| post.stake.direction.dot(&s) - post.stake.least);
+                    assert!(spare.fold(f64::INFINITY, f64::min) >= 0.0, "{objective:?} {seed}");
+                }
+            });
+        }
+    }
+
+    #[test]
+    fn posts_that_claim_more_than_there_is_do_not_stand() {
+        with_work(Objective::CriticalSpeed, |_, work| {
+            let (heights, bottom, scout) = ready(work, Objective::CriticalSpeed);
+            let mut posts =
+                proof(&Heights { work: &scout, ..heights }, &bottom).1.expect("the claim is true");
+            let last = posts.last_mut().expect("there is a post");
+            last.stake.direction[index::ONE] -= 0.5 * last.margin;
+            assert!(!work.hold(&posts));
+        });
+    }
+
+    /// The heights, the bottom of the valley, and a scout as mended there.
+    fn ready<'a>(work: &'a Work<'a>, objective: Objective) -> (Heights<'a>, Bottom, Work<'a>) {
+        let scout = work.scout().expect("the egg has columns enough");
+        let range = Heights::scouted_range(work, &scout).expect("the egg can be balanced");
+        let heights = Heights { work, objective, range };
+        let seen = Heights { work: &scout, ..heights }.bottom_from(range[1]).expect("there is a valley");
+        let (bottom, scout) = looked_up(&heights, scout, seen.warm()).expect("it is stable");
+        (heights, bottom, scout)
+    }
 }

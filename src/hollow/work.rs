@@ -2,7 +2,9 @@
 
 use std::cell::RefCell;
 
-use super::ascent::{Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb};
+use super::ascent::{
+    Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb, refusal,
+};
 use super::cover::Post;
 use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
@@ -104,14 +106,7 @@ impl<'a> Work<'a> {
     /// Climbs from a visit that is the last in the log, and logs how it went instead.
     fn climb_on(&self, programme: &Programme, visit: Visit, aim: Aim) -> Climb {
         let before = self.reach.passes();
-        let budget = Budget {
-            tolerance: aim.tolerance.max(self.tolerance),
-            slack: aim.slack,
-            passes: self.settings.passes_per_ascent,
-            first_damping: aim.damping,
-            progress: self.progress,
-        };
-        let climb = climb(&self.reach, programme, visit, budget);
+        let climb = climb(&self.reach, programme, visit, self.budget(aim));
         self.log.borrow_mut().pop();
         self.note(programme.stage, 1 + self.reach.passes() - before, &climb.best);
         climb
@@ -122,6 +117,25 @@ impl<'a> Work<'a> {
         let direction = programme.quadric(point);
         let dual = direction.dot(&self.reach.least(&direction)) - programme.rhs.dot(&point.lambda);
         programme.bound(point.tau, dual)
+    }
+
+    fn budget(&self, aim: Aim) -> Budget<'a> {
+        Budget {
+            tolerance: aim.tolerance.max(self.tolerance),
+            slack: aim.slack,
+            passes: self.settings.passes_per_ascent,
+            first_damping: aim.damping,
+            progress: self.progress,
+        }
+    }
+
+    /// The proof that no interior meets the rows, if there is one near the multipliers with which a scout found its own.
+    pub fn refusal(&self, programme: &Programme, seen: DualPoint) -> Option<Climb> {
+        let before = self.reach.passes();
+        let aim = Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING };
+        let proof = refusal(&self.reach, programme, seen, self.budget(aim))?;
+        self.note(programme.stage, self.reach.passes() - before, &proof.best);
+        Some(proof)
     }
 
     /// One pass at a dual point.

@@ -58,3 +58,31 @@ impl Columns {
         &self.intervals[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_box_of_whole_cells_keeps_its_moments_when_every_third_column_stands_for_nine() {
+        let mut columns = Columns { pitch_mm: [0.5, 0.25], starts: vec![0], ..Columns::default() };
+        for (j, i) in (0..6).flat_map(|j| (0..9).map(move |i| (j, i))) {
+            columns.centers.push([0.5 * f64::from(i) - 7.0, 0.25 * f64::from(j) + 3.0]);
+            columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
+            columns.starts.push(columns.intervals.len() as u32);
+        }
+        let thin = columns.thinned(3);
+        assert_eq!((thin.len(), thin.intervals.len(), thin.pitch_mm), (6, 12, [1.5, 0.75]));
+        // The middle column of each block of nine has the block's mean in x and y, and its larger cell their variance.
+        let [all, few] = [columns.moments().0, thin.moments().0];
+        for (all, few) in all.iter().zip(few) {
+            assert!((few / all - 1.0).abs() < 1e-12, "{few} instead of {all}");
+        }
+    }
+
+    #[test]
+    fn nothing_thinned_is_nothing() {
+        let none = Columns { starts: vec![0], ..Columns::default() };
+        assert_eq!(none.thinned(4), none);
+    }
+}

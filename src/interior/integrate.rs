@@ -14,9 +14,9 @@ use crate::mass::Moments;
 /// A symmetric 10 × 10 matrix over the monomials of [`Moments`].
 pub type Matrix10 = SMatrix<f64, 10, 10>;
 
-/// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about 50 000 a coarse
-/// interior no longer feeds every core. The pieces, and so the bits of the sums, are the same for any thread count.
-const BLOCK_COLUMNS: usize = 2048;
+/// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about 1000 the last pieces of
+/// a coarse interior leave cores idle. The pieces, and so the bits of the sums, are the same for any thread count.
+const BLOCK_COLUMNS: usize = 640;
 
 /// The exponents (i, j, k) of x, y, z in each of the ten monomials.
 const EXPONENTS: [[usize; 3]; 10] = [
@@ -56,13 +56,14 @@ pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments,
 /// Sums every block by itself, then adds the blocks in order.
 fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
     let blocks = columns.len().div_ceil(BLOCK_COLUMNS);
-    let parts: Vec<Sums> = (0..blocks)
-        .into_par_iter()
-        .map(|block| {
-            let first = block * BLOCK_COLUMNS;
-            sum_block::<DERIVATIVE>(columns, quadric, first..columns.len().min(first + BLOCK_COLUMNS))
-        })
-        .collect();
+    let sum = |block: usize| {
+        let first = block * BLOCK_COLUMNS;
+        sum_block::<DERIVATIVE>(columns, quadric, first..columns.len().min(first + BLOCK_COLUMNS))
+    };
+    if blocks == 1 {
+        return sum(0);
+    }
+    let parts: Vec<Sums> = (0..blocks).into_par_iter().map(sum).collect();
     let mut total = Sums::default();
     parts.iter().for_each(|part| total.add(part));
     total

@@ -175,8 +175,8 @@ impl Pack {
     /// Σ w xⁱ over all roots for i below T, and then multiplies the weights w by z: called again and again it gives Σ w xⁱ zᵏ.
     fn next_power<const T: usize>(&mut self, filled: usize) -> [f64; T] {
         let both = &mut self.emptied[0];
-        for i in 0..filled.min(SIZE) {
-            both[i] = self.lower_weight[i] + self.upper_weight[i];
+        for (i, both) in both.iter_mut().enumerate().take(filled) {
+            *both = self.lower_weight[i] + self.upper_weight[i];
             self.lower_weight[i] *= self.lower[i];
             self.upper_weight[i] *= self.upper[i];
         }
