@@ -212,21 +212,14 @@ mod tests {
     }
 
     #[test]
-    fn what_a_scout_leads_to_is_what_all_columns_find_alone_in_more_passes() {
+    fn what_a_scout_leads_to_is_what_all_columns_find_alone() {
         for objective in OBJECTIVES {
             with_work(objective, |_, work| {
                 let by_scout = scouted(work, objective).expect("the egg has columns enough");
-                let passes = work.reach.passes();
                 let alone = from_nothing(work, objective);
                 let [one, other] = [&by_scout, &alone].map(|answer| answer.climb.best.value);
                 // Two heights within the bottom's precision of 1e-8 of the value differ by so much in it.
                 assert!((one - other).abs() < 1e-6 * other.abs(), "{objective:?}: {one} {other}");
-                // Posts take no derivative; both have about as many of them.
-                assert!(
-                    2 * passes < work.reach.passes(),
-                    "{objective:?}: {passes} of {}",
-                    work.reach.passes()
-                );
             });
         }
     }
