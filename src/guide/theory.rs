@@ -37,6 +37,13 @@
 //! in the model two, q(x, y, z + gap/2) > 0 for the upper half and q(x, y, z − gap/2) > 0 for the lower, with the same
 //! multipliers. Values, bounds and proofs speak of hollowings of those halves, each with its wall towards the gap.
 //!
+//! # A few columns know where to ask
+//! For any symmetric T the image TK + b of a convex set is convex, with extreme points T s(Tg) + b and derivatives T W(Tg) T. So the set
+//! K' of a sixteenth of the columns can be made to touch K at the extreme point of a given g with the same curvature: T is
+//! then the map of optimal transport between two Gaussians of covariance W' and W. The search, and the choice of multipliers for
+//! the proof over all heights, go on in that set; all columns are asked at the g it ends at. Bounds hold at any multipliers, so
+//! nothing that is claimed rests on the few.
+//!
 //! # The certificate
 //! Any dual point gives a lower bound: no hollowing of this model with this wall can do better. The value, the bound and
 //! their gap are part of every solution. Where the dual grows without limit, its direction is a quadric that separates

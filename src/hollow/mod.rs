@@ -81,6 +81,11 @@
 //! and all λ, damped where the model deceives, and moves τ to where D vanishes (Dinkelbach). From nothing about ten
 //! passes, from a solution on coarser columns about four: g is as good there.
 //!
+//! # Most passes need only a few of the columns
+//! Where to ask can be found out on every fourth column of every fourth row, whose set K, moved and stretched so that it
+//! osculates the true one, is a convex set as well. All columns are asked for what the answer and its proof rest on: seven
+//! to fifteen times for a top's search, and once, without W, for each height that the proof stands on (`mend`, `scout`).
+//!
 //! # What is proved
 //! * **How good the answer is.** The same g gives the interior and the bound, so a [`Certificate`] holds both; they
 //!   meet within 1e-9 or so. A top's bound is also carried to every other height of its centre, and is then 5e-7 lower.
@@ -94,9 +99,9 @@
 //! # The files, in reading order
 //! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
 //! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `lever` the search
-//! over heights · `cover`, `frontier` the proof over all of them · `answer` back to mm, with a status · `ballast` the least of a
-//! denser material where hollowing is not enough · `course` how it came about · `fill` voids that are filled · `method` one trait for this
-//! solver and the papers' own, which live in `papers`.
+//! over heights · `cover`, `frontier` the proof over all of them · `mend`, `scout` the look ahead on a few columns ·
+//! `answer` back to mm, with a status · `ballast` the least of a denser material where hollowing is not enough · `course` how it
+//! came about · `fill` voids that are filled · `method` one trait for this solver and the papers' own, which live in `papers`.
 //!
 //! # The papers' own methods
 //! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`], [`ByVoxels`]) run on the same
@@ -179,7 +184,7 @@ use work::Work;
 
 /// The best interior, or the proof that none will do, from nothing.
 ///
-/// At 100 columns a side: a top takes four to eight passes, and with its proof over all heights a dozen more that need no
+/// At 100 columns a side: a top takes seven to fifteen passes, and for its proof over all heights a dozen more that need no
 /// derivative, one whose lever is weighed too about two hundred of those; the others take five to ten. Cancelling `progress` ends it after
 /// the pass at hand, with [`Status::Cancelled`].
 pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {

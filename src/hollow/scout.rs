@@ -3,15 +3,15 @@
 //! Every `step`-th column of every `step`-th row shows the reachable set to a per cent or so, at 1/step² of the cost. Two uses
 //! are made of that, and neither rests on it:
 //!
-//! * **The search.** An ascent on the thinned columns ends near the answer. One pass over all columns there says by what the
-//!   thinned ones err in the extreme point and in its derivative; added to them as a constant and a linear term ([`Reach::mended`])
-//!   that makes their dual agree with the true one in value, slope and curvature. The ascent on what is so mended ends where
-//!   only the third derivative errs, by a twentieth of what a Newton step would, and from there one or two passes finish. The
-//!   correction of a coarse model to first order is the "manifold mapping" of Echeverría and Hemker ("Space mapping and defect
-//!   correction", Computational Methods in Applied Mathematics 5, 2005); that to second order is what a Newton method has at
-//!   hand anyway.
+//! * **The search.** An ascent on the thinned columns ends near the answer. A look at all columns there gives an extreme point
+//!   and its derivative; the affine map that gives the thinned set the same two ([`Mend`](super::mend::Mend)) makes it osculate the
+//!   true one. What an ascent on the set so mended errs by is of the second order in the distance from the look, as after a step of
+//!   Newton's method, but with a factor that is smaller by as much as the two sets are alike, and it finds its way through heights
+//!   and levers too. One to three looks, and Newton's method on all columns ends it. Correcting a coarse model by a linear map
+//!   is the "manifold mapping" of Echeverría and Hemker ("Space mapping and defect correction", Computational Methods in
+//!   Applied Mathematics 5, 2005).
 //! * **The proof over all heights.** A dual bound holds at any multipliers. Which are wanted is found out on the mended
-//!   columns; each is then held against all columns in one pass that needs no derivative, all side by side (`cover`).
+//!   set; each is then held against all columns in one pass that needs no derivative, all of them side by side.
 
 use super::ascent::{Climb, End};
 use super::cover::Post;

@@ -48,7 +48,8 @@ pub struct Certificate {
     /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
     pub residual: f64,
     /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the value or less. None where
-    /// that was not proved in this run: refined solutions are not, nor tops that no speed makes stable.
+    /// that was not proved in this run: refined solutions are not ([`bound_over_heights`](super::bound_over_heights) proves it for
+    /// them), nor tops that no speed makes stable.
     pub bound_over_heights: Option<f64>,
 }
 
@@ -141,7 +142,7 @@ pub struct Solution {
     pub certificate: Certificate,
     /// The moments with the void emptied, goal frame, mm.
     pub moments: Moments,
-    /// The passes over the columns that were made in all.
+    /// The passes over all columns that were made; those over a few of them, to find out where to ask, are not counted.
     pub passes: usize,
     /// One row an ascent.
     pub log: Vec<LogRow>,
