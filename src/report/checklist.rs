@@ -236,7 +236,8 @@ pub struct Certificate {
     pub course: Option<Course>,
 }
 
-/// What is proved of tops with their centre of mass at any height, on columns coarser than the printer's.
+/// What is proved of tops with their centre of mass at any height: on the printer's own columns, or on coarser ones where the lever is
+/// free too, or the voids are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HeightProof {
     /// The pitch of those columns, mm.
