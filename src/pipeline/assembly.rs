@@ -34,6 +34,9 @@ const MAX_ASSEMBLIES: usize = 3;
 /// where cuts cross (fertility at 100 mm by stereolithography: 3 cuts, 16 joints); more, and voids shrink by what shows in the goal's figure.
 const WORTH_RATIO: f64 = 0.02;
 
+/// What is said where bosses had to be given up in the end.
+const NO_BOSSES: &str = "bosses around pins would break a promise of the kit: no joint has them";
+
 /// The parts of a kit, tuned so that what is written meets the goal.
 #[derive(Debug, Clone)]
 pub struct Assembly {
@@ -70,6 +73,27 @@ impl Assembly {
         progress: &Progress,
         watch: &mut Stopwatch,
     ) -> Result<Self, Error> {
+        Self::made(setup, solved, (progress, watch), true)
+    }
+
+    /// The same, but that joints without room for pins stay so.
+    pub fn without_bosses(
+        setup: &Setup,
+        solved: Solved,
+        progress: &Progress,
+        watch: &mut Stopwatch,
+    ) -> Result<Self, Error> {
+        let mut plain = Self::made(setup, solved, (progress, watch), false)?;
+        plain.plan.notes.push(NO_BOSSES.to_owned());
+        Ok(plain)
+    }
+
+    fn made(
+        setup: &Setup,
+        solved: Solved,
+        (progress, watch): (&Progress, &mut Stopwatch),
+        with_bosses: bool,
+    ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
         let value_before_cleaning = solved.solution.certificate.value;
         let mut tuner = Tuner::new(setup, solved, progress)?;
@@ -80,6 +104,11 @@ impl Assembly {
         let request = plan_request(setup);
         let Cleaned { voids, plan, rounds: cleaning } = cleaned(setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
+        if !with_bosses {
+            let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
+            watch.lap("parts");
+            return Ok(Self { value_before_cleaning, cleaning, ..assembly });
+        }
         let Bossed { voids, plan, rounds, notes, .. } = bossed(&mut tuner, (voids, plan), &request)?;
         watch.lap("bosses");
         let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;

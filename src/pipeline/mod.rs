@@ -76,8 +76,26 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
             return Ok(Outcome::Impossible(Box::new(advised)));
         }
     };
-    let assembly = Assembly::corrected(&setup, solved, progress, &mut watch)?;
-    let assembly = packages::in_format(assembly, &setup)?;
-    let prepared = kit::prepared(&setup, &assembly, progress, watch)?;
+    let prepared = bossed_or_plain(&setup, solved, progress, watch)?;
     Ok(Outcome::Prepared(Box::new(advising::after(&setup, prepared, progress))))
+}
+
+/// The judged kit, with bosses where joints need them; without any where it then breaks a promise, as where what a boss hides of a
+/// void shows only in the written parts.
+fn bossed_or_plain(
+    setup: &Setup,
+    solved: Solved,
+    progress: &Progress,
+    mut watch: Stopwatch,
+) -> Result<Prepared, Error> {
+    let assembly = Assembly::corrected(setup, solved.clone(), progress, &mut watch)?;
+    let has_bosses = !assembly.bosses.is_empty();
+    let assembly = packages::in_format(assembly, setup)?;
+    let prepared = kit::prepared(setup, &assembly, progress, watch.clone())?;
+    if prepared.passes() || !has_bosses {
+        return Ok(prepared);
+    }
+    let assembly = Assembly::without_bosses(setup, solved, progress, &mut watch)?;
+    let assembly = packages::in_format(assembly, setup)?;
+    kit::prepared(setup, &assembly, progress, watch)
 }

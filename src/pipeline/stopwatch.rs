@@ -5,7 +5,7 @@ use std::time::Instant;
 use crate::report::Timing;
 
 /// Adds up the time of each stage.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Stopwatch {
     last: Instant,
     timing: Timing,
