@@ -158,7 +158,7 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
             (_, Some(void)) => void.mesh().aabb().center(),
             _ => dice.point_in(mesh),
         };
-        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into() }
+        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into(), within: Vec::new() }
     };
     (0..count).map(cut).collect()
 }

@@ -11,6 +11,7 @@ use super::{
     request::PlanRequest,
     sight::{Look, Seen},
     split::{Cap, Piece},
+    tree::CutTree,
 };
 use crate::{
     geom::{Plane, Point},
@@ -80,7 +81,7 @@ pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
 pub(crate) struct Opened<'a> {
     pub(crate) void: usize,
     pub(crate) chamber: &'a Chamber<'a>,
-    pub(crate) planes: &'a [Plane],
+    pub(crate) tree: &'a CutTree,
     pub(crate) request: &'a PlanRequest,
     /// The least opening, mm.
     pub(crate) needed_mm: f64,
@@ -91,31 +92,31 @@ pub(crate) struct Opened<'a> {
 /// How the cuts open each void.
 pub(crate) fn accesses(
     chambers: &[Chamber],
-    planes: &[Plane],
+    tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
-    (0..chambers.len()).into_par_iter().map(|void| access(chambers, void, planes, request)).collect()
+    (0..chambers.len()).into_par_iter().map(|void| access(chambers, void, tree, request)).collect()
 }
 
 /// How the cuts open each void, the shares in sight as they are told of a finished plan.
 pub(crate) fn told(
     hollowed: &Hollowed,
-    planes: &[Plane],
+    tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
     let chambers = Chamber::all(hollowed)?;
-    let of = |void| Opened { is_told: true, ..Opened::new(&chambers, void, planes, request) }.access();
+    let of = |void| Opened { is_told: true, ..Opened::new(&chambers, void, tree, request) }.access();
     (0..hollowed.voids.len()).into_par_iter().map(of).collect()
 }
 
-/// How the planes open one void.
+/// How the cuts open one void.
 pub(crate) fn access(
     chambers: &[Chamber],
     void: usize,
-    planes: &[Plane],
+    tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<VoidAccess, CutError> {
-    Opened::new(chambers, void, planes, request).access()
+    Opened::new(chambers, void, tree, request).access()
 }
 
 impl<'a> Opened<'a> {
@@ -123,18 +124,18 @@ impl<'a> Opened<'a> {
     pub(crate) fn new(
         chambers: &'a [Chamber],
         void: usize,
-        planes: &'a [Plane],
+        tree: &'a CutTree,
         request: &'a PlanRequest,
     ) -> Self {
         let needed_mm = request.needed_mm(void, chambers.len());
-        Self { void, chamber: &chambers[void], planes, request, needed_mm, is_told: false }
+        Self { void, chamber: &chambers[void], tree, request, needed_mm, is_told: false }
     }
 
     /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
-        let pieces = self.chamber.split(self.planes)?;
+        let pieces = self.chamber.split(self.tree)?;
         let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
-        let mouths: Vec<Mouths> = pieces.iter().map(|piece| Mouths::of(piece, self.planes)).collect();
+        let mouths: Vec<Mouths> = pieces.iter().map(|piece| Mouths::of(piece, &self.tree.planes)).collect();
         let widest_mm = mouths.iter().map(Mouths::widest_mm).fold(0.0, f64::max);
         let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
         let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
@@ -143,7 +144,7 @@ impl<'a> Opened<'a> {
         Ok(VoidAccess {
             void: self.void,
             volume_mm3: self.chamber.solid.mesh().signed_volume_mm3(),
-            opened_by: (0..self.planes.len()).filter(met).map(cut_id).collect(),
+            opened_by: (0..self.tree.planes.len()).filter(met).map(cut_id).collect(),
             opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
             depth_mm: mouths.iter().map(|mouths| mouths.depth_mm).fold(0.0, f64::max),
             sight_ratio,
@@ -167,14 +168,14 @@ impl<'a> Opened<'a> {
 
     /// What is seen of each piece.
     pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
-        let look = Look::new(self.planes, self.request);
+        let look = Look::new(self.tree, self.request);
         let look = if self.is_told { look.thorough() } else { look };
         pieces.iter().map(|piece| self.chamber.walls.seen(piece, &look)).collect()
     }
 
     /// The points of the wall that are out of sight or reach.
     pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
-        Ok(self.seen(&self.chamber.split(self.planes)?).hidden)
+        Ok(self.seen(&self.chamber.split(self.tree)?).hidden)
     }
 }
 

@@ -125,7 +125,10 @@ impl<'a> OpenPairs<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::scenes::{cuboid, request};
+    use crate::cut::{
+        scenes::{cuboid, request},
+        tree::CutTree,
+    };
     use crate::geom::{Plane, Vector};
     use crate::mesh::Hollowed;
 
@@ -142,8 +145,8 @@ mod tests {
     fn in_a_box(test: impl Fn(&BossView)) {
         let void = cuboid([-10.0, -10.0, -20.0], [10.0, 10.0, 20.0]);
         let body = Hollowed { outer: cuboid([-15.0, -15.0, -25.0], [15.0, 15.0, 25.0]), voids: vec![void] };
-        let planes = [Plane { normal: Vector::z(), offset_mm: 0.01 }];
-        test(&BossView::new(&body, &planes, &request()).unwrap());
+        let tree = CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 0.01 }]);
+        test(&BossView::new(&body, &tree, &request()).unwrap());
     }
 
     #[test]

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::{
     access::asked_ratio, chamber::Chamber, error::CutError, opening::opening, request::PlanRequest,
-    sight::Sightlines,
+    sight::Sightlines, tree::CutTree,
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -20,7 +20,7 @@ const SPARE_RATIO: f64 = 0.01;
 /// The plain voids of a body as its cuts open them, before bosses stand in them.
 pub(crate) struct BossView<'a> {
     views: Vec<View<'a>>,
-    planes: &'a [Plane],
+    tree: &'a CutTree,
     /// Nearer to a boss than this no tool enters, mm.
     tool_radius_mm: f64,
 }
@@ -39,17 +39,17 @@ struct View<'a> {
 impl<'a> BossView<'a> {
     pub(crate) fn new(
         hollowed: &'a Hollowed,
-        planes: &'a [Plane],
+        tree: &'a CutTree,
         request: &PlanRequest,
     ) -> Result<Self, CutError> {
         let voids = hollowed.voids.len();
         let plain = voids.saturating_sub(request.seats.len());
         let chambers = Chamber::all(hollowed)?;
         let view = |(void, chamber): (usize, Chamber<'a>)| {
-            View::new(chamber, (planes, request), request.needed_mm(void, voids))
+            View::new(chamber, (tree, request), request.needed_mm(void, voids))
         };
         let views = chambers.into_iter().take(plain).enumerate().map(view).collect();
-        Ok(Self { views, planes, tool_radius_mm: request.min_opening_mm / 2.0 })
+        Ok(Self { views, tree, tool_radius_mm: request.min_opening_mm / 2.0 })
     }
 
     /// How much of each void's wall a boss hides that was in sight, as a share of it.
@@ -71,15 +71,15 @@ impl<'a> BossView<'a> {
 
     /// Whether every void stays open where these bosses stand in it.
     pub(crate) fn stays_open(&self, bosses: &[TriMesh]) -> Result<bool, CutError> {
-        let open = self.views.par_iter().map(|view| view.stays_open(bosses, self.planes));
+        let open = self.views.par_iter().map(|view| view.stays_open(bosses, &self.tree.planes));
         Ok(open.collect::<Result<Vec<bool>, _>>()?.into_iter().all(|is_open| is_open))
     }
 }
 
 impl<'a> View<'a> {
-    fn new(chamber: Chamber<'a>, (planes, request): (&[Plane], &PlanRequest), needed_mm: f64) -> Self {
+    fn new(chamber: Chamber<'a>, (tree, request): (&CutTree, &PlanRequest), needed_mm: f64) -> Self {
         let asked = asked_ratio(request);
-        let lines = if asked > 0.0 { chamber.sightlines(planes, request) } else { Vec::new() };
+        let lines = if asked > 0.0 { chamber.sightlines(tree, request) } else { Vec::new() };
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
         let spare_ratio = seen as f64 / lines.len().max(1) as f64 - asked - SPARE_RATIO;
         Self { chamber, needed_mm, lines, spare_ratio }
@@ -175,15 +175,15 @@ mod tests {
         (body, PlanRequest { cleaning, ..request() })
     }
 
-    fn level() -> [Plane; 1] {
-        [Plane { normal: Vector::z(), offset_mm: 0.01 }]
+    fn level() -> CutTree {
+        CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 0.01 }])
     }
 
     #[test]
     fn a_lid_hides_what_lies_beneath_it_and_a_post_next_to_nothing() {
         let (body, request) = shaft();
-        let planes = level();
-        let view = BossView::new(&body, &planes, &request).unwrap();
+        let tree = level();
+        let view = BossView::new(&body, &tree, &request).unwrap();
         let lid = cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]);
         // Beneath the lid: walls 16 mm deep about 80 mm, and the floor; of all 40 mm about 80 mm, and two floors.
         let expected = (16.0 * 80.0 + 400.0) / (40.0 * 80.0 + 800.0);
@@ -201,8 +201,8 @@ mod tests {
     #[test]
     fn a_lid_closes_and_a_post_leaves_open() {
         let (body, request) = shaft();
-        let planes = level();
-        let view = BossView::new(&body, &planes, &request).unwrap();
+        let tree = level();
+        let view = BossView::new(&body, &tree, &request).unwrap();
         let of = |low: [f64; 3], high: [f64; 3]| view.stays_open(&[cuboid(low, high).into_mesh()]).unwrap();
         assert!(!of([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]));
         assert!(of([-11.0, -11.0, -6.0], [-8.0, -8.0, 6.0]));
@@ -224,8 +224,8 @@ mod tests {
     fn where_no_sight_is_asked_nothing_counts_as_hidden() {
         let (body, request) = shaft();
         let request = PlanRequest { cleaning: Cleaning::MELT_OUT, ..request };
-        let planes = level();
-        let view = BossView::new(&body, &planes, &request).unwrap();
+        let tree = level();
+        let view = BossView::new(&body, &tree, &request).unwrap();
         let hidden = view.hidden_by(cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]).mesh());
         assert_eq!((hidden[0], view.lack_mm2(&[&hidden])), (0.0, 0.0));
     }

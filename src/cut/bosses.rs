@@ -17,7 +17,7 @@ use super::{
     pin_shape::PinSite,
     pin_size::{Size, size_pairs},
     pins::{PinScene, Placement, is_confused, seated},
-    plan::{Cut, CutPlan, JointNote, bridges_on, part_id},
+    plan::{CutPlan, JointNote, bridges_on, part_id},
     rejoin::rejoined,
     request::PlanRequest,
     section::{Chart, Point2, Section},
@@ -99,17 +99,17 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         return Ok(Vec::new());
     }
     let own = CutOrder::of(order.plan).numbered();
-    let planes = order.plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
+    let tree = order.plan.tree()?;
+    let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
-    let pieces = rejoined(split(&material, &planes)?, &planes, &bridges)?;
+    let pieces = rejoined(split(&material, &tree)?, &tree.planes, &bridges)?;
     let filled = filled(order);
-    let scene = |material| PinScene { request: order.request, planes: &planes, pieces: &pieces, material };
+    let scene = |material| PinScene { request: order.request, tree: &tree, pieces: &pieces, material };
     let (hollow, filled) = (scene(&material), scene(&filled));
-    let joints = joints(&pieces);
+    let joints = joints(&pieces, &tree);
     let mut placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
     let [air, outer] = [hollow.material, filled.material].map(|mesh| Bvh::new(mesh.iter_corners()));
-    let view = BossView::new(order.hollowed, &planes, order.request)?;
+    let view = BossView::new(order.hollowed, &tree, order.request)?;
     let search = Search { order, hollow: &hollow, filled: &filled, air, outer, view };
     let mut bosses = Vec::new();
     if let Some(pins) = order.ordered {
@@ -159,7 +159,7 @@ impl Search<'_> {
     /// The boss of an ordered pin that has its material, or could have.
     fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
         let cut = self.order.plan.cuts.iter().position(|cut| cut.id == pin.cut)?;
-        let (plane, outline) = (&self.filled.planes[cut], self.outline(cut));
+        let (plane, outline) = (&self.filled.tree.planes[cut], self.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
@@ -168,7 +168,7 @@ impl Search<'_> {
 
     /// The outline of the filled body in a cut.
     fn outline(&self, cut: usize) -> Outline {
-        let section = Section::of_mesh(self.filled.material, &self.filled.planes[cut]);
+        let section = Section::of_mesh(self.filled.material, &self.filled.tree.planes[cut]);
         section.outline(&(0..section.rings.len()).collect::<Vec<_>>())
     }
 
@@ -176,12 +176,11 @@ impl Search<'_> {
     fn is_of_joint(&self, joint: &Joint, outline: &Outline, at: &Point2) -> bool {
         let foot = outline.nearest(at);
         let inner = foot + (at - foot).normalize() * (self.order.request.wall_mm / 2.0);
-        let caps = &self.filled.pieces[joint.below].caps;
-        joint.caps.iter().any(|&cap| caps[cap].holds(&inner))
+        joint.faces(self.filled.pieces).any(|(_, cap)| cap.holds(&inner))
     }
 
     fn has_meat(&self, scene: &PinScene, joint: &Joint, pin: &PinSite) -> bool {
-        let plane = &scene.planes[joint.cut];
+        let plane = &scene.tree.planes[joint.cut];
         let is_upward = plane.normal.dot(&Vector::from(pin.direction)) > 0.0;
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         Face::bare(scene, joint, (&[], is_upward)).has_meat(&at, &Size::of(pin))
@@ -254,7 +253,7 @@ impl Search<'_> {
     /// The places of a joint where a boss of this size joins its wall and keeps off the outside, with their prices.
     fn sites(&self, joint: &Joint, face: &Face, (size, is_upward): (&Size, bool)) -> Vec<Site> {
         let request = self.order.request;
-        let plane = &self.filled.planes[joint.cut];
+        let plane = &self.filled.tree.planes[joint.cut];
         let outline = self.outline(joint.cut);
         let room = size.room_mm(request) / 2.0 + MARGIN_MM;
         let chart = Chart::of_plane(plane);
@@ -333,7 +332,7 @@ impl Search<'_> {
 
     /// A disc's middle moved in the cut until it touches the outside.
     fn root(&self, joint: &Joint, middle: &Point, radius: f64) -> Point {
-        let plane = &self.filled.planes[joint.cut];
+        let plane = &self.filled.tree.planes[joint.cut];
         let chart = Chart::of_plane(plane);
         let at = chart.flat(middle);
         let outward = self.outline(joint.cut).nearest(&at) - at;

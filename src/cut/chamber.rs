@@ -9,11 +9,9 @@ use super::{
     section::Section,
     sight::{Look, Sightlines, Walls},
     split::{Piece, split_body},
+    tree::CutTree,
 };
-use crate::{
-    geom::Plane,
-    mesh::{Csg, Hollowed, Solid, TriMesh},
-};
+use crate::mesh::{Csg, Hollowed, Solid, TriMesh};
 
 /// A void with what cutting it and looking into it need, made once.
 pub(crate) struct Chamber<'a> {
@@ -33,20 +31,20 @@ impl<'a> Chamber<'a> {
         hollowed.voids.par_iter().map(Self::new).collect()
     }
 
-    /// Its pieces between the planes.
-    pub(crate) fn split(&self, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, planes)
+    /// Its pieces between the cuts.
+    pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+        split_body(&self.body, tree)
     }
 
     /// About the share of its wall that is in sight once these planes cut it, from its sections alone: a tenth of the work of
     /// cutting it. A mouth that another plane crosses counts whole, so the share may be too large there by slivers.
-    pub(crate) fn glance(&self, planes: &[Plane], request: &PlanRequest) -> f64 {
-        self.walls.glimpsed(&self.mouths(planes), &Look::new(planes, request))
+    pub(crate) fn glance(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
+        self.walls.glimpsed(&self.mouths(tree), &Look::new(tree, request))
     }
 
     /// About where each point of its wall is seen from once these planes cut it, as in [`Self::glance`].
-    pub(crate) fn sightlines(&self, planes: &[Plane], request: &PlanRequest) -> Vec<Sightlines> {
-        self.walls.sightlines(&self.mouths(planes), &Look::new(planes, request))
+    pub(crate) fn sightlines(&self, tree: &CutTree, request: &PlanRequest) -> Vec<Sightlines> {
+        self.walls.sightlines(&self.mouths(tree), &Look::new(tree, request))
     }
 
     /// What some bodies leave of it.
@@ -57,13 +55,13 @@ impl<'a> Chamber<'a> {
     }
 
     /// The outlines of its sections, each with its cut.
-    fn mouths(&self, planes: &[Plane]) -> Vec<(usize, Outline)> {
-        let mouths = |(cut, plane): (usize, &Plane)| {
+    fn mouths(&self, tree: &CutTree) -> Vec<(usize, Outline)> {
+        let mouths = |(cut, plane)| {
             let section = Section::of_mesh(self.solid.mesh(), plane);
             let outlines = section.groups().into_iter().map(|rings| (cut, section.outline(&rings)));
             outlines.collect::<Vec<(usize, Outline)>>()
         };
-        planes.iter().enumerate().flat_map(mouths).collect()
+        tree.planes.iter().enumerate().flat_map(mouths).collect()
     }
 }
 
@@ -71,7 +69,7 @@ impl<'a> Chamber<'a> {
 mod tests {
     use super::*;
     use crate::cut::{access::accesses, scenes::request};
-    use crate::geom::{Point, Vector};
+    use crate::geom::{Plane, Point, Vector};
     use crate::mesh::primitives;
     use crate::printer::{Cleaning, CleaningRule};
 
@@ -101,9 +99,10 @@ mod tests {
         let deep = Plane { normal: Vector::z(), offset_mm: -17.9 };
         let sets = [vec![], vec![level], vec![askew], vec![level, askew], vec![level, deep]];
         for planes in &sets {
-            let told = accesses(&chambers, planes, &request).unwrap();
+            let tree = CutTree::everywhere(planes);
+            let told = accesses(&chambers, &tree, &request).unwrap();
             for (chamber, told) in chambers.iter().zip(told) {
-                let glance = chamber.glance(planes, &request);
+                let glance = chamber.glance(&tree, &request);
                 assert!((glance - told.sight_ratio).abs() < 0.02, "{planes:?}: {glance} against {told:?}");
             }
         }

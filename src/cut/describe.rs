@@ -7,15 +7,19 @@ use super::{
     pin_shape::PinSite,
     pin_size::needed_room_mm,
     pins::{PinScene, Pins, Placement, pinned},
-    plan::{Cut, CutPlan, JointNote, UncutFace, cut_id, part_id},
+    plan::{Cut, CutPlan, CutSide, JointNote, Side, UncutFace, cut_id, part_id},
     planner::Layout,
     rejoin::Bridge,
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{Joint, Piece, check_no_cavity, joints},
+    split::{Cap, Joint, Piece, check_no_cavity, joints},
+    tree::{CutTree, Limit},
 };
-use crate::{geom::Plane, mass::FlatFace};
+use crate::{
+    geom::{Plane, Point},
+    mass::FlatFace,
+};
 
 /// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
@@ -23,10 +27,10 @@ pub(crate) fn described(
     layout: &Layout,
     (pins, mut notes): (Pins, Vec<String>),
 ) -> Result<CutPlan, CutError> {
-    let Layout { planes, voids, pieces, bridges } = layout;
+    let Layout { tree, voids, pieces, bridges } = layout;
     check_no_cavity(pieces)?;
-    let pin_scene = PinScene { request: scene.request, planes, pieces, material: &scene.material };
-    let joints = joints(pieces);
+    let pin_scene = PinScene { request: scene.request, tree, pieces, material: &scene.material };
+    let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
     let proofs = notes.clone();
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
@@ -35,10 +39,10 @@ pub(crate) fn described(
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
     notes.extend(unlabelled);
     Ok(CutPlan {
-        cuts: planes.iter().enumerate().map(|(i, plane)| cut(i, plane)).collect(),
+        cuts: (0..tree.planes.len()).map(|index| cut(tree, index)).collect(),
         joints: told.map(|(joint, placement)| joint_note(&pin_scene, joint, placement)).collect(),
         pins: placements.into_iter().flat_map(|placement| placement.sites).collect(),
-        uncut: bridges.iter().map(|bridge| uncut_face(planes, bridge)).collect(),
+        uncut: bridges.iter().map(|bridge| uncut_face(&tree.planes, bridge)).collect(),
         labels,
         voids: voids.clone(),
         notes,
@@ -75,31 +79,33 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
     JointNote {
         cut: cut_id(joint.cut),
         parts: [part_id(joint.below), part_id(joint.above)],
-        area_mm2: joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum(),
+        area_mm2: joint.area_mm2(pieces),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
-        face: contact(&pieces[joint.below], joint, &placement.sites),
+        face: contact(pieces, joint, &placement.sites),
     }
 }
 
 /// Where the parts of a joint touch: its faces less the mouths of its sockets.
-fn contact<'a>(below: &Piece, joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
-    let faces = joint.caps.iter().flat_map(|&cap| &below.caps[cap].faces);
-    let faces = faces.map(|&face| (below.mesh.corners(face), 1.0));
+fn contact<'a>(pieces: &[Piece], joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
+    let corners = |(piece, cap): (&Piece, &Cap)| -> Vec<[Point; 3]> {
+        cap.faces.iter().map(|&face| piece.mesh.corners(face)).collect()
+    };
+    let faces = joint.faces(pieces).flat_map(corners).map(|corners| (corners, 1.0));
     let mouths = pins.into_iter().flat_map(PinSite::mouth).map(|corners| (corners, -1.0));
     FlatFace::of_triangles(faces.chain(mouths))
 }
 
 /// The plan with the faces of its joints as they are between these pieces, of a body that was solved for again.
-pub(crate) fn refaced(pieces: &[Piece], mut plan: CutPlan) -> CutPlan {
-    for joint in joints(pieces) {
+pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
+    for joint in joints(pieces, tree) {
         let (cut, parts) = (&plan.cuts[joint.cut].id, [part_id(joint.below), part_id(joint.above)]);
         let Some(note) = plan.joints.iter_mut().find(|note| note.cut == *cut && note.parts == parts) else {
             continue;
         };
         let pins = plan.pins.iter().filter(|pin| note.pins.contains(&pin.id));
-        note.face = contact(&pieces[joint.below], &joint, pins);
-        note.area_mm2 = joint.caps.iter().map(|&cap| pieces[joint.below].caps[cap].area_mm2).sum();
+        note.face = contact(pieces, &joint, pins);
+        note.area_mm2 = joint.area_mm2(pieces);
     }
     plan
 }
@@ -130,6 +136,9 @@ fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
     }
 }
 
-fn cut(index: usize, plane: &Plane) -> Cut {
-    Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into() }
+fn cut(tree: &CutTree, index: usize) -> Cut {
+    let plane = &tree.planes[index];
+    let side = |limit: &Limit| CutSide { cut: cut_id(limit.cut), side: Side::of(limit.is_above) };
+    let within = tree.limits(index).iter().map(side).collect();
+    Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into(), within }
 }

@@ -41,6 +41,11 @@ pub enum CutError {
         /// The cut's id.
         cut: String,
     },
+    /// Cuts that are made within each other, or within one that is not there.
+    #[error(
+        "a cut is kept to a side of one that is not there, or two wait for each other; name in `within` only cuts that can be made before"
+    )]
+    CircularCuts,
     /// A part would enclose a cavity.
     #[error("the cuts leave {cavities} of its voids closed in a part (P{:02}); add a cut through them, or take `--cut auto`", part + 1)]
     ClosedCavity {

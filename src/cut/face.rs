@@ -73,7 +73,7 @@ impl<'a> Face<'a> {
         joint: &'a Joint,
         (placed, is_upward): (&[&Placement], bool),
     ) -> Self {
-        let plane = scene.planes[joint.cut];
+        let plane = scene.tree.planes[joint.cut];
         let reach = reach_mm(scene.request);
         let near = |corners: &[Point; 3]| {
             let heights = corners.map(|p| plane.distance(&p));
@@ -100,12 +100,15 @@ impl<'a> Face<'a> {
         let root = mouth - along * size.back_mm();
         let hollow = if size.dowel.is_some() { root } else { mouth };
         let radius = size.corner() + self.scene.request.wall_mm;
-        let others = (0..self.scene.planes.len()).filter(|&cut| cut != self.joint.cut);
+        let tree = self.scene.tree;
+        let others = (0..tree.planes.len()).filter(|&cut| cut != self.joint.cut);
+        // On either side of the joint.
+        let is_made = |cut: &usize| [root, bottom].iter().any(|end| tree.acts_at(*cut, end));
         let is_clear = |cut: usize| {
-            let [near, far] = [hollow, bottom].map(|end| self.scene.planes[cut].distance(&end));
+            let [near, far] = [hollow, bottom].map(|end| tree.planes[cut].distance(&end));
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
-        others.into_iter().all(is_clear)
+        others.filter(is_made).all(is_clear)
             && self.taken.iter().all(|taken| taken.is_clear_of([&root, &bottom], radius))
             && self.keeps_off([&hollow, &bottom], radius)
             && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
@@ -197,7 +200,7 @@ impl<'a> Face<'a> {
 /// Points spread over the joint's faces with their distances from the edge, and the faces' widest disc.
 pub(super) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)>, f64) {
     let (mut points, mut widest_mm) = (Vec::new(), 0.0f64);
-    for cap in joint.caps.iter().map(|&cap| &scene.pieces[joint.below].caps[cap]) {
+    for (_, cap) in joint.faces(scene.pieces) {
         if let Some(disc) = cap.outline.largest_disc(0.0) {
             widest_mm = widest_mm.max(2.0 * disc.radius_mm);
             points.push((disc.center, disc.radius_mm));

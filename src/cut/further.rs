@@ -7,6 +7,7 @@ use super::{
     error::CutError,
     plan::cut_id,
     score::{Scene, burden},
+    tree::CutTree,
 };
 use crate::{
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
@@ -46,7 +47,7 @@ pub(crate) struct Tried {
 impl Tried {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
         let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let voids = accesses(&scene.chambers, &planes, scene.request)?;
+        let voids = accesses(&scene.chambers, &CutTree::everywhere(&planes), scene.request)?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -79,9 +80,10 @@ impl Tried {
     /// The same cuts and one more; the voids that it does not meet stay as they are.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
+        let tree = CutTree::everywhere(&planes);
         let again = |before: &VoidAccess| {
             if meets(scene, before.void, &plane) {
-                access(&scene.chambers, before.void, &planes, scene.request)
+                access(&scene.chambers, before.void, &tree, scene.request)
             } else {
                 Ok(before.clone())
             }
@@ -105,14 +107,17 @@ impl Tried {
 }
 
 /// Whether a plane passes through a void.
-fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
+pub(crate) fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
     plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
 }
 
 /// About the share of its wall that a void lacks in sight between the planes; 0 where none must be in sight.
 fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
     let asked = asked_ratio(scene.request);
-    if asked == 0.0 { 0.0 } else { (asked - scene.chambers[void].glance(planes, scene.request)).max(0.0) }
+    if asked == 0.0 {
+        return 0.0;
+    }
+    (asked - scene.chambers[void].glance(&CutTree::everywhere(planes), scene.request)).max(0.0)
 }
 
 /// The first of the plans with which every void can be cleaned; the cleanest where there is none.
@@ -200,7 +205,8 @@ fn note(before: &Tried, after: &Tried) -> String {
 fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
     let Some(worst) = tried.voids.iter().max_by(|a, b| lack(a).total_cmp(&lack(b))) else { return Ok(None) };
-    let hidden = Opened::new(&scene.chambers, worst.void, &tried.planes, scene.request).hidden()?;
+    let tree = CutTree::everywhere(&tried.planes);
+    let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
     let planes = through(scene, worst.void, &hidden);
     let glanced = planes.par_iter().map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
     let mut glanced: Vec<(f64, Plane)> = glanced.collect();

@@ -73,7 +73,8 @@ fn where_no_place_leaves_the_void_open_two_pins_are_found_that_close_it() {
         voids: vec![cuboid([1.5, 1.5, 2.0], [8.5, 8.8, 58.0])],
     };
     let request = PlanRequest { min_opening_mm: 6.5, ..request() };
-    let across = Cut { id: "C1".into(), point_mm: [0.0, 0.0, 30.0], normal: [0.0, 0.0, 1.0] };
+    let across =
+        Cut { id: "C1".into(), point_mm: [0.0, 0.0, 30.0], normal: [0.0, 0.0, 1.0], within: Vec::new() };
     let plan = plan_by(&body, &request, &cuts(vec![across])).unwrap();
     let order = order_of(&body, &plan, EVEN, &request);
     let found = bosses(&order).unwrap();
@@ -153,7 +154,12 @@ fn dowels_have_a_socket_in_either_part_and_leave_all_cut_faces_flat() {
 fn no_two_dowelled_joints_can_be_confused_from_either_side() {
     let request = PlanRequest { rods: rods().unwrap(), ..request() };
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
-    let at = |x: f64| Cut { id: format!("C{x}"), point_mm: [x, 0.0, 0.0], normal: [1.0, 0.0, 0.0] };
+    let at = |x: f64| Cut {
+        id: format!("C{x}"),
+        point_mm: [x, 0.0, 0.0],
+        normal: [1.0, 0.0, 0.0],
+        within: Vec::new(),
+    };
     let plan = plan_by(&body, &request, &cuts(vec![at(20.0), at(40.0)])).unwrap();
     assert!(plan.joints.iter().all(|joint| joint.one_way && joint.pins.len() >= 2), "{:?}", plan.joints);
     let [first, second] = [0, 1].map(|joint: usize| signature(&plan, &plan.joints[joint]));
@@ -176,7 +182,8 @@ fn signature(plan: &CutPlan, joint: &JointNote) -> Vec<f64> {
 #[test]
 fn the_film_of_a_joint_is_its_section_less_the_mouths_of_its_sockets() {
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
-    let cut = Cut { id: "C1".into(), point_mm: [20.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0] };
+    let cut =
+        Cut { id: "C1".into(), point_mm: [20.0, 0.0, 0.0], normal: [1.0, 0.0, 0.0], within: Vec::new() };
     let plan = plan_by(&body, &request(), &cuts(vec![cut])).unwrap();
     let mouths: f64 = plan
         .pins

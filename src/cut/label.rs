@@ -191,9 +191,8 @@ struct Marker<'a> {
 impl Marker<'_> {
     /// The label of a part's face in a joint: the fullest text for which there is room.
     fn label(&self, joint: &Joint, part: usize) -> Option<Label> {
-        let plane = &self.scene.planes[joint.cut];
+        let plane = &self.scene.tree.planes[joint.cut];
         let into = if part == joint.above { plane.normal } else { -plane.normal };
-        let caps = || joint.caps.iter().map(|&cap| &self.scene.pieces[joint.below].caps[cap]);
         let at = |text: &str, (p, turn): (Point2, usize)| {
             let center = Chart::of_plane(plane).lift(plane, &p);
             let (u, v) = plane.basis();
@@ -210,7 +209,8 @@ impl Marker<'_> {
             }
         };
         texts(part).iter().find_map(|text| {
-            let places = caps().flat_map(|cap| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
+            let caps = joint.faces(self.scene.pieces);
+            let places = caps.flat_map(|(_, cap)| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
             let mut turned = places.flat_map(|p| (0..TURNS).map(move |turn| (p, turn)));
             turned.find_map(|place| Some(at(text, place)).filter(|label| self.has_room(label, joint.cut)))
         })
@@ -229,10 +229,14 @@ impl Marker<'_> {
             let [near, far] = ends.map(|end| plane.distance(&end));
             near.abs().min(far.abs()) >= radius + wall_mm && near * far > 0.0
         };
-        let others = || self.scene.planes.iter().enumerate().filter(|(other, _)| *other != cut);
+        let tree = self.scene.tree;
+        let others = |at: &Point| {
+            let made = (0..tree.planes.len()).filter(|&other| other != cut && tree.acts_at(other, at));
+            made.map(|other| &tree.planes[other]).collect::<Vec<_>>()
+        };
         (0..LINES).map(line).all(|ends| {
             let reach = radius + wall_mm;
-            others().all(|(_, plane)| is_clear(plane, &ends))
+            others(&ends[0]).into_iter().all(|plane| is_clear(plane, &ends))
                 && self.taken.iter().all(|taken| taken.is_clear_of(ends.each_ref(), reach))
                 && self.surface.segment_distance(&ends[0], &ends[1], reach) >= reach
         })

@@ -67,7 +67,7 @@ pub(crate) fn at_layers(
     if moves.is_empty() {
         return Ok(plan);
     }
-    let mut planes = layout.planes.clone();
+    let mut planes = layout.tree.planes.clone();
     for (cut, _, moved_mm) in &moves {
         let plane = planes[*cut];
         planes[*cut] =
@@ -76,7 +76,7 @@ pub(crate) fn at_layers(
     let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
         cut: cut_id(cut),
         part: part_id(part),
-        moved_mm: planes[cut].offset_mm - layout.planes[cut].offset_mm,
+        moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
     let Some(layout) = still_open(scene, layout, planes)? else { return Ok(plan) };
@@ -92,7 +92,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         (0..layout.pieces.len()).flat_map(|part| levels(request, layout, plan, part)).collect();
     levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let decides = |cut: usize| levels.iter().find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM);
-    let mut moved_mm = vec![0.0; layout.planes.len()];
+    let mut moved_mm = vec![0.0; layout.tree.planes.len()];
     for _ in 0..SWEEPS {
         for cut in 0..moved_mm.len() {
             if let Some(level) = decides(cut) {
@@ -116,11 +116,11 @@ fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
 fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -> Vec<Level> {
     let piece = &layout.pieces[part];
     let pin_cuts = pin_cuts(layout, plan, part);
-    let sides = sides_down(piece, &layout.planes, &pin_cuts, request);
+    let sides = sides_down(piece, &layout.tree.planes, &pin_cuts, request);
     let motion = laid(&piece.mesh, &sides, request).print_from_model;
     let mut levels: Vec<Level> = Vec::new();
     for cap in &piece.caps {
-        let plane = &layout.planes[cap.cut];
+        let plane = &layout.tree.planes[cap.cut];
         let up: f64 = (0..3).map(|i| motion[2][i] * plane.normal[i]).sum();
         if up.abs() >= LEVEL_COSINE {
             let at = Chart::of_plane(plane).lift(plane, &cap.inner_point());
@@ -144,31 +144,32 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
             let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
             let pins = plan.pins.iter().filter(stands);
             let carrier = |direction: [f64; 3]| {
-                let is_upward = layout.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
+                let is_upward = layout.tree.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
                 &joint.parts[usize::from(!is_upward)]
             };
             pins.into_iter().any(|pin| *carrier(pin.direction) == id)
         })
     };
-    (0..layout.planes.len()).filter(|&cut| carries(cut)).collect()
+    (0..layout.tree.planes.len()).filter(|&cut| carries(cut)).collect()
 }
 
 /// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
 fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Option<Layout>, CutError> {
-    let Ok(pieces) = rejoined(scene.split(&planes)?, &planes, &layout.bridges) else {
+    let tree = layout.tree.moved(planes);
+    let Ok(pieces) = rejoined(scene.split(&tree)?, &tree.planes, &layout.bridges) else {
         return Ok(None);
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
         return Ok(None);
     }
-    let voids = accesses(&scene.chambers, &planes, scene.request)?;
+    let voids = accesses(&scene.chambers, &tree, scene.request)?;
     let least_mm = scene.request.min_opening_mm;
     let is_worse = |(now, before): (&VoidAccess, &VoidAccess)| {
         let is_narrower = now.opening_mm < least_mm && now.opening_mm < before.opening_mm;
         is_narrower || (before.is_clean && !now.is_clean)
     };
     let is_open = !voids.iter().zip(&layout.voids).any(is_worse);
-    Ok(is_open.then(|| Layout { planes, voids, pieces, bridges: layout.bridges.clone() }))
+    Ok(is_open.then(|| Layout { tree, voids, pieces, bridges: layout.bridges.clone() }))
 }
 
 #[cfg(test)]

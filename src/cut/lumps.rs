@@ -6,7 +6,7 @@ use super::{
     access::{Mouths, Opened, asked_ratio},
     chamber::Chamber,
     error::CutError,
-    plan::{Cut, CutPlan},
+    plan::{Cut, CutPlan, tree_of},
     request::PlanRequest,
     sight::Seen,
     split::Piece,
@@ -48,13 +48,13 @@ pub fn unclean(
     request: &PlanRequest,
     whole: bool,
 ) -> Result<Vec<Unclean>, CutError> {
-    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<Plane>, _>>()?;
+    let tree = plan.tree()?;
     let count = hollowed.voids.len();
     let is_plain = |void: usize| request.seat_of(void, count).is_none();
     let dirty: Vec<_> = plan.voids.iter().filter(|void| !void.is_clean && is_plain(void.void)).collect();
     let chambers = if dirty.is_empty() { Vec::new() } else { Chamber::all(hollowed)? };
     let of = |access: &&super::access::VoidAccess| {
-        let opened = Opened::new(&chambers, access.void, &planes, request);
+        let opened = Opened::new(&chambers, access.void, &tree, request);
         let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
         let lumps = if whole { vec![opened.chamber.solid.mesh().clone()] } else { lumps(&opened)? };
         let why = if access.sight_ratio < asked {
@@ -71,11 +71,15 @@ pub fn unclean(
 
 /// The plain voids that none of the cuts meets: all of them must go.
 pub fn closed(hollowed: &Hollowed, cuts: &[Cut], request: &PlanRequest) -> Result<Vec<Unclean>, CutError> {
-    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<Plane>, _>>()?;
+    let tree = tree_of(cuts)?;
     let count = hollowed.voids.len();
     let voids = hollowed.voids.iter().enumerate().filter(|(void, _)| request.seat_of(*void, count).is_none());
-    let shut =
-        voids.filter(|(_, solid)| !planes.iter().any(|plane| plane.passes_through(solid.mesh().vertices())));
+    let is_met = |solid: &Solid, cut: usize| {
+        let there: Vec<Point> =
+            solid.mesh().vertices().iter().filter(|p| tree.acts_at(cut, p)).copied().collect();
+        tree.planes[cut].passes_through(&there)
+    };
+    let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
     let all = |(void, solid): (usize, &Solid)| Unclean {
         void,
         why: "no cut opens it".to_owned(),
@@ -87,12 +91,12 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut], request: &PlanRequest) -> Resul
 /// The pieces that let nothing out, and of the others ends that are hidden until enough is seen: those first that are solid for
 /// the least volume over what they hide.
 fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
-    let pieces = opened.chamber.split(opened.planes)?;
+    let pieces = opened.chamber.split(opened.tree)?;
     let seen = opened.seen_each(&pieces);
     let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
     let (mut lumps, mut hidden) = (Vec::new(), Vec::new());
     for (piece, seen) in pieces.iter().zip(&seen) {
-        if opened.lets_out(&Mouths::of(piece, opened.planes)) {
+        if opened.lets_out(&Mouths::of(piece, &opened.tree.planes)) {
             hidden.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
         } else {
             lumps.push(piece.mesh.clone());
@@ -196,7 +200,8 @@ mod tests {
         let outer = Solid::new(cuboid([-15.0, -15.0, -40.0], [50.0, 15.0, 20.0])).unwrap();
         let hollowed = Hollowed { outer, voids: vec![shaft.union(&arm).unwrap().to_solid().unwrap()] };
         let cleaning = Cleaning { rule: CleaningRule::InSight, sight_ratio: 0.95, ..Cleaning::MELT_OUT };
-        let cut = Cut { id: "C1".into(), point_mm: [0.0, 0.0, 5.0], normal: [0.0, 0.0, 1.0] };
+        let cut =
+            Cut { id: "C1".into(), point_mm: [0.0, 0.0, 5.0], normal: [0.0, 0.0, 1.0], within: Vec::new() };
         let order = CutOrder { cuts: vec![cut], ..CutOrder::default() };
         (hollowed, PlanRequest { cleaning, ..request() }, order)
     }

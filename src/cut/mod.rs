@@ -13,6 +13,7 @@ mod family;
 mod further;
 #[cfg(test)]
 mod joinery_tests;
+mod keep;
 mod label;
 mod layers;
 mod lumps;
@@ -38,6 +39,7 @@ mod section;
 mod sides;
 mod sight;
 mod split;
+mod tree;
 
 #[cfg(test)]
 mod scenes;
@@ -53,7 +55,7 @@ pub use lumps::{Unclean, closed, unclean};
 pub use order::{CutOrder, OrderError};
 pub use part::{Part, parts, parts_and_faces};
 pub use pin_shape::PinSite;
-pub use plan::{Cut, CutPlan, JointNote, UncutFace};
+pub use plan::{Cut, CutPlan, CutSide, JointNote, Side, UncutFace};
 pub use planner::{plan, plan_around, plan_by, plan_of};
 pub use pose::{Pose, apply};
 pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     pin_shape::PinSite,
-    plan::{Cut, CutPlan, UncutFace, cut_id},
+    plan::{Cut, CutPlan, UncutFace, cut_id, tree_of},
 };
 use crate::toml_text::{self, TextFault};
 
@@ -21,7 +21,7 @@ pub struct CutOrder {
     /// The pins; placed by the planner where none are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pins: Option<Vec<PinSite>>,
-    /// The cuts, each through the whole model.
+    /// The cuts, each through the whole model but where it is kept to sides of others.
     pub cuts: Vec<Cut>,
     /// Where a cut leaves the body whole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -55,14 +55,19 @@ pub enum OrderError {
         "cut {0} has no direction, or numbers that are not finite; remedy: give a normal X, Y, Z and a point in mm"
     )]
     NoPlane(String),
-    /// A pin or an uncut face on a cut that is not in the order.
-    #[error("{what} lies on cut {cut}, which is not there; remedy: name one of the cuts")]
+    /// A pin, an uncut face or a cut that names a cut that is not in the order.
+    #[error("{what} names cut {cut}, which is not there; remedy: name one of the cuts")]
     NoCut {
         /// What names the cut.
         what: String,
         /// The cut it names.
         cut: String,
     },
+    /// Cuts that are made within each other.
+    #[error(
+        "cuts are kept to sides of each other, so that none can be made first; remedy: take one of them out of the other's `within`"
+    )]
+    Circular,
     /// A pin that cannot be made.
     #[error("pin {id}: {reason}")]
     BadPin {
@@ -87,6 +92,7 @@ impl CutOrder {
             }
         };
         let mut own = self.clone();
+        own.cuts.iter_mut().flat_map(|cut| &mut cut.within).for_each(|side| number(&mut side.cut));
         own.cuts.iter_mut().for_each(|cut| number(&mut cut.id));
         own.uncut.iter_mut().for_each(|face| number(&mut face.cut));
         own.pins.iter_mut().flatten().for_each(|pin| number(&mut pin.cut));
@@ -116,6 +122,13 @@ impl TryFrom<Given> for CutOrder {
             return Err(OrderError::NoPlane(cut.id.clone()));
         }
         let known = |id: &str| cuts.iter().any(|cut| cut.id == id);
+        let mut sides = cuts.iter().flat_map(|cut| cut.within.iter().map(move |side| (cut, side)));
+        if let Some((cut, side)) = sides.find(|(_, side)| !known(&side.cut)) {
+            return Err(OrderError::NoCut { what: format!("cut {}", cut.id), cut: side.cut.clone() });
+        }
+        if tree_of(&cuts).is_err() {
+            return Err(OrderError::Circular);
+        }
         if let Some(face) = uncut.iter().find(|face| !known(&face.cut)) {
             return Err(OrderError::NoCut { what: "an uncut face".to_owned(), cut: face.cut.clone() });
         }
@@ -233,7 +246,7 @@ mod tests {
 
     /// What to replace in a written order, by what, and what the message must say.
     const BROKEN: [(&str, &str, &str); 9] = [
-        ("id = \"C1\"\npoint", "id = \"C2\"\npoint", "lies on cut C1, which is not there"),
+        ("id = \"C1\"\npoint", "id = \"C2\"\npoint", "names cut C1, which is not there"),
         ("id = \"N2\"", "id = \"N1\"", "pin N1 is there twice"),
         ("normal = ", "normal = [0.0, 0.0, 0.0] # ", "cut C1 has no direction"),
         (

@@ -15,6 +15,7 @@ use super::{
     request::PlanRequest,
     section::Chart,
     split::{Piece, check_no_cavity, piece_at, split},
+    tree::CutTree,
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -66,8 +67,8 @@ struct Seat<'a> {
 /// The body may differ a little from the one the plan was made for, as when voids were solved for again: cuts,
 /// pins and parts keep their names.
 pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Result<Vec<Part>, CutError> {
-    let planes = plan.planes()?;
-    parts_of(hollowed, plan, (&planes, &pieces(hollowed, plan, &planes)?), request)
+    let tree = plan.tree()?;
+    parts_of(hollowed, plan, (&tree, &pieces(hollowed, plan, &tree)?), request)
 }
 
 /// The parts, and the plan with the faces of its joints as they are in this body.
@@ -76,15 +77,16 @@ pub fn parts_and_faces(
     plan: &CutPlan,
     request: &PlanRequest,
 ) -> Result<(Vec<Part>, CutPlan), CutError> {
-    let planes = plan.planes()?;
-    let pieces = pieces(hollowed, plan, &planes)?;
-    let parts = parts_of(hollowed, plan, (&planes, &pieces), request)?;
-    Ok((parts, refaced(&pieces, plan.clone())))
+    let tree = plan.tree()?;
+    let pieces = pieces(hollowed, plan, &tree)?;
+    let parts = parts_of(hollowed, plan, (&tree, &pieces), request)?;
+    Ok((parts, refaced(&pieces, &tree, plan.clone())))
 }
 
 /// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
-fn pieces(hollowed: &Hollowed, plan: &CutPlan, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-    let pieces = rejoined(split(&hollowed.to_mesh(), planes)?, planes, &plan.bridges(planes))?;
+fn pieces(hollowed: &Hollowed, plan: &CutPlan, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+    let (planes, bridges) = (&tree.planes, plan.bridges(&tree.planes));
+    let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, planes, &bridges)?;
     if !planes.is_empty() {
         check_no_cavity(&pieces)?;
     }
@@ -94,9 +96,10 @@ fn pieces(hollowed: &Hollowed, plan: &CutPlan, planes: &[Plane]) -> Result<Vec<P
 fn parts_of(
     hollowed: &Hollowed,
     plan: &CutPlan,
-    (planes, pieces): (&[Plane], &[Piece]),
+    (tree, pieces): (&CutTree, &[Piece]),
     request: &PlanRequest,
 ) -> Result<Vec<Part>, CutError> {
+    let planes = &tree.planes;
     let seats = plan.pins.iter().map(|pin| seat(plan, planes, pieces, pin)).collect::<Result<Vec<_>, _>>()?;
     let void_of = void_vertices(hollowed);
     let part = |(index, piece): (usize, &Piece)| {

@@ -10,6 +10,7 @@ use super::{
     request::PlanRequest,
     section::{Chart, Point2},
     split::{Joint, Piece},
+    tree::CutTree,
 };
 use crate::geom::{Plane, Point, Vector};
 
@@ -19,7 +20,7 @@ const ON_CUT_MM: f64 = 1e-3;
 /// What a joint is asked to be fitted into.
 pub(crate) struct PinScene<'a> {
     pub(crate) request: &'a PlanRequest,
-    pub(crate) planes: &'a [Plane],
+    pub(crate) tree: &'a CutTree,
     pub(crate) pieces: &'a [Piece],
     /// The surface of the material before it is cut.
     pub(crate) material: &'a crate::mesh::TriMesh,
@@ -106,20 +107,19 @@ pub(crate) fn seated(
     for pin in pins {
         let lost = || CutError::PinOffFace { pin: pin.id.clone() };
         let is_under = |joint: &Joint| {
-            let plane = &scene.planes[joint.cut];
+            let plane = &scene.tree.planes[joint.cut];
             let center = Point::from(pin.center_mm);
             let at = Chart::of_plane(plane).flat(&center);
-            let caps = || joint.caps.iter().map(|&cap| &scene.pieces[joint.below].caps[cap]);
             pin.cut == cut_id(joint.cut)
                 && plane.distance(&center).abs() <= ON_CUT_MM
-                && caps().any(|cap| cap.holds(&at))
+                && joint.faces(scene.pieces).any(|(_, cap)| cap.holds(&at))
         };
         let joint = joints.iter().position(is_under).ok_or_else(lost)?;
         of_joint[joint].push(pin);
     }
     let mut placed: Vec<Placement> = Vec::new();
     for (joint, pins) in joints.iter().zip(of_joint) {
-        let pegs: Vec<Peg> = pins.iter().map(|pin| peg(&scene.planes[joint.cut], pin)).collect();
+        let pegs: Vec<Peg> = pins.iter().map(|pin| peg(&scene.tree.planes[joint.cut], pin)).collect();
         let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed.iter().collect::<Vec<_>>());
         let widest_mm = face_points(scene, joint).1;
         placed.push(Placement { sites: pins.into_iter().cloned().collect(), pegs, is_one_way, widest_mm });

@@ -3,8 +3,14 @@
 use serde::{Deserialize, Serialize};
 
 use super::{
-    access::VoidAccess, error::CutError, label::Label, layers::CutMove, pin_shape::PinSite, rejoin::Bridge,
+    access::VoidAccess,
+    error::CutError,
+    label::Label,
+    layers::CutMove,
+    pin_shape::PinSite,
+    rejoin::Bridge,
     section::Chart,
+    tree::{CutTree, Limit},
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -49,6 +55,43 @@ pub struct Cut {
     pub point_mm: [f64; 3],
     /// The unit normal.
     pub normal: [f64; 3],
+    /// The sides of other cuts on which alone it cuts; everywhere where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub within: Vec<CutSide>,
+}
+
+/// What lies on one side of a cut, where that cut is made.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CutSide {
+    /// The cut's id.
+    pub cut: String,
+    /// Which side of it.
+    pub side: Side,
+}
+
+/// A side of a cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Side {
+    /// Where its normal points to.
+    Above,
+    /// Where its normal points away from.
+    Below,
+}
+
+impl Side {
+    pub(crate) fn of(is_above: bool) -> Self {
+        if is_above { Self::Above } else { Self::Below }
+    }
+
+    /// `above` or `below`.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Above => "above",
+            Self::Below => "below",
+        }
+    }
 }
 
 /// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing would be opened.
@@ -115,15 +158,30 @@ impl CutPlan {
         self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
     }
 
-    /// The planes of its cuts.
-    pub(crate) fn planes(&self) -> Result<Vec<Plane>, CutError> {
-        self.cuts.iter().map(Cut::plane).collect()
+    /// The planes of its cuts, and where each cuts.
+    pub(crate) fn tree(&self) -> Result<CutTree, CutError> {
+        tree_of(&self.cuts)
     }
 
     /// The faces left whole, in the coordinates of the cuts' planes.
     pub(crate) fn bridges(&self, planes: &[Plane]) -> Vec<Bridge> {
         bridges_on(planes, &self.cuts, &self.uncut)
     }
+}
+
+/// The planes of cuts, and where each cuts.
+pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
+    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
+    let limit = |side: &CutSide| {
+        let cut = cuts.iter().position(|cut| cut.id == side.cut)?;
+        Some(Limit { cut, is_above: side.side == Side::Above })
+    };
+    let limits = |cut: &Cut| {
+        let known: Option<Vec<Limit>> = cut.within.iter().map(limit).collect();
+        known.ok_or_else(|| CutError::CircularCuts)
+    };
+    let limits = cuts.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
+    CutTree::new(planes, limits).ok_or(CutError::CircularCuts)
 }
 
 /// Faces left whole, in the coordinates of the cuts' planes; faces on none of the cuts are left out.

@@ -5,16 +5,18 @@ use super::{
     describe::{described, named_as},
     error::CutError,
     further::{Tried, cleanest, furthered},
+    keep::{Kept, kept},
     layers::at_layers,
     order::CutOrder,
     pins::Pins,
-    plan::{Cut, CutPlan, bridges_on, cut_id},
+    plan::{Cut, CutPlan, Side, bridges_on, cut_id, tree_of},
     pose::{laid, sides_down},
     rejoin::{Bridge, Cutting, bridges, rejoined},
     request::PlanRequest,
     score::{Scene, burden},
     search::{Found, smallest_plans},
     split::{Piece, check_no_cavity},
+    tree::{CutTree, Limit},
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -39,6 +41,7 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
+    notes.extend(side_notes(&layout.tree));
     let plan = described(&scene, &layout, (Pins::Placed, notes.clone()))?;
     at_layers(&scene, &layout, plan, notes)
 }
@@ -67,17 +70,16 @@ fn ordered(
     let scene = Scene::new(hollowed, request)?;
     let cuts =
         order.cuts.iter().map(|cut| beside_faces(&scene, cut)).collect::<Result<Vec<_>, CutError>>()?;
-    let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    let own = order.numbered();
-    let bridges = bridges_on(&planes, &own.cuts, &own.uncut);
-    let pieces = rejoined(scene.split(&planes)?, &planes, &bridges)?;
-    let voids = accesses(&scene.chambers, &planes, request)?;
+    let (tree, own) = (tree_of(&cuts)?, order.numbered());
+    let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
+    let pieces = rejoined(scene.split(&tree)?, &tree.planes, &bridges)?;
+    let voids = accesses(&scene.chambers, &tree, request)?;
     let pins = match (&own.pins, others) {
         (None, _) => Pins::Placed,
         (Some(pins), Others::None) => Pins::Ordered(pins),
         (Some(pins), Others::Placed) => Pins::Around(pins),
     };
-    let plan = described(&scene, &Layout { planes, voids, pieces, bridges }, (pins, Vec::new()))?;
+    let plan = described(&scene, &Layout { tree, voids, pieces, bridges }, (pins, Vec::new()))?;
     Ok(named_as(plan, &cuts))
 }
 
@@ -102,29 +104,28 @@ enum Others {
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
 /// sights. Cuts, pins and joints stay.
 pub fn plan_of(hollowed: &Hollowed, plan: CutPlan, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    let planes = plan.cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
-    Ok(CutPlan { voids: told(hollowed, &planes, request)?, ..plan })
+    Ok(CutPlan { voids: told(hollowed, &plan.tree()?, request)?, ..plan })
 }
 
 /// Cuts, how they open the voids, and the pieces they leave.
 pub(crate) struct Layout {
-    pub(crate) planes: Vec<Plane>,
+    pub(crate) tree: CutTree,
     pub(crate) voids: Vec<VoidAccess>,
     pub(crate) pieces: Vec<Piece>,
     pub(crate) bridges: Vec<Bridge>,
 }
 
 impl Layout {
-    /// The pieces between the planes, left joined where a cut would part them needlessly.
+    /// The pieces between the cuts, each made only where it is needed, and left joined where a cut would part them needlessly.
     fn new(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Result<Self, CutError> {
-        let parted = scene.split(&planes)?;
-        let cutting = Cutting { hollowed: scene.hollowed, planes: &planes, request: scene.request };
+        let Kept { tree, voids, pieces: parted } = kept(scene, &planes, voids)?;
+        let cutting = Cutting { hollowed: scene.hollowed, tree: &tree, request: scene.request };
         let bridges = bridges(&cutting, &parted);
-        let pieces = rejoined(parted.clone(), &planes, &bridges)?;
+        let pieces = rejoined(parted.clone(), &tree.planes, &bridges)?;
         // What stays joined must not seal what the cut opened.
         let (pieces, bridges) =
             if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };
-        Ok(Self { planes, voids, pieces, bridges })
+        Ok(Self { tree, voids, pieces, bridges })
     }
 }
 
@@ -164,6 +165,17 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     Layout::new(scene, planes, voids)
 }
 
+/// Which cuts are made on a side of others only.
+fn side_notes(tree: &CutTree) -> impl Iterator<Item = String> {
+    let note = |cut: usize| {
+        let side = |limit: &Limit| format!("{} {}", Side::of(limit.is_above).word(), cut_id(limit.cut));
+        let sides: Vec<String> = tree.limits(cut).iter().map(side).collect();
+        let words = format!("cut {}: only {}; beyond it nothing needs it", cut_id(cut), sides.join(" and "));
+        (!sides.is_empty()).then_some(words)
+    };
+    (0..tree.planes.len()).filter_map(note)
+}
+
 /// The named terms of a cut's score.
 fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
     let terms = burden(scene, plane).terms(scene);
@@ -184,22 +196,25 @@ fn proof_note(found: &Found) -> String {
 }
 
 /// Whether the piece fits the build volume in some pose.
-fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
+pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
     laid(&piece.mesh, &sides_down(piece, planes, &[], request), request).fits
 }
 
 /// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
 fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>) -> Result<(), CutError> {
     for _ in 0..MAX_FITTING_CUTS {
-        let is_large = |piece: &&Piece| !fits(piece, &layout.planes, scene.request);
+        let is_large = |piece: &&Piece| !fits(piece, &layout.tree.planes, scene.request);
         let Some(piece) = layout.pieces.iter().find(is_large) else { return Ok(()) };
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         let middle = off_vertices(&scene.material, &middle);
-        let planes: Vec<Plane> = layout.planes.iter().copied().chain([middle]).collect();
-        let voids = accesses(&scene.chambers, &planes, scene.request)?;
+        let planes: Vec<Plane> = layout.tree.planes.iter().copied().chain([middle]).collect();
+        let voids = accesses(&scene.chambers, &CutTree::everywhere(&planes), scene.request)?;
         *layout = Layout::new(scene, planes, voids)?;
-        notes.push(format!("cut {}: a part would not fit the build volume", cut_id(layout.planes.len() - 1)));
+        notes.push(format!(
+            "cut {}: a part would not fit the build volume",
+            cut_id(layout.tree.planes.len() - 1)
+        ));
     }
     Ok(())
 }

@@ -8,6 +8,7 @@ use super::{
     request::PlanRequest,
     section::{Chart, Point2, Section},
     split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
+    tree::CutTree,
 };
 use crate::{
     geom::{Plane, Point},
@@ -28,8 +29,17 @@ const SHADOW_CELLS: usize = 96;
 /// What is cut, by what, for which printer.
 pub(crate) struct Cutting<'a> {
     pub(crate) hollowed: &'a Hollowed,
-    pub(crate) planes: &'a [Plane],
+    pub(crate) tree: &'a CutTree,
     pub(crate) request: &'a PlanRequest,
+}
+
+impl Cutting<'_> {
+    /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come apart.
+    fn parts(&self, cut: usize, piece: &Piece) -> bool {
+        self.tree.limits(cut).iter().all(|limit| {
+            self.parts(limit.cut, piece) && piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above
+        })
+    }
 }
 
 /// A place on a cut where the body is left whole.
@@ -50,7 +60,7 @@ pub(crate) struct Bridge {
 ///
 /// The smallest pieces are offered first; a piece that others stay joined to is not joined to a third.
 pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
-    let joints = joints(pieces);
+    let joints = joints(pieces, cutting.tree);
     if joints.len() < 2 {
         return Vec::new();
     }
@@ -71,9 +81,8 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
-            let at =
-                |&cap: &usize| Bridge { cut: joint.cut, at: pieces[joint.below].caps[cap].inner_point() };
-            bridges.extend(joint.caps.iter().map(at));
+            let at = |(_, cap): (&Piece, &Cap)| Bridge { cut: joint.cut, at: cap.inner_point() };
+            bridges.extend(joint.faces(pieces).map(at));
         }
     }
     bridges
@@ -107,7 +116,7 @@ fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
         let sections = cutting.hollowed.voids.iter().map(|void| Section::of_mesh(void.mesh(), plane));
         sections.flat_map(|section| section.rings).flat_map(|ring| ring.points).collect()
     };
-    cutting.planes.par_iter().map(corners).collect()
+    cutting.tree.planes.par_iter().map(corners).collect()
 }
 
 /// Whether a void opens in one of the joint's faces.
@@ -118,7 +127,7 @@ fn has_mouth(joint: &Joint, pieces: &[Piece], mouths: &[Vec<Point2>]) -> bool {
             mouths[joint.cut].iter().filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
         near.into_iter().any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
     };
-    joint.caps.iter().any(|&cap| on_edge(&pieces[joint.below].caps[cap]))
+    joint.faces(pieces).any(|(_, cap)| on_edge(cap))
 }
 
 /// Whether a piece is thinner than the least wall over the face that it would be glued by.
@@ -129,17 +138,18 @@ fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
 
 /// Whether what lies on the piece's side of the cut can be taken off along the normal while the piece stays.
 fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
-    let plane = &cutting.planes[joint.cut];
+    let plane = &cutting.tree.planes[joint.cut];
     let is_above = joint.above == index;
     let sign = if is_above { 1.0 } else { -1.0 };
     let shadow = Shadow::new(&pieces[index].mesh, plane, sign);
-    let moves = |i: &usize| *i != index && pieces[*i].is_above(plane) == is_above;
+    let is_parted = |i: usize| cutting.parts(joint.cut, &pieces[i]);
+    let moves = |i: &usize| *i != index && is_parted(*i) && pieces[*i].is_above(plane) == is_above;
     (0..pieces.len()).filter(moves).all(|i| !shadow.holds_back(&pieces[i].mesh))
 }
 
 fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     let both = a.mesh.clone().joined(&b.mesh);
-    laid(&both, &sides_down(b, cutting.planes, &[], cutting.request), cutting.request).fits
+    laid(&both, &sides_down(b, &cutting.tree.planes, &[], cutting.request), cutting.request).fits
 }
 
 /// One piece of several that touch at bridges.
@@ -272,10 +282,10 @@ mod tests {
 
     /// The pieces that the plane z = 15 leaves and those left after joining again.
     fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
-        let planes = [Plane { normal: Vector::z(), offset_mm: 15.0 }];
-        let pieces = split(&hollowed.to_mesh(), &planes).unwrap();
-        let bridges = bridges(&Cutting { hollowed, planes: &planes, request: &request() }, &pieces);
-        (pieces.len(), rejoined(pieces, &planes, &bridges).unwrap())
+        let tree = CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 15.0 }]);
+        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
+        let bridges = bridges(&Cutting { hollowed, tree: &tree, request: &request() }, &pieces);
+        (pieces.len(), rejoined(pieces, &tree.planes, &bridges).unwrap())
     }
 
     #[test]
@@ -321,11 +331,10 @@ mod tests {
         let hollowed = Hollowed { outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]), voids };
         let level = Plane { normal: Vector::z(), offset_mm: 15.0 };
         let askew = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
-        let planes = [level, askew];
-        let pieces = split(&hollowed.to_mesh(), &planes).unwrap();
-        let bridges =
-            bridges(&Cutting { hollowed: &hollowed, planes: &planes, request: &request() }, &pieces);
-        let left = rejoined(pieces.clone(), &planes, &bridges).unwrap();
+        let tree = CutTree::everywhere(&[level, askew]);
+        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
+        let bridges = bridges(&Cutting { hollowed: &hollowed, tree: &tree, request: &request() }, &pieces);
+        let left = rejoined(pieces.clone(), &tree.planes, &bridges).unwrap();
         assert_eq!((pieces.len(), left.len()), (5, 4));
     }
 

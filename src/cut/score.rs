@@ -25,6 +25,7 @@ use super::{
     section::{Ring, Section},
     sides::Sides,
     split::{Piece, split_body},
+    tree::CutTree,
 };
 use crate::{
     geom::{Aabb, Plane, Point},
@@ -56,9 +57,9 @@ impl<'a> Scene<'a> {
         Ok(Self { hollowed, request, material, body, chambers, volume_mm3, diagonal_mm })
     }
 
-    /// The pieces of the body between the planes.
-    pub(crate) fn split(&self, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-        split_body(&self.body, planes)
+    /// The pieces of the body between the cuts.
+    pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+        split_body(&self.body, tree)
     }
 
     /// How the plane opens each void of `met`; `None` for those it misses.

@@ -7,9 +7,10 @@ use super::{
     request::PlanRequest,
     section::{Chart, Point2},
     split::Piece,
+    tree::CutTree,
 };
 use crate::{
-    geom::{Bvh, Plane, Point},
+    geom::{Bvh, Point},
     mesh::{Solid, area_mm2, spread_points},
 };
 
@@ -34,7 +35,7 @@ struct Eye {
 
 /// How a void is looked into.
 pub(crate) struct Look<'a> {
-    planes: &'a [Plane],
+    tree: &'a CutTree,
     /// The radius of the least opening: nearer to a rim no tool enters.
     tool_radius_mm: f64,
     reach_mm: f64,
@@ -43,10 +44,10 @@ pub(crate) struct Look<'a> {
 }
 
 impl<'a> Look<'a> {
-    pub(crate) fn new(planes: &'a [Plane], request: &PlanRequest) -> Self {
+    pub(crate) fn new(tree: &'a CutTree, request: &PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
         let tool_radius_mm = request.min_opening_mm / 2.0;
-        Self { planes, tool_radius_mm, reach_mm, given_up_ratio: HIDDEN_RATIO }
+        Self { tree, tool_radius_mm, reach_mm, given_up_ratio: HIDDEN_RATIO }
     }
 
     /// The same, but from many places however much is hidden: slower, and right for what is told of a plan.
@@ -72,16 +73,19 @@ impl<'a> Look<'a> {
     }
 
     fn eye(&self, cut: usize, at: &Point2) -> Eye {
-        let plane = &self.planes[cut];
+        let plane = &self.tree.planes[cut];
         Eye { cut, at: Chart::of_plane(plane).lift(plane, at) }
     }
 
-    /// Whether no plane but the eye's own lies between it and a point.
+    /// Whether the eye's cut is made where it looks from, and no other is between it and a point.
     fn is_before(&self, eye: &Eye, at: &Point) -> bool {
-        let others = self.planes.iter().enumerate().filter(|(cut, _)| *cut != eye.cut);
-        others
-            .map(|(_, plane)| plane)
-            .all(|plane| (plane.distance(&eye.at) > 0.0) == (plane.distance(at) > 0.0))
+        let parts = |cut: usize| {
+            let [from, to] = [&eye.at, at].map(|p| self.tree.planes[cut].distance(p));
+            let crossing = eye.at + (at - eye.at) * (from / (from - to));
+            (from > 0.0) != (to > 0.0) && self.tree.acts_at(cut, &crossing)
+        };
+        let others = (0..self.tree.planes.len()).filter(|&cut| cut != eye.cut);
+        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(parts)
     }
 }
 
@@ -245,13 +249,14 @@ impl Seen {
 mod tests {
     use super::*;
     use crate::cut::{scenes::request, split::split};
-    use crate::geom::Vector;
+    use crate::geom::{Plane, Vector};
     use crate::mesh::{Csg, primitives};
 
     fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
-        let look = Look { reach_mm, ..Look::new(planes, &request()) };
-        let pieces = split(void.mesh(), planes).unwrap();
+        let tree = CutTree::everywhere(planes);
+        let look = Look { reach_mm, ..Look::new(&tree, &request()) };
+        let pieces = split(void.mesh(), &tree).unwrap();
         pieces.iter().map(|piece| walls.seen(piece, &look)).fold(Seen::default(), Seen::and).ratio()
     }
 

@@ -1,9 +1,12 @@
 //! The body cut by all planes: its pieces, their cut faces, and which faces meet.
 
+use std::cmp::Reverse;
+
 use super::{
     error::CutError,
     outline::Outline,
     section::{Chart, Point2},
+    tree::CutTree,
 };
 use crate::{
     geom::{Plane, Vector},
@@ -17,6 +20,9 @@ const SHEET_VOLUME_MM3: f64 = 1e-6;
 /// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut keeps 1e-6 away from
 /// the model's own vertices.
 const ON_PLANE_MM: f64 = 1e-7;
+
+/// Faces whose areas differ by less than this share of them are the same, each as its own piece has it.
+const SAME_AREA_RATIO: f64 = 1e-9;
 
 /// A piece of the cut body, bounded by its own surface and by cut faces.
 #[derive(Clone)]
@@ -47,14 +53,24 @@ pub(crate) struct Joint {
     pub(crate) below: usize,
     /// The piece above it.
     pub(crate) above: usize,
-    /// The cut faces between them, as caps of the piece below.
-    pub(crate) caps: Vec<usize>,
+    /// The cut faces between them: the piece, either of the two, that has exactly this face, and which of its caps it is.
+    faces: Vec<[usize; 2]>,
 }
 
 impl Joint {
     /// Whether a piece is one of the two.
     pub(crate) fn touches(&self, piece: usize) -> bool {
         self.below == piece || self.above == piece
+    }
+
+    /// The faces in which the two meet, of those pieces that have exactly these.
+    pub(crate) fn faces<'a>(&'a self, pieces: &'a [Piece]) -> impl Iterator<Item = (&'a Piece, &'a Cap)> {
+        self.faces.iter().map(|&[piece, cap]| (&pieces[piece], &pieces[piece].caps[cap]))
+    }
+
+    /// The area of the faces in which the two meet, mm².
+    pub(crate) fn area_mm2(&self, pieces: &[Piece]) -> f64 {
+        self.faces(pieces).map(|(_, cap)| cap.area_mm2).sum()
     }
 
     /// The other piece of the two.
@@ -71,25 +87,16 @@ impl Piece {
     }
 }
 
-/// The pieces of a closed mesh between the planes, in the order of [`in_order`].
-pub(crate) fn split(mesh: &TriMesh, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-    split_body(&Csg::of_mesh(mesh)?, planes)
+/// The pieces of a closed mesh between the cuts, in the order of [`in_order`].
+pub(crate) fn split(mesh: &TriMesh, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+    split_body(&Csg::of_mesh(mesh)?, tree)
 }
 
 /// The same of a body that is at hand.
-pub(crate) fn split_body(body: &Csg, planes: &[Plane]) -> Result<Vec<Piece>, CutError> {
-    let mut cells = vec![body.clone()];
-    for plane in planes {
-        let mut halves = Vec::new();
-        for cell in &cells {
-            let (above, below) = cell.split_by_plane(plane)?;
-            halves.extend([above, below].into_iter().filter(|half| !half.is_empty()));
-        }
-        cells = halves;
-    }
+pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     let mut pieces = Vec::new();
-    for cell in &cells {
-        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, planes)));
+    for cell in &tree.cells(body)? {
+        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, &tree.planes)));
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
     Ok(in_order(pieces))
@@ -171,6 +178,11 @@ impl Cap {
         self.area_mm2 > 0.0
     }
 
+    /// Whether the face meets another of the same cut: one of them holds the other.
+    fn meets(&self, other: &Self) -> bool {
+        self.cut == other.cut && (self.holds(&other.inner_point()) || other.holds(&self.inner_point()))
+    }
+
     /// Whether the face holds a point of the plane.
     pub(crate) fn holds(&self, p: &Point2) -> bool {
         self.triangles.iter().any(|[a, b, c]| {
@@ -194,19 +206,31 @@ pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2)
     })
 }
 
-/// All pairs of pieces that meet at a cut, ordered by cut, then by the pieces.
-pub(crate) fn joints(pieces: &[Piece]) -> Vec<Joint> {
+/// All pairs of pieces that meet at a cut, ordered so that they can be closed one after the other: those of cuts that others must
+/// be made before first; then by cut, then by the pieces.
+///
+/// Where a cut is kept to one side of another, a face of the other side meets several: the joint is that of the smaller.
+pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
+    let caps = |is_above: bool| {
+        let all = pieces
+            .iter()
+            .enumerate()
+            .flat_map(|(i, piece)| piece.caps.iter().enumerate().map(move |(j, cap)| ([i, j], cap)));
+        all.filter(move |(_, cap)| cap.is_above == is_above)
+    };
     let mut joints: Vec<Joint> = Vec::new();
-    for (below, piece) in pieces.iter().enumerate() {
-        for (index, cap) in piece.caps.iter().enumerate().filter(|(_, cap)| !cap.is_above) {
-            let Some(above) = piece_at(pieces, cap.cut, true, &cap.inner_point()) else { continue };
-            let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (cap.cut, below, above);
+    for (low, below) in caps(false) {
+        for (high, above) in caps(true).filter(|(_, above)| above.meets(below)) {
+            let face = if above.area_mm2 < below.area_mm2 * (1.0 - SAME_AREA_RATIO) { high } else { low };
+            let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (below.cut, low[0], high[0]);
             match joints.iter_mut().find(same) {
-                Some(joint) => joint.caps.push(index),
-                None => joints.push(Joint { cut: cap.cut, below, above, caps: vec![index] }),
+                Some(joint) => joint.faces.push(face),
+                None => {
+                    joints.push(Joint { cut: below.cut, below: low[0], above: high[0], faces: vec![face] })
+                }
             }
         }
     }
-    joints.sort_by_key(|joint| (joint.cut, joint.below, joint.above));
+    joints.sort_by_key(|joint| (Reverse(tree.depth(joint.cut)), joint.cut, joint.below, joint.above));
     joints
 }

@@ -125,6 +125,7 @@ fn no_two_joints_can_be_confused() {
             id: format!("C{i}"),
             point_mm: [20.0 * f64::from(i), 0.0, 0.0],
             normal: [1.0, 0.0, 0.0],
+            within: Vec::new(),
         })
         .collect();
     let plan = plan_by(&body, &request(), &cuts(planes)).unwrap();
@@ -245,11 +246,12 @@ fn a_plan_survives_being_written_and_read() {
 fn degenerate_cuts_and_requests_are_refused_without_panic() {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     for normal in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0]] {
-        let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal };
+        let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal, within: Vec::new() };
         let refused = plan_by(&body, &request(), &cuts(vec![cut])).unwrap_err();
         assert_eq!(refused, CutError::DegenerateCut { cut: "C1".into() });
     }
-    let aside = Cut { id: "C1".into(), point_mm: [0.0, 0.0, 99.0], normal: [0.0, 0.0, 1.0] };
+    let aside =
+        Cut { id: "C1".into(), point_mm: [0.0, 0.0, 99.0], normal: [0.0, 0.0, 1.0], within: Vec::new() };
     assert!(matches!(plan_by(&body, &request(), &cuts(vec![aside])), Err(CutError::ClosedCavity { .. })));
     let asked = PlanRequest { wall_mm: f64::NAN, ..request() };
     assert!(matches!(plan(&body, &asked), Err(CutError::BadRequest { name: "wall_mm", .. })));
@@ -258,7 +260,7 @@ fn degenerate_cuts_and_requests_are_refused_without_panic() {
 #[test]
 fn a_cut_along_a_face_leaves_no_sheets() {
     let body = with_balls(cuboid([0.0; 3], [30.0; 3]), &[]);
-    let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal: [0.0, 0.0, 1.0] };
+    let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal: [0.0, 0.0, 1.0], within: Vec::new() };
     let plan = plan_by(&body, &request(), &cuts(vec![cut])).unwrap();
     assert_eq!(parts(&body, &plan, &request()).unwrap().len(), 1);
 }
