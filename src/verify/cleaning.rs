@@ -108,7 +108,8 @@ impl Seeker<'_> {
     fn void(&self, id: String, cavity: &TriMesh, (felt, parts): (&[Felt], &[TriMesh])) -> VoidFacts {
         let surface = Bvh::new(cavity.iter_corners());
         let area: f64 = cavity.iter_corners().map(|corners| area_mm2(&corners)).sum();
-        let mouths: Vec<Vec<Place>> = self.planes.iter().map(|plane| places(cavity, plane)).collect();
+        let mouths: Vec<Vec<Place>> =
+            self.planes.iter().map(|plane| places(cavity, plane, self.tool_mm / 2.0)).collect();
         let (mut openings_mm, mut found, mut seen, mut clean) = (Vec::new(), 0.0, 0.0, 0.0);
         for (felt, part) in felt.iter().zip(parts) {
             for patch in self.patches(&surface, felt, part) {

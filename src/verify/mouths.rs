@@ -7,6 +7,10 @@ use crate::mesh::TriMesh;
 
 /// Places across the box of a mouth, along each of two directions.
 const ACROSS: usize = 16;
+/// Places along a rim.
+const ALONG: usize = 64;
+/// Those keep this share more from it than they must, so that rounding takes none of them away.
+const ROOM_SLACK_RATIO: f64 = 1e-9;
 /// The places with most room from which the widest is climbed to.
 const CLIMBS: usize = 3;
 /// The climb to the widest place ends at steps of this share of the mouth's box.
@@ -39,8 +43,9 @@ struct Rims {
     rings: Vec<Ring>,
 }
 
-/// Places spread over the mouths of a void's shell (turned either way) in a plane, with the widest place of each.
-pub(super) fn places(shell: &TriMesh, plane: &Plane) -> Vec<Place> {
+/// Places spread over the mouths of a void's shell (turned either way) in a plane and along their rims, there with just the room for a
+/// tool of this radius, and the widest place of each.
+pub(super) fn places(shell: &TriMesh, plane: &Plane, tool_radius_mm: f64) -> Vec<Place> {
     let (u, v) = plane.basis();
     let rims = Rims::of(shell, plane, [u, v]);
     let lift = |p: &Flat| plane.foot() + u * p.x + v * p.y;
@@ -50,6 +55,7 @@ pub(super) fn places(shell: &TriMesh, plane: &Plane) -> Vec<Place> {
         flat.sort_by(|a, b| b.1.total_cmp(&a.1));
         let starts: Vec<(Flat, f64)> = flat.iter().copied().take(CLIMBS).collect();
         flat.extend(starts.into_iter().map(|start| rims.climbed(ring, start)));
+        flat.extend(rims.beside(ring, tool_radius_mm));
         places.extend(flat.into_iter().filter_map(|(at, room_mm)| {
             let (_, rim) = rims.nearest(&at)?;
             Some(Place { at: lift(&at), room_mm, rim: lift(&rim), mouth: rims.mouth(&at)? })
@@ -117,6 +123,28 @@ impl Rims {
         points.filter(|(_, room_mm)| *room_mm > 0.0).collect()
     }
 
+    /// Points beside a ring, inside the void, with this room.
+    fn beside(&self, ring: &Ring, room_mm: f64) -> Vec<(Flat, f64)> {
+        let length = |[a, b]: &[Flat; 2]| (b - a).norm();
+        let spacing = ring.segments.iter().map(length).sum::<f64>() / ALONG as f64;
+        let (mut points, mut walked, mut next) = (Vec::new(), 0.0, 0.0);
+        for segment in &ring.segments {
+            let [a, b] = segment;
+            let along = (b - a) / length(segment).max(f64::MIN_POSITIVE);
+            while next < walked + length(segment) {
+                let foot = a + along * (next - walked);
+                let normal = nalgebra::Vector2::new(along.y, -along.x);
+                let sides =
+                    [1.0, -1.0].map(|side| foot + normal * (side * room_mm * (1.0 + ROOM_SLACK_RATIO)));
+                let beside = sides.map(|p| (p, self.room_mm(&p)));
+                points.extend(beside.into_iter().find(|(_, found_mm)| *found_mm >= room_mm));
+                next += spacing;
+            }
+            walked += length(segment);
+        }
+        points
+    }
+
     /// The roomiest point that steps to the eight sides lead to, the steps halved where none does.
     fn climbed(&self, ring: &Ring, (mut at, mut room_mm): (Flat, f64)) -> (Flat, f64) {
         let size = (ring.high - ring.low).norm();
@@ -177,24 +205,38 @@ mod tests {
             let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
             let shell = if turned { shell.reversed() } else { shell };
             let widest =
-                places(&shell, &level(4.0)).into_iter().max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
+                places(&shell, &level(4.0), 0.5).into_iter().max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
             let widest = widest.unwrap();
             assert!((widest.room_mm - 2.5).abs() < 0.01, "{widest:?}");
             assert!((widest.at.z - 4.0).abs() < 1e-12 && (widest.rim - widest.at).norm() > 2.49);
         }
-        assert!(places(&block(Point::origin(), [8.0, 5.0, 6.0]), &level(7.0)).is_empty());
+        assert!(places(&block(Point::origin(), [8.0, 5.0, 6.0]), &level(7.0), 0.5).is_empty());
+    }
+
+    #[test]
+    fn places_along_the_rim_keep_just_the_tools_room() {
+        let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
+        let beside = |room_mm: f64| {
+            places(&shell, &level(4.0), room_mm)
+                .into_iter()
+                .filter(move |p| (p.room_mm - room_mm).abs() < 1e-6)
+        };
+        // All but those whose foot is nearer than 0.75 mm to a corner: 8 times 0.75 of 26 mm.
+        let found = beside(0.75).count() as f64 / ALONG as f64;
+        assert!((found - 20.0 / 26.0).abs() < 0.1, "{found}");
+        assert_eq!(beside(2.6).count(), 0, "a tool wider than the mouth");
     }
 
     #[test]
     fn two_mouths_of_one_cut_are_told_apart_and_a_hole_is_none() {
         let two = block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
         let mouths: std::collections::BTreeSet<usize> =
-            places(&two, &level(2.0)).iter().map(|place| place.mouth).collect();
+            places(&two, &level(2.0), 0.5).iter().map(|place| place.mouth).collect();
         assert_eq!(mouths.len(), 2);
         // A square frame: 1 mm of room all around a column of material.
         let frame =
             block(Point::origin(), [10.0; 3]).joined(&block(Point::new(2.0, 2.0, 0.0), [6.0; 3]).reversed());
-        let found = places(&frame, &level(2.0));
+        let found = places(&frame, &level(2.0), 0.5);
         let first = found[0].mouth;
         assert!(found.iter().all(|place| place.mouth == first && place.room_mm < 1.2), "{found:?}");
     }
