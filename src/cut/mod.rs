@@ -62,3 +62,4 @@ pub use request::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 pub use rod::{Dowel, Rod, RodSource, rods};
 pub use seat::Seat;
 pub use section::{Point2, Ring, Section};
+pub use tree::reached;

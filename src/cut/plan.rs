@@ -13,7 +13,7 @@ use super::{
     tree::{CutTree, Limit},
 };
 use crate::{
-    geom::{Plane, Point, Vector},
+    geom::{Parting, Plane, Point, Vector},
     mass::FlatFace,
     mesh::{Hollowed, Solid, TriMesh},
 };
@@ -156,6 +156,11 @@ impl CutPlan {
         let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
         let pegs = self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
         self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
+    }
+
+    /// Its cuts as they are made, in their order.
+    pub fn partings(&self) -> Result<Vec<Parting>, CutError> {
+        Ok(self.tree()?.partings().collect())
     }
 
     /// The planes of its cuts, and where each cuts.

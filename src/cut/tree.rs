@@ -3,9 +3,22 @@
 
 use super::error::CutError;
 use crate::{
-    geom::{Plane, Point},
-    mesh::Csg,
+    geom::{Parting, Plane, Point},
+    mesh::{Csg, TriMesh},
 };
+
+/// What of a closed mesh lies in the half-spaces within which a plane parts it, closed where they end.
+pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
+    if parting.within.is_empty() {
+        return Ok(mesh.clone());
+    }
+    let mut body = Csg::of_mesh(mesh)?;
+    for (plane, is_above) in &parting.within {
+        let (above, below) = body.split_by_plane(plane)?;
+        body = if *is_above { above } else { below };
+    }
+    Ok(body.to_mesh()?)
+}
 
 /// The side of a cut on which alone another cuts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,6 +71,18 @@ impl CutTree {
     /// The sides to which a cut is kept.
     pub(crate) fn limits(&self, cut: usize) -> &[Limit] {
         &self.limits[cut]
+    }
+
+    /// The cuts as they are made.
+    pub(crate) fn partings(&self) -> impl Iterator<Item = Parting> {
+        (0..self.planes.len()).map(|cut| Parting { plane: self.planes[cut], within: self.sides(cut) })
+    }
+
+    /// The planes of the cuts that are made before this one, with its side of them.
+    fn sides(&self, cut: usize) -> Vec<(Plane, bool)> {
+        let own = self.limits[cut].iter();
+        own.flat_map(|limit| [vec![(self.planes[limit.cut], limit.is_above)], self.sides(limit.cut)].concat())
+            .collect()
     }
 
     /// How many cuts must be made one after the other before this one.
@@ -162,5 +187,10 @@ mod tests {
         assert!(acts(1.0, 1.0) && !acts(1.0, -1.0));
         assert!(!acts(-1.0, 1.0), "there the second does not cut, so nothing lies above it");
         assert!(tree.acts_at(0, &Point::new(0.0, -5.0, 5.0)));
+        let last = tree.partings().last().unwrap();
+        assert_eq!(last.within.len(), 2);
+        assert!(last.acts_at(&Point::new(1.0, 1.0, 0.0)) && !last.acts_at(&Point::new(-1.0, 1.0, 0.0)));
+        let reached = reached(&last, cuboid([-10.0; 3], [10.0; 3]).mesh()).unwrap();
+        assert!((reached.signed_volume_mm3() - 2000.0).abs() < 1e-9);
     }
 }

@@ -3,6 +3,7 @@
 mod aabb;
 mod bvh;
 mod frame;
+mod parting;
 mod plane;
 mod quadric;
 pub mod triangle;
@@ -10,6 +11,7 @@ pub mod triangle;
 pub use aabb::Aabb;
 pub use bvh::{Bvh, NO_HINT, Nearest};
 pub use frame::Frame;
+pub use parting::Parting;
 pub use plane::{Plane, orthonormal_basis};
 pub use quadric::Quadric;
 

@@ -4,8 +4,8 @@ use super::void_rows::void_id;
 use super::{Assembly, Error, written::WrittenPart};
 use rayon::prelude::*;
 
-use crate::cut::{Point2, Ring, Section, UncutFace, VoidAccess};
-use crate::geom::{Plane, Point};
+use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, reached};
+use crate::geom::{Parting, Plane, Point};
 use crate::mesh::MeshDistance;
 use crate::report::{CutFace, Mouth, Region};
 
@@ -23,16 +23,26 @@ pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
     let solid =
         |written: &WrittenPart| (written.part.id.clone(), MeshDistance::new(written.part.solid.mesh()));
     let solids: Vec<(String, MeshDistance)> = assembly.parts.par_iter().map(solid).collect();
-    let face = |cut: &crate::cut::Cut| {
-        let plane = cut.plane()?;
-        let section = Section::of_mesh(&body, &plane);
+    let partings = plan.partings()?;
+    let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
+        let plane = parting.plane;
+        let section = Section::of_mesh(&reached(parting, &body)?, &plane);
         let regions = regions(&section, &plane, &solids);
         let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
         let whole = plan.uncut.iter().filter(|face| face.cut == cut.id).map(|face| flat_point(&plane, face));
-        let (wall, whole, mouths) = (thinnest(&rings), whole.collect(), mouths(assembly, &plane));
+        let (whole, mouths) = (whole.collect(), mouths(assembly, parting)?);
+        // What ends where the cut ends is no wall.
+        let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
         Ok(CutFace { cut: cut.id.clone(), plane, rings, wall, whole, regions, mouths })
     };
-    plan.cuts.iter().map(face).collect()
+    plan.cuts.iter().zip(&partings).map(face).collect()
+}
+
+/// Whether a place of a cut, in the plane's coordinates, lies where the cut ends at another.
+fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
+    let (u, v) = parting.plane.basis();
+    let at = parting.plane.foot() + u * x + v * y;
+    parting.within.iter().any(|(other, _)| other.distance(&at).abs() < OFF_MM)
 }
 
 /// Every region of material that the cut parts, with the parts below and above it: looked for beside the middle of its widest
@@ -55,19 +65,20 @@ fn regions(section: &Section, plane: &Plane, solids: &[(String, MeshDistance)]) 
     section.largest_discs().into_iter().filter_map(region).collect()
 }
 
-/// Where the plane opens voids, each with the largest disc that passes there.
-fn mouths(assembly: &Assembly, plane: &Plane) -> Vec<Mouth> {
-    let of_void = |access: &VoidAccess| {
-        let body = assembly.hollowed.voids.get(access.void);
-        let discs = body.map_or(Vec::new(), |body| Section::of_mesh(body.mesh(), plane).largest_discs());
+/// Where the cut opens voids, each with the largest disc that passes there.
+fn mouths(assembly: &Assembly, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
+    let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
+        let Some(body) = assembly.hollowed.voids.get(access.void) else { return Ok(Vec::new()) };
+        let discs = Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
         let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
             void: void_id(access.void),
             at: [at.x, at.y],
             diameter_mm,
         };
-        discs.into_iter().map(mouth).collect::<Vec<Mouth>>()
+        Ok(discs.into_iter().map(mouth).collect())
     };
-    assembly.plan.voids.iter().flat_map(of_void).collect()
+    let of_voids = assembly.plan.voids.iter().map(of_void).collect::<Result<Vec<_>, _>>()?;
+    Ok(of_voids.concat())
 }
 
 fn flat_ring(ring: &Ring) -> Vec<[f64; 2]> {

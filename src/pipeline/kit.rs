@@ -10,7 +10,7 @@ use super::void_rows;
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
 use crate::cut::{CutOrder, CutPlan};
 use crate::digest::sha256_hex;
-use crate::geom::Plane;
+use crate::geom::Parting;
 use crate::io::stl;
 use crate::job::JobError;
 use crate::mesh::weld;
@@ -43,7 +43,7 @@ pub fn prepared(
         parts: assembly.evidence(),
     };
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
-    let cuts = assembly.plan.cuts.iter().map(|cut| cut.plane()).collect::<Result<Vec<_>, _>>()?;
+    let cuts = assembly.plan.partings()?;
     let sitting = sitting(&shells, &cuts, &evidence);
     let ((promise, judgement), ((pictures, view), packages)) = rayon::join(
         || judged(setup, evidence.clone()),
@@ -89,7 +89,7 @@ fn file_papers(kit: &mut Kit, sheet: &Checklist, (pictures, view): (&[Picture], 
 }
 
 /// What the pictures are taken of: the files as they are written.
-fn sitting<'a>(shells: &'a Shells, cuts: &'a [Plane], evidence: &'a Evidence) -> Sitting<'a> {
+fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) -> Sitting<'a> {
     let Promise { goal, hardware, ballast, parts: promised, .. } = &evidence.promise;
     Sitting { shells, parts: &evidence.parts, promised, cuts, aim: *goal, hardware, ballast }
 }

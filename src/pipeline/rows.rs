@@ -19,7 +19,7 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, Course, CutRow, FootRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
+    BallastRow, Certificate, Checklist, Course, FootRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
     SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
 };
 use crate::verify::{
@@ -82,7 +82,7 @@ fn filled(sheet: &Sheet) -> Checklist {
             measured_min_mm: judgement.wall_min_mm,
         },
         voids: void_rows::void_rows(sheet),
-        cuts: cut_rows(sheet),
+        cuts: void_rows::cut_rows(&sheet.assembly.plan),
         turn: turn_row(sheet, &parts),
         foot,
         parts,
@@ -217,11 +217,6 @@ fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
     let joined = joined(setup, &sheet.assembly.plan);
     let whole = sheet.assembly.written_moments() + joined + setup.hardware_moments();
     figures(goal, &whole.in_frame(&goal.frame)).spin_it
-}
-
-fn cut_rows(sheet: &Sheet) -> Vec<CutRow> {
-    let cuts = sheet.assembly.plan.cuts.iter();
-    cuts.map(|cut| CutRow { id: cut.id.clone(), point_mm: cut.point_mm, normal: cut.normal }).collect()
 }
 
 fn part_rows(sheet: &Sheet) -> Vec<PartRow> {

@@ -1,9 +1,9 @@
 //! The checklist's rows about voids: how each is opened and cleaned, and what cleaning cost.
 
 use super::{Assembly, CleaningRound, Setup, rows::Sheet, written::WrittenPart};
-use crate::cut::{CutPlan, VoidAccess};
+use crate::cut::{Cut, CutPlan, CutSide, VoidAccess};
 use crate::geom::{Bvh, Point};
-use crate::report::{CleaningRow, KeptRow, VoidRow, is_clean};
+use crate::report::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
 use crate::verify::{PromisedCut, PromisedVoid};
 
 /// How near to a void's wall a corner lies on it, mm: the booleans keep corners to 1e-6 mm.
@@ -66,6 +66,18 @@ pub fn promised_voids(setup: &Setup, plan: &CutPlan) -> Vec<PromisedVoid> {
         least_opening_mm: Some(least_opening_mm(setup, plan, access.void)),
     };
     plan.voids.iter().map(promised).collect()
+}
+
+/// The cuts as the sheet lists them.
+pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
+    let side = |side: &CutSide| SideRow { cut: side.cut.clone(), side: side.side.word().to_owned() };
+    let row = |cut: &Cut| CutRow {
+        id: cut.id.clone(),
+        point_mm: cut.point_mm,
+        normal: cut.normal,
+        within: cut.within.iter().map(side).collect(),
+    };
+    plan.cuts.iter().map(row).collect()
 }
 
 /// The cuts as the judge sees them.

@@ -14,7 +14,7 @@ use super::plate;
 use super::projection::Projection;
 use super::seen::Seen;
 use super::svg::{Drawing, Mark};
-use crate::geom::{Frame, Plane, Point, Vector};
+use crate::geom::{Frame, Parting, Plane, Point, Vector};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
@@ -45,8 +45,8 @@ pub struct Sitting<'a> {
     pub parts: &'a [PartEvidence],
     /// What was promised of them, in the same order.
     pub promised: &'a [PromisedPart],
-    /// The planes they were cut along, model frame.
-    pub cuts: &'a [Plane],
+    /// The cuts between them, model frame.
+    pub cuts: &'a [Parting],
     /// The goal: its axis points up in the pictures.
     pub aim: Aim,
     /// What is put in that is not printed, model frame.
@@ -56,12 +56,12 @@ pub struct Sitting<'a> {
 }
 
 impl Sitting<'_> {
-    /// The planes along which the parts are drawn apart: those of the cuts, and the one between the halves of a yo-yo.
-    pub(super) fn partings(&self) -> Vec<Plane> {
+    /// The cuts along which the parts are drawn apart, and the plane between the halves of a yo-yo.
+    pub(super) fn partings(&self) -> Vec<Parting> {
         let frame = self.aim.frame();
         let has_halves = self.hardware.iter().any(|piece| piece.what == "axle");
         let between = has_halves.then(|| Plane::through(&frame.origin, &frame.axis()));
-        self.cuts.iter().copied().chain(between).collect()
+        self.cuts.iter().cloned().chain(between.map(Parting::everywhere)).collect()
     }
 }
 
@@ -102,7 +102,7 @@ pub fn album(sitting: &Sitting) -> Result<Vec<Picture>, PictureError> {
 }
 
 /// Adds the ballast to the parts drawn apart: between the parts whose cut opens its pocket.
-fn add_ballast<'a>(shot: &mut Shot<'a>, sitting: &Sitting, lumps: &'a [TriMesh], partings: &[Plane]) {
+fn add_ballast<'a>(shot: &mut Shot<'a>, sitting: &Sitting, lumps: &'a [TriMesh], partings: &[Parting]) {
     let apart_mm = apart::apart_mm(&shot.scene.items);
     for (order, mesh) in sitting.ballast.iter().zip(lumps) {
         let shift = apart::lump_shift(&order.lump, partings, apart_mm);

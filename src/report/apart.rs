@@ -5,7 +5,7 @@ use super::figure::Role;
 use super::hatch::Hatch;
 use super::palette::part_color;
 use super::picture::{Item, Scene};
-use crate::geom::{Aabb, Frame, Plane, Point, Vector};
+use crate::geom::{Aabb, Frame, Parting, Point, Vector};
 use crate::mass::Lump;
 use crate::mesh::TriMesh;
 use crate::verify::{PartEvidence, Peg, PromisedPart};
@@ -24,7 +24,7 @@ const SAME_MM: f64 = 1e-6;
 /// The parts in the model frame and how far each is drawn from its place.
 pub(super) struct Apart<'a> {
     parts: &'a [TriMesh],
-    cuts: &'a [Plane],
+    cuts: &'a [Parting],
     shifts: Vec<Vector>,
 }
 
@@ -33,22 +33,26 @@ pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
     parts.iter().map(|part| part.mesh.map_vertices(|p| part.pose.to_model(p))).collect()
 }
 
-/// How far each part is drawn from its place: away from every cut, to its own side.
-pub(super) fn shifts(parts: &[TriMesh], cuts: &[Plane]) -> Vec<Vector> {
+/// How far each part is drawn from its place: away from every cut that is made where it lies, to its own side.
+pub(super) fn shifts(parts: &[TriMesh], cuts: &[Parting]) -> Vec<Vector> {
     let apart_mm = of_longest_side_mm(parts.iter());
     parts.iter().map(|part| cuts.iter().map(|cut| away(cut, &part.aabb().center(), apart_mm)).sum()).collect()
 }
 
 /// How far what has its centre here is drawn from a cut that parts `apart_mm`.
-fn away(cut: &Plane, center: &Point, apart_mm: f64) -> Vector {
-    cut.normal * (0.5 * apart_mm * cut.distance(center).signum())
+fn away(cut: &Parting, center: &Point, apart_mm: f64) -> Vector {
+    if cut.acts_at(center) {
+        cut.plane.normal * (0.5 * apart_mm * cut.plane.distance(center).signum())
+    } else {
+        Vector::zeros()
+    }
 }
 
 /// How far ballast is drawn from its place: between the parts whose cut opens its pocket.
-pub(super) fn lump_shift(lump: &Lump, partings: &[Plane], apart_mm: f64) -> Vector {
+pub(super) fn lump_shift(lump: &Lump, partings: &[Parting], apart_mm: f64) -> Vector {
     let (center, reach_mm) = (Point::from(lump.center_mm), lump.shape.radius_mm());
-    let past = partings.iter().filter(|plane| plane.distance(&center).abs() > reach_mm);
-    past.map(|plane| away(plane, &center, apart_mm)).sum()
+    let past = partings.iter().filter(|cut| cut.plane.distance(&center).abs() > reach_mm);
+    past.map(|cut| away(cut, &center, apart_mm)).sum()
 }
 
 /// How far the parts of a scene are drawn apart at a cut, mm.
@@ -63,7 +67,7 @@ pub(super) fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) 
 }
 
 impl<'a> Apart<'a> {
-    pub fn of(parts: &'a [TriMesh], cuts: &'a [Plane]) -> Self {
+    pub fn of(parts: &'a [TriMesh], cuts: &'a [Parting]) -> Self {
         Self { parts, cuts, shifts: shifts(parts, cuts) }
     }
 
@@ -99,7 +103,7 @@ impl<'a> Apart<'a> {
             turned(&frame.direction_to_model(&-Vector::y()), &frame.axis(), [turn, LIFT])
         };
         let cost = |toward: &Vector| -> f64 {
-            self.cuts.iter().map(|cut| (cut.normal.dot(toward).abs() - FACE_COSINE).powi(2)).sum()
+            self.cuts.iter().map(|cut| (cut.plane.normal.dot(toward).abs() - FACE_COSINE).powi(2)).sum()
         };
         let first = direction(0);
         let better = |best: Vector, next: Vector| if cost(&next) < cost(&best) { next } else { best };

@@ -114,12 +114,20 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
         caption: format!(
-            "Cut {}. P: the part behind the drawing | the part taken off it; N: pins; V: voids. Diameters in mm.",
-            face.cut
+            "Cut {}{}. P: the part behind the drawing | the part taken off it; N: pins; V: voids. Diameters in mm.",
+            face.cut,
+            sides(sheet, &face.cut)
         ),
         alt: format!("Section at cut {} with its sizes, {pins}.", face.cut),
         drawn: Drawn::Svg(drawn(sheet, face, &pegs)),
     }
+}
+
+/// `, made only above C1 and below C2`; nothing of a cut through everything.
+fn sides(sheet: &Checklist, cut: &str) -> String {
+    let within = sheet.cuts.iter().filter(|row| row.id == cut).flat_map(|row| &row.within);
+    let sides: Vec<String> = within.map(|side| format!("{} {}", side.side, side.cut)).collect();
+    if sides.is_empty() { String::new() } else { format!(", made only {}", sides.join(" and ")) }
 }
 
 /// The pins of a cut with their sockets.

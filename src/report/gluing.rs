@@ -203,6 +203,13 @@ mod tests {
     }
 
     #[test]
+    fn a_side_that_a_cut_was_kept_to_is_closed_before_the_other_side_comes_on() {
+        let kept = sheet(3, &[(3, 2, "C2"), (2, 1, "C1"), (3, 1, "C1")]);
+        assert_eq!(names(&kept), ["J1", "J2 and J3 together"]);
+        assert_eq!(closings(&kept)[1].bodies(), ["P03 + P02", "P01"]);
+    }
+
+    #[test]
     fn a_ring_of_parts_on_one_plane_closes_every_joint_once() {
         let fan = sheet(5, &[(2, 4, "C1"), (3, 1, "C1"), (3, 4, "C1"), (5, 4, "C1")]);
         assert_eq!(names(&fan), ["J1", "J2", "J3", "J4"]);

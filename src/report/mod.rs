@@ -65,7 +65,7 @@ pub use palette::part_color;
 pub use picture::{Camera, Color, Image, Item, PictureError, Scene, render};
 pub use projection::Projection;
 pub use qr::JobId;
-pub use rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
+pub use rows::{BallastRow, CutRow, JointRow, PartRow, SideRow, VoidRow};
 pub use support::SupportRow;
 pub use svg::{Anchor, Drawing, Spot, Stroke};
 pub use timing::Timing;

@@ -43,6 +43,18 @@ pub struct CutRow {
     pub point_mm: [f64; 3],
     /// The unit normal of its plane, model frame.
     pub normal: [f64; 3],
+    /// The sides of other cuts on which alone it is made; everywhere where there are none.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub within: Vec<SideRow>,
+}
+
+/// A side of a cut.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct SideRow {
+    /// The cut's name on the sheet.
+    pub cut: String,
+    /// `above` where its normal points to, `below` where it points away from.
+    pub side: String,
 }
 
 /// One part.

@@ -1,8 +1,7 @@
 //! A sound checklist for the tests of the paperwork: the hollow box of the judge's tests.
 
 use super::*;
-use crate::geom::Plane;
-use crate::geom::{Point, Vector};
+use crate::geom::{Parting, Plane, Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
 use crate::verify::{
@@ -42,7 +41,7 @@ pub fn sample() -> (Checklist, Evidence) {
 /// Its pictures and its view.
 pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
-    let cuts = [Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z())];
+    let cuts = [Parting::everywhere(Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z()))];
     let Promise { goal: aim, parts: promised, hardware, ballast, .. } = &evidence.promise;
     let sitting = Sitting {
         shells: &shells,
@@ -56,7 +55,7 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
     let frame = |[x, y]: [f64; 2]| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
     let face = CutFace {
         cut: "C1".into(),
-        plane: cuts[0],
+        plane: cuts[0].plane,
         rings: vec![frame([30.0, 20.0]), frame([27.0, 17.0]).into_iter().rev().collect()],
         wall: Some([[27.0, 0.0], [30.0, 0.0]]),
         whole: vec![],
@@ -110,7 +109,12 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         },
         wall: WallRow { required_mm: 3.0, asked_mm: None, measured_min_mm: found.wall_min_mm },
         voids: vec![the_void()],
-        cuts: vec![CutRow { id: "C1".into(), point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }],
+        cuts: vec![CutRow {
+            id: "C1".into(),
+            point_mm: [0.0, 0.0, 16.0],
+            normal: [0.0, 0.0, 1.0],
+            within: Vec::new(),
+        }],
         parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
         joints: vec![joint()],
         grid: vec![grid_row()],
