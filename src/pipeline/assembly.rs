@@ -12,7 +12,7 @@ use super::{
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids, inside},
-    tuning::is_tuned,
+    tuning::defect_ratio,
     written::WrittenPart,
 };
 use crate::cut::{
@@ -133,46 +133,71 @@ fn written_moments(parts: &[WrittenPart]) -> Moments {
     assembly_moments(&evidence)
 }
 
-/// The parts by a plan, of voids solved for again with what the pins and sockets change.
+/// Written parts, and what they lack.
+#[derive(Clone)]
+struct Made {
+    voids: Voids,
+    plan: CutPlan,
+    parts: Vec<WrittenPart>,
+    /// What the parts have more than the uncut voids' body: pins, sockets, glue, and what rounding does; model frame.
+    more: Moments,
+    /// How far they are from the goal's constraints, in tolerances.
+    defect_ratio: f64,
+}
+
+/// The parts by a plan, of voids solved for again with what the pins and sockets change; of all attempts those that come nearest to
+/// the goal.
 fn assembled(
     setup: &Setup,
     tuner: &mut Tuner,
-    (mut voids, mut plan): (Voids, CutPlan),
+    (voids, plan): (Voids, CutPlan),
     request: &PlanRequest,
 ) -> Result<Assembly, Error> {
-    let goal = &setup.placement.goal;
-    let mut more = moments_of_mesh(&plan.pegs()) + joined(setup, &plan);
-    let mut attempts = 0;
-    loop {
-        voids = tuner.tuned(voids, more)?.finished()?;
-        let parts = written_parts(setup, &voids, &mut plan, request)?;
-        let written = written_moments(&parts);
-        let joined = joined(setup, &plan);
-        let whole = written + joined + inside(setup, &voids.hollowed);
-        attempts += 1;
-        if attempts == MAX_ASSEMBLIES || is_tuned(goal, &voids.solution.moments, &whole.in_frame(&goal.frame))
-        {
-            let plan = cut::plan_of(&voids.hollowed, plan, request)?;
-            let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
-            let bosses = Vec::new();
-            let (height_proof, course) = (tuner.height_proof(), tuner.course().clone());
-            let value_before_cleaning = solution.certificate.value;
-            return Ok(Assembly {
-                solution,
-                height_proof,
-                course,
-                hollowed,
-                refused_mm3,
-                plan,
-                parts,
-                rounds,
-                value_before_cleaning,
-                cleaning: Vec::new(),
-                bosses,
-            });
+    let more = moments_of_mesh(&plan.pegs()) + joined(setup, &plan);
+    let mut last = made(setup, tuner, (voids, plan, more), request)?;
+    let mut best = last.clone();
+    for _ in 1..MAX_ASSEMBLIES {
+        if best.defect_ratio <= 1.0 {
+            break;
         }
-        more = written + joined - moments_of_mesh(&voids.hollowed.to_mesh());
+        last = made(setup, tuner, (last.voids, last.plan, last.more), request)?;
+        if last.defect_ratio < best.defect_ratio {
+            best = last.clone();
+        }
     }
+    let Made { voids, plan, parts, .. } = best;
+    let plan = cut::plan_of(&voids.hollowed, plan, request)?;
+    let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
+    Ok(Assembly {
+        value_before_cleaning: solution.certificate.value,
+        solution,
+        height_proof: tuner.height_proof(),
+        course: tuner.course().clone(),
+        hollowed,
+        refused_mm3,
+        plan,
+        parts,
+        rounds,
+        cleaning: Vec::new(),
+        bosses: Vec::new(),
+    })
+}
+
+/// One attempt: the voids tuned to what the parts have more, and the parts.
+fn made(
+    setup: &Setup,
+    tuner: &mut Tuner,
+    (voids, mut plan, more): (Voids, CutPlan, Moments),
+    request: &PlanRequest,
+) -> Result<Made, Error> {
+    let goal = &setup.placement.goal;
+    let voids = tuner.tuned(voids, more)?.finished()?;
+    let parts = written_parts(setup, &voids, &mut plan, request)?;
+    let whole = written_moments(&parts) + joined(setup, &plan);
+    let inside = inside(setup, &voids.hollowed);
+    let defect_ratio = defect_ratio(goal, &voids.solution.moments, &(whole + inside).in_frame(&goal.frame));
+    let more = whole - moments_of_mesh(&voids.hollowed.to_mesh());
+    Ok(Made { voids, plan, parts, more, defect_ratio })
 }
 
 /// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed so that the plan leaves

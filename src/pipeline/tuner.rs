@@ -2,7 +2,7 @@
 
 use rayon::prelude::*;
 
-use super::{Error, Setup, Solved, tuning::is_tuned};
+use super::{Error, Setup, Solved, tuning::defect_ratio};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
@@ -91,17 +91,27 @@ impl<'a> Tuner<'a> {
     }
 
     /// The voids solved for again until the uncut mesh and `more` (model frame) together meet the goal's
-    /// constraints.
+    /// constraints; of all rounds those that come nearest to them where none does.
+    ///
+    /// Each surface is drawn anew, with an error that no other foretells: where a body's moments are nearly alike, its axis goes about
+    /// from round to round by more than is allowed (heart at 60 mm by filament: 0.01 to 0.17 degrees).
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
+        let mut written = self.written(&voids, more);
+        let mut least = defect_ratio(goal, &voids.solution.moments, &written);
+        let mut best = voids.clone();
         for _ in 0..MAX_ROUNDS {
-            let written = self.written(&voids, more);
-            if is_tuned(goal, &voids.solution.moments, &written) {
+            if least <= 1.0 {
                 break;
             }
             voids = self.again(&voids, written)?;
+            written = self.written(&voids, more);
+            let defect = defect_ratio(goal, &voids.solution.moments, &written);
+            if defect < least {
+                (least, best) = (defect, voids.clone());
+            }
         }
-        Ok(voids)
+        Ok(best)
     }
 
     /// The moments (goal frame) of the uncut mesh and what is in it, and of `more` (model frame).

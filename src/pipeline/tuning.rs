@@ -1,4 +1,4 @@
-//! Whether a body is near enough to its goal's constraints, or has to be solved for again.
+//! How near a body is to its goal's constraints: whether it has to be solved for again.
 
 use crate::goal::{Goal, GoalKind, Objective};
 use crate::mass::{Body, Moments};
@@ -12,43 +12,44 @@ const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// The share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
-/// Whether a body of these moments (goal frame) is as near to the goal's constraints, or to what was `solved` where they
-/// cannot be met, as a written kit needs to be.
-pub fn is_tuned(goal: &Goal, solved: &Moments, moments: &Moments) -> bool {
+/// How far a body of these moments (goal frame) is from the goal's constraints, or from what was `solved` where they cannot be met, in
+/// the tolerances that a written kit needs: that of the constraint which is missed most. A kit breaks its promise at about ten.
+pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     let body = Body::new(moments, 1.0);
-    let off_axis_mm = body.center.xy().coords.norm();
+    let aside = body.center.xy().coords.norm() / CENTER_TOLERANCE_MM;
     match goal.kind {
-        GoalKind::Top => off_axis_mm <= CENTER_TOLERANCE_MM && is_upright(&body),
-        GoalKind::Yoyo => body.center.coords.norm() <= CENTER_TOLERANCE_MM && is_upright(&body),
-        GoalKind::Float => is_trimmed(goal, moments),
-        GoalKind::Balance => is_balanced(goal, &(*moments - *solved), moments),
-        GoalKind::Stand => goal.objective != Objective::LowestCenter || off_axis_mm <= CENTER_TOLERANCE_MM,
+        GoalKind::Top => aside.max(lean(&body)),
+        GoalKind::Yoyo => (body.center.coords.norm() / CENTER_TOLERANCE_MM).max(lean(&body)),
+        GoalKind::Float => out_of_trim(goal, moments),
+        GoalKind::Balance => unbalance(goal, &(*moments - *solved), moments),
+        GoalKind::Stand if goal.objective == Objective::LowestCenter => aside,
+        GoalKind::Stand => 0.0,
     }
 }
 
-/// Whether a body weighs what the water carries, with its centre over that of buoyancy.
-fn is_trimmed(goal: &Goal, moments: &Moments) -> bool {
+/// How far a body is from the weight that the water carries, and its centre from that of buoyancy, in tolerances.
+fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     let afloat = goal.afloat.unwrap_or_default();
     let aside_mm = (moments.centroid() - afloat.buoyancy).xy().norm();
     let excess = (moments.volume() - afloat.material_mm3).abs();
-    aside_mm <= CENTER_TOLERANCE_MM && excess <= MASS_TOLERANCE_RATIO * afloat.material_mm3
+    (aside_mm / CENTER_TOLERANCE_MM).max(excess / (MASS_TOLERANCE_RATIO * afloat.material_mm3))
 }
 
-/// Whether the static and couple unbalance in excess of what was solved for are a tenth of what the rotor's grade allows, and no more than any centre may be off.
+/// The static and couple unbalance in excess of what was solved for, in tenths of what the rotor's grade allows, or of what any centre may be off.
 /// A couple counts as the offset of the mass at a lever of its radius of gyration.
-fn is_balanced(goal: &Goal, excess: &Moments, moments: &Moments) -> bool {
+fn unbalance(goal: &Goal, excess: &Moments, moments: &Moments) -> f64 {
     let allowed_mm = goal.spindle.map_or(f64::INFINITY, |spindle| spindle.rotor.permissible_mm());
     let [_, x, y, _, _, yz, xz, ..] = excess.0;
     let volume = moments.volume();
     let radius_mm = (moments.second().trace() / volume).sqrt();
     let worst_mm = (x.hypot(y) / volume).max(xz.hypot(yz) / (volume * radius_mm));
-    worst_mm <= (GRADE_SHARE_RATIO * allowed_mm).min(CENTER_TOLERANCE_MM)
+    worst_mm / (GRADE_SHARE_RATIO * allowed_mm).min(CENTER_TOLERANCE_MM)
 }
 
-/// Whether the axis of the greatest moment is the z axis.
-fn is_upright(body: &Body) -> bool {
+/// How far the axis of the greatest moment is from the z axis, in tolerances.
+fn lean(body: &Body) -> f64 {
     let axis = body.principal().axes.column(2).into_owned();
-    axis.xy().norm() <= TILT_TOLERANCE_RAD
+    axis.xy().norm() / TILT_TOLERANCE_RAD
 }
 
 #[cfg(test)]
@@ -56,6 +57,10 @@ mod tests {
     use super::*;
     use crate::geom::{Frame, Matrix, Vector};
     use crate::goal::{Rotor, Spindle};
+
+    fn is_tuned(goal: &Goal, solved: &Moments, moments: &Moments) -> bool {
+        defect_ratio(goal, solved, moments) <= 1.0
+    }
 
     /// What was solved for; only a rotor is compared with it.
     const SOLVED: Moments = Moments([0.0; 10]);
