@@ -12,8 +12,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, GoalAxis, LabelStyle, Part, PinSettings, PinSite, PlanRequest,
-    PosePreference, parts, plan_by, rods,
+    Cut, CutError, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings, PinSite, PlanRequest,
+    PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -158,9 +158,17 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
             (_, Some(void)) => void.mesh().aabb().center(),
             _ => dice.point_in(mesh),
         };
-        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into(), within: Vec::new() }
+        let within = (i > 0 && dice.below(2) == 0).then(|| side(dice, i));
+        let within = within.into_iter().collect();
+        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into(), within }
     };
     (0..count).map(cut).collect()
+}
+
+/// A side of one of the first cuts.
+fn side(dice: &mut Dice, cuts: usize) -> CutSide {
+    let side = if dice.below(2) == 0 { Side::Above } else { Side::Below };
+    CutSide { cut: format!("C{}", 1 + dice.below(cuts)), side }
 }
 
 /// Makes one case and holds its parts to what must be true; the number of parts and pins, or why there are none.

@@ -104,7 +104,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let material = order.hollowed.to_mesh();
     let pieces = rejoined(split(&material, &tree)?, &tree.planes, &bridges)?;
     let filled = filled(order);
-    let scene = |material| PinScene { request: order.request, tree: &tree, pieces: &pieces, material };
+    let scene = |material| PinScene { request: order.request, tree: &tree, material };
     let (hollow, filled) = (scene(&material), scene(&filled));
     let joints = joints(&pieces, &tree);
     let mut placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
@@ -176,7 +176,7 @@ impl Search<'_> {
     fn is_of_joint(&self, joint: &Joint, outline: &Outline, at: &Point2) -> bool {
         let foot = outline.nearest(at);
         let inner = foot + (at - foot).normalize() * (self.order.request.wall_mm / 2.0);
-        joint.faces(self.filled.pieces).any(|(_, cap)| cap.holds(&inner))
+        joint.faces.iter().any(|face| face.holds(&inner))
     }
 
     fn has_meat(&self, scene: &PinScene, joint: &Joint, pin: &PinSite) -> bool {

@@ -13,13 +13,10 @@ use super::{
     request::PlanRequest,
     score::Scene,
     section::Chart,
-    split::{Cap, Joint, Piece, check_no_cavity, joints},
+    split::{Joint, Piece, check_no_cavity, joints},
     tree::{CutTree, Limit},
 };
-use crate::{
-    geom::{Plane, Point},
-    mass::FlatFace,
-};
+use crate::{geom::Plane, mass::FlatFace};
 
 /// The plan's data for these cuts and pieces, with these pins.
 pub(crate) fn described(
@@ -29,7 +26,7 @@ pub(crate) fn described(
 ) -> Result<CutPlan, CutError> {
     let Layout { tree, voids, pieces, bridges } = layout;
     check_no_cavity(pieces)?;
-    let pin_scene = PinScene { request: scene.request, tree, pieces, material: &scene.material };
+    let pin_scene = PinScene { request: scene.request, tree, material: &scene.material };
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
     let proofs = notes.clone();
@@ -75,23 +72,22 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
 }
 
 fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
-    let pieces = scene.pieces;
     JointNote {
         cut: cut_id(joint.cut),
         parts: [part_id(joint.below), part_id(joint.above)],
-        area_mm2: joint.area_mm2(pieces),
+        area_mm2: joint.area_mm2(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
-        face: contact(pieces, joint, &placement.sites),
+        face: contact(&scene.tree.planes, joint, &placement.sites),
     }
 }
 
 /// Where the parts of a joint touch: its faces less the mouths of its sockets.
-fn contact<'a>(pieces: &[Piece], joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
-    let corners = |(piece, cap): (&Piece, &Cap)| -> Vec<[Point; 3]> {
-        cap.faces.iter().map(|&face| piece.mesh.corners(face)).collect()
-    };
-    let faces = joint.faces(pieces).flat_map(corners).map(|corners| (corners, 1.0));
+fn contact<'a>(planes: &[Plane], joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
+    let plane = &planes[joint.cut];
+    let chart = Chart::of_plane(plane);
+    let triangles = joint.faces.iter().flat_map(|face| &face.triangles);
+    let faces = triangles.map(|corners| (corners.map(|p| chart.lift(plane, &p)), 1.0));
     let mouths = pins.into_iter().flat_map(PinSite::mouth).map(|corners| (corners, -1.0));
     FlatFace::of_triangles(faces.chain(mouths))
 }
@@ -104,8 +100,8 @@ pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> Cu
             continue;
         };
         let pins = plan.pins.iter().filter(|pin| note.pins.contains(&pin.id));
-        note.face = contact(pieces, &joint, pins);
-        note.area_mm2 = joint.area_mm2(pieces);
+        note.face = contact(&tree.planes, &joint, pins);
+        note.area_mm2 = joint.area_mm2();
     }
     plan
 }

@@ -200,7 +200,7 @@ impl<'a> Face<'a> {
 /// Points spread over the joint's faces with their distances from the edge, and the faces' widest disc.
 pub(super) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)>, f64) {
     let (mut points, mut widest_mm) = (Vec::new(), 0.0f64);
-    for (_, cap) in joint.faces(scene.pieces) {
+    for cap in &joint.faces {
         if let Some(disc) = cap.outline.largest_disc(0.0) {
             widest_mm = widest_mm.max(2.0 * disc.radius_mm);
             points.push((disc.center, disc.radius_mm));

@@ -6,13 +6,10 @@ use super::{
     further::meets,
     planner::fits,
     score::Scene,
-    split::{Piece, check_no_cavity, joints},
+    split::{Piece, check_no_cavity},
     tree::{CutTree, Limit},
 };
 use crate::geom::Plane;
-
-/// The faces of the joints of a cut may differ by this share from its section, where joints have been found for all of it.
-const SAME_AREA_RATIO: f64 = 1e-6;
 
 /// Cuts, each made only where it is needed.
 pub(crate) struct Kept {
@@ -61,7 +58,7 @@ impl Kept {
         let is_better = next.pieces.len() < self.pieces.len()
             && check_no_cavity(&next.pieces).is_ok()
             && next.oversize(scene) <= self.oversize(scene)
-            && next.has_all_joints();
+            && next.has_all_cuts();
         Ok(is_better.then_some(next))
     }
 
@@ -70,21 +67,10 @@ impl Kept {
         self.pieces.iter().filter(|piece| !fits(piece, &self.tree.planes, scene.request)).count()
     }
 
-    /// Whether every cut is made somewhere, and every face of it, on either side, is that of joints: not where cuts kept to
-    /// different sides of another leave faces that overlap in part.
-    fn has_all_joints(&self) -> bool {
-        let joints = joints(&self.pieces, &self.tree);
-        (0..self.tree.planes.len()).all(|cut| {
-            let of_joints = joints.iter().filter(|joint| joint.cut == cut);
-            let joined_mm2: f64 = of_joints.map(|joint| joint.area_mm2(&self.pieces)).sum();
-            let is_whole = |is_above: bool| {
-                let caps = self.pieces.iter().flat_map(|piece| &piece.caps);
-                let caps = caps.filter(|cap| cap.cut == cut && cap.is_above == is_above);
-                let face_mm2: f64 = caps.map(|cap| cap.area_mm2).sum();
-                (face_mm2 - joined_mm2).abs() <= SAME_AREA_RATIO * face_mm2
-            };
-            joined_mm2 > 0.0 && is_whole(true) && is_whole(false)
-        })
+    /// Whether every cut is made somewhere.
+    fn has_all_cuts(&self) -> bool {
+        let is_made = |cut: usize| self.pieces.iter().flat_map(|piece| &piece.caps).any(|cap| cap.cut == cut);
+        (0..self.tree.planes.len()).all(is_made)
     }
 }
 
@@ -108,6 +94,7 @@ mod tests {
         plan_by,
         planner::Layout,
         scenes::{cuboid, request, with_balls},
+        split::joints,
     };
     use crate::geom::Vector;
     use crate::mesh::Hollowed;
@@ -149,6 +136,29 @@ mod tests {
         let kept = kept_of(&scene, &planes);
         let cuts: Vec<usize> = joints(&kept.pieces, &kept.tree).iter().map(|joint| joint.cut).collect();
         assert_eq!(cuts, [1, 0, 0]);
+    }
+
+    #[test]
+    fn cuts_kept_to_different_sides_meet_in_quarters_of_the_face_between_them() {
+        let (body, [across, along], request) = bar();
+        let upright = Plane { normal: Vector::y(), offset_mm: 10.011 };
+        let tree = CutTree::everywhere(&[across, along, upright]);
+        let tree = tree.kept_to(1, Limit { cut: 0, is_above: false }).unwrap();
+        let tree = tree.kept_to(2, Limit { cut: 0, is_above: true }).unwrap();
+        let pieces = Scene::new(&body, &request).unwrap().split(&tree).unwrap();
+        let joints = joints(&pieces, &tree);
+        let face_mm2 = |is_above: bool| -> f64 {
+            let caps = pieces.iter().flat_map(|piece| &piece.caps);
+            caps.filter(|cap| cap.cut == 0 && cap.is_above == is_above).map(|cap| cap.area_mm2).sum()
+        };
+        let quarters: Vec<f64> =
+            joints.iter().filter(|joint| joint.cut == 0).map(|joint| joint.area_mm2()).collect();
+        assert_eq!((pieces.len(), joints.len(), quarters.len()), (4, 6, 4));
+        for is_above in [true, false] {
+            assert!((quarters.iter().sum::<f64>() - face_mm2(is_above)).abs() < 1e-9, "{quarters:?}");
+        }
+        // The section of the ball is nearly in the middle.
+        assert!(quarters.iter().all(|mm2| (mm2 / face_mm2(true) - 0.25).abs() < 0.01), "{quarters:?}");
     }
 
     #[test]

@@ -209,8 +209,8 @@ impl Marker<'_> {
             }
         };
         texts(part).iter().find_map(|text| {
-            let caps = joint.faces(self.scene.pieces);
-            let places = caps.flat_map(|(_, cap)| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
+            let places =
+                joint.faces.iter().flat_map(|cap| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
             let mut turned = places.flat_map(|p| (0..TURNS).map(move |turn| (p, turn)));
             turned.find_map(|place| Some(at(text, place)).filter(|label| self.has_room(label, joint.cut)))
         })

@@ -21,6 +21,7 @@ mod mirror;
 mod opening;
 mod order;
 mod outline;
+mod overlap;
 mod part;
 mod pattern;
 mod pin_shape;

@@ -9,7 +9,7 @@ use super::{
     plan::{cut_id, pin_id},
     request::PlanRequest,
     section::{Chart, Point2},
-    split::{Joint, Piece},
+    split::Joint,
     tree::CutTree,
 };
 use crate::geom::{Plane, Point, Vector};
@@ -21,7 +21,6 @@ const ON_CUT_MM: f64 = 1e-3;
 pub(crate) struct PinScene<'a> {
     pub(crate) request: &'a PlanRequest,
     pub(crate) tree: &'a CutTree,
-    pub(crate) pieces: &'a [Piece],
     /// The surface of the material before it is cut.
     pub(crate) material: &'a crate::mesh::TriMesh,
 }
@@ -112,7 +111,7 @@ pub(crate) fn seated(
             let at = Chart::of_plane(plane).flat(&center);
             pin.cut == cut_id(joint.cut)
                 && plane.distance(&center).abs() <= ON_CUT_MM
-                && joint.faces(scene.pieces).any(|(_, cap)| cap.holds(&at))
+                && joint.faces.iter().any(|face| face.holds(&at))
         };
         let joint = joints.iter().position(is_under).ok_or_else(lost)?;
         of_joint[joint].push(pin);

@@ -76,13 +76,13 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
         let host = joint.other(index);
         if !is_host[index]
             && !is_guest[host]
-            && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, pieces, &mouths))
+            && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
             && comes_free(cutting, pieces, (joint, index))
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
-            let at = |(_, cap): (&Piece, &Cap)| Bridge { cut: joint.cut, at: cap.inner_point() };
-            bridges.extend(joint.faces(pieces).map(at));
+            let at = |face: &Cap| Bridge { cut: joint.cut, at: face.inner_point() };
+            bridges.extend(joint.faces.iter().map(at));
         }
     }
     bridges
@@ -120,14 +120,14 @@ fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
 }
 
 /// Whether a void opens in one of the joint's faces.
-fn has_mouth(joint: &Joint, pieces: &[Piece], mouths: &[Vec<Point2>]) -> bool {
+fn has_mouth(joint: &Joint, mouths: &[Vec<Point2>]) -> bool {
     let on_edge = |cap: &Cap| {
         let Some((min, max)) = cap.outline.bounds() else { return false };
         let near =
             mouths[joint.cut].iter().filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
         near.into_iter().any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
     };
-    joint.faces(pieces).any(|(_, cap)| on_edge(cap))
+    joint.faces.iter().any(on_edge)
 }
 
 /// Whether a piece is thinner than the least wall over the face that it would be glued by.

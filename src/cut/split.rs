@@ -2,9 +2,12 @@
 
 use std::cmp::Reverse;
 
+use rayon::prelude::*;
+
 use super::{
     error::CutError,
     outline::Outline,
+    overlap::Flat,
     section::{Chart, Point2},
     tree::CutTree,
 };
@@ -20,9 +23,6 @@ const SHEET_VOLUME_MM3: f64 = 1e-6;
 /// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut keeps 1e-6 away from
 /// the model's own vertices.
 const ON_PLANE_MM: f64 = 1e-7;
-
-/// Faces whose areas differ by less than this share of them are the same, each as its own piece has it.
-const SAME_AREA_RATIO: f64 = 1e-9;
 
 /// A piece of the cut body, bounded by its own surface and by cut faces.
 #[derive(Clone)]
@@ -43,7 +43,7 @@ pub(crate) struct Cap {
     pub(crate) area_mm2: f64,
     /// Its triangles in the piece's mesh, as indices into them, ascending.
     pub(crate) faces: Vec<usize>,
-    triangles: Vec<[Point2; 3]>,
+    pub(crate) triangles: Vec<[Point2; 3]>,
 }
 
 /// Two pieces that meet at a cut.
@@ -53,8 +53,8 @@ pub(crate) struct Joint {
     pub(crate) below: usize,
     /// The piece above it.
     pub(crate) above: usize,
-    /// The cut faces between them: the piece, either of the two, that has exactly this face, and which of its caps it is.
-    faces: Vec<[usize; 2]>,
+    /// The faces in which they meet, as the piece below has them; of a cap that meets several what is shared.
+    pub(crate) faces: Vec<Cap>,
 }
 
 impl Joint {
@@ -63,14 +63,9 @@ impl Joint {
         self.below == piece || self.above == piece
     }
 
-    /// The faces in which the two meet, of those pieces that have exactly these.
-    pub(crate) fn faces<'a>(&'a self, pieces: &'a [Piece]) -> impl Iterator<Item = (&'a Piece, &'a Cap)> {
-        self.faces.iter().map(|&[piece, cap]| (&pieces[piece], &pieces[piece].caps[cap]))
-    }
-
     /// The area of the faces in which the two meet, mm².
-    pub(crate) fn area_mm2(&self, pieces: &[Piece]) -> f64 {
-        self.faces(pieces).map(|(_, cap)| cap.area_mm2).sum()
+    pub(crate) fn area_mm2(&self) -> f64 {
+        self.faces.iter().map(|face| face.area_mm2).sum()
     }
 
     /// The other piece of the two.
@@ -155,13 +150,19 @@ fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
 }
 
 fn cap(mesh: &TriMesh, faces: Vec<usize>, chart: &Chart, cut: usize) -> Cap {
-    let flat = |v: u32| chart.flat(&mesh.vertices()[v as usize]);
-    let corners: Vec<[u32; 3]> = faces.iter().map(|&face| mesh.triangles()[face]).collect();
-    let boundary = boundary_edges(&corners).into_iter().map(|(a, b)| [flat(a), flat(b)]).collect();
-    let triangles: Vec<[Point2; 3]> = corners.iter().map(|t| t.map(flat)).collect();
+    let corners = mesh.vertices().iter().map(|p| chart.flat(p)).collect();
+    let flat = Flat { corners, triangles: faces.iter().map(|&face| mesh.triangles()[face]).collect() };
+    Cap { faces, ..cap_of(&flat, cut) }
+}
+
+/// The cut face of a flat region; of no triangles of a piece.
+pub(crate) fn cap_of(flat: &Flat, cut: usize) -> Cap {
+    let at = |v: u32| flat.corners[v as usize];
+    let boundary = boundary_edges(&flat.triangles).into_iter().map(|(a, b)| [at(a), at(b)]).collect();
+    let triangles = flat.shapes();
     let signed: f64 = triangles.iter().map(|[a, b, c]| (b - a).perp(&(c - a)) / 2.0).sum();
     let (is_above, area_mm2) = (signed < 0.0, signed.abs());
-    Cap { cut, is_above, outline: Outline::new(boundary), area_mm2, faces, triangles }
+    Cap { cut, is_above, outline: Outline::new(boundary), area_mm2, faces: Vec::new(), triangles }
 }
 
 /// The directed edges without an opposite among the triangles, sorted.
@@ -176,11 +177,6 @@ fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
 impl Cap {
     fn has_area(&self) -> bool {
         self.area_mm2 > 0.0
-    }
-
-    /// Whether the face meets another of the same cut: one of them holds the other.
-    fn meets(&self, other: &Self) -> bool {
-        self.cut == other.cut && (self.holds(&other.inner_point()) || other.holds(&self.inner_point()))
     }
 
     /// Whether the face holds a point of the plane.
@@ -208,29 +204,66 @@ pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2)
 
 /// All pairs of pieces that meet at a cut, ordered so that they can be closed one after the other: those of cuts that others must
 /// be made before first; then by cut, then by the pieces.
-///
-/// Where a cut is kept to one side of another, a face of the other side meets several: the joint is that of the smaller.
 pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     let caps = |is_above: bool| {
-        let all = pieces
-            .iter()
-            .enumerate()
-            .flat_map(|(i, piece)| piece.caps.iter().enumerate().map(move |(j, cap)| ([i, j], cap)));
+        let all = pieces.iter().enumerate().flat_map(|(i, piece)| piece.caps.iter().map(move |cap| (i, cap)));
         all.filter(move |(_, cap)| cap.is_above == is_above)
     };
+    let meeting = Meeting::new(pieces, tree);
     let mut joints: Vec<Joint> = Vec::new();
-    for (low, below) in caps(false) {
-        for (high, above) in caps(true).filter(|(_, above)| above.meets(below)) {
-            let face = if above.area_mm2 < below.area_mm2 * (1.0 - SAME_AREA_RATIO) { high } else { low };
-            let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (below.cut, low[0], high[0]);
+    for (below, low) in caps(false) {
+        for (above, high) in caps(true).filter(|(_, high)| high.cut == low.cut) {
+            let faces = meeting.shared((below, low), (above, high));
+            let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (low.cut, below, above);
             match joints.iter_mut().find(same) {
-                Some(joint) => joint.faces.push(face),
-                None => {
-                    joints.push(Joint { cut: below.cut, below: low[0], above: high[0], faces: vec![face] })
-                }
+                Some(joint) => joint.faces.extend(faces),
+                None if faces.is_empty() => {}
+                None => joints.push(Joint { cut: low.cut, below, above, faces }),
             }
         }
     }
     joints.sort_by_key(|joint| (Reverse(tree.depth(joint.cut)), joint.cut, joint.below, joint.above));
     joints
+}
+
+/// Where cut faces meet.
+struct Meeting<'a> {
+    planes: &'a [Plane],
+    /// For every piece and plane whether the piece lies above it; none where it reaches past it on both sides.
+    sides: Vec<Vec<Option<bool>>>,
+}
+
+impl<'a> Meeting<'a> {
+    fn new(pieces: &[Piece], tree: &'a CutTree) -> Self {
+        let side = |piece: &Piece, plane: &Plane| {
+            let reaches =
+                |sign: f64| piece.mesh.vertices().iter().any(|p| sign * plane.distance(p) > ON_PLANE_MM);
+            let is_above = reaches(1.0);
+            (is_above != reaches(-1.0)).then_some(is_above)
+        };
+        let sides = |piece: &Piece| tree.planes.iter().map(|plane| side(piece, plane)).collect();
+        Self { planes: &tree.planes, sides: pieces.par_iter().map(sides).collect() }
+    }
+
+    /// What two caps of one cut have in common, as the one below has it: either is of the body's section, and ends besides where
+    /// other cuts end on its side.
+    fn shared(&self, (below, low): (usize, &Cap), (above, high): (usize, &Cap)) -> Vec<Cap> {
+        let own = &self.planes[low.cut];
+        let ends = |cut: &usize| {
+            let side =
+                self.sides[above][*cut].filter(|_| *cut != low.cut && self.sides[below][*cut].is_none());
+            side.map(|is_above| (&self.planes[*cut], is_above))
+        };
+        let mut flat: Option<Flat> = None;
+        for (plane, is_above) in (0..self.planes.len()).filter_map(|cut| ends(&cut)) {
+            let whole = flat.take().unwrap_or_else(|| Flat::of(&low.triangles));
+            let is_crossed = whole.is_crossed_by(own, plane);
+            flat = Some(if is_crossed { whole.on_side(own, (plane, is_above)) } else { whole });
+        }
+        let faces = match flat {
+            None => vec![low.clone()],
+            Some(flat) => flat.pieces().iter().map(|piece| cap_of(piece, low.cut)).collect(),
+        };
+        faces.into_iter().filter(|face| face.has_area() && high.holds(&face.inner_point())).collect()
+    }
 }

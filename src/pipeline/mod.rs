@@ -81,7 +81,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
 }
 
 /// The judged kit, with bosses where joints need them; without any where it then breaks a promise, as where what a boss hides of a
-/// void shows only in the written parts.
+/// void shows only in the written parts. Pins that a person ordered are kept, whatever they break: the kit's checks say it.
 fn bossed_or_plain(
     setup: &Setup,
     solved: Solved,
@@ -92,7 +92,8 @@ fn bossed_or_plain(
     let has_bosses = !assembly.bosses.is_empty();
     let assembly = packages::in_format(assembly, setup)?;
     let prepared = kit::prepared(setup, &assembly, progress, watch.clone())?;
-    if prepared.passes() || !has_bosses {
+    let is_ordered = setup.job.plan.as_ref().is_some_and(|order| order.pins.is_some());
+    if prepared.passes() || !has_bosses || is_ordered {
         return Ok(prepared);
     }
     let assembly = Assembly::without_bosses(setup, solved, progress, &mut watch)?;

@@ -9,6 +9,9 @@ use super::{Checklist, JointRow};
 use crate::goal::GoalKind;
 use crate::units::counted;
 
+/// So many pins let parts together one way only, where nothing else is to be minded of a joint.
+const ONE_WAY_PINS: usize = 2;
+
 /// Joints between the same two bodies, each glued so far: they close in one movement.
 struct Closing<'a> {
     joints: Vec<&'a JointRow>,
@@ -72,6 +75,13 @@ impl Closing<'_> {
         cuts.join(", ")
     }
 
+    /// The joint whose pins align one that has not enough of its own, because both close in one movement.
+    fn guide_of(&self, joint: &JointRow) -> Option<&JointRow> {
+        let is_sound = |row: &JointRow| row.pins >= ONE_WAY_PINS && row.note.is_none();
+        let others = self.joints.iter().copied().filter(|other| other.id != joint.id);
+        others.into_iter().find(|other| is_sound(other)).filter(|_| !is_sound(joint))
+    }
+
     /// How it is aligned: its pins, and what to mind of any joint.
     fn alignment(&self) -> Markup {
         let is_one = self.joints.len() == 1;
@@ -82,6 +92,7 @@ impl Closing<'_> {
                     @if joint.pins > 0 { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
                     @else if joint.note.is_none() { "no pins" }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
+                    @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, which closes with it" }
                 }
             }
         }
@@ -207,6 +218,20 @@ mod tests {
         let kept = sheet(3, &[(3, 2, "C2"), (2, 1, "C1"), (3, 1, "C1")]);
         assert_eq!(names(&kept), ["J1", "J2 and J3 together"]);
         assert_eq!(closings(&kept)[1].bodies(), ["P03 + P02", "P01"]);
+    }
+
+    #[test]
+    fn a_joint_without_pins_is_aligned_by_one_that_closes_with_it() {
+        let mut crossed = sheet(4, &[(1, 2, "C1"), (1, 3, "C2"), (3, 4, "C1"), (2, 4, "C2")]);
+        for (index, pins) in [0, 0, 2, 2].into_iter().enumerate() {
+            crossed.joints[index].pins = pins;
+            crossed.joints[index].note = (pins == 0).then(|| "no room for pins".to_owned());
+        }
+        let told = |closing: usize| closings(&crossed)[closing].alignment().into_string();
+        // J1 closes alone; J2 closes with J4.
+        assert!(!told(0).contains("align it"), "{}", told(0));
+        assert!(told(2).contains("no room for pins</strong>; the pins of J4 align it"), "{}", told(2));
+        assert_eq!(told(2).matches("align it").count(), 1);
     }
 
     #[test]
