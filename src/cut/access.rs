@@ -22,6 +22,9 @@ use crate::{
 /// for once more, still find enough. Less, and kits at the limit fail now and then; more costs cuts that nobody needs.
 const SIGHT_MARGIN_RATIO: f64 = 0.005;
 
+/// What of that margin must be left in the end: a judge who looks at other points finds up to 0.002 less.
+const LAST_MARGIN_RATIO: f64 = 0.002;
+
 /// How a void is opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VoidAccess {
@@ -63,6 +66,14 @@ impl VoidAccess {
         let asked = asked_ratio(request);
         let closed = if self.is_clean { 0.0 } else { f64::from(u8::from(self.sight_ratio >= asked)) };
         self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
+    }
+
+    /// Whether it can be cleaned by the rule, with hardly any of the planner's margin left: for what is not solved for once more but to
+    /// make up for pins.
+    pub fn is_clean_without_margin(&self, request: &PlanRequest, voids: usize) -> bool {
+        let least = request.cleaning.sight_ratio + LAST_MARGIN_RATIO;
+        let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
+        self.is_clean || (is_seen && self.opening_mm >= request.needed_mm(self.void, voids))
     }
 
     /// The area of a ball of its volume but for a factor, mm²: a measure of its wall.

@@ -2,7 +2,7 @@
 
 use super::{
     Error,
-    settling::{self, Settled, Terms, settled},
+    settling::{self, Settled, Terms, are_clean, settled},
     tuner::{Tuner, Voids},
 };
 use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
@@ -157,7 +157,7 @@ fn tried(
         is_ordered: ordered.is_some(),
         request,
         rounds,
-        must_be_clean: are_clean(&state.plan),
+        must_be_clean: are_clean(&state.plan, request),
         before: state.voids.solution.certificate,
     };
     let mut trial = tuner.clone();
@@ -182,11 +182,6 @@ fn tried(
     state.plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
     (state.voids, state.held, *tuner) = (voids, held, trial);
     Ok(Ok(()))
-}
-
-/// Whether every void of a plan is clean by the process's rule.
-fn are_clean(plan: &CutPlan) -> bool {
-    plan.voids.iter().all(|void| void.is_clean)
 }
 
 /// Calls the bosses' pins as the plan does in the end.

@@ -67,7 +67,7 @@ pub fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
             pins: joint.pins.len(),
             clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
             glue: film(sheet.setup, joint),
-            note: to_mind(joint).map(str::to_owned),
+            note: to_mind(joint).map(|mind| [refused(&sheet.assembly.plan, joint), mind.to_owned()].concat()),
         })
         .collect()
 }
@@ -80,6 +80,14 @@ fn to_mind(joint: &JointNote) -> Option<&'static str> {
         _ if !joint.one_way => Some("the pins fit in more than one way: mind the turn, align the outlines"),
         _ => None,
     }
+}
+
+/// Why no bosses were made around pins of a joint, to be said before what to mind of it; nothing where that was not tried.
+fn refused(plan: &CutPlan, joint: &JointNote) -> String {
+    let [below, above] = &joint.parts;
+    let start = format!("joint {below}–{above}: bosses around pins ");
+    let why = plan.notes.iter().find_map(|note| note.strip_prefix(&start)?.strip_suffix(": it has none"));
+    why.map_or_else(String::new, |why| format!("bosses around pins {why}; "))
 }
 
 /// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and which parts bear no id at
