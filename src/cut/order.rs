@@ -9,10 +9,11 @@ use super::{
 use crate::toml_text::{self, TextFault};
 
 /// The head of every written file.
-const REMARK: &str = "# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
-# Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes.
+const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
+# Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes; a cut with
+# `within = [{ cut = "C1", side = "above" }]` is made on that side only.
 
-";
+"#;
 
 /// What a person orders of a plan: the cuts, and, where given, the pins. What follows from them is not part of it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]

@@ -183,7 +183,7 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     };
     let limits = |cut: &Cut| {
         let known: Option<Vec<Limit>> = cut.within.iter().map(limit).collect();
-        known.ok_or_else(|| CutError::CircularCuts)
+        known.ok_or(CutError::CircularCuts)
     };
     let limits = cuts.iter().map(limits).collect::<Result<Vec<_>, _>>()?;
     CutTree::new(planes, limits).ok_or(CutError::CircularCuts)

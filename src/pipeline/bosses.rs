@@ -2,7 +2,7 @@
 
 use super::{
     Error,
-    settling::{self, Settled, Terms, are_clean, settled},
+    settling::{self, Refusal, Settled, Terms, are_clean, settled},
     tuner::{Tuner, Voids},
 };
 use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
@@ -75,18 +75,22 @@ pub fn bossed(
             None => found.chunk_by(|a, b| a.joint() == b.joint()).collect(),
         };
         // All at once, where nothing else need be kept solid for them; or joint by joint.
-        if joints.len() > 1 && tried(tuner, &mut state, (&found, 0), request)?.is_ok() {
+        if joints.len() > 1 && tried(tuner, &mut state, (&found, Effort::NONE), request)?.is_ok() {
             continue;
         }
         for one in joints {
-            if let Err(why) = tried(tuner, &mut state, (one, settling::MAX_ROUNDS), request)? {
-                failed.add(one, (why, ordered.is_some()));
-            } else {
-                failed.reasons.retain(|(name, _)| *name != one[0].joint());
+            match tried(tuner, &mut state, (one, Effort::CHEAP), request)? {
+                Err(refusal) => failed.add(one, (refusal, ordered.is_some())),
+                Ok(()) => failed.forget(&one[0].joint()),
             }
         }
         if ordered.is_some() && !failed.given_up.is_empty() {
             break;
+        }
+    }
+    for dear in failed.dear_ones() {
+        if tried(tuner, &mut state, (&dear, Effort::DEAR), request)?.is_ok() {
+            failed.forget(&dear[0].joint());
         }
     }
     state.notes.extend(failed.notes());
@@ -97,6 +101,21 @@ pub fn bossed(
     }
     name_pins(&mut state);
     Ok(state)
+}
+
+/// What may be done for bosses.
+#[derive(Clone, Copy)]
+struct Effort {
+    /// How often more may be kept solid for them.
+    rounds: usize,
+    /// By which share of itself the goal's figure may then become worse.
+    max_loss_ratio: f64,
+}
+
+impl Effort {
+    const NONE: Self = Self { rounds: 0, max_loss_ratio: settling::CHEAP_LOSS_RATIO };
+    const CHEAP: Self = Self { rounds: settling::MAX_ROUNDS, max_loss_ratio: settling::CHEAP_LOSS_RATIO };
+    const DEAR: Self = Self { rounds: settling::MAX_ROUNDS, max_loss_ratio: settling::DEAR_LOSS_RATIO };
 }
 
 /// Bosses that could not be had.
@@ -110,19 +129,37 @@ struct Failed {
     given_up: Vec<JointName>,
     /// Where the bosses stood, mm.
     places: Vec<[f64; 3]>,
+    /// Those that only cost too much, with how much.
+    dear: Vec<(f64, Vec<Boss>)>,
 }
 
 impl Failed {
     /// Remembers a joint's pattern, and why it failed. An ordered one is the joint's only one.
-    fn add(&mut self, bosses: &[Boss], (why, is_ordered): (String, bool)) {
+    fn add(&mut self, bosses: &[Boss], (refusal, is_ordered): (Refusal, bool)) {
         let name = bosses[0].joint();
         self.joints.push(name.clone());
         self.places.extend(bosses.iter().map(|boss| boss.pin.center_mm));
         if is_ordered || self.joints.iter().filter(|joint| **joint == name).count() >= MAX_PATTERNS {
             self.given_up.push(name.clone());
         }
+        self.dear.extend(refusal.loss_ratio.map(|loss| (loss, bosses.to_vec())));
         self.reasons.retain(|(other, _)| *other != name);
-        self.reasons.push((name, why));
+        self.reasons.push((name, refusal.why));
+    }
+
+    /// A joint that got its bosses after all.
+    fn forget(&mut self, name: &JointName) {
+        self.reasons.retain(|(other, _)| other != name);
+        self.dear.retain(|(_, bosses)| bosses[0].joint() != *name);
+    }
+
+    /// Of every joint that has none the bosses that cost least.
+    fn dear_ones(&self) -> Vec<Vec<Boss>> {
+        let of_joint = |(name, _): &(JointName, String)| {
+            let own = self.dear.iter().filter(|(_, bosses)| bosses[0].joint() == *name);
+            own.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, bosses)| bosses.clone())
+        };
+        self.reasons.iter().filter_map(of_joint).collect()
     }
 
     /// What is said of the joints that got none.
@@ -140,13 +177,13 @@ fn ordered_pins<'a>(tuner: &Tuner<'a>) -> Option<&'a [PinSite]> {
     tuner.setup().job.plan.as_ref().and_then(|order| order.pins.as_deref())
 }
 
-/// One round: the state and the tuner with these bosses, or as they were, and why; so many times more may be kept solid for them.
+/// One round: the state and the tuner with these bosses, or as they were, and why.
 fn tried(
     tuner: &mut Tuner,
     state: &mut Bossed,
-    (found, rounds): (&[Boss], usize),
+    (found, effort): (&[Boss], Effort),
     request: &PlanRequest,
-) -> Result<Result<(), String>, Error> {
+) -> Result<Result<(), Refusal>, Error> {
     let stays = |boss: &&Boss| !found.iter().any(|new| new.joint() == boss.joint());
     let held: Vec<Boss> = state.held.iter().filter(stays).chain(found).cloned().collect();
     let ordered = ordered_pins(tuner);
@@ -156,7 +193,8 @@ fn tried(
         order: &CutOrder { pins, ..CutOrder::of(&state.plan) },
         is_ordered: ordered.is_some(),
         request,
-        rounds,
+        rounds: effort.rounds,
+        max_loss_ratio: effort.max_loss_ratio,
         must_be_clean: are_clean(&state.plan, request),
         before: state.voids.solution.certificate,
     };

@@ -10,8 +10,11 @@ use crate::mesh::TriMesh;
 
 /// How often something is kept solid for the sake of the same bosses. One round takes nearly all.
 pub const MAX_ROUNDS: usize = 4;
-/// Bosses that make more than themselves solid may worsen the goal's figure by this share: parts glued awry lose as much.
-const MAX_LOSS_RATIO: f64 = 0.1;
+/// Bosses that make more than themselves solid may worsen the goal's figure by this share, where other places for them are left to be
+/// tried.
+pub const CHEAP_LOSS_RATIO: f64 = 0.1;
+/// And by this where none is: a joint is to have its pins, and the price is told. More, and what the kit was made for is gone.
+pub const DEAR_LOSS_RATIO: f64 = 0.35;
 
 /// What is kept solid for the sake of bosses is kept so with so much around it, in minimum openings. It is next to nothing of a void that
 /// was clean: on the elephant and on Homer with filament, two openings cost 30 and 20 % of the critical speed.
@@ -40,19 +43,40 @@ pub struct Terms<'a> {
     pub must_be_clean: bool,
     /// What the solver reached without the bosses.
     pub before: Certificate,
+    /// By which share of itself that may become worse once more than the bosses is kept solid.
+    pub max_loss_ratio: f64,
+}
+
+/// Why bosses cannot be had.
+pub struct Refusal {
+    /// To be said after "bosses around pins would".
+    pub why: String,
+    /// By which share of itself they worsen the goal's figure, where only that is against them.
+    pub loss_ratio: Option<f64>,
+}
+
+impl Refusal {
+    fn because(why: &str) -> Self {
+        Self { why: why.to_owned(), loss_ratio: None }
+    }
 }
 
 /// The voids with what the ordered cuts leave closed or unclean kept solid and the rest solved for again, until nothing is;
-/// or why that cannot be had, to be said after "bosses around pins would". The tuner is left as the last round left it.
-pub fn settled(tuner: &mut Tuner, mut voids: Voids, terms: &Terms) -> Result<Result<Settled, String>, Error> {
+/// or why that cannot be had. The tuner is left as the last round left it.
+pub fn settled(
+    tuner: &mut Tuner,
+    mut voids: Voids,
+    terms: &Terms,
+) -> Result<Result<Settled, Refusal>, Error> {
     let replan = if terms.is_ordered { plan_by } else { plan_around };
     for round in 0..=terms.rounds {
         if !voids.solution.is_usable() {
-            return Ok(Err("make the goal impossible".to_owned()));
+            return Ok(Err(Refusal::because("make the goal impossible")));
         }
         let loss = loss_ratio(&terms.before, &voids.solution.certificate);
-        if round > 0 && loss > MAX_LOSS_RATIO {
-            return Ok(Err(format!("cost {:.0} % of what the kit reaches", 100.0 * loss)));
+        if round > 0 && loss > terms.max_loss_ratio {
+            let why = format!("cost {:.0} % of what the kit reaches", 100.0 * loss);
+            return Ok(Err(Refusal { why, loss_ratio: Some(loss) }));
         }
         let dirty = match replan(&voids.hollowed, terms.request, terms.order) {
             Ok(plan) => {
@@ -65,20 +89,20 @@ pub fn settled(tuner: &mut Tuner, mut voids: Voids, terms: &Terms) -> Result<Res
             Err(CutError::ClosedCavity { .. }) => {
                 let closed = closed(&voids.hollowed, &terms.order.cuts, terms.request)?;
                 if closed.is_empty() {
-                    return Ok(Err("close a void".to_owned()));
+                    return Ok(Err(Refusal::because("close a void")));
                 }
                 closed
             }
             // What was kept solid has changed the faces that the bosses' pins stood in.
             Err(CutError::PinOffFace { .. }) if !terms.is_ordered => {
-                return Ok(Err("move the joint away from its pins".to_owned()));
+                return Ok(Err(Refusal::because("move the joint away from its pins")));
             }
             Err(error) => return Err(error.into()),
         };
         let bodies: Vec<TriMesh> = dirty.into_iter().flat_map(|unclean| unclean.lumps).collect();
         voids = tuner.without(&voids, (&bodies, MARGIN_RATIO))?;
     }
-    Ok(Err("leave a void that cannot be cleaned".to_owned()))
+    Ok(Err(Refusal::because("leave a void that cannot be cleaned")))
 }
 
 fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
