@@ -221,9 +221,9 @@ mod tests {
                 .into_iter()
                 .filter(move |p| (p.room_mm - room_mm).abs() < 1e-6)
         };
-        // All but those whose foot is nearer than 0.75 mm to a corner: 8 times 0.75 of 26 mm.
-        let found = beside(0.75).count() as f64 / ALONG as f64;
-        assert!((found - 20.0 / 26.0).abs() < 0.1, "{found}");
+        // All but those whose foot is nearer than 0.6 mm to a corner: 8 times 0.6 of 26 mm.
+        let found = beside(0.6).count() as f64 / ALONG as f64;
+        assert!((found - 21.2 / 26.0).abs() < 0.1, "{found}");
         assert_eq!(beside(2.6).count(), 0, "a tool wider than the mouth");
     }
 
