@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, reached};
 use crate::geom::{Parting, Plane, Point};
-use crate::mesh::MeshDistance;
+use crate::mesh::{MeshDistance, TriMesh};
 use crate::report::{CutFace, Mouth, Region};
 
 /// How far beside the middle of its widest disc a region is looked at, as a share of the disc's diameter: within it, past a pin.
@@ -27,7 +27,7 @@ pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
     let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
         let plane = parting.plane;
         let section = Section::of_mesh(&reached(parting, &body)?, &plane);
-        let regions = regions(&section, &plane, &solids);
+        let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
         let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
         let whole = plan.uncut.iter().filter(|face| face.cut == cut.id).map(|face| flat_point(&plane, face));
         let (whole, mouths) = (whole.collect(), mouths(assembly, parting)?);
@@ -45,9 +45,25 @@ fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
     parting.within.iter().any(|(other, _)| other.distance(&at).abs() < OFF_MM)
 }
 
-/// Every region of material that the cut parts, with the parts below and above it: looked for beside the middle of its widest
-/// disc, where pins stand.
-fn regions(section: &Section, plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
+/// The sections of a body at a cut on either side of every other that ends there, or the one where none does.
+fn sections(body: &TriMesh, parting: &Parting, partings: &[Parting]) -> Result<Vec<Section>, CutError> {
+    let ends_here = |other: &&Parting| other.within.iter().any(|(plane, _)| *plane == parting.plane);
+    let halves = |other: &Parting| {
+        [true, false].map(|is_above| {
+            let within = [&parting.within[..], &[(other.plane, is_above)]].concat();
+            Parting { within, ..parting.clone() }
+        })
+    };
+    let mut cells: Vec<Parting> = partings.iter().filter(ends_here).flat_map(halves).collect();
+    if cells.is_empty() {
+        cells.push(parting.clone());
+    }
+    cells.iter().map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane))).collect()
+}
+
+/// Every two parts between which the cut passes, with a place in the material: looked for beside the middle of the widest disc of each
+/// region, where pins stand.
+fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
     let (u, v) = plane.basis();
     let part_at = |at: [f64; 2], off_mm: f64| {
         let point = plane.foot() + u * at[0] + v * at[1] + plane.normal * off_mm;
@@ -62,7 +78,14 @@ fn regions(section: &Section, plane: &Plane, solids: &[(String, MeshDistance)]) 
             (below != above).then_some(Region { at, parts: [below, above] })
         })
     };
-    section.largest_discs().into_iter().filter_map(region).collect()
+    let mut regions: Vec<Region> = Vec::new();
+    for found in sections.iter().flat_map(Section::largest_discs).filter_map(region) {
+        // A region that no other cut ends in is found on either side of it, or of two.
+        if sections.len() == 1 || regions.iter().all(|known| known.parts != found.parts) {
+            regions.push(found);
+        }
+    }
+    regions
 }
 
 /// Where the cut opens voids, each with the largest disc that passes there.
@@ -129,6 +152,26 @@ fn length([a, b]: &[[f64; 2]; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Vector;
+    use crate::mesh::primitives;
+
+    #[test]
+    fn a_cut_is_looked_at_on_either_side_of_one_that_ends_there() {
+        let body = primitives::cuboid(&Point::new(-10.0, -10.0, -10.0), &Point::new(10.0, 10.0, 10.0));
+        let across = Parting::everywhere(Plane { normal: Vector::x(), offset_mm: 0.0 });
+        let ending = Parting {
+            plane: Plane { normal: Vector::y(), offset_mm: 4.0 },
+            within: vec![(across.plane, true)],
+        };
+        let partings = [across, ending];
+        let widths = |index: usize| -> Vec<f64> {
+            let found = sections(&body, &partings[index], &partings).unwrap();
+            let discs = found.iter().flat_map(Section::largest_discs);
+            discs.map(|(_, diameter_mm)| diameter_mm.round()).collect()
+        };
+        assert_eq!(widths(0), [6.0, 14.0]);
+        assert_eq!(widths(1), [10.0], "nothing ends at the one that ends itself");
+    }
 
     #[test]
     fn the_thinnest_wall_of_a_square_frame_is_at_the_side_the_hole_is_pushed_to() {

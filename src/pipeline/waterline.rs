@@ -52,7 +52,10 @@ impl Search<'_> {
         let step = self.hydrostatics.height_mm() / (LOOKS + 1) as f64;
         let looks = (1..=LOOKS).map(|i| self.rated(step * i as f64));
         let best = looks.fold(self.rated(0.5 * step), better);
-        let range = [best.0.waterline_mm - step, best.0.waterline_mm + step];
+        // What is written weighs a hair more or less than what is solved for: at the very top it would sink, at the very bottom not trim.
+        let [lowest, highest] = [0.5 * step, self.hydrostatics.height_mm() - 0.5 * step];
+        let at = best.0.waterline_mm;
+        let range = [(at - step).max(lowest), (at + step).min(highest)];
         let look = |waterline_mm| self.rated(waterline_mm);
         let inner = golden_section(range, ROUNDS, look, (|rated: &Rated| rated.0.waterline_mm, is_better));
         inner.into_iter().fold(best, better).0
