@@ -5,8 +5,13 @@ use std::f64::consts::PI;
 use rayon::prelude::*;
 
 use super::{
-    access::asked_ratio, chamber::Chamber, error::CutError, opening::opening, request::PlanRequest,
-    sight::Sightlines, tree::CutTree,
+    access::asked_ratio,
+    chamber::Chamber,
+    error::CutError,
+    opening::opening,
+    request::PlanRequest,
+    sight::Sightlines,
+    tree::{CutTree, reached},
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -71,7 +76,7 @@ impl<'a> BossView<'a> {
 
     /// Whether every void stays open where these bosses stand in it.
     pub(crate) fn stays_open(&self, bosses: &[TriMesh]) -> Result<bool, CutError> {
-        let open = self.views.par_iter().map(|view| view.stays_open(bosses, &self.tree.planes));
+        let open = self.views.par_iter().map(|view| view.stays_open(bosses, self.tree));
         Ok(open.collect::<Result<Vec<bool>, _>>()?.into_iter().all(|is_open| is_open))
     }
 }
@@ -95,15 +100,20 @@ impl<'a> View<'a> {
     }
 
     /// Whether what bosses leave is opened by a disc as wide as needed in all its pieces but crumbs, which will be filled.
-    fn stays_open(&self, bosses: &[TriMesh], planes: &[Plane]) -> Result<bool, CutError> {
+    fn stays_open(&self, bosses: &[TriMesh], tree: &CutTree) -> Result<bool, CutError> {
         let rest = self.chamber.without(bosses)?;
         let crumb_mm3 = PI / 6.0 * self.needed_mm.powi(3);
-        let opens = |piece: &TriMesh, plane: &Plane| opening(piece, plane).map_or(0.0, |o| o.diameter_mm);
-        let is_open = |piece: &TriMesh| {
-            piece.signed_volume_mm3() < crumb_mm3
-                || planes.iter().any(|plane| opens(piece, plane) >= self.needed_mm)
-        };
-        Ok(bodies(&rest).iter().all(is_open))
+        for piece in bodies(&rest) {
+            let mut is_open = piece.signed_volume_mm3() < crumb_mm3;
+            for parting in tree.partings() {
+                let there = reached(&parting, &piece)?;
+                is_open |= opening(&there, &parting.plane).is_some_and(|o| o.diameter_mm >= self.needed_mm);
+            }
+            if !is_open {
+                return Ok(false);
+            }
+        }
+        Ok(true)
     }
 }
 

@@ -102,7 +102,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let tree = order.plan.tree()?;
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
-    let pieces = rejoined(split(&material, &tree)?, &tree.planes, &bridges)?;
+    let pieces = rejoined(split(&material, &tree)?, &tree, &bridges)?;
     let filled = filled(order);
     let scene = |material| PinScene { request: order.request, tree: &tree, material };
     let (hollow, filled) = (scene(&material), scene(&filled));

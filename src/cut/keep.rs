@@ -20,7 +20,7 @@ pub(crate) struct Kept {
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The cuts, the last first, each kept to a side of another where that leaves fewer joints, the voids as clean as `voids` are with
+/// The cuts, the last first, each kept to a side of another where that leaves fewer parts, the voids as clean as `voids` are with
 /// all cuts made everywhere, and no more parts that are too large for the printer.
 pub(crate) fn kept(scene: &Scene, planes: &[Plane], voids: Vec<VoidAccess>) -> Result<Kept, CutError> {
     let tree = CutTree::everywhere(planes);
@@ -41,9 +41,15 @@ impl Kept {
     /// The same with one more limit, if that is better.
     fn with(&self, scene: &Scene, cut: usize, limit: Limit) -> Result<Option<Self>, CutError> {
         let Some(tree) = self.tree.kept_to(cut, limit) else { return Ok(None) };
-        let plane = &tree.planes[cut];
+        // Cuts that are kept to a side of this one are made in fewer places too.
+        let is_changed =
+            |other: usize| other == cut || tree.limits(other).iter().any(|limit| limit.cut == cut);
+        let changed: Vec<&Plane> = (0..tree.planes.len())
+            .filter(|&other| is_changed(other))
+            .map(|other| &tree.planes[other])
+            .collect();
         let again = |before: &VoidAccess| {
-            if meets(scene, before.void, plane) {
+            if changed.iter().any(|plane| meets(scene, before.void, plane)) {
                 access(&scene.chambers, before.void, &tree, scene.request)
             } else {
                 Ok(before.clone())

@@ -156,7 +156,7 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
 /// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
 fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Option<Layout>, CutError> {
     let tree = layout.tree.moved(planes);
-    let Ok(pieces) = rejoined(scene.split(&tree)?, &tree.planes, &layout.bridges) else {
+    let Ok(pieces) = rejoined(scene.split(&tree)?, &tree, &layout.bridges) else {
         return Ok(None);
     };
     if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {

@@ -58,6 +58,13 @@ impl Flat {
         heights.iter().any(|&h| h > PAST_MM) && heights.iter().any(|&h| h < -PAST_MM)
     }
 
+    /// Whether the region, in the plane `own`, lies above another plane; none where it reaches past it on both sides, or nowhere.
+    pub(crate) fn side_of(&self, own: &Plane, other: &Plane) -> Option<bool> {
+        let heights = self.heights(own, other);
+        let [above, below] = [1.0, -1.0].map(|sign| heights.iter().any(|h| sign * h > PAST_MM));
+        (above != below).then_some(above)
+    }
+
     fn heights(&self, own: &Plane, other: &Plane) -> Vec<f64> {
         let chart = Chart::of_plane(own);
         self.corners.iter().map(|p| other.distance(&chart.lift(own, p))).collect()

@@ -85,9 +85,9 @@ pub fn parts_and_faces(
 
 /// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
 fn pieces(hollowed: &Hollowed, plan: &CutPlan, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
-    let (planes, bridges) = (&tree.planes, plan.bridges(&tree.planes));
-    let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, planes, &bridges)?;
-    if !planes.is_empty() {
+    let bridges = plan.bridges(&tree.planes);
+    let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
+    if !tree.planes.is_empty() {
         check_no_cavity(&pieces)?;
     }
     Ok(pieces)

@@ -158,6 +158,13 @@ impl CutPlan {
         self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
     }
 
+    /// The cuts in which a part meets others.
+    pub fn cuts_of<'a>(&'a self, part: &'a str) -> impl Iterator<Item = &'a Cut> {
+        let meets = move |joint: &JointNote| joint.parts.iter().any(|id| id == part);
+        let joints = move || self.joints.iter().filter(move |joint| meets(joint));
+        self.cuts.iter().filter(move |cut| joints().any(|joint| joint.cut == cut.id))
+    }
+
     /// Its cuts as they are made, in their order.
     pub fn partings(&self) -> Result<Vec<Parting>, CutError> {
         Ok(self.tree()?.partings().collect())

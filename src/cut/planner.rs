@@ -46,7 +46,7 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     at_layers(&scene, &layout, plan, notes)
 }
 
-/// The plan by a person's order: each cut through the whole model but for the faces that are to stay whole; pins as ordered,
+/// The plan by a person's order: each cut through what lies on the sides that it is kept to, but for the faces that are to stay whole; pins as ordered,
 /// or placed as in [`plan`]. Joints and openings follow.
 pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> Result<CutPlan, CutError> {
     ordered(hollowed, request, (order, Others::None))
@@ -72,7 +72,7 @@ fn ordered(
         order.cuts.iter().map(|cut| beside_faces(&scene, cut)).collect::<Result<Vec<_>, CutError>>()?;
     let (tree, own) = (tree_of(&cuts)?, order.numbered());
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
-    let pieces = rejoined(scene.split(&tree)?, &tree.planes, &bridges)?;
+    let pieces = rejoined(scene.split(&tree)?, &tree, &bridges)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
     let pins = match (&own.pins, others) {
         (None, _) => Pins::Placed,
@@ -121,7 +121,7 @@ impl Layout {
         let Kept { tree, voids, pieces: parted } = kept(scene, &planes, voids)?;
         let cutting = Cutting { hollowed: scene.hollowed, tree: &tree, request: scene.request };
         let bridges = bridges(&cutting, &parted);
-        let pieces = rejoined(parted.clone(), &tree.planes, &bridges)?;
+        let pieces = rejoined(parted.clone(), &tree, &bridges)?;
         // What stays joined must not seal what the cut opened.
         let (pieces, bridges) =
             if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };

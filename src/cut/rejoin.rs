@@ -91,7 +91,7 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
 /// The pieces with those made one that meet at a bridge. A bridge on no cut face changes nothing.
 pub(crate) fn rejoined(
     pieces: Vec<Piece>,
-    planes: &[Plane],
+    tree: &CutTree,
     bridges: &[Bridge],
 ) -> Result<Vec<Piece>, CutError> {
     let mut sets = UnionFind::new(pieces.len());
@@ -106,7 +106,7 @@ pub(crate) fn rejoined(
         groups[sets.root(index as u32) as usize].push(piece);
     }
     groups.retain(|group| !group.is_empty());
-    let united = groups.into_par_iter().map(|group| united(group, planes, bridges));
+    let united = groups.into_par_iter().map(|group| united(group, tree, bridges));
     Ok(in_order(united.collect::<Result<_, _>>()?))
 }
 
@@ -153,7 +153,7 @@ fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
 }
 
 /// One piece of several that touch at bridges.
-fn united(mut members: Vec<Piece>, planes: &[Plane], bridges: &[Bridge]) -> Result<Piece, CutError> {
+fn united(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result<Piece, CutError> {
     if members.len() == 1 {
         return Ok(members.remove(0));
     }
@@ -161,7 +161,7 @@ fn united(mut members: Vec<Piece>, planes: &[Plane], bridges: &[Bridge]) -> Resu
         Some(mesh) => mesh,
         None => unioned(members)?,
     };
-    Ok(piece(mesh, planes))
+    Ok(piece(mesh, tree))
 }
 
 /// The members without the faces in which they meet, sewn together along the rims of those; none where the rims have
@@ -285,7 +285,7 @@ mod tests {
         let tree = CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 15.0 }]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
         let bridges = bridges(&Cutting { hollowed, tree: &tree, request: &request() }, &pieces);
-        (pieces.len(), rejoined(pieces, &tree.planes, &bridges).unwrap())
+        (pieces.len(), rejoined(pieces, &tree, &bridges).unwrap())
     }
 
     #[test]
@@ -334,7 +334,7 @@ mod tests {
         let tree = CutTree::everywhere(&[level, askew]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
         let bridges = bridges(&Cutting { hollowed: &hollowed, tree: &tree, request: &request() }, &pieces);
-        let left = rejoined(pieces.clone(), &tree.planes, &bridges).unwrap();
+        let left = rejoined(pieces.clone(), &tree, &bridges).unwrap();
         assert_eq!((pieces.len(), left.len()), (5, 4));
     }
 

@@ -2,8 +2,6 @@
 
 use std::cmp::Reverse;
 
-use rayon::prelude::*;
-
 use super::{
     error::CutError,
     outline::Outline,
@@ -91,7 +89,7 @@ pub(crate) fn split(mesh: &TriMesh, tree: &CutTree) -> Result<Vec<Piece>, CutErr
 pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     let mut pieces = Vec::new();
     for cell in &tree.cells(body)? {
-        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, &tree.planes)));
+        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, tree)));
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
     Ok(in_order(pieces))
@@ -119,9 +117,14 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     Ok(())
 }
 
-/// A piece with its cut faces.
-pub(crate) fn piece(mesh: TriMesh, planes: &[Plane]) -> Piece {
-    let caps = planes.iter().enumerate().flat_map(|(cut, plane)| caps(&mesh, plane, cut)).collect();
+/// A piece with its cut faces: of two cuts in one plane each has those where it is made.
+pub(crate) fn piece(mesh: TriMesh, tree: &CutTree) -> Piece {
+    let of_cut = |(cut, plane): (usize, &Plane)| {
+        let chart = Chart::of_plane(plane);
+        let is_made = move |cap: &Cap| tree.acts_at(cut, &chart.lift(plane, &cap.inner_point()));
+        caps(&mesh, plane, cut).into_iter().filter(is_made).collect::<Vec<Cap>>()
+    };
+    let caps = tree.planes.iter().enumerate().flat_map(of_cut).collect();
     Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
 }
 
@@ -209,11 +212,10 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
         let all = pieces.iter().enumerate().flat_map(|(i, piece)| piece.caps.iter().map(move |cap| (i, cap)));
         all.filter(move |(_, cap)| cap.is_above == is_above)
     };
-    let meeting = Meeting::new(pieces, tree);
     let mut joints: Vec<Joint> = Vec::new();
     for (below, low) in caps(false) {
         for (above, high) in caps(true).filter(|(_, high)| high.cut == low.cut) {
-            let faces = meeting.shared((below, low), (above, high));
+            let faces = shared(low, high, tree);
             let same = |j: &&mut Joint| (j.cut, j.below, j.above) == (low.cut, below, above);
             match joints.iter_mut().find(same) {
                 Some(joint) => joint.faces.extend(faces),
@@ -226,44 +228,25 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     joints
 }
 
-/// Where cut faces meet.
-struct Meeting<'a> {
-    planes: &'a [Plane],
-    /// For every piece and plane whether the piece lies above it; none where it reaches past it on both sides.
-    sides: Vec<Vec<Option<bool>>>,
-}
-
-impl<'a> Meeting<'a> {
-    fn new(pieces: &[Piece], tree: &'a CutTree) -> Self {
-        let side = |piece: &Piece, plane: &Plane| {
-            let reaches =
-                |sign: f64| piece.mesh.vertices().iter().any(|p| sign * plane.distance(p) > ON_PLANE_MM);
-            let is_above = reaches(1.0);
-            (is_above != reaches(-1.0)).then_some(is_above)
-        };
-        let sides = |piece: &Piece| tree.planes.iter().map(|plane| side(piece, plane)).collect();
-        Self { planes: &tree.planes, sides: pieces.par_iter().map(sides).collect() }
+/// What two caps of one cut have in common, as the one below has it: either is of the body's section, and ends besides where other cuts
+/// end on its side.
+fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
+    let meets = |face: &Cap| face.has_area() && high.holds(&face.inner_point());
+    if tree.is_everywhere() {
+        return if meets(low) { vec![low.clone()] } else { Vec::new() };
     }
-
-    /// What two caps of one cut have in common, as the one below has it: either is of the body's section, and ends besides where
-    /// other cuts end on its side.
-    fn shared(&self, (below, low): (usize, &Cap), (above, high): (usize, &Cap)) -> Vec<Cap> {
-        let own = &self.planes[low.cut];
-        let ends = |cut: &usize| {
-            let side =
-                self.sides[above][*cut].filter(|_| *cut != low.cut && self.sides[below][*cut].is_none());
-            side.map(|is_above| (&self.planes[*cut], is_above))
-        };
-        let mut flat: Option<Flat> = None;
-        for (plane, is_above) in (0..self.planes.len()).filter_map(|cut| ends(&cut)) {
-            let whole = flat.take().unwrap_or_else(|| Flat::of(&low.triangles));
-            let is_crossed = whole.is_crossed_by(own, plane);
-            flat = Some(if is_crossed { whole.on_side(own, (plane, is_above)) } else { whole });
+    let own = &tree.planes[low.cut];
+    let (mut flat, other) = (Flat::of(&low.triangles), Flat::of(&high.triangles));
+    let mut is_whole = true;
+    for plane in (0..tree.planes.len()).filter(|&cut| cut != low.cut).map(|cut| &tree.planes[cut]) {
+        let Some(is_above) = other.side_of(own, plane) else { continue };
+        if flat.is_crossed_by(own, plane) {
+            (flat, is_whole) = (flat.on_side(own, (plane, is_above)), false);
         }
-        let faces = match flat {
-            None => vec![low.clone()],
-            Some(flat) => flat.pieces().iter().map(|piece| cap_of(piece, low.cut)).collect(),
-        };
-        faces.into_iter().filter(|face| face.has_area() && high.holds(&face.inner_point())).collect()
     }
+    if is_whole {
+        return if meets(low) { vec![low.clone()] } else { Vec::new() };
+    }
+    let faces = flat.pieces();
+    faces.iter().map(|piece| cap_of(piece, low.cut)).filter(meets).collect()
 }

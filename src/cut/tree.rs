@@ -14,6 +14,9 @@ pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
     }
     let mut body = Csg::of_mesh(mesh)?;
     for (plane, is_above) in &parting.within {
+        if body.is_empty() {
+            break;
+        }
         let (above, below) = body.split_by_plane(plane)?;
         body = if *is_above { above } else { below };
     }
@@ -48,14 +51,32 @@ impl CutTree {
         Self { planes: planes.to_vec(), limits: vec![Vec::new(); planes.len()] }
     }
 
-    /// Planes with their limits; none where one is limited, be it through others, by itself.
+    /// Planes with their limits, and those of the cuts that they are kept to; none where a cut waits, be it through others, for itself,
+    /// or is kept to both sides of another.
     pub(crate) fn new(planes: Vec<Plane>, limits: Vec<Vec<Limit>>) -> Option<Self> {
-        let tree = Self { planes, limits };
-        (tree.order().len() == tree.planes.len()).then_some(tree)
+        let mut tree = Self { planes, limits };
+        let order = tree.order();
+        if order.len() < tree.planes.len() {
+            return None;
+        }
+        for cut in order {
+            let inherited = tree.limits[cut].iter().flat_map(|limit| tree.limits[limit.cut].clone());
+            let all: Vec<Limit> = tree.limits[cut].iter().copied().chain(inherited).collect();
+            let mut own: Vec<Limit> = Vec::new();
+            for limit in all {
+                match own.iter().find(|known| known.cut == limit.cut) {
+                    Some(known) if *known != limit => return None,
+                    Some(_) => {}
+                    None => own.push(limit),
+                }
+            }
+            tree.limits[cut] = own;
+        }
+        Some(tree)
     }
 
-    /// The same with a cut kept to a side of another; none where it is kept to a side of that already, or that cut, be it through
-    /// others, to a side of it.
+    /// The same with a cut, and those kept to a side of it, kept to a side of another; none where it is kept to a side of that already, or
+    /// that cut to a side of it.
     pub(crate) fn kept_to(&self, cut: usize, limit: Limit) -> Option<Self> {
         let mut limits = self.limits.clone();
         let is_new = limits[cut].iter().all(|known| known.cut != limit.cut);
@@ -68,33 +89,36 @@ impl CutTree {
         Self { planes, limits: self.limits.clone() }
     }
 
-    /// The sides to which a cut is kept.
+    /// Whether every cut goes through everything.
+    pub(crate) fn is_everywhere(&self) -> bool {
+        self.limits.iter().all(Vec::is_empty)
+    }
+
+    /// The sides to which a cut is kept, those that it is kept to through others with them.
     pub(crate) fn limits(&self, cut: usize) -> &[Limit] {
         &self.limits[cut]
     }
 
     /// The cuts as they are made.
     pub(crate) fn partings(&self) -> impl Iterator<Item = Parting> {
-        (0..self.planes.len()).map(|cut| Parting { plane: self.planes[cut], within: self.sides(cut) })
+        (0..self.planes.len()).map(|cut| self.parting(cut))
     }
 
-    /// The planes of the cuts that are made before this one, with its side of them.
-    fn sides(&self, cut: usize) -> Vec<(Plane, bool)> {
-        let own = self.limits[cut].iter();
-        own.flat_map(|limit| [vec![(self.planes[limit.cut], limit.is_above)], self.sides(limit.cut)].concat())
-            .collect()
+    /// A cut as it is made.
+    pub(crate) fn parting(&self, cut: usize) -> Parting {
+        let side = |limit: &Limit| (self.planes[limit.cut], limit.is_above);
+        Parting { plane: self.planes[cut], within: self.limits[cut].iter().map(side).collect() }
     }
 
-    /// How many cuts must be made one after the other before this one.
+    /// How many cuts are made before this one, where it is kept to sides of them: more than before any of these.
     pub(crate) fn depth(&self, cut: usize) -> usize {
-        self.limits[cut].iter().map(|limit| self.depth(limit.cut) + 1).max().unwrap_or(0)
+        self.limits[cut].len()
     }
 
     /// Whether the plane of a cut would cut at a point of it.
     pub(crate) fn acts_at(&self, cut: usize, at: &Point) -> bool {
-        self.limits[cut].iter().all(|limit| {
-            self.acts_at(limit.cut, at) && (self.planes[limit.cut].distance(at) > 0.0) == limit.is_above
-        })
+        let holds = |limit: &Limit| (self.planes[limit.cut].distance(at) > 0.0) == limit.is_above;
+        self.limits[cut].iter().all(holds)
     }
 
     /// The cuts, each after those that it is kept to a side of; without those in a circle.
@@ -168,6 +192,25 @@ mod tests {
         assert_eq!(volumes.iter().map(|v| v.round()).collect::<Vec<_>>(), [2000.0, 2000.0, 4000.0]);
         // The first may as well be kept to a side of the second, though it stands before it.
         assert_eq!(tree.kept_to(0, above(1)).unwrap().cells(&body).unwrap().len(), 3);
+    }
+
+    #[test]
+    fn what_lies_beyond_the_first_of_several_sides_is_reached_by_nothing() {
+        let [x, y] = [Vector::x(), Vector::y()].map(|normal| Plane { normal, offset_mm: 0.0 });
+        let level = Plane { normal: Vector::z(), offset_mm: 0.0 };
+        let parting = Parting { plane: level, within: vec![(x, true), (y, true)] };
+        let beyond = cuboid([-10.0; 3], [-5.0, 10.0, 10.0]);
+        assert!(reached(&parting, beyond.mesh()).unwrap().triangles().is_empty());
+    }
+
+    #[test]
+    fn a_cut_kept_to_both_sides_of_another_through_a_third_is_none() {
+        let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane { normal, offset_mm: 0.0 });
+        let below = Limit { cut: 0, is_above: false };
+        assert!(CutTree::new(planes.to_vec(), vec![vec![], vec![above(0)], vec![above(1), below]]).is_none());
+        let chain = CutTree::new(planes.to_vec(), vec![vec![], vec![above(0)], vec![above(1)]]).unwrap();
+        assert_eq!(chain.limits(2), [above(1), above(0)]);
+        assert_eq!([0, 1, 2].map(|cut| chain.depth(cut)), [0, 1, 2]);
     }
 
     #[test]

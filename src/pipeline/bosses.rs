@@ -62,6 +62,7 @@ pub fn bossed(
     let ordered = ordered_pins(tuner);
     let mut state = Bossed { voids, plan, rounds: Vec::new(), notes: Vec::new(), held: Vec::new() };
     let mut failed = Failed::default();
+    let first = state.voids.solution.certificate;
     for _ in 0..MAX_ROUNDS + MAX_PATTERNS - 1 {
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
@@ -76,6 +77,7 @@ pub fn bossed(
         };
         // All at once, where nothing else need be kept solid for them; or joint by joint.
         if joints.len() > 1 && tried(tuner, &mut state, (&found, Effort::NONE), request)?.is_ok() {
+            found.iter().for_each(|boss| failed.forget(&boss.joint()));
             continue;
         }
         for one in joints {
@@ -89,7 +91,8 @@ pub fn bossed(
         }
     }
     for dear in failed.dear_ones() {
-        if tried(tuner, &mut state, (&dear, Effort::DEAR), request)?.is_ok() {
+        let effort = Effort { since: Some(first), ..Effort::DEAR };
+        if tried(tuner, &mut state, (&dear, effort), request)?.is_ok() {
             failed.forget(&dear[0].joint());
         }
     }
@@ -110,12 +113,14 @@ struct Effort {
     rounds: usize,
     /// By which share of itself the goal's figure may then become worse.
     max_loss_ratio: f64,
+    /// Since when; since the last bosses where it is not said.
+    since: Option<Certificate>,
 }
 
 impl Effort {
-    const NONE: Self = Self { rounds: 0, max_loss_ratio: settling::CHEAP_LOSS_RATIO };
-    const CHEAP: Self = Self { rounds: settling::MAX_ROUNDS, max_loss_ratio: settling::CHEAP_LOSS_RATIO };
-    const DEAR: Self = Self { rounds: settling::MAX_ROUNDS, max_loss_ratio: settling::DEAR_LOSS_RATIO };
+    const NONE: Self = Self { rounds: 0, max_loss_ratio: settling::CHEAP_LOSS_RATIO, since: None };
+    const CHEAP: Self = Self { rounds: settling::MAX_ROUNDS, ..Self::NONE };
+    const DEAR: Self = Self { max_loss_ratio: settling::DEAR_LOSS_RATIO, ..Self::CHEAP };
 }
 
 /// Bosses that could not be had.
@@ -196,7 +201,7 @@ fn tried(
         rounds: effort.rounds,
         max_loss_ratio: effort.max_loss_ratio,
         must_be_clean: are_clean(&state.plan, request),
-        before: state.voids.solution.certificate,
+        before: effort.since.unwrap_or(state.voids.solution.certificate),
     };
     let mut trial = tuner.clone();
     let bodies: Vec<TriMesh> = found.iter().map(|boss| boss.body.clone()).collect();
@@ -213,7 +218,7 @@ fn tried(
     state.rounds.push(BossRound {
         bosses: kept.collect(),
         kept_mm3,
-        before: terms.before,
+        before: state.voids.solution.certificate,
         after: voids.solution.certificate,
     });
     let CutPlan { proofs, moves, .. } = state.plan.clone();

@@ -48,16 +48,15 @@ fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
 /// The sections of a body at a cut on either side of every other that ends there, or the one where none does.
 fn sections(body: &TriMesh, parting: &Parting, partings: &[Parting]) -> Result<Vec<Section>, CutError> {
     let ends_here = |other: &&Parting| other.within.iter().any(|(plane, _)| *plane == parting.plane);
-    let halves = |other: &Parting| {
+    let halves = |cell: &Parting, other: &Parting| {
         [true, false].map(|is_above| {
-            let within = [&parting.within[..], &[(other.plane, is_above)]].concat();
-            Parting { within, ..parting.clone() }
+            let within = [&cell.within[..], &[(other.plane, is_above)]].concat();
+            Parting { within, ..cell.clone() }
         })
     };
-    let mut cells: Vec<Parting> = partings.iter().filter(ends_here).flat_map(halves).collect();
-    if cells.is_empty() {
-        cells.push(parting.clone());
-    }
+    let cells = partings.iter().filter(ends_here).fold(vec![parting.clone()], |cells, other| {
+        cells.iter().flat_map(|cell| halves(cell, other)).collect()
+    });
     cells.iter().map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane))).collect()
 }
 

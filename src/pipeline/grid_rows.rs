@@ -106,7 +106,7 @@ fn faces<'a>(sheet: &'a Sheet, written: &'a WrittenPart, ruler: Ruler) -> impl I
     let pose = written.evidence().pose;
     let part = &written.part;
     let plan = &sheet.assembly.plan;
-    plan.cuts.iter().filter_map(move |cut| {
+    plan.cuts_of(&part.id).filter_map(move |cut| {
         let up = (pose.rotation() * Vector::from(cut.normal)).z;
         let height_mm = pose.to_print(&Point::from(cut.point_mm)).z;
         let bounds = part

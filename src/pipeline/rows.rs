@@ -379,6 +379,6 @@ fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
             _ => None,
         }
     };
-    let facing: Vec<String> = sheet.assembly.plan.cuts.iter().filter_map(facing).collect();
+    let facing: Vec<String> = sheet.assembly.plan.cuts_of(&written.part.id).filter_map(facing).collect();
     if facing.is_empty() { "as the model stands".to_owned() } else { facing.join(", ") }
 }

@@ -109,7 +109,10 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     if !terms.must_be_clean || are_clean(plan, terms.request) {
         return Ok(Vec::new());
     }
-    unclean(&voids.hollowed, plan, terms.request, false)
+    let mut dirty = unclean(&voids.hollowed, plan, terms.request, false)?;
+    dirty
+        .retain(|unclean| !plan.voids[unclean.void].is_clean_without_margin(terms.request, plan.voids.len()));
+    Ok(dirty)
 }
 
 /// Whether every void of a plan is clean by the process's rule. The planner's margin is not asked: keeping more of a void solid and
