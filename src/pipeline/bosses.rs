@@ -2,7 +2,7 @@
 
 use super::{
     Error,
-    settling::{self, Refusal, Settled, Terms, are_clean, settled},
+    settling::{self, Reached, Refusal, Settled, Terms, are_clean, settled},
     tuner::{Tuner, Voids},
 };
 use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
@@ -62,7 +62,7 @@ pub fn bossed(
     let ordered = ordered_pins(tuner);
     let mut state = Bossed { voids, plan, rounds: Vec::new(), notes: Vec::new(), held: Vec::new() };
     let mut failed = Failed::default();
-    let first = state.voids.solution.certificate;
+    let first = Reached::by(&state.voids);
     for _ in 0..MAX_ROUNDS + MAX_PATTERNS - 1 {
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
@@ -114,7 +114,7 @@ struct Effort {
     /// By which share of itself the goal's figure may then become worse.
     max_loss_ratio: f64,
     /// Since when; since the last bosses where it is not said.
-    since: Option<Certificate>,
+    since: Option<Reached>,
 }
 
 impl Effort {
@@ -201,7 +201,7 @@ fn tried(
         rounds: effort.rounds,
         max_loss_ratio: effort.max_loss_ratio,
         must_be_clean: are_clean(&state.plan, request),
-        before: effort.since.unwrap_or(state.voids.solution.certificate),
+        before: effort.since.unwrap_or(Reached::by(&state.voids)),
     };
     let mut trial = tuner.clone();
     let bodies: Vec<TriMesh> = found.iter().map(|boss| boss.body.clone()).collect();
