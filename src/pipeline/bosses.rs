@@ -92,8 +92,10 @@ pub fn bossed(
     }
     for dear in failed.dear_ones() {
         let effort = Effort { since: Some(first), ..Effort::DEAR };
-        if tried(tuner, &mut state, (&dear, effort), request)?.is_ok() {
-            failed.forget(&dear[0].joint());
+        let name = dear[0].joint();
+        match tried(tuner, &mut state, (&dear, effort), request)? {
+            Err(refusal) => failed.explain(name, refusal.why),
+            Ok(()) => failed.forget(&name),
         }
     }
     state.notes.extend(failed.notes());
@@ -148,8 +150,13 @@ impl Failed {
             self.given_up.push(name.clone());
         }
         self.dear.extend(refusal.loss_ratio.map(|loss| (loss, bosses.to_vec())));
+        self.explain(name, refusal.why);
+    }
+
+    /// Why the last pattern of a joint failed.
+    fn explain(&mut self, name: JointName, why: String) {
         self.reasons.retain(|(other, _)| *other != name);
-        self.reasons.push((name, refusal.why));
+        self.reasons.push((name, why));
     }
 
     /// A joint that got its bosses after all.
