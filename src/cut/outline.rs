@@ -17,9 +17,6 @@ pub(crate) struct Disc {
     pub(crate) radius_mm: f64,
 }
 
-/// A place at a distance from a straight boundary may be nearer to it by this share, by rounding.
-const INSET_ROUNDING_RATIO: f64 = 1e-9;
-
 /// How near to the best the largest disc is, as a part of the region's size: a tenth of that costs three
 /// times the work, ten times that is visible in the openings.
 const DISC_PRECISION_RATIO: f64 = 2e-3;
@@ -52,27 +49,6 @@ impl Outline {
     pub(crate) fn nearest(&self, p: &Point2) -> Point2 {
         let on = self.segments.iter().map(|[a, b]| nearest_on(p, a, b));
         on.min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared())).unwrap_or(*p)
-    }
-
-    /// About `count` places spread evenly along the boundary, so far inside, mm; fewer where there is no such room.
-    pub(crate) fn inset(&self, distance_mm: f64, count: usize) -> Vec<Point2> {
-        let length_mm: f64 = self.segments.iter().map(|[a, b]| (b - a).norm()).sum();
-        let (step_mm, mut left_mm, mut places) = (length_mm / count as f64, 0.0, Vec::new());
-        for [a, b] in &self.segments {
-            let along = b - a;
-            let Some(direction) = along.try_normalize(f64::MIN_POSITIVE) else { continue };
-            let aside = nalgebra::Vector2::new(-direction.y, direction.x) * distance_mm;
-            while left_mm < along.norm() {
-                let foot = a + direction * left_mm;
-                let sides = [foot + aside, foot - aside];
-                let has_room =
-                    |p: &Point2| self.signed_distance(p) >= distance_mm * (1.0 - INSET_ROUNDING_RATIO);
-                places.extend(sides.into_iter().find(has_room));
-                left_mm += step_mm;
-            }
-            left_mm -= along.norm();
-        }
-        places
     }
 
     /// The corners of the bounding box; `None` when there is no segment or a coordinate is not finite.
@@ -184,17 +160,6 @@ mod tests {
         let corners =
             [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])].map(|(x, y)| Point2::new(x, y));
         (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect()
-    }
-
-    #[test]
-    fn an_inset_runs_along_the_boundary_at_its_distance_and_is_empty_where_there_is_no_room() {
-        let corners = [[0.0, 0.0], [8.0, 0.0], [8.0, 5.0], [0.0, 5.0]].map(|[x, y]| Point2::new(x, y));
-        let outline = Outline::new((0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect());
-        let places = outline.inset(0.5, 64);
-        // All but those whose foot is nearer than that to a corner: 8 times 0.5 of 26 mm.
-        assert!((places.len() as f64 / 64.0 - 22.0 / 26.0).abs() < 0.1, "{}", places.len());
-        assert!(places.iter().all(|p| (outline.signed_distance(p) - 0.5).abs() < 1e-8));
-        assert!(outline.inset(2.6, 64).is_empty());
     }
 
     #[test]

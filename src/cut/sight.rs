@@ -22,9 +22,6 @@ const LEAST_SAMPLES: usize = 24;
 const EYES_ACROSS: usize = 5;
 /// So many where little is hidden from those: what is seen only from between them is slivers, a few thousandths of a wall.
 const CLOSER_EYES_ACROSS: usize = 16;
-/// With those, so many along the rim of a mouth, as near to it as the tool comes: they look farthest to the sides, and miss a few
-/// hundredths of a long void where only a grid's places near the rim do (2 % of cheburashka's half).
-const RIM_EYES: usize = 64;
 /// Where more than this share of a piece is hidden, no closer look will find it clean.
 const HIDDEN_RATIO: f64 = 0.15;
 /// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
@@ -71,10 +68,6 @@ impl<'a> Look<'a> {
         for ((cut, outline), _) in &discs[..wide] {
             let places = across(outline, count).into_iter().filter(|at| is_wide(outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.eye(*cut, &at)));
-            if count >= CLOSER_EYES_ACROSS {
-                let rim = outline.inset(self.tool_radius_mm, RIM_EYES);
-                eyes.extend(rim.into_iter().map(|at| self.eye(*cut, &at)));
-            }
         }
         eyes
     }
