@@ -105,6 +105,7 @@ fn request(dice: &mut Dice) -> PlanRequest {
     let pixel_mm = [0.019, 0.042, 0.1, 0.45][dice.below(4)];
     let wall_mm = dice.between(0.4, 2.0);
     PlanRequest {
+        wants_wide_joints: false,
         worth_ratio: 0.0,
         cleaning: Cleaning::MELT_OUT,
         min_opening_mm: dice.between(1.0, 5.0),

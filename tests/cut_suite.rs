@@ -16,6 +16,7 @@ const OPENING_MM: f64 = 3.0;
 
 fn request() -> PlanRequest {
     PlanRequest {
+        wants_wide_joints: false,
         worth_ratio: 0.0,
         min_opening_mm: OPENING_MM,
         cleaning: Cleaning::MELT_OUT,

@@ -15,7 +15,7 @@ use super::{
     order::CutOrder,
     outline::Outline,
     pin_shape::PinSite,
-    pin_size::{Size, size_pairs},
+    pin_size::{Size, short_pairs, size_pairs},
     pins::{PinScene, Placement, is_confused, seated},
     plan::{CutPlan, JointNote, bridges_on, part_id},
     rejoin::rejoined,
@@ -188,10 +188,13 @@ impl Search<'_> {
 
     /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit one way only.
     fn found(&self, joint: &Joint, others: &[&Placement]) -> Result<Option<Placement>, CutError> {
-        let mut pairs = size_pairs(self.order.request);
-        let equal = pairs.pop();
-        pairs.reverse();
-        let pairs: Vec<[Size; 2]> = pairs.into_iter().chain(equal).collect();
+        let thin_first = |mut pairs: Vec<[Size; 2]>| {
+            let equal = pairs.pop();
+            pairs.into_iter().rev().chain(equal)
+        };
+        let request = self.order.request;
+        let pairs = thin_first(size_pairs(request)).chain(thin_first(short_pairs(request)));
+        let pairs: Vec<[Size; 2]> = pairs.collect();
         let ways =
             [true, false].into_iter().flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
         for (must_open, sizes) in ways {

@@ -43,6 +43,7 @@ pub(crate) fn described(
         labels,
         voids: voids.clone(),
         notes,
+        solid: Vec::new(),
         moves: Vec::new(),
         proofs,
     })

@@ -41,9 +41,9 @@ pub enum CutError {
         /// The cut's id.
         cut: String,
     },
-    /// Cuts that are made within each other, or within one that is not there.
+    /// Cuts that are made within each other, on both sides of one, or within one that is not there.
     #[error(
-        "a cut is kept to a side of one that is not there, or two wait for each other; name in `within` only cuts that can be made before"
+        "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
     )]
     CircularCuts,
     /// A part would enclose a cavity.
@@ -55,7 +55,9 @@ pub enum CutError {
         cavities: usize,
     },
     /// A pin of the plan does not stand on a cut face.
-    #[error("pin {pin} does not stand between two cut faces; move it or drop it from the plan")]
+    #[error(
+        "pin {pin} does not stand between two cut faces; move it or drop it from the plan; without any pins in it they are placed anew"
+    )]
     PinOffFace {
         /// The pin's id.
         pin: String,

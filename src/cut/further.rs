@@ -80,15 +80,7 @@ impl Tried {
     /// The same cuts and one more; the voids that it does not meet stay as they are.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let tree = CutTree::everywhere(&planes);
-        let again = |before: &VoidAccess| {
-            if meets(scene, before.void, &plane) {
-                access(&scene.chambers, before.void, &tree, scene.request)
-            } else {
-                Ok(before.clone())
-            }
-        };
-        let voids = self.voids.iter().map(again).collect::<Result<_, _>>()?;
+        let voids = looked_at_again(scene, &self.voids, (&CutTree::everywhere(&planes), &[plane]))?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -106,8 +98,24 @@ impl Tried {
     }
 }
 
+/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the changed planes meets.
+pub(crate) fn looked_at_again(
+    scene: &Scene,
+    before: &[VoidAccess],
+    (tree, changed): (&CutTree, &[Plane]),
+) -> Result<Vec<VoidAccess>, CutError> {
+    let again = |known: &VoidAccess| {
+        if changed.iter().any(|plane| meets(scene, known.void, plane)) {
+            access(&scene.chambers, known.void, tree, scene.request)
+        } else {
+            Ok(known.clone())
+        }
+    };
+    before.iter().map(again).collect()
+}
+
 /// Whether a plane passes through a void.
-pub(crate) fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
+fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
     plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
 }
 

@@ -1,9 +1,9 @@
 //! Cuts kept to the sides of others beyond which nothing needs them, so that a cut for one void does not divide everything.
 
 use super::{
-    access::{VoidAccess, access},
+    access::VoidAccess,
     error::CutError,
-    further::meets,
+    further::looked_at_again,
     planner::fits,
     score::Scene,
     split::{Piece, check_no_cavity},
@@ -44,18 +44,11 @@ impl Kept {
         // Cuts that are kept to a side of this one are made in fewer places too.
         let is_changed =
             |other: usize| other == cut || tree.limits(other).iter().any(|limit| limit.cut == cut);
-        let changed: Vec<&Plane> = (0..tree.planes.len())
+        let changed: Vec<Plane> = (0..tree.planes.len())
             .filter(|&other| is_changed(other))
-            .map(|other| &tree.planes[other])
+            .map(|other| tree.planes[other])
             .collect();
-        let again = |before: &VoidAccess| {
-            if changed.iter().any(|plane| meets(scene, before.void, plane)) {
-                access(&scene.chambers, before.void, &tree, scene.request)
-            } else {
-                Ok(before.clone())
-            }
-        };
-        let voids = self.voids.iter().map(again).collect::<Result<Vec<_>, _>>()?;
+        let voids = looked_at_again(scene, &self.voids, (&tree, &changed))?;
         if self.voids.iter().zip(&voids).any(|(before, after)| is_worse(scene, before, after)) {
             return Ok(None);
         }
@@ -212,6 +205,10 @@ mod tests {
         let refused = |text: String| CutOrder::from_toml("cuts.toml", &text).unwrap_err().to_string();
         let message = refused(cut("C1", "C2") + &cut("C2", "C1"));
         assert!(message.contains("kept to sides of each other"), "{message}");
+        let both = cut("C2", "C1").replace(" }]", " }, { cut = \"C1\", side = \"below\" }]");
+        let first = "[[cuts]]\nid = \"C1\"\npoint_mm = [0, 0, 0]\nnormal = [0, 1, 0]\n";
+        let message = refused(first.to_owned() + &both);
+        assert!(message.contains("to both sides of another"), "{message}");
         let message = refused(cut("C1", "C9"));
         assert!(message.contains("cut C1 names cut C9, which is not there"), "{message}");
     }

@@ -6,10 +6,13 @@ use super::{
     access::{Mouths, Opened, asked_ratio},
     chamber::Chamber,
     error::CutError,
-    plan::{Cut, CutPlan, tree_of},
+    part::pieces,
+    plan::{Cut, CutPlan, part_id, tree_of},
     request::PlanRequest,
     sight::Seen,
-    split::Piece,
+    solid::SolidEnd,
+    split::{Joint, Piece, joints},
+    tree::CutTree,
 };
 use crate::{
     geom::{Plane, Point, Vector},
@@ -28,6 +31,8 @@ const LEFT_HIDDEN_RATIO: f64 = 0.8;
 const WEIGHED_ENDS: usize = 16;
 /// What is to be kept solid beyond this share of a piece is all of it.
 const WHOLE_RATIO: f64 = 0.5;
+/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep its corners but for rounding.
+const SAME_CORNER_MM: f64 = 1e-9;
 
 /// A void that the plan does not let be cleaned.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,6 +91,58 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut], request: &PlanRequest) -> Resul
         lumps: vec![solid.mesh().clone()],
     };
     Ok(shut.map(all).collect())
+}
+
+/// What of voids lies beyond joints that have not at least two pins that fit one way only: the pieces within that
+/// of the two parts in which less is empty, and what lies so many minimum openings around them. Kept solid, they leave the joint
+/// material for pins, or no need of it. Seats for parts stay.
+pub fn beyond(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    (request, openings): (&PlanRequest, f64),
+) -> Result<Vec<SolidEnd>, CutError> {
+    let tree = plan.tree()?;
+    let parts = pieces(hollowed, plan, &tree)?;
+    let count = hollowed.voids.len();
+    let chambers = Chamber::all(hollowed)?;
+    let mut inside: Vec<(usize, Piece)> = Vec::new();
+    for void in (0..count).filter(|&void| request.seat_of(void, count).is_none()) {
+        for piece in chambers[void].split(&tree)? {
+            let part = parts.iter().position(|part| borders(part, &piece.mesh, &tree));
+            inside.extend(part.map(|part| (part, piece)));
+        }
+    }
+    let empty_mm3 = |part: usize| -> f64 {
+        inside.iter().filter(|(of, _)| *of == part).map(|(_, piece)| piece.volume_mm3).sum()
+    };
+    let lacks_pins = |joint: &&Joint| {
+        let ids = [joint.below, joint.above].map(part_id);
+        plan.joints.iter().any(|note| !note.is_aligned() && note.parts == ids)
+    };
+    let lesser = |joint: &Joint| {
+        let sides = [joint.below, joint.above].into_iter().filter(|&part| empty_mm3(part) > 0.0);
+        sides.min_by(|&a, &b| empty_mm3(a).total_cmp(&empty_mm3(b)))
+    };
+    let given_up: Vec<usize> = joints(&parts, &tree).iter().filter(lacks_pins).filter_map(lesser).collect();
+    let margin_mm = openings * request.min_opening_mm;
+    let end = |(_, piece): &(usize, Piece)| {
+        let at = farthest_corner(&piece.mesh, &tree)?;
+        Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
+    };
+    Ok(inside.iter().filter(|(part, _)| given_up.contains(part)).filter_map(end).collect())
+}
+
+/// The corner of a piece of a void that is farthest from all cuts.
+fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
+    let off_cuts_mm =
+        |p: &Point| tree.planes.iter().map(|plane| plane.distance(p).abs()).fold(f64::INFINITY, f64::min);
+    lump.vertices().iter().max_by(|a, b| off_cuts_mm(a).total_cmp(&off_cuts_mm(b))).copied()
+}
+
+/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of both.
+fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
+    let corner = farthest_corner(lump, tree);
+    corner.is_some_and(|corner| part.mesh.vertices().iter().any(|p| (p - corner).norm() <= SAME_CORNER_MM))
 }
 
 /// The pieces that let nothing out, and of the others ends that are hidden until enough is seen: those first that are solid for
@@ -217,6 +274,45 @@ mod tests {
         assert!(found[0].why.contains("in sight"));
         let all = unclean(&hollowed, &plan, &request, true).unwrap();
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
+    }
+
+    /// A block with a post on it, hollow up to the post's top but for a thin wall, cut across both.
+    fn posted() -> (Hollowed, PlanRequest, CutPlan) {
+        let cuboid =
+            |low: [f64; 3], high: [f64; 3]| Csg::of_mesh(&primitives::cuboid(&low.into(), &high.into()));
+        let union = |a: [[f64; 3]; 2], b: [[f64; 3]; 2]| {
+            cuboid(a[0], a[1]).unwrap().union(&cuboid(b[0], b[1]).unwrap()).unwrap().to_solid().unwrap()
+        };
+        let outer = union([[-30.0, -30.0, 0.0], [30.0, 30.0, 30.0]], [[-3.5, -3.0, 20.0], [3.5, 3.0, 60.0]]);
+        let void = union([[-20.0, -20.0, 5.0], [20.0, 20.0, 25.0]], [[-2.5, -2.0, 15.0], [2.5, 2.0, 59.0]]);
+        let hollowed = Hollowed { outer, voids: vec![void] };
+        let level = |id: &str, z: f64| Cut {
+            id: id.into(),
+            point_mm: [0.0, 0.0, z],
+            normal: [0.0, 0.0, 1.0],
+            within: Vec::new(),
+        };
+        let order = CutOrder { cuts: vec![level("C1", 15.0), level("C2", 40.0)], ..CutOrder::default() };
+        let plan = plan_by(&hollowed, &request(), &order).unwrap();
+        (hollowed, request(), plan)
+    }
+
+    #[test]
+    fn beyond_a_joint_without_pins_lies_what_is_hollow_of_the_part_with_less_of_it() {
+        let (hollowed, request, plan) = posted();
+        let pins: Vec<usize> = plan.joints.iter().map(|joint| joint.pins.len()).collect();
+        assert!(pins.contains(&0) && pins.iter().any(|&count| count >= 2), "{pins:?}");
+        let found = beyond(&hollowed, &plan, (&request, 0.0)).unwrap();
+        let [end] = found[..] else { panic!("{found:?}") };
+        let known = [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
+        assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
+        assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
+        let wider = beyond(&hollowed, &plan, (&request, 2.0)).unwrap()[0];
+        assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
+        // With its joints pinned nothing need go.
+        let mut pinned = plan.clone();
+        pinned.joints.retain(|joint| joint.is_aligned());
+        assert_eq!(beyond(&hollowed, &pinned, (&request, 0.0)).unwrap(), vec![]);
     }
 
     #[test]

@@ -5,13 +5,15 @@ use serde::{Deserialize, Serialize};
 use super::{
     pin_shape::PinSite,
     plan::{Cut, CutPlan, UncutFace, cut_id, tree_of},
+    solid::SolidEnd,
 };
 use crate::toml_text::{self, TextFault};
 
 /// The head of every written file.
 const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE
 # Without pins they are placed anew; `pins = []` makes none. Faces listed as uncut stay whole where a cut passes; a cut with
-# `within = [{ cut = "C1", side = "above" }]` is made on that side only.
+# `within = [{ cut = "C1", side = "above" }]` is made on that side only. Of the interior stays solid what hangs together with
+# `at_mm` between the corners of the box of a `[[solid]]`.
 
 "#;
 
@@ -27,6 +29,9 @@ pub struct CutOrder {
     /// Where a cut leaves the body whole.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub uncut: Vec<UncutFace>,
+    /// What of the interior stays solid.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub solid: Vec<SolidEnd>,
 }
 
 /// An order as it stands in a file, before it is looked at.
@@ -38,6 +43,8 @@ struct Given {
     cuts: Vec<Cut>,
     #[serde(default)]
     uncut: Vec<UncutFace>,
+    #[serde(default)]
+    solid: Vec<SolidEnd>,
 }
 
 /// Why an order makes no sense.
@@ -64,11 +71,16 @@ pub enum OrderError {
         /// The cut it names.
         cut: String,
     },
-    /// Cuts that are made within each other.
+    /// Cuts that are made within each other, or beyond both sides of one.
     #[error(
-        "cuts are kept to sides of each other, so that none can be made first; remedy: take one of them out of the other's `within`"
+        "cuts are kept to sides of each other, so that none can be made first, or one to both sides of another, so that it is made nowhere; remedy: take one of them out of the other's `within`"
     )]
     Circular,
+    /// A region that is none.
+    #[error(
+        "solid region {0} is none; remedy: give `low_mm` below `high_mm` on each axis, and `at_mm` between them"
+    )]
+    NoRegion(usize),
     /// A pin that cannot be made.
     #[error("pin {id}: {reason}")]
     BadPin {
@@ -82,7 +94,12 @@ pub enum OrderError {
 impl CutOrder {
     /// The order of exactly this plan, its pins included.
     pub fn of(plan: &CutPlan) -> Self {
-        Self { pins: Some(plan.pins.clone()), cuts: plan.cuts.clone(), uncut: plan.uncut.clone() }
+        Self {
+            pins: Some(plan.pins.clone()),
+            cuts: plan.cuts.clone(),
+            uncut: plan.uncut.clone(),
+            solid: plan.solid.clone(),
+        }
     }
 
     /// The same order with its cuts called as the planner calls them: C1, C2, …
@@ -115,7 +132,7 @@ impl TryFrom<Given> for CutOrder {
     type Error = OrderError;
 
     fn try_from(given: Given) -> Result<Self, OrderError> {
-        let Given { pins, cuts, uncut } = given;
+        let Given { pins, cuts, uncut, solid } = given;
         let ids = |what, ids: Vec<&String>| no_twin(what, ids);
         ids("cut", cuts.iter().map(|cut| &cut.id).collect())?;
         ids("pin", pins.iter().flatten().map(|pin| &pin.id).collect())?;
@@ -139,7 +156,10 @@ impl TryFrom<Given> for CutOrder {
             }
             check_pin(pin).map_err(|reason| OrderError::BadPin { id: pin.id.clone(), reason })?;
         }
-        Ok(Self { pins, cuts, uncut })
+        if let Some(index) = solid.iter().position(|end| !end.is_sound()) {
+            return Err(OrderError::NoRegion(index + 1));
+        }
+        Ok(Self { pins, cuts, uncut, solid })
     }
 }
 
@@ -207,6 +227,26 @@ mod tests {
         assert_eq!(order, CutOrder::of(&plan));
         let again = plan_by(&body, &request(), &order).unwrap();
         assert_eq!((&again.cuts, &again.pins, &again.joints), (&plan.cuts, &plan.pins, &plan.joints));
+    }
+
+    #[test]
+    fn what_is_to_stay_solid_is_read_as_it_was_written_and_a_box_without_volume_is_refused() {
+        let (body, plan) = planned();
+        let end = SolidEnd { at_mm: [0.5, 1.0 / 3.0, 8.0], low_mm: [0.0; 3], high_mm: [1.0, 2.0, 9.0] };
+        let order = CutOrder { solid: vec![end], ..CutOrder::of(&plan) };
+        let text = order.to_toml().unwrap();
+        let read = CutOrder::from_toml("cuts.toml", &text).unwrap();
+        assert_eq!(read, order);
+        assert_eq!(
+            CutOrder::of(&plan_by(&body, &request(), &read).unwrap()),
+            order,
+            "a plan made by it says it again"
+        );
+        for bad in ["high_mm = [1.0, 2.0, 0.0]", "high_mm = [1.0, 2.0, 7.9]", "high_mm = [1.0, nan, 9.0]"] {
+            let text = text.replace("high_mm = [1.0, 2.0, 9.0]", bad);
+            let message = CutOrder::from_toml("cuts.toml", &text).unwrap_err().to_string();
+            assert!(message.contains("solid region 1 is none; remedy: give `low_mm` below"), "{message}");
+        }
     }
 
     #[test]

@@ -84,7 +84,7 @@ pub fn parts_and_faces(
 }
 
 /// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
-fn pieces(hollowed: &Hollowed, plan: &CutPlan, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+pub(super) fn pieces(hollowed: &Hollowed, plan: &CutPlan, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     let bridges = plan.bridges(&tree.planes);
     let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
     if !tree.planes.is_empty() {

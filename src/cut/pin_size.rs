@@ -1,10 +1,17 @@
 //! How large pins and their sockets are made: by the printer's rules, in steps of its pixels and layers.
 
-use super::{pattern::FORCE_TOLERANCE_MM, pin_shape::PinSite, request::PlanRequest};
+use super::{
+    pattern::FORCE_TOLERANCE_MM,
+    pin_shape::PinSite,
+    request::{PinSettings, PlanRequest},
+};
 
 /// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns better, a thin
 /// one finds room in more places.
 const DIAMETER_RATIOS: [f64; 4] = [3.0, 2.0, 1.5, 1.0];
+
+/// The shortest pins over their diameter: the short end of what is usual (1 to 1.5 diameters).
+const SHORTEST_RATIO: f64 = 1.0;
 
 /// A pin of some diameter with its socket, by the request's rules, mm.
 #[derive(Debug, Clone, Copy)]
@@ -92,6 +99,16 @@ pub(super) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     if request.rods.is_empty() { printed_pairs(request) } else { dowel_pairs(request) }
 }
 
+/// The same as short as is usual: for joints with material too thin for the sockets of longer ones. None where pins are short anyway, or
+/// cut from rods.
+pub(super) fn short_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
+    if !request.rods.is_empty() || request.pins.length_ratio <= SHORTEST_RATIO {
+        return Vec::new();
+    }
+    let pins = PinSettings { length_ratio: SHORTEST_RATIO, ..request.pins };
+    printed_pairs(&PlanRequest { pins, ..request.clone() })
+}
+
 /// By how much the diameters of two pins differ at least, mm, if neither is to enter the other's socket.
 fn step_mm(request: &PlanRequest) -> f64 {
     let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
@@ -125,4 +142,24 @@ fn dowel_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let mut pairs: Vec<[Size; 2]> = rods.iter().rev().filter_map(thinner).collect();
     pairs.extend(rods.first().map(|least| [*least, *least]));
     pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cut::scenes::request;
+
+    #[test]
+    fn short_pins_are_as_long_as_thick_and_no_thinner_than_others() {
+        let request = request();
+        let [usual, short] = [size_pairs(&request), short_pairs(&request)];
+        assert_eq!(usual.len(), short.len());
+        for (usual, short) in usual.iter().flatten().zip(short.iter().flatten()) {
+            assert_eq!((usual.diameter, usual.socket_diameter), (short.diameter, short.socket_diameter));
+            assert!(short.depth < usual.depth, "{short:?} {usual:?}");
+            assert!((short.length - short.diameter).abs() <= request.layer_mm, "{short:?}");
+        }
+        let pins = PinSettings { length_ratio: 1.0, ..request.pins };
+        assert!(short_pairs(&PlanRequest { pins, ..request }).is_empty());
+    }
 }

@@ -5,7 +5,7 @@ use super::{
     face::{Face, face_points},
     pattern::{Peg, fits, fits_itself},
     pin_shape::PinSite,
-    pin_size::size_pairs,
+    pin_size::{short_pairs, size_pairs},
     plan::{cut_id, pin_id},
     request::PlanRequest,
     section::{Chart, Point2},
@@ -138,7 +138,7 @@ fn peg(plane: &Plane, pin: &PinSite) -> Peg {
 fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[&Placement], bool)) -> Placement {
     let face = Face::new(scene, joint, (placed, is_upward));
     let mut fallback = Placement { widest_mm: face.widest_mm, ..Placement::default() };
-    for sizes in size_pairs(scene.request) {
+    for sizes in size_pairs(scene.request).into_iter().chain(short_pairs(scene.request)) {
         let places = face.places(&sizes[0]);
         if places.is_empty() {
             continue;

@@ -10,6 +10,7 @@ use super::{
     pin_shape::PinSite,
     rejoin::Bridge,
     section::Chart,
+    solid::SolidEnd,
     tree::{CutTree, Limit},
 };
 use crate::{
@@ -35,6 +36,9 @@ pub struct CutPlan {
     /// Where a cut leaves the body whole.
     #[serde(default)]
     pub uncut: Vec<UncutFace>,
+    /// What of the interior stays solid, so that joints have room for their pins.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub solid: Vec<SolidEnd>,
     /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
@@ -139,6 +143,7 @@ impl CutPlan {
             labels: Vec::new(),
             voids: hollowed.voids.iter().enumerate().map(closed).collect(),
             uncut: Vec::new(),
+            solid: Vec::new(),
             moves: Vec::new(),
             proofs: Vec::new(),
             notes: Vec::new(),

@@ -80,7 +80,7 @@ fn ordered(
         (Some(pins), Others::Placed) => Pins::Around(pins),
     };
     let plan = described(&scene, &Layout { tree, voids, pieces, bridges }, (pins, Vec::new()))?;
-    Ok(named_as(plan, &cuts))
+    Ok(CutPlan { solid: order.solid.clone(), ..named_as(plan, &cuts) })
 }
 
 /// The cut as ordered, or beside the faces that it would leave a sheet of.

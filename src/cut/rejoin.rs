@@ -8,7 +8,7 @@ use super::{
     request::PlanRequest,
     section::{Chart, Point2, Section},
     split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
-    tree::CutTree,
+    tree::{CutTree, Limit},
 };
 use crate::{
     geom::{Plane, Point},
@@ -36,9 +36,8 @@ pub(crate) struct Cutting<'a> {
 impl Cutting<'_> {
     /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come apart.
     fn parts(&self, cut: usize, piece: &Piece) -> bool {
-        self.tree.limits(cut).iter().all(|limit| {
-            self.parts(limit.cut, piece) && piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above
-        })
+        let holds = |limit: &Limit| piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above;
+        self.tree.limits(cut).iter().all(holds)
     }
 }
 

@@ -18,6 +18,9 @@ pub struct PlanRequest {
     /// The least share of all voids' walls that a cut for their cleaning alone must bring into sight: what less would open is left
     /// unclean, to be kept solid. 0: any cut is worth its joint.
     pub worth_ratio: f64,
+    /// Whether the room for pins counts as it is with the voids filled, so that bosses have it beside the opening, and not as the walls
+    /// alone give it: for another plan, where the first leaves joints without pins.
+    pub wants_wide_joints: bool,
     /// What fits into the printer: x, y and z, mm. Unset: anything fits.
     pub build_volume_mm: Option<[f64; 3]>,
     /// Least thickness of material around a socket and under a pin, mm.

@@ -3,7 +3,7 @@
 //! | term | measured | bad | weight |
 //! |---|---|---|---|
 //! | opening | the narrowest opening, mm | nothing; good from three times the least | 1 |
-//! | room for pins | the disc in the joint with least, mm | half of what pins need | 2 |
+//! | room for pins | the disc in the joint with least, mm; where wide joints are wanted a quarter of that with its voids filled | half of what pins need, filled nothing | 2 |
 //! | smallest part | its share of the volume | nothing; good from 2 % | 2 |
 //! | parts | pieces beyond two | each | 0.2 |
 //! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
@@ -71,6 +71,8 @@ impl<'a> Scene<'a> {
 
 /// Openings wider than this many times the least asked for are no better.
 pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
+/// A joint that is so many times as wide with its voids filled as what a pin needs has room for two bosses, and for an opening between them.
+const WIDE_JOINT_RATIO: f64 = 4.0;
 /// Parts larger than this share of the material are not too small.
 const AMPLE_PART_RATIO: f64 = 0.02;
 /// Cuts farther than this from the contact point do not disturb it, mm.
@@ -109,7 +111,8 @@ const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) struct Burden {
     /// The visible length of the seam, mm.
     pub(crate) seam_mm: f64,
-    /// The diameter of the largest disc of material in the joint that has the least, mm (at most what pins need; 0 when below half of it).
+    /// The diameter of the largest disc of material in the joint that has the least, mm (at most what pins need; 0 when below half of
+    /// it); where wide joints are wanted a quarter of that with the voids in it filled.
     pub(crate) room_mm: f64,
     /// How many pieces it leaves beyond two.
     pub(crate) extra_parts: usize,
@@ -131,17 +134,23 @@ pub(crate) struct Burden {
 /// Costs two passes over the triangles.
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let sides = Sides::new(&scene.material, *plane, Section::of_mesh(&scene.material, plane));
-    let joints = joints(&sides, scene.hollowed.outer.mesh().vertices().len());
+    let outside = scene.hollowed.outer.mesh().vertices().len();
+    let joints = joints(&sides, outside);
     let cut: Vec<&Joint> = joints.iter().filter(|joint| !is_needless(joint, &joints)).collect();
     let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
     let volumes = sides.piece_volumes_mm3().into_iter().filter(|&(piece, _)| is_part(piece));
     let volumes: Vec<f64> = volumes.map(|(_, volume)| volume / scene.volume_mm3).collect();
     let groups = || cut.iter().flat_map(|joint| &joint.groups);
     let needed_mm = needed_room_mm(scene.request);
-    let room_mm = |joint: &&Joint| {
-        let discs = joint.groups.iter().map(|&group| sides.disc_diameter_mm(group, needed_mm / 2.0));
-        discs.fold(0.0, f64::max)
+    let disc_mm = |&group: &usize| {
+        if scene.request.wants_wide_joints {
+            let is_outside = |ring: &Ring| (ring.above as usize) < outside;
+            sides.filled_disc_diameter_mm(group, is_outside) / WIDE_JOINT_RATIO
+        } else {
+            sides.disc_diameter_mm(group, needed_mm / 2.0)
+        }
     };
+    let room_mm = |joint: &&Joint| joint.groups.iter().map(disc_mm).fold(0.0, f64::max);
     Burden {
         seam_mm: groups().map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm()).sum(),
         extra_parts: volumes.len().saturating_sub(2),
@@ -309,6 +318,20 @@ mod tests {
         // Into the notch and out of it again: one corner turned back by a quarter, and as much more at the others.
         let turn = excess_turn_rad(&Ring { points, above: 0, below: 0 });
         assert!((turn - std::f64::consts::PI).abs() < 1e-9, "{turn}");
+    }
+
+    #[test]
+    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not() {
+        let usual = request();
+        let wide = PlanRequest { wants_wide_joints: true, ..request() };
+        let shell = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 24.0]]);
+        let needed_mm = needed_room_mm(&usual);
+        assert_eq!(burden_of(&shell, &usual, 0.1).room_mm, 0.0);
+        assert_eq!(burden_of(&shell, &wide, 0.1).room_mm, needed_mm);
+        // A slab's section is as long as you like, and no disc of more than 8 mm lies in it.
+        let slab = with_balls(cuboid([0.0; 3], [8.0, 40.0, 60.0]), &[[4.0, 20.0, 30.0, 2.0]]);
+        assert_eq!(burden_of(&slab, &usual, 30.1).room_mm, needed_mm);
+        assert!((burden_of(&slab, &wide, 30.1).room_mm - 2.0).abs() < 0.05);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! What a plane makes of a body without cutting it: which surfaces hang together on each side, and how much they hold.
 
-use super::section::Section;
+use super::section::{Ring, Section};
 use crate::{
     geom::{Plane, Point},
     mesh::{TriMesh, union_find::UnionFind},
@@ -51,6 +51,15 @@ impl<'a> Sides<'a> {
     /// The diameter of the largest disc in polygon `group`, mm; 0 when it is at most `floor_mm`.
     pub(crate) fn disc_diameter_mm(&self, group: usize, floor_mm: f64) -> f64 {
         let disc = self.section.outline(&self.polygons[group]).largest_disc(floor_mm / 2.0);
+        disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
+    }
+
+    /// The diameter of the largest disc in polygon `group` where it is filled but for the holes that `is_kept` keeps, mm.
+    pub(crate) fn filled_disc_diameter_mm(&self, group: usize, is_kept: impl Fn(&Ring) -> bool) -> f64 {
+        let (outer, holes) = self.polygons[group].split_at(1);
+        let holes = holes.iter().filter(|&&hole| is_kept(&self.section.rings[hole]));
+        let rings: Vec<usize> = outer.iter().chain(holes).copied().collect();
+        let disc = self.section.outline(&rings).largest_disc(0.0);
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
     }
 

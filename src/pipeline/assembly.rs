@@ -5,10 +5,11 @@ use rayon::prelude::*;
 use super::{
     Error, Setup, Solved,
     ballasting::seats,
-    bosses::{BossRound, Bossed, bossed},
-    cleaning::{Cleaned, CleaningRound, cleaned, planned_once},
+    bosses::BossRound,
+    cleaning::{CleaningRound, planned_once},
     joining::{joined, label_style},
     phase,
+    planning::{Lengths, Planned, planned},
     printer_rows::minimum_wall_mm,
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids, inside},
@@ -34,9 +35,6 @@ const MAX_ASSEMBLIES: usize = 3;
 /// where cuts cross (fertility at 100 mm by stereolithography: 3 cuts, 16 joints); more, and voids shrink by what shows in the goal's figure.
 const WORTH_RATIO: f64 = 0.02;
 
-/// What is said where bosses had to be given up in the end.
-const NO_BOSSES: &str = "bosses around pins would break a promise of the kit: no joint has them";
-
 /// The parts of a kit, tuned so that what is written meets the goal.
 #[derive(Debug, Clone)]
 pub struct Assembly {
@@ -48,7 +46,7 @@ pub struct Assembly {
     pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
-    /// The volume of voids that could not be cleaned and stay solid, mm³.
+    /// The volume of voids that stay solid because they could not be cleaned, or left a joint no room for pins, mm³.
     pub refused_mm3: f64,
     /// The cuts and pins.
     pub plan: CutPlan,
@@ -62,37 +60,18 @@ pub struct Assembly {
     pub cleaning: Vec<CleaningRound>,
     /// The rounds in which bosses were kept solid around pins.
     pub bosses: Vec<BossRound>,
+    /// The least lengths, for the pins of its joints, with which it would have come out so.
+    pub lengths: Lengths,
 }
 
 impl Assembly {
     /// Makes the parts of a solution, measures what would be written, and solves again with the difference until the written
-    /// parts meet the goal (THEORY §4).
+    /// parts meet the goal (THEORY §4); for the pins of its joints it goes to these lengths.
     pub fn corrected(
         setup: &Setup,
         solved: Solved,
-        progress: &Progress,
-        watch: &mut Stopwatch,
-    ) -> Result<Self, Error> {
-        Self::made(setup, solved, (progress, watch), true)
-    }
-
-    /// The same, but that joints without room for pins stay so.
-    pub fn without_bosses(
-        setup: &Setup,
-        solved: Solved,
-        progress: &Progress,
-        watch: &mut Stopwatch,
-    ) -> Result<Self, Error> {
-        let mut plain = Self::made(setup, solved, (progress, watch), false)?;
-        plain.plan.notes.push(NO_BOSSES.to_owned());
-        Ok(plain)
-    }
-
-    fn made(
-        setup: &Setup,
-        solved: Solved,
+        lengths: Lengths,
         (progress, watch): (&Progress, &mut Stopwatch),
-        with_bosses: bool,
     ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
         let value_before_cleaning = solved.solution.certificate.value;
@@ -101,20 +80,13 @@ impl Assembly {
         let voids = tuner.first()?;
         watch.lap("voids");
         progress.report(phase::PARTS, 0.0);
-        let request = plan_request(setup);
-        let Cleaned { voids, plan, rounds: cleaning } = cleaned(setup, &mut tuner, voids, &request)?;
-        watch.lap("plan");
-        if !with_bosses {
-            let assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
-            watch.lap("parts");
-            return Ok(Self { value_before_cleaning, cleaning, ..assembly });
-        }
-        let Bossed { voids, plan, rounds, notes, .. } = bossed(&mut tuner, (voids, plan), &request)?;
-        watch.lap("bosses");
+        let asked = (&plan_request(setup), lengths);
+        let Planned { voids, plan, notes, request, cleaning, bosses, lengths } =
+            planned(setup, (&mut tuner, &mut *watch), voids, asked)?;
         let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
         assembly.plan.notes.extend(notes);
         watch.lap("parts");
-        Ok(Self { value_before_cleaning, cleaning, bosses: rounds, ..assembly })
+        Ok(Self { value_before_cleaning, cleaning, bosses, lengths, ..assembly })
     }
 
     /// The moments of the written parts put together, without hardware and ballast, model frame.
@@ -180,6 +152,7 @@ fn assembled(
         rounds,
         cleaning: Vec::new(),
         bosses: Vec::new(),
+        lengths: Lengths::Walls,
     })
 }
 
@@ -210,7 +183,8 @@ fn written_parts(
 ) -> Result<Vec<WrittenPart>, Error> {
     let (parts, refaced) = match parts_and_faces(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
-            *plan = planned_once(setup, voids, request)?;
+            let solid = std::mem::take(&mut plan.solid);
+            *plan = CutPlan { solid, ..planned_once(setup, voids, request)? };
             parts_and_faces(&voids.hollowed, plan, request)?
         }
         parts => parts?,
@@ -227,6 +201,7 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     PlanRequest {
         worth_ratio: WORTH_RATIO,
+        wants_wide_joints: false,
         min_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
         build_volume_mm: printer.usable_volume_mm(),

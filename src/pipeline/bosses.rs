@@ -40,6 +40,7 @@ pub struct KeptBoss {
 }
 
 /// What the rounds end with.
+#[derive(Clone)]
 pub struct Bossed {
     /// The voids that leave the bosses solid.
     pub voids: Voids,
@@ -47,22 +48,18 @@ pub struct Bossed {
     pub plan: CutPlan,
     /// The rounds, in their order.
     pub rounds: Vec<BossRound>,
-    /// Why no more bosses were made though pins lack room.
-    pub notes: Vec<String>,
     /// The bosses of the plan's pins.
     held: Vec<Boss>,
+    failed: Failed,
+    /// What there was without any boss.
+    first: Reached,
 }
 
-/// Keeps bosses solid until every joint has its pins, or no more can be had.
-pub fn bossed(
-    tuner: &mut Tuner,
-    (voids, plan): (Voids, CutPlan),
-    request: &PlanRequest,
-) -> Result<Bossed, Error> {
+/// Keeps bosses solid until every joint has its pins, or no more can be had at a low price. Ordered pins have theirs at any price that
+/// leaves the kit worth having.
+pub fn bossed(tuner: &mut Tuner, mut state: Bossed, request: &PlanRequest) -> Result<Bossed, Error> {
     let ordered = ordered_pins(tuner);
-    let mut state = Bossed { voids, plan, rounds: Vec::new(), notes: Vec::new(), held: Vec::new() };
     let mut failed = Failed::default();
-    let first = Reached::by(&state.voids);
     for _ in 0..MAX_ROUNDS + MAX_PATTERNS - 1 {
         let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
@@ -90,22 +87,59 @@ pub fn bossed(
             break;
         }
     }
-    for dear in failed.dear_ones() {
-        let effort = Effort { since: Some(first), ..Effort::DEAR };
-        let name = dear[0].joint();
-        match tried(tuner, &mut state, (&dear, effort), request)? {
-            Err(refusal) => failed.explain(name, refusal.why),
-            Ok(()) => failed.forget(&name),
-        }
+    state.failed = failed;
+    if ordered.is_some() {
+        state = state.paid_dearly(tuner, request, settling::DEAR_LOSS_RATIO)?;
     }
-    state.notes.extend(failed.notes());
     if let Some(pins) = ordered.filter(|pins| pins.len() > state.plan.pins.len()) {
         // Some pin has no place, and the error says which.
         let order = CutOrder { pins: Some(pins.to_vec()), ..CutOrder::of(&state.plan) };
         state.plan = plan_by(&state.voids.hollowed, request, &order)?;
     }
-    name_pins(&mut state);
     Ok(state)
+}
+
+impl Bossed {
+    /// Voids and a plan as they are without any boss.
+    pub fn without(voids: Voids, plan: CutPlan) -> Self {
+        let first = Reached::by(&voids);
+        Self { voids, plan, rounds: Vec::new(), held: Vec::new(), failed: Failed::default(), first }
+    }
+
+    /// Whether joints lack bosses that only cost too much.
+    pub fn has_dear(&self) -> bool {
+        !self.failed.dear_ones().is_empty()
+    }
+
+    /// The same with those bosses that cost more, up to this share of what the kit reaches without any.
+    pub fn paid_dearly(
+        mut self,
+        tuner: &mut Tuner,
+        request: &PlanRequest,
+        max_loss_ratio: f64,
+    ) -> Result<Self, Error> {
+        let effort = Effort { since: Some(self.first), max_loss_ratio, ..Effort::CHEAP };
+        let all = self.failed.dear_ones();
+        // Together they may cost less than one alone: a body with two arms stays balanced with both of them solid.
+        if all.len() > 1 && tried(tuner, &mut self, (&all.concat(), effort), request)?.is_ok() {
+            all.iter().for_each(|bosses| self.failed.forget(&bosses[0].joint()));
+        }
+        for dear in self.failed.dear_ones() {
+            let name = dear[0].joint();
+            match tried(tuner, &mut self, (&dear, effort), request)? {
+                Err(refusal) => self.failed.explain(name, refusal.why),
+                Ok(()) => self.failed.forget(&name),
+            }
+        }
+        Ok(self)
+    }
+
+    /// The voids, the plan and the rounds, and why joints that lack pins have no bosses.
+    pub fn told(mut self) -> (Voids, CutPlan, Vec<BossRound>, Vec<String>) {
+        name_pins(&mut self);
+        let notes = self.failed.notes().collect();
+        (self.voids, self.plan, self.rounds, notes)
+    }
 }
 
 /// What may be done for bosses.
@@ -122,11 +156,10 @@ struct Effort {
 impl Effort {
     const NONE: Self = Self { rounds: 0, max_loss_ratio: settling::CHEAP_LOSS_RATIO, since: None };
     const CHEAP: Self = Self { rounds: settling::MAX_ROUNDS, ..Self::NONE };
-    const DEAR: Self = Self { max_loss_ratio: settling::DEAR_LOSS_RATIO, ..Self::CHEAP };
 }
 
 /// Bosses that could not be had.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Failed {
     /// The joints of those that failed, once for each pattern.
     joints: Vec<JointName>,

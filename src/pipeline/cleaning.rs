@@ -4,9 +4,9 @@ use super::{
     Error, Setup,
     tuner::{REFUSED_MARGIN_RATIO, Tuner, Voids},
 };
-use crate::cut::{self, CutError, CutOrder, CutPlan, PlanRequest, Unclean, plan_by, unclean};
+use crate::cut::{self, CutError, CutOrder, CutPlan, PlanRequest, SolidEnd, Unclean, plan_by, unclean};
 use crate::job::CutMode;
-use crate::mesh::TriMesh;
+use crate::mesh::{MeshDistance, TriMesh};
 
 /// Rounds in which a void is made smaller: each keeps the ends solid that cannot be cleaned. What is left usually can be after
 /// one or two; each costs a solve and a plan.
@@ -17,6 +17,9 @@ const MAX_ROUNDS: usize = 8;
 /// Hidden ends of voids are kept solid with so much around them, in minimum openings. More costs solid that could be cleaned, less
 /// takes more rounds.
 const END_MARGIN_RATIO: f64 = 0.5;
+
+/// Why the ends of voids are kept solid that a plan names.
+const BEYOND: &str = "its end beyond a joint without room for pins";
 
 /// One round: what was kept solid, and what that costs.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,6 +32,8 @@ pub struct CleaningRound {
     pub value_before: f64,
     /// And after it; none where nothing would have met the goal any more, so that the round was taken back.
     pub value_after: Option<f64>,
+    /// Whether it is for the pins of a joint, beyond which they lie.
+    pub for_pins: bool,
 }
 
 /// Voids with a plan, and the rounds that led to them.
@@ -71,7 +76,9 @@ pub fn cleaned<'a>(
         if is_last {
             return Ok(Cleaned { voids, plan: planned?, rounds });
         }
-        let (round, less) = kept_solid(tuner, &voids, (&dirty, openings))?;
+        let bodies: Vec<TriMesh> = dirty.iter().flat_map(|unclean| unclean.lumps.clone()).collect();
+        let kept = dirty.iter().map(|unclean| (unclean.void, unclean.why.clone())).collect();
+        let (round, less) = kept_solid(tuner, &voids, (kept, &bodies, openings))?;
         match (less, planned) {
             (Some(less), _) => {
                 voids = less;
@@ -87,25 +94,45 @@ pub fn cleaned<'a>(
     }
 }
 
-/// One round: the voids without what is unclean, solved for again; none where that meets the goal no more, and the tuner is as
-/// it was.
+/// The voids without these parts of the interior, solved for again; none where they hold nothing, or the goal cannot be met without them.
+pub fn without_ends(
+    tuner: &mut Tuner,
+    voids: &Voids,
+    ends: &[SolidEnd],
+) -> Result<Option<(CleaningRound, Voids)>, Error> {
+    let bodies = tuner.parts_about(ends)?;
+    if bodies.is_empty() {
+        return Ok(None);
+    }
+    let walls: Vec<MeshDistance> =
+        voids.hollowed.voids.iter().map(|void| MeshDistance::new(void.mesh())).collect();
+    let nearest = |end: &SolidEnd| {
+        let rated = walls.iter().enumerate().map(|(void, wall)| (void, wall.signed(&end.at_mm.into())));
+        rated.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(void, _)| (void, BEYOND.to_owned()))
+    };
+    let kept = ends.iter().filter_map(nearest).collect();
+    let (round, less) = kept_solid(tuner, voids, (kept, &bodies, END_MARGIN_RATIO))?;
+    Ok(less.map(|less| (CleaningRound { for_pins: true, ..round }, less)))
+}
+
+/// One round: the voids without these bodies, solved for again; none where that meets the goal no more, and the tuner is as it was.
 fn kept_solid(
     tuner: &mut Tuner,
     voids: &Voids,
-    (dirty, openings): (&[Unclean], f64),
+    (kept, bodies, openings): (Vec<(usize, String)>, &[TriMesh], f64),
 ) -> Result<(CleaningRound, Option<Voids>), Error> {
-    let bodies: Vec<TriMesh> = dirty.iter().flat_map(|unclean| unclean.lumps.clone()).collect();
     let before = tuner.clone();
-    let less = tuner.without(voids, (&bodies, openings))?;
+    let less = tuner.without(voids, (bodies, openings))?;
     let less = less.solution.is_usable().then_some(less);
     if less.is_none() {
         *tuner = before;
     }
     let round = CleaningRound {
-        kept: dirty.iter().map(|unclean| (unclean.void, unclean.why.clone())).collect(),
+        kept,
         volume_mm3: bodies.iter().map(TriMesh::signed_volume_mm3).sum(),
         value_before: voids.solution.certificate.value,
         value_after: less.as_ref().map(|less| less.solution.certificate.value),
+        for_pins: false,
     };
     Ok((round, less))
 }

@@ -14,6 +14,7 @@ mod joining;
 mod kit;
 mod outcome;
 mod packages;
+mod planning;
 mod printer_rows;
 mod rows;
 mod settling;
@@ -32,6 +33,7 @@ pub use assembly::Assembly;
 pub use bosses::{BossRound, KeptBoss};
 pub use cleaning::CleaningRound;
 pub use outcome::{Failure, Impossible, Outcome, Prepared};
+pub use planning::Lengths;
 pub use setup::{Model, Setup};
 pub use solving::Solved;
 pub use written::WrittenPart;
@@ -59,6 +61,12 @@ pub mod phase {
     pub const REPORT: &str = "report";
 }
 
+/// What is said where the pins of every joint had to be given up in the end.
+const USUAL_WAY: &str =
+    "what would give every joint its pins breaks a promise of the kit: some are left without";
+/// What is said where bosses had to be given up in the end.
+const NO_BOSSES: &str = "bosses around pins would break a promise of the kit: no joint has them";
+
 /// Runs a job to its end: a kit and its checklist, or the proof that the goal cannot be met.
 ///
 /// Nothing is written; [`Prepared::kit`] is in memory. The same job gives the same bytes on any number of threads.
@@ -80,23 +88,28 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
     Ok(Outcome::Prepared(Box::new(advising::after(&setup, prepared, progress))))
 }
 
-/// The judged kit, with bosses where joints need them; without any where it then breaks a promise, as where what a boss hides of a
-/// void shows only in the written parts. Pins that a person ordered are kept, whatever they break: the kit's checks say it.
+/// The judged kit, with every joint's pins as far as can be; where it then breaks a promise, as where what a boss hides of a
+/// void shows only in the written parts, less is done for the pins, and in the end no boss. Pins that a person ordered are kept,
+/// whatever they break: the kit's checks say it.
 fn bossed_or_plain(
     setup: &Setup,
     solved: Solved,
     progress: &Progress,
     mut watch: Stopwatch,
 ) -> Result<Prepared, Error> {
-    let assembly = Assembly::corrected(setup, solved.clone(), progress, &mut watch)?;
-    let has_bosses = !assembly.bosses.is_empty();
-    let assembly = packages::in_format(assembly, setup)?;
-    let prepared = kit::prepared(setup, &assembly, progress, watch.clone())?;
     let is_ordered = setup.job.plan.as_ref().is_some_and(|order| order.pins.is_some());
-    if prepared.passes() || !has_bosses || is_ordered {
-        return Ok(prepared);
+    let (mut lengths, mut note) = (Lengths::All, None);
+    loop {
+        let mut assembly = Assembly::corrected(setup, solved.clone(), lengths, (progress, &mut watch))?;
+        assembly.plan.notes.extend(note.map(str::to_owned));
+        let gone = assembly.lengths;
+        let assembly = packages::in_format(assembly, setup)?;
+        let prepared = kit::prepared(setup, &assembly, progress, watch.clone())?;
+        (lengths, note) = match gone {
+            _ if is_ordered || prepared.passes() => return Ok(prepared),
+            Lengths::All => (Lengths::Bosses, Some(USUAL_WAY)),
+            Lengths::Bosses => (Lengths::Walls, Some(NO_BOSSES)),
+            Lengths::Walls => return Ok(prepared),
+        };
     }
-    let assembly = Assembly::without_bosses(setup, solved, progress, &mut watch)?;
-    let assembly = packages::in_format(assembly, setup)?;
-    kit::prepared(setup, &assembly, progress, watch)
 }

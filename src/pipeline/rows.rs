@@ -322,8 +322,12 @@ fn warnings(sheet: &Sheet, foot: Option<&FootRow>) -> Vec<String> {
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
-    let small = (refused >= LEAST_TOLD_MM3)
-        .then(|| format!("{refused:.1} mm³ of voids that could not be cleaned stay solid"));
+    let which = if sheet.assembly.cleaning.iter().any(|round| round.for_pins) {
+        "that could not be cleaned, or left a joint no room for pins,"
+    } else {
+        "that could not be cleaned"
+    };
+    let small = (refused >= LEAST_TOLD_MM3).then(|| format!("{refused:.1} mm³ of voids {which} stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());

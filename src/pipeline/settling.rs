@@ -14,11 +14,11 @@ pub const MAX_ROUNDS: usize = 4;
 /// tried.
 pub const CHEAP_LOSS_RATIO: f64 = 0.1;
 /// And by this where none is: a joint is to have its pins, and the price is told. More, and what the kit was made for is gone.
-pub const DEAR_LOSS_RATIO: f64 = 0.35;
+pub const DEAR_LOSS_RATIO: f64 = 0.65;
 
 /// Of the voids this share may be lost to bosses and what is kept solid for them: a figure such as the angle at which something topples
 /// hardly tells (homer by filament, standing: 11 % of it for all of its void).
-const MAX_VOID_LOSS_RATIO: f64 = 0.5;
+pub const MAX_VOID_LOSS_RATIO: f64 = 0.5;
 
 /// What is kept solid for the sake of bosses is kept so with so much around it, in minimum openings. It is next to nothing of a void that
 /// was clean: on the elephant and on Homer with filament, two openings cost 30 and 20 % of the critical speed.
@@ -64,6 +64,16 @@ impl Reached {
         let volumes = voids.hollowed.voids.iter().map(|void| void.mesh().signed_volume_mm3());
         Self { certificate: voids.solution.certificate, voids_mm3: volumes.sum() }
     }
+
+    /// By which share of itself the goal's figure is worse after it.
+    pub fn loss_ratio(&self, after: &Self) -> f64 {
+        loss_ratio(&self.certificate, &after.certificate)
+    }
+
+    /// Which share of the voids is solid after it.
+    pub fn filled_ratio(&self, after: &Self) -> f64 {
+        1.0 - after.voids_mm3 / self.voids_mm3.max(f64::MIN_POSITIVE)
+    }
 }
 
 /// Why bosses cannot be had.
@@ -93,11 +103,11 @@ pub fn settled(
             return Ok(Err(Refusal::because("make the goal impossible")));
         }
         let now = Reached::by(&voids);
-        let filled = 1.0 - now.voids_mm3 / terms.before.voids_mm3.max(f64::MIN_POSITIVE);
+        let filled = terms.before.filled_ratio(&now);
         if filled > MAX_VOID_LOSS_RATIO {
             return Ok(Err(Refusal::because(&format!("make {:.0} % of the voids solid", 100.0 * filled))));
         }
-        let loss = loss_ratio(&terms.before.certificate, &now.certificate);
+        let loss = terms.before.loss_ratio(&now);
         if round > 0 && loss > terms.max_loss_ratio {
             let why = format!("cost {:.0} % of what the kit reaches", 100.0 * loss);
             return Ok(Err(Refusal { why, loss_ratio: Some(loss) }));

@@ -3,6 +3,8 @@
 use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::defect_ratio};
+use crate::cut::SolidEnd;
+use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
@@ -127,6 +129,13 @@ impl<'a> Tuner<'a> {
         let written = self.written(&less, Moments::default());
         let less = self.again(&less, written)?;
         self.tuned(less, Moments::default())
+    }
+
+    /// What of what may be emptied these parts of the interior hold, as one mesh; none where they hold nothing.
+    pub fn parts_about(&self, ends: &[SolidEnd]) -> Result<Vec<TriMesh>, Error> {
+        let places: Vec<(Point, Aabb)> = ends.iter().map(|end| (end.at_mm.into(), end.aabb())).collect();
+        let parts = self.cavity.parts_about(&places)?;
+        Ok(if parts.triangles().is_empty() { Vec::new() } else { vec![parts] })
     }
 
     /// The voids solved for anew with these closed bodies kept solid from now on, and the volume that could have been emptied

@@ -16,7 +16,7 @@ const LEAST_TOLD_MM3: f64 = 0.05;
 /// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// One round in which ends of voids that could not be cleaned were kept solid, and the rest solved for again.
+/// One round in which ends of voids were kept solid, most often because they could not be cleaned, and the rest solved for again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CleaningRow {
     /// The voids, as they were numbered then, and why.
@@ -27,9 +27,12 @@ pub struct CleaningRow {
     pub value_before: f64,
     /// And after it; none where the goal could not have been met any more, so that the round was taken back.
     pub value_after: Option<f64>,
+    /// Whether it is not cleaning that asked for it but a joint beyond which they lie: without them it has room for its pins.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub for_pins: bool,
 }
 
-/// A void that could not be cleaned.
+/// A void of which something was kept solid.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct KeptRow {
     /// Its name in that round, such as `V1`.
@@ -92,7 +95,7 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
     html! {
         @if let (Some(before), true) = (proof.value_before_cleaning, proof.kept_solid_mm3 >= LEAST_TOLD_MM3) {
             p {
-                "So that every void can be cleaned, " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
+                "So that every void can be cleaned" (for_pins(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
                 " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " in place of "
                 (quantity(before, unit)) "."
             }
@@ -117,6 +120,12 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
             }
         }
     }
+}
+
+/// What voids stay solid for besides their cleaning.
+fn for_pins(sheet: &Checklist) -> &'static str {
+    let is_any = sheet.certificate.cleaning_rounds.iter().any(|round| round.for_pins);
+    if is_any { " and joints have room for pins" } else { "" }
 }
 
 /// Whether the checks of a void pass.

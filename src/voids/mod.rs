@@ -21,8 +21,10 @@ mod split;
 mod table;
 mod wall_field;
 
-use crate::geom::{Bvh, Frame, Quadric};
-use crate::mesh::{ClipError, Csg, Defects, MeshError, Solid, TriMesh, unfolded};
+use crate::geom::{Aabb, Bvh, Frame, Point, Quadric};
+use crate::mesh::{
+    ClipError, Csg, Defects, MeshDistance, MeshError, Solid, TriMesh, bodies, primitives, unfolded,
+};
 use crate::progress::Progress;
 use crate::shell::Keep;
 pub use grow::grown;
@@ -132,6 +134,21 @@ impl Cavity {
         &self.mesh
     }
 
+    /// What of the cavity hangs together with points within boxes: in each box the body that holds the point, or comes nearest to it; empty
+    /// where the cavity reaches into none of the boxes.
+    pub fn parts_about(&self, places: &[(Point, Aabb)]) -> Result<TriMesh, VoidError> {
+        let mut all = Csg::of_mesh(&TriMesh::default())?;
+        for (at, within) in places {
+            let room = Csg::of_mesh(&primitives::cuboid(&within.min, &within.max))?;
+            let parts = bodies(&self.body.intersect(&room)?.to_mesh()?).into_iter();
+            let rated = parts.map(|part| (MeshDistance::new(&part).signed(at), part));
+            if let Some((_, part)) = rated.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                all = all.union(&Csg::of_mesh(&part)?)?;
+            }
+        }
+        Ok(all.to_mesh()?)
+    }
+
     /// The voids: the parts of the cavity in which the quadric, given in `frame`, is positive; in model coordinates,
     /// the largest first. Material that would float loose in one is emptied with it.
     /// Where a void is bounded by the quadric it follows it within half the tolerance; elsewhere it is the cavity's
@@ -166,6 +183,7 @@ mod tests {
     use crate::geom::triangle::triangle_triangle_distance_squared;
     use crate::geom::{Aabb, Point, Vector};
     use crate::mesh::{MeshDistance, TriMesh};
+    use crate::shell::fixtures::cells;
 
     fn signed_volume(mesh: &TriMesh) -> f64 {
         mesh.signed_volume_mm3()
@@ -243,6 +261,27 @@ mod tests {
             [a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0].map(Point::from)
         };
         mesh.iter_corners().flat_map(of).collect()
+    }
+
+    #[test]
+    fn parts_about_points_are_those_of_the_boxes_bodies_that_hold_them_or_come_nearest() {
+        // The cavity of a U of two arms 10 mm wide and 10 mm apart: a box about both holds a body of each.
+        let arms = [[0, 1, 0], [0, 2, 0], [0, 3, 0], [2, 1, 0], [2, 2, 0], [2, 3, 0]];
+        let u = cells(&[&[[0, 0, 0], [1, 0, 0], [2, 0, 0]][..], &arms].concat(), 10.0);
+        let cavity = cavity_of(u.mesh(), &spec(1.0, &[]));
+        let about = |places: &[(Point, Aabb)]| cavity.parts_about(places).unwrap();
+        let upper = Aabb { min: Point::new(-5.0, 20.0, -5.0), max: Point::new(35.0, 50.0, 15.0) };
+        let left = about(&[(Point::new(5.0, 30.0, 5.0), upper)]);
+        let arm_mm3 = 8.0 * 19.0 * 8.0;
+        assert!((signed_volume(&left) / arm_mm3 - 1.0).abs() < 0.01, "{}", signed_volume(&left));
+        assert!(left.aabb().max.x < 10.0);
+        // Beside the other arm, in its wall.
+        let right = about(&[(Point::new(29.5, 30.0, 5.0), upper)]);
+        assert!(right.aabb().min.x > 20.0);
+        let both = about(&[(Point::new(5.0, 30.0, 5.0), upper), (Point::new(25.0, 30.0, 5.0), upper)]);
+        assert!((signed_volume(&both) - signed_volume(&left) - signed_volume(&right)).abs() < 1e-6);
+        let nowhere = Aabb { min: Point::new(12.0, 20.0, 0.0), max: Point::new(18.0, 30.0, 9.0) };
+        assert!(about(&[(Point::new(15.0, 25.0, 5.0), nowhere)]).triangles().is_empty());
     }
 
     #[test]
