@@ -60,7 +60,11 @@ fn proved(checklist: &Checklist) -> String {
         Some(percent) => format!("; this kit is {percent:.2} % away"),
         None => String::new(),
     };
-    format!("no hollowing has a better {name} than {bound}{written}")
+    let solid = match proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0 {
+        true => " with what is kept solid for cleaning and pins",
+        false => "",
+    };
+    format!("no hollowing{solid} has a better {name} than {bound}{written}")
 }
 
 fn balance(checklist: &Checklist) -> Option<String> {

@@ -143,9 +143,15 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
         let mass = quantity(sheet.assembly.mass_g, "g");
         format!("Its density was not measured: if it weighs {mass}, ")
     };
+    let liquid = sheet
+        .goal
+        .aim
+        .water
+        .map(|order| format!(" in a liquid of {}", quantity(order.liquid_g_cm3, "g/cm³")));
+    let liquid = liquid.unwrap_or_default();
     let depth = sheet.assembly.afloat.map(|afloat| {
         format!(
-            "{only_if}{} lies {} deep; leaned by {} to any side and let go, it comes back.",
+            "{only_if}{} lies {} deep{liquid}; leaned by {} to any side and let go, it comes back.",
             if is_measured { "It" } else { "it" },
             quantity(afloat.waterline_mm, "mm"),
             quantity(afloat.rights_from_deg, "°")
