@@ -51,6 +51,29 @@ fn walls_too_thin_for_pins_get_bosses_and_the_sheet_says_what_they_cost() {
 }
 
 #[test]
+fn what_a_plan_keeps_solid_stays_so_and_the_kits_plan_makes_the_same_kit_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let plan = folder.path().join("plan.toml");
+    // The cap of the ellipsoid above z = 12 mm of its 18.
+    let text = "[[cuts]]\nid = \"C1\"\npoint_mm = [0, 0, 0.013]\nnormal = [0, 0, 1]\n\n[[solid]]\nat_mm = [0, 0, 14]\nlow_mm = [-40, -40, 12]\nhigh_mm = [40, 40, 40]\n";
+    std::fs::write(&plan, text).unwrap();
+    let kit = folder.path().join("kit");
+    let sheet = small_top(&kit, &["--cut", plan.to_str().unwrap()]);
+    let rounds = sheet["certificate"]["cleaning_rounds"].as_array().unwrap();
+    assert_eq!((rounds.len(), &rounds[0]["by_plan"]), (1, &Value::Bool(true)), "{rounds:?}");
+    assert_eq!(rounds[0]["voids"][0]["why"], "the plan keeps it solid");
+    let solid = equipoise::io::stl::decode(&std::fs::read(kit.join("hollowed.stl")).unwrap()).unwrap();
+    let highest = |mesh: &equipoise::mesh::TriMesh| mesh.vertices().iter().map(|p| p.z).fold(0.0, f64::max);
+    let void = equipoise::mesh::shells(&equipoise::mesh::weld(&solid))
+        .into_iter()
+        .find(|shell| shell.signed_volume_mm3() < 0.0)
+        .unwrap();
+    assert!(highest(&void) < 12.0 && highest(&void) > 8.0, "{}", highest(&void));
+    let again = small_top(&folder.path().join("again"), &["--cut", kit.join("cuts.toml").to_str().unwrap()]);
+    assert_eq!(sheet["parts"], again["parts"]);
+}
+
+#[test]
 fn dowels_come_with_a_cut_list_and_their_mass_is_counted() {
     let folder = tempfile::tempdir().unwrap();
     let sheet = small_top(&folder.path().join("kit"), &["--pins", "dowel"]);

@@ -18,9 +18,6 @@ const MAX_ROUNDS: usize = 8;
 /// takes more rounds.
 const END_MARGIN_RATIO: f64 = 0.5;
 
-/// Why the ends of voids are kept solid that a plan names.
-const BEYOND: &str = "its end beyond a joint without room for pins";
-
 /// One round: what was kept solid, and what that costs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CleaningRound {
@@ -32,8 +29,8 @@ pub struct CleaningRound {
     pub value_before: f64,
     /// And after it; none where nothing would have met the goal any more, so that the round was taken back.
     pub value_after: Option<f64>,
-    /// Whether it is for the pins of a joint, beyond which they lie.
-    pub for_pins: bool,
+    /// Whether the plan keeps it solid, and not cleaning.
+    pub by_plan: bool,
 }
 
 /// Voids with a plan, and the rounds that led to them.
@@ -98,7 +95,7 @@ pub fn cleaned<'a>(
 pub fn without_ends(
     tuner: &mut Tuner,
     voids: &Voids,
-    ends: &[SolidEnd],
+    (ends, why): (&[SolidEnd], &str),
 ) -> Result<Option<(CleaningRound, Voids)>, Error> {
     let bodies = tuner.parts_about(ends)?;
     if bodies.is_empty() {
@@ -108,11 +105,11 @@ pub fn without_ends(
         voids.hollowed.voids.iter().map(|void| MeshDistance::new(void.mesh())).collect();
     let nearest = |end: &SolidEnd| {
         let rated = walls.iter().enumerate().map(|(void, wall)| (void, wall.signed(&end.at_mm.into())));
-        rated.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(void, _)| (void, BEYOND.to_owned()))
+        rated.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(void, _)| (void, why.to_owned()))
     };
     let kept = ends.iter().filter_map(nearest).collect();
     let (round, less) = kept_solid(tuner, voids, (kept, &bodies, END_MARGIN_RATIO))?;
-    Ok(less.map(|less| (CleaningRound { for_pins: true, ..round }, less)))
+    Ok(less.map(|less| (CleaningRound { by_plan: true, ..round }, less)))
 }
 
 /// One round: the voids without these bodies, solved for again; none where that meets the goal no more, and the tuner is as it was.
@@ -132,7 +129,7 @@ fn kept_solid(
         volume_mm3: bodies.iter().map(TriMesh::signed_volume_mm3).sum(),
         value_before: voids.solution.certificate.value,
         value_after: less.as_ref().map(|less| less.solution.certificate.value),
-        for_pins: false,
+        by_plan: false,
     };
     Ok((round, less))
 }

@@ -22,6 +22,10 @@ const ENDS_MARGIN_RATIO: f64 = 0.25;
 /// What pins may cost where some joint is left without them all the same.
 const PARTIAL_LOSS_RATIO: f64 = 0.35;
 
+/// Why something stays solid: the planner's reason, and a person's.
+const BEYOND: &str = "the end beyond a joint without room for pins";
+const ORDERED: &str = "the plan keeps it solid";
+
 /// What is said where a person's plan keeps too much solid.
 const TOO_SOLID: &str =
     "what the plan keeps solid leaves too little to be emptied for the goal: it is not kept solid";
@@ -69,7 +73,7 @@ pub fn planned<'a>(
 ) -> Result<Planned, Error> {
     let start = Start { tuner: tuner.clone(), voids, solid: Vec::new(), rounds: Vec::new() };
     let (start, refused) = match setup.job.plan.as_ref().filter(|order| !order.solid.is_empty()) {
-        Some(order) => match start.without(order.solid.clone())? {
+        Some(order) => match start.without(order.solid.clone(), ORDERED)? {
             Some(less) => (less, None),
             None => (start, Some(TOO_SOLID.to_owned())),
         },
@@ -111,9 +115,9 @@ struct Start<'a> {
 
 impl<'a> Start<'a> {
     /// The same with these parts of the interior kept solid; none where the goal cannot be met so, or nothing lies there.
-    fn without(&self, solid: Vec<SolidEnd>) -> Result<Option<Self>, Error> {
+    fn without(&self, solid: Vec<SolidEnd>, why: &str) -> Result<Option<Self>, Error> {
         let mut tuner = self.tuner.clone();
-        let less = without_ends(&mut tuner, &self.voids, &solid)?;
+        let less = without_ends(&mut tuner, &self.voids, (&solid, why))?;
         Ok(less.map(|(round, voids)| Self { tuner, voids, solid, rounds: vec![round] }))
     }
 }
@@ -205,7 +209,7 @@ impl<'a> Ways<'a, '_> {
                 break;
             };
             solid.extend(more);
-            let Some(start) = optional(self.start.without(solid.clone()))? else { break };
+            let Some(start) = optional(self.start.without(solid.clone(), BEYOND))? else { break };
             let Some(way) = optional(self.gone(start, base.request.clone(), watch).map(Some))? else { break };
             found.push(Way { name: Some("voids solid beyond joints without room"), ..way });
             if found.last().is_some_and(Way::is_full) {

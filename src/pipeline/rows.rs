@@ -322,8 +322,8 @@ fn warnings(sheet: &Sheet, foot: Option<&FootRow>) -> Vec<String> {
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
-    let which = if sheet.assembly.cleaning.iter().any(|round| round.for_pins) {
-        "that could not be cleaned, or left a joint no room for pins,"
+    let which = if sheet.assembly.cleaning.iter().any(|round| round.by_plan) {
+        "that could not be cleaned, or that the plan keeps solid,"
     } else {
         "that could not be cleaned"
     };

@@ -93,7 +93,7 @@ pub fn cleaning_rows(rounds: &[CleaningRound], shown: impl Fn(f64) -> f64) -> Ve
         volume_mm3: round.volume_mm3,
         value_before: shown(round.value_before),
         value_after: round.value_after.map(&shown),
-        for_pins: round.for_pins,
+        by_plan: round.by_plan,
     };
     rounds.iter().map(row).collect()
 }

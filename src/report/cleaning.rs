@@ -27,9 +27,10 @@ pub struct CleaningRow {
     pub value_before: f64,
     /// And after it; none where the goal could not have been met any more, so that the round was taken back.
     pub value_after: Option<f64>,
-    /// Whether it is not cleaning that asked for it but a joint beyond which they lie: without them it has room for its pins.
+    /// Whether it is not cleaning that asked for it but the plan, which keeps solid what lies beyond joints without room for pins, or
+    /// what a person wrote into it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub for_pins: bool,
+    pub by_plan: bool,
 }
 
 /// A void of which something was kept solid.
@@ -95,7 +96,7 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
     html! {
         @if let (Some(before), true) = (proof.value_before_cleaning, proof.kept_solid_mm3 >= LEAST_TOLD_MM3) {
             p {
-                "So that every void can be cleaned" (for_pins(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
+                "So that every void can be cleaned" (by_plan(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
                 " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " in place of "
                 (quantity(before, unit)) "."
             }
@@ -122,10 +123,10 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
     }
 }
 
-/// What voids stay solid for besides their cleaning.
-fn for_pins(sheet: &Checklist) -> &'static str {
-    let is_any = sheet.certificate.cleaning_rounds.iter().any(|round| round.for_pins);
-    if is_any { " and joints have room for pins" } else { "" }
+/// What stays solid besides what could not be cleaned.
+fn by_plan(sheet: &Checklist) -> &'static str {
+    let is_any = sheet.certificate.cleaning_rounds.iter().any(|round| round.by_plan);
+    if is_any { ", and where the plan keeps the inside solid" } else { "" }
 }
 
 /// Whether the checks of a void pass.

@@ -195,7 +195,12 @@ pub fn wall(wall: &WallRow) -> String {
 
 /// What the proof takes as solid besides the wall.
 fn kept_solid(proof: &Certificate) -> &'static str {
+    let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
     match (proof.kept_solid_mm3 > 0.0, proof.bosses_mm3 > 0.0) {
+        (true, true) if by_plan => {
+            ", solid where voids could not be cleaned or the plan keeps it so and in bosses around pins,"
+        }
+        (true, false) if by_plan => ", solid where voids could not be cleaned or the plan keeps it so,",
         (true, true) => ", solid where voids could not be cleaned and in bosses around pins,",
         (true, false) => ", solid where voids could not be cleaned,",
         (false, true) => ", solid in bosses around pins,",
