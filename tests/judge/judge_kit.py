@@ -49,6 +49,7 @@ PAIRS_LIMIT = 40_000_000
 # How many points of a void's wall are looked at, from so many places across each mouth in two directions.
 SIGHT_SAMPLES = 400
 SIGHT_ACROSS = 20
+SIGHT_ALONG = 64
 # Hanging places smaller than a square of so many line widths a side are carried by what is beside them.
 SUPPORT_LINES = 3
 # How many points of the voids are measured to the outside.
@@ -600,6 +601,10 @@ def mouths_of(cavity, plane, tool):
         steps = (np.arange(SIGHT_ACROSS) + 0.5) / SIGHT_ACROSS
         grid = [Point(low_x + (high_x - low_x) * i, low_y + (high_y - low_y) * j) for i in steps for j in steps]
         at = [middle] + [p for p in grid if room >= tool / 2 and roomy.contains(p)]
+        # In a narrow arm of a mouth few places of the grid have room: what is seen from there is seen along the rim of the room.
+        for rim in [line for piece in getattr(roomy, "geoms", [roomy]) for line in [piece.exterior, *piece.interiors]]:
+            if room >= tool / 2 and rim.length > 0:
+                at += [rim.interpolate(i / SIGHT_ALONG, normalized=True) for i in range(SIGHT_ALONG)]
         mouths.append((2 * room, origin + np.array([[p.x, p.y] for p in at]) @ axes[:2]))
     return mouths
 
