@@ -16,7 +16,7 @@ use crate::units::counted;
 const MAX_ENDS: usize = 3;
 
 /// They are given up with so much of the interior around them, in minimum openings: humpty afloat by PolyJet then has a metacentric
-/// height of 0.84, 0.82, 0.79, 0.72 and 0.49 mm with 0, 0.25, 0.5, 1 and 2; on a Form 3 none leaves the joints without pins.
+/// height of 0.84, 0.82, 0.79, 0.72 and 0.49 mm with 0, 0.25, 0.5, 1 and 2 (at a pitch of 0.5 mm); on a Form 3 none leaves the joints without pins.
 const ENDS_MARGIN_RATIO: f64 = 0.25;
 
 /// Openings are asked for that are so much wider than the least: solving again for pins narrows them (fertility by filament from 5.00
@@ -66,7 +66,7 @@ pub struct Planned {
 /// Cuts with which every void can be cleaned, and pins: in the walls where they have room, in bosses elsewhere.
 ///
 /// The planner foresees how wide a joint is, and not what bosses in it hide or cost. Where joints are left without their pins
-/// other ways are gone: no cuts for cleaning alone; cuts that are weighed by how wide their joints are, walls or not; and if these do not give every joint
+/// other ways are gone: fewer cuts for cleaning alone; cuts that are weighed by how wide their joints are, walls or not; and if these do not give every joint
 /// its pins cheaply, bosses at a higher price, and no voids beyond such joints at all. The way that leaves the fewest joints without
 /// pins is taken, of several the one that costs the goal's figure least. What a person ordered stays.
 pub fn planned<'a>(
@@ -187,11 +187,11 @@ impl<'a> Ways<'a, '_> {
         PlanRequest { min_opening_mm, ..self.request.clone() }
     }
 
-    /// What only a further cut would let be cleaned stays solid.
+    /// What only a further cut would let be cleaned stays solid, as long as the goal can be met so.
     fn with_fewer_cuts(&self, watch: &mut Stopwatch) -> Result<Option<Way<'a>>, Error> {
         let fewer = PlanRequest { worth_ratio: 1.0, ..self.with_spare_openings() };
         let way = optional(self.gone(self.start.clone(), fewer, watch).map(Some))?;
-        Ok(way.map(|way| Way { name: Some("no cuts for cleaning alone"), ..way }))
+        Ok(way.map(|way| Way { name: Some("fewer cuts for cleaning alone"), ..way }))
     }
 
     fn with_wide_joints(&self, watch: &mut Stopwatch) -> Result<Option<Way<'a>>, Error> {
