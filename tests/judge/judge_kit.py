@@ -618,8 +618,9 @@ def in_the_way(surface, start, end):
 
 
 def sight(cavity, cuts, parts, printer, rotations):
-    """The shares of a void's wall that are in sight of the mouths in the cuts about them and within reach, and in sight or
-    printed without support; of a random sample, with the parts' own triangles in the way."""
+    """The shares of a void's wall that are in sight of the mouths in the cuts about them and within reach: of those that let
+    the tool in, of all; and of all or printed without support. Of a random sample, with the parts' own triangles in the way.
+    A mouth too narrow for the tool counts where a piece of the void has no wider one, which lies between the first two."""
     rule, tool = printer["cleaning"], printer["minimum_opening_mm"]
     planes = [(np.array(c["point_mm"], float), np.array(c["normal"], float) / np.linalg.norm(c["normal"])) for c in cuts]
     mouths = [mouths_of(cavity, cut, tool) for cut in cuts]
@@ -630,7 +631,7 @@ def sight(cavity, cuts, parts, printer, rotations):
     surfaces = [(c, c.min(axis=1), c.max(axis=1)) for c in near]
     owner_of = owners[trimesh.proximity.closest_point(welded_soup(all_near), points)[2]]
     heights = np.array([[(p - o) @ n for o, n in planes] for p in points]).reshape(len(points), len(planes))
-    seen = needless = 0
+    seen = narrowly = needless = 0
     for index, point in enumerate(points):
         eyes = []
         for k, cut_mouths in enumerate(mouths):
@@ -639,18 +640,19 @@ def sight(cavity, cuts, parts, printer, rotations):
                 other = [j for j in range(len(planes)) if j != k]
                 beside = np.array([[(e - planes[j][0]) @ planes[j][1] for j in other] for e in at]).reshape(len(at), len(other))
                 own = (beside * heights[index, other] >= -1e-6).all(axis=1) if other else np.ones(len(at), bool)
-                eyes += [e for e in at[own]]
-        eyes.sort(key=lambda e: np.linalg.norm(e - point))
+                eyes += [(width < tool, np.linalg.norm(e - point), e) for e in at[own]]
+        eyes.sort(key=lambda eye: eye[:2])
         surface = surfaces[owner_of[index]]
         reach = rule.get("reach_mm", math.inf)
-        visible = any(
-            np.linalg.norm(point - e) <= reach and not in_the_way(surface, e, e + (point - e) * 0.998) for e in eyes)
+        sees = lambda e, far: far <= reach and not in_the_way(surface, e, e + (point - e) * 0.998)
+        narrow = next((is_narrow for is_narrow, far, e in eyes if sees(e, far)), None)
+        visible = narrow is not None
         # The cavity's own normals look into it, as the material's do.
         upright = rotations[owner_of[index]] @ cavity.face_normals[faces[index]]
         lean = rule.get("overhang_deg")
         free = lean is not None and -upright[2] <= math.cos(math.radians(lean))
-        seen, needless = seen + visible, needless + (free and not visible)
-    return seen / len(points), (seen + needless) / len(points)
+        seen, narrowly, needless = seen + visible, narrowly + bool(narrow), needless + (free and not visible)
+    return (seen - narrowly) / len(points), seen / len(points), (seen + needless) / len(points)
 
 
 def welded_soup(corners):
@@ -672,10 +674,10 @@ def judge_voids(table, sheet, voids, parts):
         table.at_least(f"{row['id']} widest opening, mm", min(row["least_opening_mm"], rule.get("pair_opening_mm", math.inf)) * 0.995, widest)
         if rule["sight_ratio"] == 0:
             continue
-        in_sight, clean = sight(cavity, sheet["cuts"], parts, printer, rotations)
+        wide_only, in_sight, clean = sight(cavity, sheet["cuts"], parts, printer, rotations)
         # Four standard deviations of this sample and that of the program, and a hundredth for eyes at other places.
         spread = lambda p: 0.01 + 4 * math.sqrt(max(p * (1 - p), 0.002) * (1 / SIGHT_SAMPLES + 1 / 2000))
-        off = abs(in_sight - row["sight_ratio"])
+        off = max(wide_only - row["sight_ratio"], row["sight_ratio"] - in_sight)
         table.line(f"{row['id']} in sight, as stated", row["sight_ratio"], in_sight, off <= spread(in_sight))
         asked = rule["sight_ratio"]
         counted = clean if rule["rule"] == "in-sight-or-self-supporting" else in_sight
