@@ -60,10 +60,8 @@ fn proved(checklist: &Checklist) -> String {
         Some(percent) => format!("; this kit is {percent:.2} % away"),
         None => String::new(),
     };
-    let solid = match proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0 {
-        true => " with what is kept solid for cleaning and pins",
-        false => "",
-    };
+    let is_solid = proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
+    let solid = if is_solid { " with what is kept solid for cleaning and pins" } else { "" };
     format!("no hollowing{solid} has a better {name} than {bound}{written}")
 }
 

@@ -7,7 +7,7 @@ use super::{
     chamber::Chamber,
     error::CutError,
     part::pieces,
-    plan::{Cut, CutPlan, part_id, tree_of},
+    plan::{Cut, CutPlan, JointNote, part_id, tree_of},
     request::PlanRequest,
     sight::Seen,
     solid::SolidEnd,
@@ -117,7 +117,8 @@ pub fn beyond(
     };
     let lacks_pins = |joint: &&Joint| {
         let ids = [joint.below, joint.above].map(part_id);
-        plan.joints.iter().any(|note| !note.is_aligned() && note.parts == ids)
+        let is_it = |note: &&JointNote| note.parts == ids && note.cut == plan.cuts[joint.cut].id;
+        plan.joints.iter().find(is_it).is_some_and(|note| !note.is_aligned())
     };
     let lesser = |joint: &Joint| {
         let sides = [joint.below, joint.above].into_iter().filter(|&part| empty_mm3(part) > 0.0);

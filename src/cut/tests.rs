@@ -167,7 +167,7 @@ fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_arou
 }
 
 #[test]
-fn a_thin_shell_has_no_room_by_plan_and_the_plan_says_so() {
+fn a_thin_shell_has_no_room_for_pins_and_the_plan_says_so() {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 23.5]]);
     let (plan, parts) = kit(&body, &request());
     assert!(plan.pins.is_empty());

@@ -194,18 +194,15 @@ pub fn wall(wall: &WallRow) -> String {
 }
 
 /// What the proof takes as solid besides the wall.
-fn kept_solid(proof: &Certificate) -> &'static str {
+fn kept_solid(proof: &Certificate) -> String {
     let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
-    match (proof.kept_solid_mm3 > 0.0, proof.bosses_mm3 > 0.0) {
-        (true, true) if by_plan => {
-            ", solid where voids could not be cleaned or the plan keeps it so and in bosses around pins,"
-        }
-        (true, false) if by_plan => ", solid where voids could not be cleaned or the plan keeps it so,",
-        (true, true) => ", solid where voids could not be cleaned and in bosses around pins,",
-        (true, false) => ", solid where voids could not be cleaned,",
-        (false, true) => ", solid in bosses around pins,",
-        (false, false) => "",
-    }
+    let reasons = [
+        (proof.kept_solid_mm3 > 0.0, "where voids could not be cleaned"),
+        (by_plan, "where the plan keeps it so"),
+        (proof.bosses_mm3 > 0.0, "in bosses around pins"),
+    ];
+    let said: Vec<&str> = reasons.into_iter().filter_map(|(is_so, words)| is_so.then_some(words)).collect();
+    if said.is_empty() { String::new() } else { format!(", solid {},", said.join(" and ")) }
 }
 
 /// What is known of a top's centre of mass at other heights.
@@ -239,6 +236,7 @@ fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::CleaningRow;
 
     #[test]
     fn numbers_have_four_digits_and_small_ones_a_power_of_ten() {
@@ -256,6 +254,16 @@ mod tests {
         assert!(is_said(&sheet));
         sheet.certificate.bosses_mm3 = 5.0;
         assert!(is_said(&sheet) && certificate(&sheet)[0].contains("in bosses around pins"));
+        assert!(!certificate(&sheet)[0].contains("the plan keeps it so"));
+        let round = CleaningRow {
+            voids: Vec::new(),
+            volume_mm3: 3.0,
+            value_before: 1.0,
+            value_after: Some(1.1),
+            by_plan: true,
+        };
+        sheet.certificate.cleaning_rounds.push(round);
+        assert!(certificate(&sheet)[0].contains("cleaned and where the plan keeps it so and in bosses"));
     }
 
     #[test]
