@@ -4,7 +4,10 @@
 //! printer's own pitch in 3 s; the whole of `prepare` in 10 s for 12 000 triangles (elephant) and in 15 s and 2 GiB for
 //! 86 000 (armadillo).
 
-#![allow(clippy::unwrap_used, reason = "a benchmark whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a benchmark whose input cannot be had has failed"
+)]
 
 #[path = "../examples/make_models/models.rs"]
 mod models;
@@ -59,42 +62,100 @@ static PRINTED_BY: LazyLock<Printer> = LazyLock::new(|| Printer::find(PRINTER).u
 
 static SCENES: LazyLock<Vec<Scene>> = LazyLock::new(|| {
     let top = Request::new(GoalKind::Top);
-    let made = ["tilted-ellipsoid", "asymmetric-heart"].map(|name| Scene::new(name, made(name), top));
-    let center = Request { contact: Some(Contact::Center), ..top };
+    let made =
+        ["tilted-ellipsoid", "asymmetric-heart"].map(|name| Scene::new(name, made(name), top));
+    let center = Request {
+        contact: Some(Contact::Center),
+        ..top
+    };
     let elephant = Scene::new("elephant", shared("elephant.obj"), center);
-    let leaning = Request { up: Up::Along([-0.1, -0.19, 0.98]), ..center };
+    let leaning = Request {
+        up: Up::Along([-0.1, -0.19, 0.98]),
+        ..center
+    };
     let armadillo = Scene::new("armadillo", shared("armadillo.obj"), leaning);
-    made.into_iter().chain([elephant, armadillo]).filter(|scene| scene.path.is_file()).collect()
+    made.into_iter()
+        .chain([elephant, armadillo])
+        .filter(|scene| scene.path.is_file())
+        .collect()
 });
 
 /// Every goal once, with each of its objectives, on the larger models.
 static GOALS: LazyLock<Vec<Scene>> = LazyLock::new(|| {
     let of = |name, file, request: Request| Scene::new(name, shared(file), request);
-    let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.0 };
-    let top =
-        |objective| Request { contact: Some(Contact::Center), objective, ..Request::new(GoalKind::Top) };
-    let yoyo = |objective| Request { objective, ..Request::new(GoalKind::Yoyo) };
-    let upright = |kind, objective| Request { up: Up::Y, objective, ..Request::new(kind) };
-    let rotor = |objective| Request { objective, ..Request::new(GoalKind::Balance) };
+    let spin_it = |gamma_c| Objective::SpinIt {
+        gamma_c,
+        gamma_i: 1.0,
+    };
+    let top = |objective| Request {
+        contact: Some(Contact::Center),
+        objective,
+        ..Request::new(GoalKind::Top)
+    };
+    let yoyo = |objective| Request {
+        objective,
+        ..Request::new(GoalKind::Yoyo)
+    };
+    let upright = |kind, objective| Request {
+        up: Up::Y,
+        objective,
+        ..Request::new(kind)
+    };
+    let rotor = |objective| Request {
+        objective,
+        ..Request::new(GoalKind::Balance)
+    };
     let goals = [
-        of("top-critical-speed", "elephant.obj", top(Objective::CriticalSpeed)),
+        of(
+            "top-critical-speed",
+            "elephant.obj",
+            top(Objective::CriticalSpeed),
+        ),
         of("top-inertia", "elephant.obj", top(spin_it(0.0))),
         of("top-inertia-and-lever", "elephant.obj", top(spin_it(1.0))),
         of("yoyo-inertia", "cheburashka.obj", yoyo(spin_it(0.0))),
-        of("yoyo-dominance", "cheburashka.obj", yoyo(Objective::Dominance)),
-        of("stand-toppling", "elephant.obj", upright(GoalKind::Stand, Objective::TopplingAngle)),
-        of("stand-lowest", "elephant.obj", upright(GoalKind::Stand, Objective::LowestCenter)),
+        of(
+            "yoyo-dominance",
+            "cheburashka.obj",
+            yoyo(Objective::Dominance),
+        ),
+        of(
+            "stand-toppling",
+            "elephant.obj",
+            upright(GoalKind::Stand, Objective::TopplingAngle),
+        ),
+        of(
+            "stand-lowest",
+            "elephant.obj",
+            upright(GoalKind::Stand, Objective::LowestCenter),
+        ),
         of("float", "elephant.obj", Request::new(GoalKind::Float)),
-        of("balance-least-removed", "rocker-arm.obj", rotor(Objective::LeastRemoved)),
-        of("balance-least-unbalance", "rocker-arm.obj", rotor(Objective::LeastUnbalance)),
+        of(
+            "balance-least-removed",
+            "rocker-arm.obj",
+            rotor(Objective::LeastRemoved),
+        ),
+        of(
+            "balance-least-unbalance",
+            "rocker-arm.obj",
+            rotor(Objective::LeastUnbalance),
+        ),
     ];
-    goals.into_iter().filter(|scene| scene.path.is_file()).collect()
+    goals
+        .into_iter()
+        .filter(|scene| scene.path.is_file())
+        .collect()
 });
 
 /// A model that is made by code, written where it can be read.
 fn made(name: &'static str) -> PathBuf {
-    let (_, make) = models::MODELS.into_iter().find(|(known, _)| *known == name).unwrap();
-    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name).with_extension("stl");
+    let (_, make) = models::MODELS
+        .into_iter()
+        .find(|(known, _)| *known == name)
+        .unwrap();
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR"))
+        .join(name)
+        .with_extension("stl");
     stl::write(&path, models::solid(make).unwrap().mesh(), name).unwrap();
     path
 }
@@ -102,7 +163,8 @@ fn made(name: &'static str) -> PathBuf {
 /// A model of the folder that `EQUIPOISE_MODELS` names, by default the one beside the repository.
 fn shared(file: &str) -> PathBuf {
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-    let folder = std::env::var_os("EQUIPOISE_MODELS").map_or_else(|| PathBuf::from(beside), PathBuf::from);
+    let folder =
+        std::env::var_os("EQUIPOISE_MODELS").map_or_else(|| PathBuf::from(beside), PathBuf::from);
     folder.join(file)
 }
 
@@ -117,14 +179,27 @@ fn goal_names() -> Vec<&'static str> {
 }
 
 fn scene(name: &str) -> &'static Scene {
-    SCENES.iter().chain(GOALS.iter()).find(|scene| scene.name == name).unwrap()
+    SCENES
+        .iter()
+        .chain(GOALS.iter())
+        .find(|scene| scene.name == name)
+        .unwrap()
 }
 
 impl Scene {
     fn new(name: &'static str, path: PathBuf, request: Request) -> Self {
         let (solid, placement, shell) = Default::default();
         let (native, cavity) = Default::default();
-        Self { name, path, request, solid, placement, shell, native, cavity }
+        Self {
+            name,
+            path,
+            request,
+            solid,
+            placement,
+            shell,
+            native,
+            cavity,
+        }
     }
 
     fn solid(&self) -> &Solid {
@@ -135,7 +210,10 @@ impl Scene {
     }
 
     fn wall_mm(&self) -> f64 {
-        PRINTED_BY.quantised_wall(Some(WALL_MM), SIZE_MM).unwrap().wall_mm
+        PRINTED_BY
+            .quantised_wall(Some(WALL_MM), SIZE_MM)
+            .unwrap()
+            .wall_mm
     }
 
     fn native_pitch_mm(&self) -> [f64; 2] {
@@ -143,13 +221,20 @@ impl Scene {
     }
 
     fn placement(&self) -> &Placement {
-        self.placement.get_or_init(|| place(self.solid(), self.wall_mm(), &self.request).unwrap())
+        self.placement
+            .get_or_init(|| place(self.solid(), self.wall_mm(), &self.request).unwrap())
     }
 
     fn shell(&self) -> &Shell {
         let placement = self.placement();
         self.shell.get_or_init(|| {
-            Shell::new(self.solid(), &placement.goal.frame, self.wall_mm(), &placement.keeps).unwrap()
+            Shell::new(
+                self.solid(),
+                &placement.goal.frame,
+                self.wall_mm(),
+                &placement.keeps,
+            )
+            .unwrap()
         })
     }
 
@@ -159,15 +244,28 @@ impl Scene {
 
     fn problem<'a>(&'a self, columns: &'a Columns) -> Problem<'a> {
         let goal = &self.placement().goal;
-        Problem { goal, fixed: goal.solid, columns }
+        Problem {
+            goal,
+            fixed: goal.solid,
+            columns,
+        }
     }
 
     fn solved(&self, columns: &Columns) -> Solution {
-        solve(&self.problem(columns), &Settings::default(), &Progress::silent())
+        solve(
+            &self.problem(columns),
+            &Settings::default(),
+            &Progress::silent(),
+        )
     }
 
     fn refined(&self, columns: &Columns, known: &Solution) -> Solution {
-        refine(&self.problem(columns), &Settings::default(), known, &Progress::silent())
+        refine(
+            &self.problem(columns),
+            &Settings::default(),
+            known,
+            &Progress::silent(),
+        )
     }
 
     /// The solution between the coarse one and the printer's own pitch.
@@ -178,11 +276,13 @@ impl Scene {
 
     /// The columns at the printer's own pitch, and the solution before they are solved on.
     fn native(&self) -> &(Columns, Solution) {
-        self.native.get_or_init(|| (self.columns(self.native_pitch_mm()), self.middle()))
+        self.native
+            .get_or_init(|| (self.columns(self.native_pitch_mm()), self.middle()))
     }
 
     fn extracted(&self) -> Cavity {
-        let [x_mm, y_mm] = [&PRINTED_BY.pixel_x_mm, &PRINTED_BY.pixel_y_mm].map(|pixel| pixel.value);
+        let [x_mm, y_mm] =
+            [&PRINTED_BY.pixel_x_mm, &PRINTED_BY.pixel_y_mm].map(|pixel| pixel.value);
         let spec = CavitySpec {
             wall_mm: self.wall_mm(),
             tolerance_mm: TOLERANCE_PIXELS * x_mm.min(y_mm),
@@ -198,9 +298,19 @@ impl Scene {
 
     fn job(&self) -> Job {
         let scaling = Scaling::Size(Length::from_mm(SIZE_MM).unwrap());
-        let model = ModelChoice { path: self.path.clone(), sha256: None, scaling };
-        let printer = PrinterChoice { id: PRINTER.into(), material: None };
-        Job { wall: Some(Length::from_mm(WALL_MM).unwrap()), ..Job::new(model, printer, self.request) }
+        let model = ModelChoice {
+            path: self.path.clone(),
+            sha256: None,
+            scaling,
+        };
+        let printer = PrinterChoice {
+            id: PRINTER.into(),
+            material: None,
+        };
+        Job {
+            wall: Some(Length::from_mm(WALL_MM).unwrap()),
+            ..Job::new(model, printer, self.request)
+        }
     }
 }
 
@@ -253,7 +363,11 @@ fn void_bodies(bencher: Bencher, name: &str) {
     let scene = scene(name);
     let (frame, solution) = (&scene.placement().goal.frame, scene.middle());
     let cavity = scene.cavity();
-    bencher.bench(|| cavity.void_bodies(black_box(&solution.quadric), frame).unwrap());
+    bencher.bench(|| {
+        cavity
+            .void_bodies(black_box(&solution.quadric), frame)
+            .unwrap()
+    });
 }
 
 #[divan::bench(args = names(), sample_count = 1, sample_size = 1)]

@@ -86,7 +86,9 @@ pub enum Error {
         density_g_cm3: f64,
     },
     /// A filling beside ballast.
-    #[error("--fill={fill} and --ballast={order} do not go together; remedy: leave one of them out")]
+    #[error(
+        "--fill={fill} and --ballast={order} do not go together; remedy: leave one of them out"
+    )]
     FillAndBallast {
         /// The filling.
         fill: Filling,
@@ -114,7 +116,9 @@ pub enum Error {
     #[error(transparent)]
     Stl(#[from] StlError),
     /// A written file does not read back.
-    #[error("a written part does not read back: {0}; this is a fault of the program, please report it")]
+    #[error(
+        "a written part does not read back: {0}; this is a fault of the program, please report it"
+    )]
     ReadBack(#[from] ContentError),
     /// A package cannot be written.
     #[error(transparent)]

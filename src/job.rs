@@ -134,8 +134,10 @@ pub enum PlanError {
 
 /// The cuts and pins ordered in the file at `path`.
 pub fn read_plan(path: &Path) -> Result<CutOrder, PlanError> {
-    let text = std::fs::read_to_string(path)
-        .map_err(|source| PlanError::Unreadable { path: path.to_owned(), source })?;
+    let text = std::fs::read_to_string(path).map_err(|source| PlanError::Unreadable {
+        path: path.to_owned(),
+        source,
+    })?;
     Ok(CutOrder::from_toml(&path.to_string_lossy(), &text)?)
 }
 
@@ -166,7 +168,9 @@ pub enum JobError {
         expected: String,
     },
     /// The job cannot be written as TOML, which happens for paths that are not Unicode.
-    #[error("the job cannot be written as TOML; remedy: rename the model so that its path is plain text")]
+    #[error(
+        "the job cannot be written as TOML; remedy: rename the model so that its path is plain text"
+    )]
     Unwritable(#[from] toml::ser::Error),
 }
 
@@ -193,8 +197,10 @@ impl Job {
 
     /// The job in the file at `path`.
     pub fn read(path: &Path) -> Result<Self, JobError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| JobError::Unreadable { path: path.to_owned(), source })?;
+        let text = std::fs::read_to_string(path).map_err(|source| JobError::Unreadable {
+            path: path.to_owned(),
+            source,
+        })?;
         Ok(Self::from_toml(&path.to_string_lossy(), &text)?)
     }
 
@@ -212,9 +218,11 @@ impl Job {
     pub fn bound_to(mut self, model_bytes: &[u8]) -> Result<Self, JobError> {
         let found = sha256_hex(&[model_bytes]);
         match self.model.sha256 {
-            Some(expected) if expected != found => {
-                Err(JobError::ModelChanged { path: self.model.path, found, expected })
-            }
+            Some(expected) if expected != found => Err(JobError::ModelChanged {
+                path: self.model.path,
+                found,
+                expected,
+            }),
             _ => {
                 self.model.sha256 = Some(found);
                 Ok(self)
@@ -243,18 +251,24 @@ fn known_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Er
 fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     match f64::deserialize(deserializer)? {
         factor if factor.is_finite() && factor > 0.0 => Ok(factor),
-        factor => Err(D::Error::custom(format!("{factor} is not a positive, finite factor"))),
+        factor => Err(D::Error::custom(format!(
+            "{factor} is not a positive, finite factor"
+        ))),
     }
 }
 
 fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, D::Error> {
-    Request::deserialize(deserializer)?.checked().map_err(D::Error::custom)
+    Request::deserialize(deserializer)?
+        .checked()
+        .map_err(D::Error::custom)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goal::{Contact, GoalKind, Hardware, Liquid, Objective, Rotor, Up, Water, Waterline};
+    use crate::goal::{
+        Contact, GoalKind, Hardware, Liquid, Objective, Rotor, Up, Water, Waterline,
+    };
     use proptest::prelude::*;
 
     fn job() -> Job {
@@ -263,7 +277,10 @@ mod tests {
             sha256: None,
             scaling: Scaling::Size(Length::from_mm(100.0).unwrap()),
         };
-        let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
+        let printer = PrinterChoice {
+            id: "objet-connex350".into(),
+            material: None,
+        };
         Job::new(model, printer, Request::new(GoalKind::Top))
     }
 
@@ -279,19 +296,33 @@ mod tests {
         other.cut = CutMode::Never;
         other.printer.material = Some("vero-white".into());
         other.model.scaling = Scaling::Factor(0.1 + 0.2);
-        other.goal =
-            Request { up: Up::Principal, objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) };
+        other.goal = Request {
+            up: Up::Principal,
+            objective: Objective::Dominance,
+            ..Request::new(GoalKind::Yoyo)
+        };
         let [mut rotor, mut boat] = [job(), job()];
         rotor.goal = Request::new(GoalKind::Balance);
-        rotor.goal.rotor = Some(Rotor { speed_rpm: 12_000.0, grade_mm_s: 1.0, bore: "8mm".parse().ok() });
+        rotor.goal.rotor = Some(Rotor {
+            speed_rpm: 12_000.0,
+            grade_mm_s: 1.0,
+            bore: "8mm".parse().ok(),
+        });
         boat.goal = Request::new(GoalKind::Float);
-        boat.goal.water = Some(Water { liquid: Liquid::Density(1.26), waterline: Waterline::Auto });
+        boat.goal.water = Some(Water {
+            liquid: Liquid::Density(1.26),
+            waterline: Waterline::Auto,
+        });
         (boat.pins, boat.ids) = (PinStyle::Dowel, IdStyle::None);
         let mut yoyo = job();
         yoyo.goal = Request::new(GoalKind::Yoyo);
         let axle = "6mmx30mm:2.7".parse().ok();
-        yoyo.goal.hardware =
-            Some(Hardware { string_gap: "3mm".parse().ok(), axle, mass_g: Some(2.5), ..Hardware::default() });
+        yoyo.goal.hardware = Some(Hardware {
+            string_gap: "3mm".parse().ok(),
+            axle,
+            mass_g: Some(2.5),
+            ..Hardware::default()
+        });
         assert!(yoyo.to_toml().unwrap().contains("axle = \"6mmx30mm:2.7\""));
         for job in [job(), other, rotor, boat, yoyo] {
             assert_eq!(reread(&job), job);
@@ -301,8 +332,13 @@ mod tests {
     #[test]
     fn a_job_reads_as_a_person_would_write_it() {
         let text = job().to_toml().unwrap();
-        for line in ["schema = 1", "up = \"z\"", "contact = \"lowest\"", "size = \"100mm\"", "kind = \"top\""]
-        {
+        for line in [
+            "schema = 1",
+            "up = \"z\"",
+            "contact = \"lowest\"",
+            "size = \"100mm\"",
+            "kind = \"top\"",
+        ] {
             assert!(text.contains(line), "{line} in\n{text}");
         }
         assert!(!text.contains("thread") && !text.contains("out"), "{text}");
@@ -323,15 +359,39 @@ mod tests {
     const BROKEN: [(&str, &str, &str); 15] = [
         ("schema = 1", "schema = 2", ":3:10: schema 2 is not known"),
         ("schema = 1\n", "", "missing field `schema`"),
-        ("solver = \"quadric\"", "solver = \"quadrik\"", "did you mean `quadric`"),
+        (
+            "solver = \"quadric\"",
+            "solver = \"quadrik\"",
+            "did you mean `quadric`",
+        ),
         ("cut = ", "cuts = ", "did you mean `cut`"),
-        ("schema = 1\n", "schema = 1\nwall = \"-1mm\"\n", ":4:8: `-1mm` is not a positive, finite length"),
-        ("schema = 1\n", "schema = 1\nwall = nan\n", ":4:8: `NaN` is not a positive, finite length"),
-        ("schema = 1\n", "schema = 1\nwall = \"1 league\"\n", "`league` in `1 league` is not a unit"),
+        (
+            "schema = 1\n",
+            "schema = 1\nwall = \"-1mm\"\n",
+            ":4:8: `-1mm` is not a positive, finite length",
+        ),
+        (
+            "schema = 1\n",
+            "schema = 1\nwall = nan\n",
+            ":4:8: `NaN` is not a positive, finite length",
+        ),
+        (
+            "schema = 1\n",
+            "schema = 1\nwall = \"1 league\"\n",
+            "`league` in `1 league` is not a unit",
+        ),
         ("up = \"z\"", "up = \"0,0,0\"", "has no direction"),
         ("up = \"z\"", "up = \"w\"", "is not a direction"),
-        ("contact = \"lowest\"", "contact = \"highest\"", "is not a contact point"),
-        ("kind = \"top\"", "kind = \"spinner\"", "unknown variant `spinner`"),
+        (
+            "contact = \"lowest\"",
+            "contact = \"highest\"",
+            "is not a contact point",
+        ),
+        (
+            "kind = \"top\"",
+            "kind = \"spinner\"",
+            "unknown variant `spinner`",
+        ),
         (
             "kind = \"top\"",
             "kind = \"yoyo\"",
@@ -342,7 +402,11 @@ mod tests {
             "spin_point = \"center\"\nobjective = ",
             "a spin point goes with the goal yoyo or balance",
         ),
-        ("size = \"100mm\"", "factor = -2.0", "-2 is not a positive, finite factor"),
+        (
+            "size = \"100mm\"",
+            "factor = -2.0",
+            "-2 is not a positive, finite factor",
+        ),
         ("size = \"100mm\"", "length = 3", "unknown variant `length`"),
     ];
 
@@ -352,7 +416,9 @@ mod tests {
         let mut wrong = Vec::new();
         for (from, to, reason) in BROKEN {
             assert!(whole.contains(from), "{from} in\n{whole}");
-            let error = Job::from_toml("job.toml", &whole.replacen(from, to, 1)).expect_err(to).to_string();
+            let error = Job::from_toml("job.toml", &whole.replacen(from, to, 1))
+                .expect_err(to)
+                .to_string();
             if !error.contains(reason)
                 || !error.starts_with("job.toml:")
                 || error.starts_with("job.toml:1:1: `")
@@ -367,14 +433,24 @@ mod tests {
     fn a_job_is_bound_to_the_bytes_of_its_model() {
         let bound = job().bound_to(b"abc").unwrap();
         let abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
-        assert_eq!(bound.model.sha256.as_deref(), Some(abc), "the test vector of FIPS 180-4");
+        assert_eq!(
+            bound.model.sha256.as_deref(),
+            Some(abc),
+            "the test vector of FIPS 180-4"
+        );
         assert!(bound.clone().bound_to(b"abc").is_ok());
-        assert!(matches!(bound.bound_to(b"abd"), Err(JobError::ModelChanged { .. })));
+        assert!(matches!(
+            bound.bound_to(b"abd"),
+            Err(JobError::ModelChanged { .. })
+        ));
     }
 
     #[test]
     fn scaling_brings_the_longest_side_to_the_size() {
-        assert_eq!(Scaling::Size(Length::from_mm(100.0).unwrap()).factor(0.5), 200.0);
+        assert_eq!(
+            Scaling::Size(Length::from_mm(100.0).unwrap()).factor(0.5),
+            200.0
+        );
         assert_eq!(Scaling::Unit(ModelUnit::In).factor(7.0), 25.4);
         assert_eq!(Scaling::Factor(3.0).factor(7.0), 3.0);
     }

@@ -16,12 +16,18 @@ pub struct Progress<'a> {
 impl<'a> Progress<'a> {
     /// Reports nothing.
     pub fn silent() -> Self {
-        Self { observer: None, cancelled: AtomicBool::new(false) }
+        Self {
+            observer: None,
+            cancelled: AtomicBool::new(false),
+        }
     }
 
     /// Calls `observer(phase, done_ratio)` at the start of each phase (ratio 0) and as it advances (up to 1).
     pub fn observed(observer: &'a Observer) -> Self {
-        Self { observer: Some(observer), cancelled: AtomicBool::new(false) }
+        Self {
+            observer: Some(observer),
+            cancelled: AtomicBool::new(false),
+        }
     }
 
     /// Tells the observer how far the named phase has come, 0 to 1.

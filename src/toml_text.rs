@@ -21,7 +21,11 @@ impl Place {
         let before = text.get(..offset.min(text.len())).unwrap_or(text);
         let line = before.matches('\n').count() + 1;
         let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
-        Self { file: file.to_owned(), line, column }
+        Self {
+            file: file.to_owned(),
+            line,
+            column,
+        }
     }
 }
 
@@ -44,14 +48,22 @@ pub struct TextFault {
 /// The value described by the TOML `text`, which messages call `file`.
 pub fn read<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, TextFault> {
     toml::from_str(text).map_err(|error| TextFault {
-        place: Place::of_byte(file, text, error.span().map_or(0, |Range { start, .. }| start)),
+        place: Place::of_byte(
+            file,
+            text,
+            error.span().map_or(0, |Range { start, .. }| start),
+        ),
         message: explained(error.message()),
     })
 }
 
 /// The parser's message on one line; for an unknown name, the nearest of the expected ones is added.
 fn explained(message: &str) -> String {
-    let one_line = message.lines().map(str::trim).collect::<Vec<_>>().join("; ");
+    let one_line = message
+        .lines()
+        .map(str::trim)
+        .collect::<Vec<_>>()
+        .join("; ");
     if !one_line.starts_with("unknown ") {
         return one_line;
     }
@@ -134,8 +146,16 @@ mod tests {
     fn an_unknown_key_is_told_with_its_place_and_the_key_meant() {
         let fault = read::<Sample>("x.toml", "wall_mm = 1.0\nwal_mm = 2.0\n").unwrap_err();
         assert_eq!((fault.place.line, fault.place.column), (2, 1));
-        assert!(fault.to_string().starts_with("x.toml:2:1: unknown field `wal_mm`"), "{fault}");
-        assert!(fault.to_string().contains("did you mean `wall_mm`"), "{fault}");
+        assert!(
+            fault
+                .to_string()
+                .starts_with("x.toml:2:1: unknown field `wal_mm`"),
+            "{fault}"
+        );
+        assert!(
+            fault.to_string().contains("did you mean `wall_mm`"),
+            "{fault}"
+        );
     }
 
     #[test]
@@ -146,6 +166,13 @@ mod tests {
 
     #[test]
     fn a_fault_past_the_end_lies_at_the_end() {
-        assert_eq!(Place::of_byte("f", "ab\nc", 99), Place { file: "f".into(), line: 2, column: 2 });
+        assert_eq!(
+            Place::of_byte("f", "ab\nc", 99),
+            Place {
+                file: "f".into(),
+                line: 2,
+                column: 2
+            }
+        );
     }
 }

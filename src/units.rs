@@ -19,8 +19,14 @@ pub const MM2_PER_CM2: f64 = 100.0;
 pub const MM3_PER_CM3: f64 = 1000.0;
 
 /// The units a length may be written in, and what each is in mm; `mm` comes first, the default.
-const LENGTH_UNITS: [(&str, f64); 6] =
-    [("mm", 1.0), ("cm", 10.0), ("m", 1000.0), ("in", MM_PER_INCH), ("um", 1e-3), ("µm", 1e-3)];
+const LENGTH_UNITS: [(&str, f64); 6] = [
+    ("mm", 1.0),
+    ("cm", 10.0),
+    ("m", 1000.0),
+    ("in", MM_PER_INCH),
+    ("um", 1e-3),
+    ("µm", 1e-3),
+];
 
 /// A length as a person writes it: `100mm`, `4in`, `10cm`, `0.1m`, `42um`; without a unit, mm. Always positive and finite.
 ///
@@ -32,14 +38,20 @@ pub struct Length {
 
 /// Counts one thing or several: `1 pin`, `3 pins`.
 pub fn counted(count: usize, thing: &str) -> String {
-    if count == 1 { format!("1 {thing}") } else { format!("{count} {thing}s") }
+    if count == 1 {
+        format!("1 {thing}")
+    } else {
+        format!("{count} {thing}s")
+    }
 }
 
 /// What is wrong with a length.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum LengthError {
     /// No digits.
-    #[error("`{0}` is not a length; remedy: write a number and a unit, such as 100mm, 10cm, 0.1m or 4in")]
+    #[error(
+        "`{0}` is not a length; remedy: write a number and a unit, such as 100mm, 10cm, 0.1m or 4in"
+    )]
     NotANumber(String),
     /// A unit that is not known.
     #[error("`{unit}` in `{text}` is not a unit of length; remedy: use mm, cm, m, in or um")]
@@ -78,18 +90,27 @@ impl FromStr for Length {
         if let Ok(mm) = lower.parse::<f64>() {
             return Self::from_mm(mm).map_err(|_| LengthError::NotPositive(text.to_owned()));
         }
-        let unit_at = lower.rfind(|c: char| c.is_ascii_digit() || c == '.').map_or(0, |last| last + 1);
+        let unit_at = lower
+            .rfind(|c: char| c.is_ascii_digit() || c == '.')
+            .map_or(0, |last| last + 1);
         let (number, unit) = (lower[..unit_at].trim(), lower[unit_at..].trim());
-        let number: f64 = number.parse().map_err(|_| LengthError::NotANumber(text.to_owned()))?;
-        let factor = unit_in_mm(unit)
-            .ok_or_else(|| LengthError::UnknownUnit { text: text.to_owned(), unit: unit.to_owned() })?;
+        let number: f64 = number
+            .parse()
+            .map_err(|_| LengthError::NotANumber(text.to_owned()))?;
+        let factor = unit_in_mm(unit).ok_or_else(|| LengthError::UnknownUnit {
+            text: text.to_owned(),
+            unit: unit.to_owned(),
+        })?;
         Self::from_mm(number * factor).map_err(|_| LengthError::NotPositive(text.to_owned()))
     }
 }
 
 /// What one of the named unit is in mm.
 fn unit_in_mm(unit: &str) -> Option<f64> {
-    LENGTH_UNITS.iter().find(|(name, _)| *name == unit).map(|&(_, mm)| mm)
+    LENGTH_UNITS
+        .iter()
+        .find(|(name, _)| *name == unit)
+        .map(|&(_, mm)| mm)
 }
 
 /// The shortest decimal that reads back as the same length, with its unit: `1.016mm`.
@@ -147,7 +168,11 @@ pub fn show_mm(mm: f64) -> String {
 
 /// A volume for people: `12.35 cm³` from 1 cm³, `12.3 mm³` below.
 pub fn show_mm3(mm3: f64) -> String {
-    if mm3.abs() < MM3_PER_CM3 { with_unit(mm3, 1, "mm³") } else { with_unit(mm3 / MM3_PER_CM3, 2, "cm³") }
+    if mm3.abs() < MM3_PER_CM3 {
+        with_unit(mm3, 1, "mm³")
+    } else {
+        with_unit(mm3 / MM3_PER_CM3, 2, "cm³")
+    }
 }
 
 /// A mass for people: `12.35 g`.
@@ -187,7 +212,11 @@ pub fn show_small(value: f64) -> String {
 
 fn with_unit(value: f64, places: usize, unit: &str) -> String {
     let text = decimals(value, places);
-    if text == NO_NUMBER { text } else { format!("{text} {unit}") }
+    if text == NO_NUMBER {
+        text
+    } else {
+        format!("{text} {unit}")
+    }
 }
 
 /// `value` with so many decimals; never `-0.00`, and a dash if it is not finite.
@@ -197,7 +226,11 @@ fn decimals(value: f64, places: usize) -> String {
     }
     let text = format!("{value:.places$}");
     let is_zero = !text.bytes().any(|b| b.is_ascii_digit() && b != b'0');
-    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
+    if is_zero {
+        text.trim_start_matches('-').to_owned()
+    } else {
+        text
+    }
 }
 
 #[cfg(test)]
@@ -211,13 +244,25 @@ mod tests {
 
     #[test]
     fn one_thing_is_singular_and_none_is_not() {
-        assert_eq!([0, 1, 3].map(|count| counted(count, "pin")), ["0 pins", "1 pin", "3 pins"]);
+        assert_eq!(
+            [0, 1, 3].map(|count| counted(count, "pin")),
+            ["0 pins", "1 pin", "3 pins"]
+        );
     }
 
     #[test]
     fn a_length_is_read_in_every_unit_and_in_mm_without_one() {
-        let same =
-            ["101.6mm", "4in", "10.16cm", "0.1016m", "101600um", "101.6", " 101.6 MM ", "4 in", "1016e-1mm"];
+        let same = [
+            "101.6mm",
+            "4in",
+            "10.16cm",
+            "0.1016m",
+            "101600um",
+            "101.6",
+            " 101.6 MM ",
+            "4 in",
+            "1016e-1mm",
+        ];
         for text in same {
             assert!((mm(text) - 101.6).abs() < 1e-12, "{text}");
         }
@@ -230,13 +275,25 @@ mod tests {
     fn a_bad_length_says_what_is_wrong_with_it() {
         let says = |text: &str| text.parse::<Length>().unwrap_err().to_string();
         for text in ["", "mm", "wide", "1,5mm", "--1", "1.2.3mm"] {
-            assert!(says(text).contains("is not a length"), "{text}: {}", says(text));
+            assert!(
+                says(text).contains("is not a length"),
+                "{text}: {}",
+                says(text)
+            );
         }
         for text in ["10furlong", "3ft", "1mmm"] {
-            assert!(says(text).contains("is not a unit of length"), "{text}: {}", says(text));
+            assert!(
+                says(text).contains("is not a unit of length"),
+                "{text}: {}",
+                says(text)
+            );
         }
         for text in ["0", "-1mm", "0in", "nan", "inf", "-inf", "1e999mm"] {
-            assert!(says(text).contains("positive, finite"), "{text}: {}", says(text));
+            assert!(
+                says(text).contains("positive, finite"),
+                "{text}: {}",
+                says(text)
+            );
         }
     }
 
@@ -247,8 +304,17 @@ mod tests {
 
     #[test]
     fn a_length_in_a_file_may_be_a_string_or_a_number() {
-        for text in ["wall = \"1mm\"", "wall = 1.0", "wall = 1", "wall = \"0.1cm\""] {
-            assert_eq!(toml::from_str::<Sample>(text).unwrap().wall.mm(), 1.0, "{text}");
+        for text in [
+            "wall = \"1mm\"",
+            "wall = 1.0",
+            "wall = 1",
+            "wall = \"0.1cm\"",
+        ] {
+            assert_eq!(
+                toml::from_str::<Sample>(text).unwrap().wall.mm(),
+                1.0,
+                "{text}"
+            );
         }
         let error = toml::from_str::<Sample>("wall = -1.0").unwrap_err();
         assert!(error.message().contains("positive"), "{error}");

@@ -30,14 +30,20 @@ impl ChoiceError {
             Some(word) => format!("did you mean `{word}`?"),
             None => format!("use {}", known.join(", ")),
         };
-        Self::Unknown { what, text: text.to_owned(), remedy }
+        Self::Unknown {
+            what,
+            text: text.to_owned(),
+            remedy,
+        }
     }
 }
 
 /// So many numbers with commas between them, finite or not; none if they are not so many, or not numbers.
 pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let numbers: Vec<f64> =
-        text.split(',').map(|number| number.trim().parse().ok()).collect::<Option<_>>()?;
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|number| number.trim().parse().ok())
+        .collect::<Option<_>>()?;
     numbers.try_into().ok()
 }
 

@@ -1,6 +1,9 @@
 //! Bad input ends in clear words and exit code 2, and leaves nothing behind.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 
 use std::fs;
 use std::path::Path;
@@ -18,14 +21,29 @@ fn refused(name: &str, bytes: &[u8]) -> String {
 fn refused_path(folder: &Path, model: &Path) -> String {
     let before = fs::read_dir(folder).unwrap().count();
     let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["prepare", model.to_str().unwrap(), "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .args([
+            "prepare",
+            model.to_str().unwrap(),
+            "--printer",
+            "objet-connex350",
+            "--goal",
+            "top",
+            "--out",
+        ])
         .arg(folder.join("kit"))
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.starts_with("error: ") && !said.contains("panicked"), "{said}");
-    assert_eq!(fs::read_dir(folder).unwrap().count(), before, "something was left behind: {said}");
+    assert!(
+        said.starts_with("error: ") && !said.contains("panicked"),
+        "{said}"
+    );
+    assert_eq!(
+        fs::read_dir(folder).unwrap().count(),
+        before,
+        "something was left behind: {said}"
+    );
     said
 }
 
@@ -43,10 +61,26 @@ fn stl(triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
 
 /// The box between two corners, turned outward.
 fn cuboid(low: [f32; 3], high: [f32; 3]) -> Vec<[[f32; 3]; 3]> {
-    let corner =
-        |bits: usize| [0, 1, 2].map(|axis| if bits >> axis & 1 == 1 { high[axis] } else { low[axis] });
-    let sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let halves = sides.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
+    let corner = |bits: usize| {
+        [0, 1, 2].map(|axis| {
+            if bits >> axis & 1 == 1 {
+                high[axis]
+            } else {
+                low[axis]
+            }
+        })
+    };
+    let sides = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let halves = sides
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]);
     halves.map(|triangle| triangle.map(corner)).collect()
 }
 
@@ -61,7 +95,10 @@ const FACES: [[[f32; 3]; 3]; 4] = [
 #[test]
 fn an_open_mesh_is_refused_with_its_holes() {
     let said = refused("open.stl", &stl(&FACES[..3]));
-    assert!(said.contains("does not bound a solid") && said.contains("hole"), "{said}");
+    assert!(
+        said.contains("does not bound a solid") && said.contains("hole"),
+        "{said}"
+    );
     assert_eq!(said.matches("does not bound a solid").count(), 1, "{said}");
 }
 
@@ -75,9 +112,16 @@ fn inspect_ends_as_prepare_does_and_tells_holes_where_they_are_in_the_file_even_
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!((output.status.code(), output.stdout.len()), (Some(2), 0), "{said}");
+    assert_eq!(
+        (output.status.code(), output.stdout.len()),
+        (Some(2), 0),
+        "{said}"
+    );
     // The middle of the rim's first edge, which is (40, 40, 0) mm in the print.
-    assert!(said.contains("(0.500000, 0.500000, 0.00) in the file's own coordinates"), "{said}");
+    assert!(
+        said.contains("(0.500000, 0.500000, 0.00) in the file's own coordinates"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -94,17 +138,28 @@ fn a_model_of_a_millimetre_is_told_with_what_to_do_about_it() {
         String::from_utf8_lossy(&output.stdout).into_owned()
     };
     let said = inspected(&[]);
-    assert!(said.contains("warning: its longest side would be 1 mm") && said.contains("--unit"), "{said}");
+    assert!(
+        said.contains("warning: its longest side would be 1 mm") && said.contains("--unit"),
+        "{said}"
+    );
     assert!(said.contains("a solid of 0.1667 mm³"), "{said}");
     assert!(!inspected(&["--size", "80mm"]).contains("warning: its longest side"));
 }
 
 #[test]
 fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
-    let hole = cuboid([6.0, 6.0, 6.0], [16.0, 16.0, 16.0]).into_iter().map(|[a, b, c]| [a, c, b]);
-    let holed: Vec<_> = cuboid([0.0; 3], [40.0; 3]).into_iter().chain(hole).collect();
+    let hole = cuboid([6.0, 6.0, 6.0], [16.0, 16.0, 16.0])
+        .into_iter()
+        .map(|[a, b, c]| [a, c, b]);
+    let holed: Vec<_> = cuboid([0.0; 3], [40.0; 3])
+        .into_iter()
+        .chain(hole)
+        .collect();
     let said = refused("holed.stl", &stl(&holed));
-    assert!(said.contains("a cavity of 1000.000 mm³ about (11.00, 11.00, 11.00) mm"), "{said}");
+    assert!(
+        said.contains("a cavity of 1000.000 mm³ about (11.00, 11.00, 11.00) mm"),
+        "{said}"
+    );
     assert!(said.contains("remedy: remove the inner surfaces"), "{said}");
 }
 
@@ -113,11 +168,20 @@ fn bodies_beside_each_other_in_each_other_and_through_each_other_are_refused_bef
     let body = cuboid([0.0; 3], [40.0; 3]);
     let with = |low: f32, high: f32| stl(&[&body[..], &cuboid([low; 3], [high; 3])].concat());
     let beside = refused("beside.stl", &with(50.0, 60.0));
-    assert!(beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"), "{beside}");
+    assert!(
+        beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"),
+        "{beside}"
+    );
     let within = refused("within.stl", &with(10.0, 20.0));
-    assert!(within.contains("a body (inside the material of another)"), "{within}");
+    assert!(
+        within.contains("a body (inside the material of another)"),
+        "{within}"
+    );
     let through = refused("through.stl", &with(30.0, 60.0));
-    assert!(through.contains("pass through each other") && through.contains("boolean union"), "{through}");
+    assert!(
+        through.contains("pass through each other") && through.contains("boolean union"),
+        "{through}"
+    );
 }
 
 #[test]
@@ -129,7 +193,10 @@ fn a_truncated_stl_says_how_many_triangles_are_missing() {
 
 #[test]
 fn a_text_called_stl_is_said_to_be_no_model() {
-    let said = refused("letter.stl", b"Dear shop, please print the attached elephant.\n");
+    let said = refused(
+        "letter.stl",
+        b"Dear shop, please print the attached elephant.\n",
+    );
     assert!(said.contains("not STL, OBJ, PLY or 3MF"), "{said}");
 }
 
@@ -138,7 +205,10 @@ fn a_coordinate_that_is_not_a_number_is_named() {
     let mut faces = FACES;
     faces[2][1][0] = f32::NAN;
     let said = refused("nan.stl", &stl(&faces));
-    assert!(said.to_lowercase().contains("nan") || said.contains("finite"), "{said}");
+    assert!(
+        said.to_lowercase().contains("nan") || said.contains("finite"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -156,27 +226,48 @@ fn a_missing_file_is_said_to_be_missing() {
 
 /// Runs `prepare` on the shipped model with more arguments; gives what it said on the standard error.
 fn refused_arguments(more: &[&str]) -> String {
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+    let model = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/examples/models/tilted-ellipsoid.stl"
+    );
     let folder = tempfile::tempdir().unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["prepare", model, "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .args([
+            "prepare",
+            model,
+            "--printer",
+            "objet-connex350",
+            "--goal",
+            "top",
+            "--out",
+        ])
         .arg(folder.path().join("kit"))
         .args(more)
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{more:?}: {said}");
-    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "{more:?} left something behind");
+    assert_eq!(
+        fs::read_dir(folder.path()).unwrap().count(),
+        0,
+        "{more:?} left something behind"
+    );
     assert!(said.lines().all(|line| line.len() < 400), "{said}");
     said
 }
 
 #[test]
 fn absurd_sizes_walls_pitches_points_and_threads_are_refused_at_once() {
-    for (size, words) in
-        [("0", "above zero"), ("-1", "above zero"), ("nan", "above zero"), ("1e300", "1.0e300 mm long")]
-    {
-        assert!(refused_arguments(&["--size", size]).contains(words), "{size}");
+    for (size, words) in [
+        ("0", "above zero"),
+        ("-1", "above zero"),
+        ("nan", "above zero"),
+        ("1e300", "1.0e300 mm long"),
+    ] {
+        assert!(
+            refused_arguments(&["--size", size]).contains(words),
+            "{size}"
+        );
     }
     for (more, words) in [
         (["--size", "5m"], "for objet-connex350 may be"),
@@ -198,13 +289,24 @@ fn a_target_inside_a_file_is_told_before_any_work_is_done() {
     let target = folder.path().join("file").join("kit");
     // The model is not read before the target is known to be writable.
     let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["prepare", "absent.stl", "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .args([
+            "prepare",
+            "absent.stl",
+            "--printer",
+            "objet-connex350",
+            "--goal",
+            "top",
+            "--out",
+        ])
         .arg(&target)
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(2), "{said}");
-    assert!(said.contains("cannot write") && !said.contains("absent.stl"), "{said}");
+    assert!(
+        said.contains("cannot write") && !said.contains("absent.stl"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -212,9 +314,20 @@ fn a_target_that_cannot_be_written_is_told_before_any_work_is_done() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("taken");
     fs::write(&file, "not a folder").unwrap();
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+    let model = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/examples/models/tilted-ellipsoid.stl"
+    );
     let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["prepare", model, "--printer", "objet-connex350", "--goal", "top", "--out"])
+        .args([
+            "prepare",
+            model,
+            "--printer",
+            "objet-connex350",
+            "--goal",
+            "top",
+            "--out",
+        ])
         .arg(&file)
         .output()
         .unwrap();

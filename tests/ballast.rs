@@ -1,6 +1,9 @@
 //! Ballast as a user orders it: an impossible rotor becomes a kit, and a lie about its ballast is found.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 #![allow(clippy::panic, reason = "a test whose input cannot be had has failed")]
 
 mod common;
@@ -25,9 +28,25 @@ fn block(folder: &Path) -> PathBuf {
 
 /// Turns it about an axis 3 mm above its middle: further than hollowing behind a wall of 3 mm brings its centre.
 fn prepare(model: &Path, out: &Path, more: &[&str]) -> Output {
-    let usual =
-        ["--json", "prepare", model.to_str().unwrap(), "--printer", "objet-connex350", "--goal", "balance"];
-    let goal = ["--up", "x", "--spin-point", "20,8,18", "--wall", "3mm", "--pitch", "0.2mm"];
+    let usual = [
+        "--json",
+        "prepare",
+        model.to_str().unwrap(),
+        "--printer",
+        "objet-connex350",
+        "--goal",
+        "balance",
+    ];
+    let goal = [
+        "--up",
+        "x",
+        "--spin-point",
+        "20,8,18",
+        "--wall",
+        "3mm",
+        "--pitch",
+        "0.2mm",
+    ];
     equipoise(&[&usual[..], &goal, &["--out", out.to_str().unwrap()], more].concat())
 }
 
@@ -44,7 +63,12 @@ fn a_rotor_beyond_hollowing_gets_balls_and_a_lie_about_them_is_found() {
     assert_eq!(json(&refused.stdout)["verdict"], "impossible");
 
     let made = prepare(&model, &kit, &["--ballast", "auto"]);
-    assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+    assert_eq!(
+        made.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&made.stderr)
+    );
     let sheet = kit.join("checklist.json");
     let mut checklist = json(&fs::read(&sheet).unwrap());
     let rows = checklist["ballast"].as_array().unwrap().clone();
@@ -73,21 +97,53 @@ fn orders_that_cannot_be_met_are_refused_with_a_remedy() {
     for (order, code, said) in [
         ("ball 4", 2, "such as ball-4x3"),
         ("bal-4", 2, "did you mean `ball-4`?"),
-        ("ball-12x1", 1, "no places were found for --ballast=ball-12x1"),
+        (
+            "ball-12x1",
+            1,
+            "no places were found for --ballast=ball-12x1",
+        ),
     ] {
         let output = prepare(&model, &kit, &["--ballast", order]);
         let told = [&output.stdout[..], &output.stderr[..]].concat();
         let told = String::from_utf8_lossy(&told);
-        assert!(output.status.code() == Some(code) && told.contains(said), "{order}: {told}");
+        assert!(
+            output.status.code() == Some(code) && told.contains(said),
+            "{order}: {told}"
+        );
     }
 }
 
 /// The shipped ellipsoid as a top with something in its voids, coarse, which is quick.
 fn filled_top(out: &Path, fill: &str) -> Output {
-    let model = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
-    let usual =
-        ["--json", "prepare", model, "--printer", "objet-connex350", "--goal", "top", "--size", "60mm"];
-    equipoise(&[&usual[..], &["--pitch", "0.3mm", "--fill", fill, "--out", out.to_str().unwrap()]].concat())
+    let model = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/examples/models/tilted-ellipsoid.stl"
+    );
+    let usual = [
+        "--json",
+        "prepare",
+        model,
+        "--printer",
+        "objet-connex350",
+        "--goal",
+        "top",
+        "--size",
+        "60mm",
+    ];
+    equipoise(
+        &[
+            &usual[..],
+            &[
+                "--pitch",
+                "0.3mm",
+                "--fill",
+                fill,
+                "--out",
+                out.to_str().unwrap(),
+            ],
+        ]
+        .concat(),
+    )
 }
 
 #[test]
@@ -96,12 +152,27 @@ fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
     for (fill, density) in [("0.4", 0.4), ("5", 5.0)] {
         let kit = folder.path().join(fill);
         let made = filled_top(&kit, fill);
-        assert_eq!(made.status.code(), Some(0), "{}", String::from_utf8_lossy(&made.stderr));
+        assert_eq!(
+            made.status.code(),
+            Some(0),
+            "{}",
+            String::from_utf8_lossy(&made.stderr)
+        );
         let sheet = json(&made.stdout);
-        let printed_g: f64 =
-            sheet["parts"].as_array().unwrap().iter().map(|part| part["mass_g"].as_f64().unwrap()).sum();
+        let printed_g: f64 = sheet["parts"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|part| part["mass_g"].as_f64().unwrap())
+            .sum();
         let void_cm3 = |void: &Value| void["volume_mm3"].as_f64().unwrap() / 1000.0;
-        let filled_g = density * sheet["voids"].as_array().unwrap().iter().map(void_cm3).sum::<f64>();
+        let filled_g = density
+            * sheet["voids"]
+                .as_array()
+                .unwrap()
+                .iter()
+                .map(void_cm3)
+                .sum::<f64>();
         let mass_g = sheet["assembly"]["mass_g"].as_f64().unwrap();
         // Files keep 24 bits of a coordinate.
         let glue_g = glue_g(&sheet);
@@ -109,7 +180,10 @@ fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
             (mass_g - printed_g - filled_g - glue_g).abs() < 1e-4 * mass_g,
             "{mass_g} {printed_g} {filled_g} {glue_g}"
         );
-        assert_eq!(equipoise(&["verify", kit.to_str().unwrap()]).status.code(), Some(0));
+        assert_eq!(
+            equipoise(&["verify", kit.to_str().unwrap()]).status.code(),
+            Some(0)
+        );
     }
     let like_the_print = filled_top(&folder.path().join("none"), "1.175");
     assert_eq!(like_the_print.status.code(), Some(2));

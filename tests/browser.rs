@@ -1,7 +1,11 @@
 //! The job sheet in a real browser with the network off: no rule of accessibility is broken, and its view does what its controls
 //! say.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test whose input cannot be had has failed"
+)]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 mod common;
@@ -21,13 +25,22 @@ const LARGEST: u64 = 5_000_000;
 /// missing.
 fn browser() -> Option<[OsString; 2]> {
     let runs = |program: &str| {
-        Command::new(program).arg("--version").output().is_ok_and(|said| said.status.success())
+        Command::new(program)
+            .arg("--version")
+            .output()
+            .is_ok_and(|said| said.status.success())
     };
     let tools = std::env::var_os("EQUIPOISE_BROWSER_TOOLS")?;
-    let chromium = ["chromium", "chromium-browser", "google-chrome"].into_iter().find(|name| runs(name))?;
-    let found = Command::new("sh").args(["-c", &format!("command -v {chromium}")]).output().ok()?;
+    let chromium = ["chromium", "chromium-browser", "google-chrome"]
+        .into_iter()
+        .find(|name| runs(name))?;
+    let found = Command::new("sh")
+        .args(["-c", &format!("command -v {chromium}")])
+        .output()
+        .ok()?;
     let path = String::from_utf8(found.stdout).ok()?.trim().to_owned();
-    (runs("node") && Path::new(&tools).join("node_modules/axe-core").is_dir()).then_some([tools, path.into()])
+    (runs("node") && Path::new(&tools).join("node_modules/axe-core").is_dir())
+        .then_some([tools, path.into()])
 }
 
 #[test]

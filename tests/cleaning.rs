@@ -1,7 +1,10 @@
 //! Kits for every process, as a user makes them: each void open and clean by the process's rule; and what that costs where the
 //! rule is hard to keep.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 
 use std::fs;
 use std::path::Path;
@@ -9,24 +12,37 @@ use std::path::Path;
 use assert_cmd::Command;
 use serde_json::Value;
 
-const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+const MODEL: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/examples/models/tilted-ellipsoid.stl"
+);
 
 /// The checklist of the shipped model as a kit of 60 mm; fails where a promise is broken.
 fn prepared(out: &Path, printer: &str, more: &[&str]) -> Value {
     let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["-q", "prepare", MODEL, "--size", "60mm", "--wall", "1.5mm", "--pitch", "0.5mm"])
+        .args([
+            "-q", "prepare", MODEL, "--size", "60mm", "--wall", "1.5mm", "--pitch", "0.5mm",
+        ])
         .args(["--printer", printer, "--out"])
         .arg(out)
         .args(more)
         .output()
         .unwrap();
     let said = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{printer}: {said}{}", String::from_utf8_lossy(&output.stdout));
+    assert!(
+        output.status.success(),
+        "{printer}: {said}{}",
+        String::from_utf8_lossy(&output.stdout)
+    );
     serde_json::from_slice(&fs::read(out.join("checklist.json")).unwrap()).unwrap()
 }
 
 fn check<'a>(sheet: &'a Value, name: &str) -> Option<&'a Value> {
-    sheet["checks"].as_array().unwrap().iter().find(|check| check["name"] == name)
+    sheet["checks"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .find(|check| check["name"] == name)
 }
 
 #[test]
@@ -45,9 +61,18 @@ fn every_process_opens_its_voids_and_cleans_them_by_its_own_rule() {
         assert!(!voids.is_empty(), "{printer}");
         for void in voids {
             let id = void["id"].as_str().unwrap();
-            assert_eq!((void["is_clean"].as_bool(), void["opened_by"][0].as_str()), (Some(true), Some("C1")));
-            assert!(void["opening_mm"].as_f64() >= void["least_opening_mm"].as_f64(), "{printer}: {void}");
-            assert_eq!(check(&sheet, &format!("void {id} open")).unwrap()["pass"], true);
+            assert_eq!(
+                (void["is_clean"].as_bool(), void["opened_by"][0].as_str()),
+                (Some(true), Some("C1"))
+            );
+            assert!(
+                void["opening_mm"].as_f64() >= void["least_opening_mm"].as_f64(),
+                "{printer}: {void}"
+            );
+            assert_eq!(
+                check(&sheet, &format!("void {id} open")).unwrap()["pass"],
+                true
+            );
             let clean = check(&sheet, &format!("void {id} clean"));
             assert_eq!(clean.is_some(), rule.starts_with("in-sight"), "{printer}");
         }
@@ -83,11 +108,22 @@ fn what_a_short_tool_does_not_reach_stays_solid_and_the_sheet_says_what_that_cos
     let proof = &sheet["certificate"];
     let rounds = proof["cleaning_rounds"].as_array().unwrap();
     assert!(!rounds.is_empty() && rounds.len() <= 8, "{proof}");
-    assert!(rounds[0]["voids"][0]["why"].as_str().unwrap().contains("in sight"));
+    assert!(
+        rounds[0]["voids"][0]["why"]
+            .as_str()
+            .unwrap()
+            .contains("in sight")
+    );
     let value = |key: &str| proof[key].as_f64().unwrap();
-    assert!(value("kept_solid_mm3") > 0.0 && value("value") <= value("value_before_cleaning"), "{proof}");
+    assert!(
+        value("kept_solid_mm3") > 0.0 && value("value") <= value("value_before_cleaning"),
+        "{proof}"
+    );
     for void in sheet["voids"].as_array().unwrap() {
-        assert!(void["is_clean"] == true && void["sight_ratio"].as_f64().unwrap() >= 0.95, "{void}");
+        assert!(
+            void["is_clean"] == true && void["sight_ratio"].as_f64().unwrap() >= 0.95,
+            "{void}"
+        );
     }
     let page = fs::read_to_string(folder.path().join("short/checklist.html")).unwrap();
     assert!(page.contains("that could have been emptied stays solid"));

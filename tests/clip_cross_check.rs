@@ -1,6 +1,9 @@
 //! The boolean engine against another, written by other people: the same volumes.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 
 use boolmesh::prelude::{Manifold, OpType, compute_boolean};
 use equipoise::geom::{Frame, Plane, Point, Vector};
@@ -29,8 +32,17 @@ fn posed(mesh: &TriMesh, index: u32) -> TriMesh {
 }
 
 fn other(mesh: &TriMesh) -> Manifold {
-    let positions: Vec<f64> = mesh.vertices().iter().flat_map(|p| [p.x, p.y, p.z]).collect();
-    let corners: Vec<usize> = mesh.triangles().iter().flatten().map(|&corner| corner as usize).collect();
+    let positions: Vec<f64> = mesh
+        .vertices()
+        .iter()
+        .flat_map(|p| [p.x, p.y, p.z])
+        .collect();
+    let corners: Vec<usize> = mesh
+        .triangles()
+        .iter()
+        .flatten()
+        .map(|&corner| corner as usize)
+        .collect();
     Manifold::new(&positions, &corners).unwrap()
 }
 
@@ -39,8 +51,13 @@ fn other_volume_mm3(a: &TriMesh, b: &TriMesh, operation: OpType) -> f64 {
     let made = compute_boolean(&other(a), &other(b), operation).unwrap();
     let vertices = made.ps.iter().map(|p| Point::new(p.x, p.y, p.z)).collect();
     let corners: Vec<u32> = made.hs.iter().map(|half| half.tail as u32).collect();
-    let triangles = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]).collect();
-    TriMesh::new(vertices, triangles).unwrap().signed_volume_mm3()
+    let triangles = corners
+        .chunks_exact(3)
+        .map(|t| [t[0], t[1], t[2]])
+        .collect();
+    TriMesh::new(vertices, triangles)
+        .unwrap()
+        .signed_volume_mm3()
 }
 
 fn volume_mm3(body: &Csg) -> f64 {
@@ -48,8 +65,14 @@ fn volume_mm3(body: &Csg) -> f64 {
 }
 
 fn assert_agree(what: &str, ours: f64, theirs: f64, scale: f64) {
-    assert!(ours > 1e-3 * scale, "{what} is all but empty: the test says nothing");
-    assert!((ours - theirs).abs() <= AGREEMENT_RATIO * scale, "{what}: {ours} and {theirs} mm³");
+    assert!(
+        ours > 1e-3 * scale,
+        "{what} is all but empty: the test says nothing"
+    );
+    assert!(
+        (ours - theirs).abs() <= AGREEMENT_RATIO * scale,
+        "{what}: {ours} and {theirs} mm³"
+    );
 }
 
 /// Bodies with flat and round faces, and with a hole.
@@ -71,11 +94,26 @@ fn another_engine_finds_the_same_volumes_of_booleans() {
         let (ours_a, ours_b) = (Csg::of_mesh(&a).unwrap(), Csg::of_mesh(&b).unwrap());
         let scale = a.signed_volume_mm3();
         let both = volume_mm3(&ours_a.intersect(&ours_b).unwrap());
-        assert_agree("the intersection", both, other_volume_mm3(&a, &b, OpType::Intersect), scale);
+        assert_agree(
+            "the intersection",
+            both,
+            other_volume_mm3(&a, &b, OpType::Intersect),
+            scale,
+        );
         let either = volume_mm3(&ours_a.union(&ours_b).unwrap());
-        assert_agree("the union", either, other_volume_mm3(&a, &b, OpType::Add), scale);
+        assert_agree(
+            "the union",
+            either,
+            other_volume_mm3(&a, &b, OpType::Add),
+            scale,
+        );
         let rest = volume_mm3(&ours_a.subtract(&ours_b).unwrap());
-        assert_agree("the difference", rest, other_volume_mm3(&a, &b, OpType::Subtract), scale);
+        assert_agree(
+            "the difference",
+            rest,
+            other_volume_mm3(&a, &b, OpType::Subtract),
+            scale,
+        );
     }
 }
 
@@ -86,8 +124,10 @@ fn a_cut_has_the_volume_that_another_engine_finds_with_half_a_space_for_a_box() 
         let body = posed(body, index as u32);
         let normal = Vector::new(0.3, -0.5 + 0.4 * index as f64, 0.8).normalize();
         let middle = body.aabb().min + 0.45 * body.aabb().size();
-        let (above, below) =
-            Csg::of_mesh(&body).unwrap().split_by_plane(&Plane::through(&middle, &normal)).unwrap();
+        let (above, below) = Csg::of_mesh(&body)
+            .unwrap()
+            .split_by_plane(&Plane::through(&middle, &normal))
+            .unwrap();
         let on_plane = Frame::with_axis(middle, &normal);
         let corner = Point::new(-LARGE_MM, -LARGE_MM, 0.0);
         let half_space = primitives::cuboid(&corner, &Point::new(LARGE_MM, LARGE_MM, LARGE_MM))

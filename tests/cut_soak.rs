@@ -4,7 +4,10 @@
 //! By default a few cases on bodies of our own. `EQUIPOISE_SOAK_CASES=500 EQUIPOISE_SOAK_MODELS=folder` takes more, on the closed
 //! meshes of a folder too; `EQUIPOISE_SOAK_FIRST=n` begins at case n.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 #![allow(clippy::panic, reason = "a case that cannot be made has failed")]
 #![allow(clippy::print_stderr, reason = "a long run shows how far it is")]
 
@@ -12,8 +15,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings, PinSite, PlanRequest,
-    PosePreference, Side, parts, plan_by, rods,
+    Cut, CutError, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings, PinSite,
+    PlanRequest, PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -69,7 +72,10 @@ impl Dice {
 fn bodies() -> Vec<(String, TriMesh)> {
     let shaft = primitives::cuboid(&Point::new(-2.0, -3.0, -20.0), &Point::new(2.0, 3.0, 20.0));
     let arm = primitives::cuboid(&Point::new(-12.0, -1.0, -4.0), &Point::new(12.0, 1.0, 4.0));
-    let cross = Csg::of_mesh(&shaft).unwrap().union(&Csg::of_mesh(&arm).unwrap()).unwrap();
+    let cross = Csg::of_mesh(&shaft)
+        .unwrap()
+        .union(&Csg::of_mesh(&arm).unwrap())
+        .unwrap();
     let ours = [
         ("ball", primitives::ball(&Point::origin(), 5.0, 4)),
         ("ring", primitives::torus(10.0, 4.0, 60, 30)),
@@ -84,16 +90,25 @@ fn bodies() -> Vec<(String, TriMesh)> {
             .unwrap(),
         ),
     ];
-    let mut all: Vec<(String, TriMesh)> = ours.map(|(name, mesh)| (name.to_owned(), repair(mesh).0)).to_vec();
+    let mut all: Vec<(String, TriMesh)> = ours
+        .map(|(name, mesh)| (name.to_owned(), repair(mesh).0))
+        .to_vec();
     if let Some(folder) = std::env::var_os("EQUIPOISE_SOAK_MODELS") {
-        let mut paths: Vec<_> =
-            std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        let mut paths: Vec<_> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().path())
+            .collect();
         paths.sort();
         for path in paths {
-            let Ok(mesh) = read_model(&path) else { continue };
+            let Ok(mesh) = read_model(&path) else {
+                continue;
+            };
             let mesh = repair(mesh).0;
             if Solid::new(mesh.clone()).is_ok_and(|solid| one_body(&solid).is_ok()) {
-                all.push((path.file_name().unwrap().to_string_lossy().into_owned(), mesh));
+                all.push((
+                    path.file_name().unwrap().to_string_lossy().into_owned(),
+                    mesh,
+                ));
             }
         }
     }
@@ -118,14 +133,24 @@ fn request(dice: &mut Dice) -> PlanRequest {
             chamfer_mm: dice.between(0.0, 0.5),
             bottom_relief_mm: dice.between(0.0, 0.6),
         },
-        axis: GoalAxis { point: Point::origin(), direction: dice.direction() },
+        axis: GoalAxis {
+            point: Point::origin(),
+            direction: dice.direction(),
+        },
         pixel_mm,
         hole_step_mm: if pixel_mm < 0.45 { pixel_mm } else { 0.0 },
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
         seats: Vec::new(),
-        rods: if dice.below(4) == 0 { rods().unwrap() } else { Vec::new() },
-        labels: (dice.below(2) == 0).then_some(LabelStyle { stroke_mm: 0.5, depth_mm: 0.5 }),
+        rods: if dice.below(4) == 0 {
+            rods().unwrap()
+        } else {
+            Vec::new()
+        },
+        labels: (dice.below(2) == 0).then_some(LabelStyle {
+            stroke_mm: 0.5,
+            depth_mm: 0.5,
+        }),
     }
 }
 
@@ -136,7 +161,9 @@ fn voids(dice: &mut Dice, outer: &TriMesh, wall_mm: f64) -> Vec<Solid> {
     for _ in 0..dice.below(4) {
         for _ in 0..40 {
             let center = dice.point_in(outer);
-            let near = balls.iter().map(|(other, radius)| (other - center).norm() - radius);
+            let near = balls
+                .iter()
+                .map(|(other, radius)| (other - center).norm() - radius);
             let room_mm = near.fold(distance.signed(&center), f64::min) - wall_mm;
             if room_mm > 1.0 {
                 balls.push((center, room_mm * dice.between(0.5, 1.0)));
@@ -144,7 +171,8 @@ fn voids(dice: &mut Dice, outer: &TriMesh, wall_mm: f64) -> Vec<Solid> {
             }
         }
     }
-    let ball = |(center, radius): (Point, f64)| Solid::new(primitives::ball(&center, radius, 3)).unwrap();
+    let ball =
+        |(center, radius): (Point, f64)| Solid::new(primitives::ball(&center, radius, 3)).unwrap();
     balls.into_iter().map(ball).collect()
 }
 
@@ -153,7 +181,11 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
     let count = 1 + dice.below(3);
     let cut = |i: usize| {
         let mesh = body.outer.mesh();
-        let normal = if dice.below(3) == 0 { Vector::ith(dice.below(3), 1.0) } else { dice.direction() };
+        let normal = if dice.below(3) == 0 {
+            Vector::ith(dice.below(3), 1.0)
+        } else {
+            dice.direction()
+        };
         let point = match (dice.below(3), body.voids.get(i)) {
             (0, _) => mesh.vertices()[dice.below(mesh.vertices().len())],
             (_, Some(void)) => void.mesh().aabb().center(),
@@ -161,15 +193,27 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
         };
         let within = (i > 0 && dice.below(2) == 0).then(|| side(dice, i));
         let within = within.into_iter().collect();
-        Cut { id: format!("C{}", i + 1), point_mm: point.into(), normal: normal.into(), within }
+        Cut {
+            id: format!("C{}", i + 1),
+            point_mm: point.into(),
+            normal: normal.into(),
+            within,
+        }
     };
     (0..count).map(cut).collect()
 }
 
 /// A side of one of the first cuts.
 fn side(dice: &mut Dice, cuts: usize) -> CutSide {
-    let side = if dice.below(2) == 0 { Side::Above } else { Side::Below };
-    CutSide { cut: format!("C{}", 1 + dice.below(cuts)), side }
+    let side = if dice.below(2) == 0 {
+        Side::Above
+    } else {
+        Side::Below
+    };
+    CutSide {
+        cut: format!("C{}", 1 + dice.below(cuts)),
+        side,
+    }
 }
 
 /// Makes one case and holds its parts to what must be true; the number of parts and pins, or why there are none.
@@ -183,9 +227,15 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
     let outer = Solid::new(mesh).unwrap();
     let voids = voids(&mut dice, outer.mesh(), request.wall_mm);
     let body = Hollowed { outer, voids };
-    let order = CutOrder { cuts: cuts(&mut dice, &body), ..CutOrder::default() };
-    let told =
-        format!("case {case}: {name} {size_mm:.0} mm, {} voids, {} cuts", body.voids.len(), order.cuts.len());
+    let order = CutOrder {
+        cuts: cuts(&mut dice, &body),
+        ..CutOrder::default()
+    };
+    let told = format!(
+        "case {case}: {name} {size_mm:.0} mm, {} voids, {} cuts",
+        body.voids.len(),
+        order.cuts.len()
+    );
     let plan = match plan_by(&body, &request, &order) {
         Err(CutError::ClosedCavity { .. }) => return format!("{told}: a void stays closed"),
         plan => plan.unwrap_or_else(|error| panic!("{told}: {error}")),
@@ -198,15 +248,27 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
 
 fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[Part]) {
     let whole = moments_of_mesh(&body.to_mesh()).volume();
-    let sum: f64 = made.iter().map(|part| moments_of_mesh(part.solid.mesh()).volume()).sum();
+    let sum: f64 = made
+        .iter()
+        .map(|part| moments_of_mesh(part.solid.mesh()).volume())
+        .sum();
     let pegs: f64 = made.iter().map(Part::added_volume_mm3).sum();
-    assert!((sum - pegs - whole).abs() <= VOLUME_RATIO * whole, "{told}: {sum} - {pegs} against {whole}");
+    assert!(
+        (sum - pegs - whole).abs() <= VOLUME_RATIO * whole,
+        "{told}: {sum} - {pegs} against {whole}"
+    );
     for pin in plan.pins.iter().filter(|pin| pin.dowel.is_some()) {
         assert_both_sockets_are_there(told, pin, made);
     }
     for pin in plan.pins.iter().filter(|pin| pin.dowel.is_none()) {
-        let carrier = made.iter().filter(|part| part.pins.contains(pin)).collect::<Vec<_>>();
-        let receiver = made.iter().filter(|part| part.sockets.contains(pin)).collect::<Vec<_>>();
+        let carrier = made
+            .iter()
+            .filter(|part| part.pins.contains(pin))
+            .collect::<Vec<_>>();
+        let receiver = made
+            .iter()
+            .filter(|part| part.sockets.contains(pin))
+            .collect::<Vec<_>>();
         assert!(
             carrier.len() == 1 && receiver.len() == 1,
             "{told}: pin {} is in {} parts",
@@ -222,7 +284,12 @@ fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[P
             "{told}: pin {} does not reach its tip",
             pin.id
         );
-        assert_eq!(tip(carrier[0], pin.length_mm + FELT_MM), 0, "{told}: pin {} is too long", pin.id);
+        assert_eq!(
+            tip(carrier[0], pin.length_mm + FELT_MM),
+            0,
+            "{told}: pin {} is too long",
+            pin.id
+        );
         assert_eq!(
             tip(receiver[0], pin.socket_depth_mm - FELT_MM),
             0,
@@ -239,14 +306,27 @@ fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[P
 }
 
 fn assert_both_sockets_are_there(told: &str, pin: &PinSite, made: &[Part]) {
-    let sockets = made.iter().flat_map(|part| part.sockets.iter().map(move |socket| (part, socket)));
+    let sockets = made
+        .iter()
+        .flat_map(|part| part.sockets.iter().map(move |socket| (part, socket)));
     let ends: Vec<(&Part, &PinSite)> = sockets.filter(|(_, socket)| socket.id == pin.id).collect();
-    assert_eq!(ends.len(), 2, "{told}: dowel {} is in {} parts", pin.id, ends.len());
+    assert_eq!(
+        ends.len(),
+        2,
+        "{told}: dowel {} is in {} parts",
+        pin.id,
+        ends.len()
+    );
     for (part, socket) in ends {
         let surface = Bvh::new(part.solid.mesh().iter_corners());
         let winding = |height_mm: f64| surface.winding(&along(socket, height_mm));
         let [inside, beyond] = [-FELT_MM, FELT_MM].map(|off| winding(socket.socket_depth_mm + off));
-        assert_eq!((inside, beyond), (0, 1), "{told}: a socket of dowel {} is not as deep", pin.id);
+        assert_eq!(
+            (inside, beyond),
+            (0, 1),
+            "{told}: a socket of dowel {} is not as deep",
+            pin.id
+        );
     }
 }
 
@@ -275,12 +355,17 @@ fn number(key: &str, default: u64) -> u64 {
 #[test]
 fn random_cuts_of_random_bodies_give_sound_parts_with_all_their_pins() {
     let bodies = bodies();
-    let (first, count) = (number("EQUIPOISE_SOAK_FIRST", 0), number("EQUIPOISE_SOAK_CASES", CASES));
+    let (first, count) = (
+        number("EQUIPOISE_SOAK_FIRST", 0),
+        number("EQUIPOISE_SOAK_CASES", CASES),
+    );
     let mut failed = Vec::new();
     for case in first..first + count {
         let start = Instant::now();
         match std::panic::catch_unwind(|| tried(case, &bodies)) {
-            Ok(told) if count > CASES => eprintln!("{told} ({:.1} s)", start.elapsed().as_secs_f64()),
+            Ok(told) if count > CASES => {
+                eprintln!("{told} ({:.1} s)", start.elapsed().as_secs_f64())
+            }
             Ok(_) => (),
             Err(_) => failed.push(case),
         }

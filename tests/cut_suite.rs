@@ -4,7 +4,10 @@
 //! is whether their middles lie between two planes near each other: the width of a set of points, which is found here by
 //! trying every pair of edges. The least number of planes follows by trying every way of sharing the balls out.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 
 use equipoise::cut::{GoalAxis, PinSettings, PlanRequest, PosePreference, plan};
 use equipoise::geom::{Point, Vector};
@@ -29,7 +32,10 @@ fn request() -> PlanRequest {
             chamfer_mm: 0.2,
             bottom_relief_mm: 0.5,
         },
-        axis: GoalAxis { point: Point::new(0.0, 0.0, -60.0), direction: Vector::z() },
+        axis: GoalAxis {
+            point: Point::new(0.0, 0.0, -60.0),
+            direction: Vector::z(),
+        },
         pixel_mm: 0.05,
         hole_step_mm: 0.05,
         layer_mm: 0.05,
@@ -45,18 +51,30 @@ fn solid(mesh: TriMesh) -> Solid {
 }
 
 fn block() -> Solid {
-    solid(primitives::cuboid(&Point::new(-45.0, -45.0, -45.0), &Point::new(45.0, 45.0, 45.0)))
+    solid(primitives::cuboid(
+        &Point::new(-45.0, -45.0, -45.0),
+        &Point::new(45.0, 45.0, 45.0),
+    ))
 }
 
 /// How many cuts the planner makes, and how many voids it leaves narrower than asked.
 fn planned(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
     let plan = plan(&Hollowed { outer, voids }, &request()).unwrap();
-    (plan.cuts.len(), plan.voids.iter().filter(|void| void.opening_mm < OPENING_MM).count())
+    (
+        plan.cuts.len(),
+        plan.voids
+            .iter()
+            .filter(|void| void.opening_mm < OPENING_MM)
+            .count(),
+    )
 }
 
 /// Balls of one radius about these middles in a block.
 fn beads(middles: &[[f64; 3]], radius: f64) -> Vec<Solid> {
-    middles.iter().map(|&at| solid(primitives::ball(&Point::from(at), radius, 3))).collect()
+    middles
+        .iter()
+        .map(|&at| solid(primitives::ball(&Point::from(at), radius, 3)))
+        .collect()
 }
 
 /// The least distance of two parallel planes that hold all points between them: of the pairs that touch a corner and three
@@ -103,9 +121,17 @@ fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
 fn assert_least(name: &str, expected: usize, middles: &[[f64; 3]], radius: f64) {
     let reach = (radius * radius - OPENING_MM * OPENING_MM / 4.0).sqrt();
     for reach in [0.9 * reach, 1.1 * reach] {
-        assert_eq!(least_planes(middles, reach), expected, "{name}: the interior is not what it is called");
+        assert_eq!(
+            least_planes(middles, reach),
+            expected,
+            "{name}: the interior is not what it is called"
+        );
     }
-    assert_eq!(planned(block(), beads(middles, radius)), (expected, 0), "{name}");
+    assert_eq!(
+        planned(block(), beads(middles, radius)),
+        (expected, 0),
+        "{name}"
+    );
 }
 
 /// So many points of a curve.
@@ -113,22 +139,45 @@ fn along(count: usize, at: impl Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
     (0..count).map(|i| at(i as f64)).collect()
 }
 
-const TETRAHEDRON: [[f64; 3]; 4] =
-    [[15.0, 15.0, 15.0], [15.0, -15.0, -15.0], [-15.0, 15.0, -15.0], [-15.0, -15.0, 15.0]];
+const TETRAHEDRON: [[f64; 3]; 4] = [
+    [15.0, 15.0, 15.0],
+    [15.0, -15.0, -15.0],
+    [-15.0, 15.0, -15.0],
+    [-15.0, -15.0, 15.0],
+];
 
 fn cube(half: f64) -> Vec<[f64; 3]> {
-    along(8, |i| [0, 1, 2].map(|axis| if i as usize >> axis & 1 == 1 { half } else { -half }))
+    along(8, |i| {
+        [0, 1, 2].map(|axis| {
+            if i as usize >> axis & 1 == 1 {
+                half
+            } else {
+                -half
+            }
+        })
+    })
 }
 
 fn octahedron(half: f64) -> Vec<[f64; 3]> {
     along(6, |i| {
-        [0, 1, 2].map(|axis| if i as usize / 2 == axis { half * (1.0 - 2.0 * (i % 2.0)) } else { 0.0 })
+        [0, 1, 2].map(|axis| {
+            if i as usize / 2 == axis {
+                half * (1.0 - 2.0 * (i % 2.0))
+            } else {
+                0.0
+            }
+        })
     })
 }
 
 /// Points in general position: no four within reach of a plane.
-const FIVE: [[f64; 3]; 5] =
-    [[-21.0, 5.0, -5.0], [4.0, 26.0, -5.0], [14.0, 3.0, 26.0], [3.0, -9.0, 2.0], [21.0, 8.0, -22.0]];
+const FIVE: [[f64; 3]; 5] = [
+    [-21.0, 5.0, -5.0],
+    [4.0, 26.0, -5.0],
+    [14.0, 3.0, 26.0],
+    [3.0, -9.0, 2.0],
+    [21.0, 8.0, -22.0],
+];
 const SIX: [[f64; 3]; 6] = [
     [-19.0, -4.0, -21.0],
     [16.0, -21.0, 11.0],
@@ -160,8 +209,18 @@ const EIGHT: [[f64; 3]; 8] = [
 #[test]
 fn one_cut_opens_a_bead_pearls_on_a_string_and_a_ring_of_eight() {
     assert_least("one bead", 1, &[[3.0, -5.0, 8.0]], 6.0);
-    assert_least("a string", 1, &along(7, |i| [7.0, 11.0, -8.0].map(|x| x * (i - 3.0) / 2.0)), 3.0);
-    assert_least("eight on a string", 1, &along(8, |i| [4.0, -7.0, 9.0].map(|x| x * (i - 3.5))), 2.5);
+    assert_least(
+        "a string",
+        1,
+        &along(7, |i| [7.0, 11.0, -8.0].map(|x| x * (i - 3.0) / 2.0)),
+        3.0,
+    );
+    assert_least(
+        "eight on a string",
+        1,
+        &along(8, |i| [4.0, -7.0, 9.0].map(|x| x * (i - 3.5))),
+        2.5,
+    );
     let ring = |i: f64| {
         let (sin, cos) = (i * std::f64::consts::FRAC_PI_4).sin_cos();
         [20.0 * cos, 20.0 * sin, 9.0 * cos - 5.0 * sin]
@@ -172,11 +231,22 @@ fn one_cut_opens_a_bead_pearls_on_a_string_and_a_ring_of_eight() {
 #[test]
 fn one_cut_opens_two_voids_in_a_skew_direction_and_any_three() {
     assert_least("two askew", 1, &[[-15.0; 3], [15.0; 3]], 6.0);
-    assert_least("three", 1, &[[20.0, 0.0, 12.0], [-12.0, 18.0, -4.0], [-10.0, -18.0, 0.0]], 2.0);
+    assert_least(
+        "three",
+        1,
+        &[[20.0, 0.0, 12.0], [-12.0, 18.0, -4.0], [-10.0, -18.0, 0.0]],
+        2.0,
+    );
     assert_least(
         "a row behind a row",
         1,
-        &along(6, |i| [10.0 * (i % 3.0) - 10.0, 0.0, 24.0 * (i / 3.0).floor() - 12.0]),
+        &along(6, |i| {
+            [
+                10.0 * (i % 3.0) - 10.0,
+                0.0,
+                24.0 * (i / 3.0).floor() - 12.0,
+            ]
+        }),
         4.0,
     );
 }
@@ -198,7 +268,13 @@ fn beads_in_general_position_need_a_cut_for_every_three() {
 
 #[test]
 fn a_spiral_of_beads_is_opened_by_the_fewest_planes() {
-    let spiral = |i: f64| [20.0 * (i * 1.9).cos(), 20.0 * (i * 1.9).sin(), 7.0 * (i - 3.5)];
+    let spiral = |i: f64| {
+        [
+            20.0 * (i * 1.9).cos(),
+            20.0 * (i * 1.9).sin(),
+            7.0 * (i - 3.5),
+        ]
+    };
     assert_least("a spiral", 2, &along(8, spiral), 1.65);
 }
 
@@ -210,9 +286,10 @@ fn one_cut_opens_a_void_in_every_leg_of_a_table() {
         cuboid([x - half, y - half, z[0]], [x + half, y + half, z[1]])
     };
     let top = Csg::of_mesh(&cuboid([-25.0, -25.0, 30.0], [25.0, 25.0, 40.0])).unwrap();
-    let table = legs
-        .iter()
-        .fold(top, |body, &at| body.union(&Csg::of_mesh(&leg(at, 5.0, [0.0, 31.0])).unwrap()).unwrap());
+    let table = legs.iter().fold(top, |body, &at| {
+        body.union(&Csg::of_mesh(&leg(at, 5.0, [0.0, 31.0])).unwrap())
+            .unwrap()
+    });
     let voids = legs.map(|at| solid(leg(at, 3.0, [4.0, 25.0]))).to_vec();
     assert_eq!(planned(table.to_solid().unwrap(), voids), (1, 0));
 }
@@ -220,10 +297,19 @@ fn one_cut_opens_a_void_in_every_leg_of_a_table() {
 #[test]
 fn one_cut_opens_a_head_and_both_its_ears() {
     let ball = |at: [f64; 3], radius: f64| primitives::ball(&at.into(), radius, 4);
-    let head = [([0.0, 0.0, 0.0], 30.0), ([-26.0, 4.0, 22.0], 10.0), ([26.0, -3.0, 22.0], 10.0)];
+    let head = [
+        ([0.0, 0.0, 0.0], 30.0),
+        ([-26.0, 4.0, 22.0], 10.0),
+        ([26.0, -3.0, 22.0], 10.0),
+    ];
     let bodies = head.map(|(at, radius)| Csg::of_mesh(&ball(at, radius)).unwrap());
-    let outer = bodies.into_iter().reduce(|sum, body| sum.union(&body).unwrap()).unwrap();
-    let voids = head.map(|(at, radius)| solid(ball(at, 0.6 * radius))).to_vec();
+    let outer = bodies
+        .into_iter()
+        .reduce(|sum, body| sum.union(&body).unwrap())
+        .unwrap();
+    let voids = head
+        .map(|(at, radius)| solid(ball(at, 0.6 * radius)))
+        .to_vec();
     assert_eq!(planned(outer.to_solid().unwrap(), voids), (1, 0));
 }
 
@@ -231,12 +317,15 @@ fn one_cut_opens_a_head_and_both_its_ears() {
 fn one_cut_opens_a_ring_a_flat_box_over_two_pearls_and_two_shafts_that_cross() {
     let ring = solid(primitives::torus(20.0, 6.0, 48, 24));
     assert_eq!(planned(block(), vec![ring]), (1, 0));
-    let cuboid = |low: [f64; 3], high: [f64; 3]| solid(primitives::cuboid(&low.into(), &high.into()));
+    let cuboid =
+        |low: [f64; 3], high: [f64; 3]| solid(primitives::cuboid(&low.into(), &high.into()));
     let slab = cuboid([-25.0, -25.0, 10.0], [25.0, 25.0, 16.0]);
     let pearls = beads(&[[-20.0, -13.0, -10.0], [20.0, 13.0, -10.0]], 3.0);
     assert_eq!(planned(block(), [vec![slab], pearls].concat()), (1, 0));
-    let shafts =
-        vec![cuboid([-30.0, -12.0, -4.0], [30.0, -4.0, 4.0]), cuboid([-4.0, 4.0, -30.0], [4.0, 12.0, 30.0])];
+    let shafts = vec![
+        cuboid([-30.0, -12.0, -4.0], [30.0, -4.0, 4.0]),
+        cuboid([-4.0, 4.0, -30.0], [4.0, 12.0, 30.0]),
+    ];
     assert_eq!(planned(block(), shafts), (1, 0));
 }
 
@@ -247,6 +336,14 @@ fn two_cuts_open_a_ring_about_a_pearl_far_over_it_and_one_beside() {
     let ring = || solid(primitives::torus(20.0, 4.0, 48, 24));
     let two = beads(&[[0.0, 0.0, 34.0], [0.0, 36.0, 20.0]], 2.0);
     assert_eq!(planned(block(), [vec![ring()], two].concat()), (1, 0));
-    let three = beads(&[[0.0, 0.0, 34.0], [0.0, 36.0, 20.0], [36.0, 0.0, 20.0], [-36.0, -36.0, 34.0]], 2.0);
+    let three = beads(
+        &[
+            [0.0, 0.0, 34.0],
+            [0.0, 36.0, 20.0],
+            [36.0, 0.0, 20.0],
+            [-36.0, -36.0, 34.0],
+        ],
+        2.0,
+    );
     assert_eq!(planned(block(), [vec![ring()], three].concat()), (2, 0));
 }

@@ -1,8 +1,15 @@
 //! Proofs of impossibility, held against the model itself: its triangles and a grid of points, no columns and no roots.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test fails by panicking"
+)]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
-#![allow(dead_code, reason = "the models' module also serves the program that writes them")]
+#![allow(
+    dead_code,
+    reason = "the models' module also serves the program that writes them"
+)]
 
 #[path = "../examples/make_models/models.rs"]
 mod models;
@@ -49,34 +56,56 @@ impl Case {
     }
 
     fn with_wall(model: &str, request: &Request, wall_mm: f64) -> Self {
-        let (_, make) = models::MODELS.into_iter().find(|(name, _)| *name == model).unwrap();
+        let (_, make) = models::MODELS
+            .into_iter()
+            .find(|(name, _)| *name == model)
+            .unwrap();
         Self::of_solid(models::solid(make).unwrap(), request, wall_mm)
     }
 
     fn of_solid(solid: Solid, request: &Request, wall_mm: f64) -> Self {
         let placement = place(&solid, wall_mm, request).unwrap();
         let shell = Shell::new(&solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
-        let columns = Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Progress::silent()).unwrap();
-        let problem = Problem { goal: &placement.goal, fixed: placement.goal.solid, columns: &columns };
+        let columns =
+            Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Progress::silent()).unwrap();
+        let problem = Problem {
+            goal: &placement.goal,
+            fixed: placement.goal.solid,
+            columns: &columns,
+        };
         let solution = solve(&problem, &Settings::default(), &Progress::silent());
-        Self { solid, placement, solution, wall_mm, step_mm: STEP_MM }
+        Self {
+            solid,
+            placement,
+            solution,
+            wall_mm,
+            step_mm: STEP_MM,
+        }
     }
 
     /// The least that the integral of a quadric over any interior can be, and ∫|q| over the solid: every grid point inside
     /// counts, but one that is at least a wall from every triangle and outside of what is kept only where q < 0.
     fn least_integral(&self, quadric: &Quadric) -> [f64; 2] {
         let frame = &self.placement.goal.frame;
-        let triangles: Vec<[Point; 3]> =
-            self.solid.mesh().iter_corners().map(|corners| corners.map(|p| frame.to_local(&p))).collect();
+        let triangles: Vec<[Point; 3]> = self
+            .solid
+            .mesh()
+            .iter_corners()
+            .map(|corners| corners.map(|p| frame.to_local(&p)))
+            .collect();
         let box_of = |pick: fn(f64, f64) -> f64, from: f64| {
             [0, 1, 2].map(|axis| triangles.iter().flatten().map(|p| p[axis]).fold(from, pick))
         };
-        let (low, high) = (box_of(f64::min, f64::INFINITY), box_of(f64::max, f64::NEG_INFINITY));
+        let (low, high) = (
+            box_of(f64::min, f64::INFINITY),
+            box_of(f64::max, f64::NEG_INFINITY),
+        );
         let count = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / self.step_mm).ceil() as usize);
         let mut sums = [0.0; 2];
         for (j, k) in (0..count[1]).flat_map(|j| (0..count[2]).map(move |k| (j, k))) {
             // A little off the lattice, so that no ray meets an edge of these models.
-            let [y, z] = [(j, 1), (k, 2)].map(|(i, axis)| low[axis] + (i as f64 + 0.4987) * self.step_mm);
+            let [y, z] =
+                [(j, 1), (k, 2)].map(|(i, axis)| low[axis] + (i as f64 + 0.4987) * self.step_mm);
             let crossings = crossings(&triangles, y, z);
             for x in (0..count[0]).map(|i| low[0] + (i as f64 + 0.5) * self.step_mm) {
                 if crossings.iter().filter(|&&crossing| crossing > x).count() % 2 == 1 {
@@ -91,8 +120,14 @@ impl Case {
 
     fn may_be_emptied(&self, triangles: &[[Point; 3]], point: &Point) -> bool {
         let in_model = self.placement.goal.frame.to_model(point);
-        triangles.iter().all(|triangle| !is_within(triangle, point, self.wall_mm))
-            && self.placement.keeps.iter().all(|keep| keep.distance_mm(&in_model) > 0.0)
+        triangles
+            .iter()
+            .all(|triangle| !is_within(triangle, point, self.wall_mm))
+            && self
+                .placement
+                .keeps
+                .iter()
+                .all(|keep| keep.distance_mm(&in_model) > 0.0)
     }
 
     /// Whether the grid says of a quadric what the proof does: no interior's integral is below `level`.
@@ -122,7 +157,9 @@ fn crossings(triangles: &[[Point; 3]], y: f64, z: f64) -> Vec<f64> {
     let meets = |[a, b, c]: &[Point; 3]| {
         let weights = [side(b, c), side(c, a), side(a, b)];
         let inside = weights.iter().all(|w| *w > 0.0) || weights.iter().all(|w| *w < 0.0);
-        inside.then(|| (weights[0] * a.x + weights[1] * b.x + weights[2] * c.x) / weights.iter().sum::<f64>())
+        inside.then(|| {
+            (weights[0] * a.x + weights[1] * b.x + weights[2] * c.x) / weights.iter().sum::<f64>()
+        })
     };
     triangles.iter().filter_map(meets).collect()
 }
@@ -140,8 +177,9 @@ fn is_within(triangle: &[Point; 3], point: &Point, distance_mm: f64) -> bool {
 /// To the plane where the foot of the perpendicular is inside, else to the nearest edge.
 fn distance_to(&[a, b, c]: &[Point; 3], point: &Point) -> f64 {
     let normal = (b - a).cross(&(c - a));
-    let is_inside =
-        [(a, b), (b, c), (c, a)].iter().all(|(p, q)| normal.cross(&(q - p)).dot(&(point - p)) >= 0.0);
+    let is_inside = [(a, b), (b, c), (c, a)]
+        .iter()
+        .all(|(p, q)| normal.cross(&(q - p)).dot(&(point - p)) >= 0.0);
     if is_inside {
         return (point - a).dot(&normal).abs() / normal.norm();
     }
@@ -154,9 +192,17 @@ fn distance_to(&[a, b, c]: &[Point; 3], point: &Point) -> f64 {
 
 #[test]
 fn a_centre_that_cannot_be_over_the_middle_of_its_foot_is_so_on_a_grid_too() {
-    let lowest = Request { objective: Objective::LowestCenter, ..Request::new(GoalKind::Stand) };
+    let lowest = Request {
+        objective: Objective::LowestCenter,
+        ..Request::new(GoalKind::Stand)
+    };
     let case = Case::of("balancing-figure", &lowest);
-    let Status::ConstraintsInfeasible { least_miss, separator, .. } = case.solution.status else {
+    let Status::ConstraintsInfeasible {
+        least_miss,
+        separator,
+        ..
+    } = case.solution.status
+    else {
         panic!("{:?}", case.solution.status)
     };
     assert!(least_miss > 0.01);
@@ -166,8 +212,10 @@ fn a_centre_that_cannot_be_over_the_middle_of_its_foot_is_so_on_a_grid_too() {
 
 #[test]
 fn a_grade_that_cannot_be_reached_is_out_of_reach_on_a_grid_too() {
-    let aside =
-        Request { spin_point: Some(SpinPoint::At([25.0, 0.0, 0.0])), ..Request::new(GoalKind::Balance) };
+    let aside = Request {
+        spin_point: Some(SpinPoint::At([25.0, 0.0, 0.0])),
+        ..Request::new(GoalKind::Balance)
+    };
     let case = Case::of("tilted-ellipsoid", &aside);
     let Status::CannotBalance { separator, .. } = case.solution.status else {
         panic!("{:?}", case.solution.status)
@@ -177,8 +225,11 @@ fn a_grade_that_cannot_be_reached_is_out_of_reach_on_a_grid_too() {
 
 #[test]
 fn a_yoyo_that_cannot_be_dominant_is_not_on_a_grid_either() {
-    let across =
-        Request { up: Up::Along(LONG_AXIS), objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) };
+    let across = Request {
+        up: Up::Along(LONG_AXIS),
+        objective: Objective::Dominance,
+        ..Request::new(GoalKind::Yoyo)
+    };
     let case = Case::with_wall("yoyo-cuboid", &across, THICK_WALL_MM);
     let Status::NotDominant { least_ratio } = case.solution.status else {
         panic!("{:?}", case.solution.status)
@@ -207,9 +258,20 @@ fn shared(name: &str, request: &Request) -> Option<Case> {
 #[test]
 fn a_shared_armadillo_that_cannot_be_balanced_as_a_top_is_not_on_a_grid_either() {
     let up = Up::Along([0.0, 1.0, 0.0]);
-    let top = Request { up, contact: Some(Contact::Center), ..Request::new(GoalKind::Top) };
-    let Some(case) = shared("armadillo.obj", &top) else { return };
-    let Status::ConstraintsInfeasible { least_miss, separator, .. } = case.solution.status else {
+    let top = Request {
+        up,
+        contact: Some(Contact::Center),
+        ..Request::new(GoalKind::Top)
+    };
+    let Some(case) = shared("armadillo.obj", &top) else {
+        return;
+    };
+    let Status::ConstraintsInfeasible {
+        least_miss,
+        separator,
+        ..
+    } = case.solution.status
+    else {
         panic!("{:?}", case.solution.status)
     };
     assert!(least_miss > 0.0);
@@ -223,8 +285,13 @@ fn a_shared_rocker_arm_that_needs_ballast_needs_it_on_a_grid_too() {
         spin_point: Some(SpinPoint::At([0.0, 6.7135, 8.4895])),
         ..Request::new(GoalKind::Balance)
     };
-    let Some(case) = shared("rocker-arm.obj", &bore) else { return };
-    let case = Case { step_mm: FINE_STEP_MM, ..case };
+    let Some(case) = shared("rocker-arm.obj", &bore) else {
+        return;
+    };
+    let case = Case {
+        step_mm: FINE_STEP_MM,
+        ..case
+    };
     let Status::CannotBalance { separator, .. } = case.solution.status else {
         panic!("{:?}", case.solution.status)
     };
@@ -234,10 +301,17 @@ fn a_shared_rocker_arm_that_needs_ballast_needs_it_on_a_grid_too() {
 #[test]
 fn what_weighs_more_than_the_water_it_displaces_does_so_on_a_grid_too() {
     let waterline = Waterline::At(Length::from_mm(5.0).unwrap());
-    let request =
-        Request { water: Some(Water { waterline, ..Water::default() }), ..Request::new(GoalKind::Float) };
+    let request = Request {
+        water: Some(Water {
+            waterline,
+            ..Water::default()
+        }),
+        ..Request::new(GoalKind::Float)
+    };
     let case = Case::of("tilted-ellipsoid", &request);
-    let Status::Sinks { least_ratio } = case.solution.status else { panic!("{:?}", case.solution.status) };
+    let Status::Sinks { least_ratio } = case.solution.status else {
+        panic!("{:?}", case.solution.status)
+    };
     let [lightest, _] = case.least_integral(&Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
     let displaced_mm3 = case.placement.goal.afloat.unwrap().material_mm3;
     // The shell is 2 mm of some 44: a cell cut at random is a third of it wrong, 1e-2 of the shell together.

@@ -1,6 +1,9 @@
 //! A real slicer takes every part of a kit as it is: PrusaSlicer finds nothing to repair and measures the same volume.
 
-#![allow(clippy::unwrap_used, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
 #![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
 
 use std::collections::BTreeMap;
@@ -10,7 +13,10 @@ use std::process::Command;
 
 use serde_json::Value;
 
-const MODEL: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/models/tilted-ellipsoid.stl");
+const MODEL: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/examples/models/tilted-ellipsoid.stl"
+);
 
 /// The slicer sums single-precision tetrahedra: up to 4e-6 on parts that were cut elsewhere, 3e-6 on ours.
 const VOLUME_RATIO: f64 = 1e-5;
@@ -37,7 +43,11 @@ fn sliced(file: &Path) -> Option<Said> {
 
 /// What `prusa-slicer --info` says of each object of a file; none without the slicer.
 fn objects_sliced(file: &Path) -> Option<Vec<Said>> {
-    let output = match Command::new("prusa-slicer").arg("--info").arg(file).output() {
+    let output = match Command::new("prusa-slicer")
+        .arg("--info")
+        .arg(file)
+        .output()
+    {
         Err(absent) if absent.kind() == std::io::ErrorKind::NotFound => return None,
         output => output.unwrap(),
     };
@@ -47,7 +57,9 @@ fn objects_sliced(file: &Path) -> Option<Vec<Said>> {
     for line in said.lines() {
         if line.starts_with('[') && line.ends_with(']') {
             objects.push(Said::new());
-        } else if let (Some(object), Some((key, value))) = (objects.last_mut(), line.split_once('=')) {
+        } else if let (Some(object), Some((key, value))) =
+            (objects.last_mut(), line.split_once('='))
+        {
             object.insert(key.trim().into(), value.trim().into());
         }
     }
@@ -58,8 +70,14 @@ fn objects_sliced(file: &Path) -> Option<Vec<Said>> {
 fn assert_taken(part: &Value, said: &Said) {
     let number = |key: &str| said[key].parse::<f64>().unwrap();
     assert_eq!(said["manifold"], "yes", "{said:?}");
-    let repaired: Vec<_> = REPAIRS.iter().filter(|key| said.contains_key(**key)).collect();
-    assert!(repaired.is_empty(), "the slicer repaired {repaired:?}: {said:?}");
+    let repaired: Vec<_> = REPAIRS
+        .iter()
+        .filter(|key| said.contains_key(**key))
+        .collect();
+    assert!(
+        repaired.is_empty(),
+        "the slicer repaired {repaired:?}: {said:?}"
+    );
     assert_eq!(number("number_of_parts"), 1.0, "{said:?}");
     assert_eq!(said["number_of_facets"], part["triangles"].to_string());
     let volume_mm3 = part["volume_mm3"].as_f64().unwrap();
@@ -69,18 +87,32 @@ fn assert_taken(part: &Value, said: &Said) {
 
 fn assert_rests(said: &Said) {
     let lowest = said["min_z"].parse::<f64>().unwrap();
-    assert!(lowest.abs() < 1e-4, "it does not rest on the plate: {said:?}");
+    assert!(
+        lowest.abs() < 1e-4,
+        "it does not rest on the plate: {said:?}"
+    );
 }
 
 #[test]
 fn a_slicer_takes_every_part_of_a_kit_without_repair() {
     if sliced(Path::new(MODEL)).is_none() {
-        eprintln!("SKIPPED: no prusa-slicer here; apt-get install --no-install-recommends prusa-slicer");
+        eprintln!(
+            "SKIPPED: no prusa-slicer here; apt-get install --no-install-recommends prusa-slicer"
+        );
         return;
     }
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let printed = ["--printer", "objet-connex350", "--goal", "top", "--size", "60mm", "--wall", "1.5mm"];
+    let printed = [
+        "--printer",
+        "objet-connex350",
+        "--goal",
+        "top",
+        "--size",
+        "60mm",
+        "--wall",
+        "1.5mm",
+    ];
     let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
         .args(["-q", "prepare", MODEL, "--pitch", "0.3mm"])
         .args(printed)
@@ -88,8 +120,13 @@ fn a_slicer_takes_every_part_of_a_kit_without_repair() {
         .arg(&kit)
         .output()
         .unwrap();
-    assert!(prepared.status.success(), "{}", String::from_utf8_lossy(&prepared.stderr));
-    let checklist: Value = serde_json::from_slice(&fs::read(kit.join("checklist.json")).unwrap()).unwrap();
+    assert!(
+        prepared.status.success(),
+        "{}",
+        String::from_utf8_lossy(&prepared.stderr)
+    );
+    let checklist: Value =
+        serde_json::from_slice(&fs::read(kit.join("checklist.json")).unwrap()).unwrap();
     let parts = checklist["parts"].as_array().unwrap();
     assert!(parts.len() > 1, "{parts:?}");
     for part in parts {
@@ -103,7 +140,10 @@ fn a_slicer_takes_every_part_of_a_kit_without_repair() {
     for package in ["assembly.3mf", "plate.3mf"] {
         let said = objects_sliced(&kit.join(package)).unwrap();
         assert_eq!(said.len(), parts.len(), "{package}: {said:?}");
-        parts.iter().zip(&said).for_each(|(part, said)| assert_taken(part, said));
+        parts
+            .iter()
+            .zip(&said)
+            .for_each(|(part, said)| assert_taken(part, said));
     }
 }
 

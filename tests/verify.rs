@@ -1,6 +1,10 @@
 //! `verify` tells what became of a kit's files: saved again, changed, scaled, mirrored, exchanged, replaced, missing.
 
-#![allow(clippy::unwrap_used, clippy::panic, reason = "a test whose input cannot be had has failed")]
+#![allow(
+    clippy::unwrap_used,
+    clippy::panic,
+    reason = "a test whose input cannot be had has failed"
+)]
 
 mod common;
 
@@ -36,8 +40,13 @@ impl Kit {
         let room = tempfile::tempdir().unwrap();
         let folder = room.path().join("kit");
         copy(made(), &folder);
-        let sheet: Value = serde_json::from_slice(&fs::read(folder.join("checklist.json")).unwrap()).unwrap();
-        Self { _room: room, folder, parts: sheet["parts"].as_array().unwrap().clone() }
+        let sheet: Value =
+            serde_json::from_slice(&fs::read(folder.join("checklist.json")).unwrap()).unwrap();
+        Self {
+            _room: room,
+            folder,
+            parts: sheet["parts"].as_array().unwrap().clone(),
+        }
     }
 
     fn file(&self, part: usize) -> &str {
@@ -49,14 +58,21 @@ impl Kit {
     }
 
     fn write(&self, part: usize, mesh: &TriMesh) {
-        fs::write(self.folder.join(self.file(part)), stl::encode(mesh, "edited")).unwrap();
+        fs::write(
+            self.folder.join(self.file(part)),
+            stl::encode(mesh, "edited"),
+        )
+        .unwrap();
     }
 
     /// The exit code of `verify`, and what it prints.
     fn verified(&self) -> (Option<i32>, String) {
         let output = common::equipoise(&["verify", self.folder.to_str().unwrap()]);
         let said = [output.stdout, output.stderr].concat();
-        (output.status.code(), String::from_utf8_lossy(&said).into_owned())
+        (
+            output.status.code(),
+            String::from_utf8_lossy(&said).into_owned(),
+        )
     }
 
     /// Asserts that the kit is refused with these words about the part's file.
@@ -83,7 +99,11 @@ fn copy(from: &Path, to: &Path) {
 
 fn mapped(mesh: &TriMesh, linear: Matrix) -> TriMesh {
     let moved = mesh.map_vertices(|p| Point::from(linear * p.coords));
-    if linear.determinant() < 0.0 { moved.reversed() } else { moved }
+    if linear.determinant() < 0.0 {
+        moved.reversed()
+    } else {
+        moved
+    }
 }
 
 #[test]
@@ -101,14 +121,26 @@ fn a_scaled_part_is_told_with_its_scale() {
     let (_, said) = kit.verified();
     // The cause stands first, with its remedy; what follows from it is one line, and no intact file is blamed.
     let lines: Vec<&str> = said.lines().collect();
-    assert!(lines[0].starts_with("FAIL parts/") && lines[1].starts_with("  remedy: "), "{said}");
-    assert!(said.matches("FAIL").count() == 1 && !said.contains("3MF files"), "{said}");
+    assert!(
+        lines[0].starts_with("FAIL parts/") && lines[1].starts_with("  remedy: "),
+        "{said}"
+    );
+    assert!(
+        said.matches("FAIL").count() == 1 && !said.contains("3MF files"),
+        "{said}"
+    );
 }
 
 #[test]
 fn a_mirrored_part_is_told() {
     let kit = Kit::new();
-    kit.write(1, &mapped(&kit.mesh(1), Matrix::from_diagonal(&Vector::new(-1.0, 1.0, 1.0))));
+    kit.write(
+        1,
+        &mapped(
+            &kit.mesh(1),
+            Matrix::from_diagonal(&Vector::new(-1.0, 1.0, 1.0)),
+        ),
+    );
     kit.must_tell(1, "was mirrored");
 }
 
@@ -142,9 +174,19 @@ fn a_part_replaced_by_one_without_its_pin_is_told_with_the_pin() {
     let frame = equipoise::geom::Frame::with_axis(Point::from(base), &axis);
     let around = cylinder(diameter, 2.0 * length, 48).map_vertices(|p| frame.to_model(p));
     let body = Csg::of_mesh(&weld(&kit.mesh(index))).unwrap();
-    let without = body.subtract(&Csg::of_mesh(&around).unwrap()).unwrap().to_mesh().unwrap();
+    let without = body
+        .subtract(&Csg::of_mesh(&around).unwrap())
+        .unwrap()
+        .to_mesh()
+        .unwrap();
     kit.write(index, &without);
-    kit.must_tell(index, &format!("has another shape: it lacks the pins {}", pin["id"].as_str().unwrap()));
+    kit.must_tell(
+        index,
+        &format!(
+            "has another shape: it lacks the pins {}",
+            pin["id"].as_str().unwrap()
+        ),
+    );
 }
 
 #[test]
@@ -153,9 +195,10 @@ fn a_changed_byte_is_told_and_a_corner_moved_by_it_too() {
     let path = kit.folder.join(kit.file(0));
     let whole = fs::read(&path).unwrap();
     // A byte of the header changes no triangle; the highest byte of a coordinate's fraction moves a corner.
-    for (at, words) in
-        [(70, "was saved again: other bytes, the same triangles"), (84 + 12 + 1, "was changed a little")]
-    {
+    for (at, words) in [
+        (70, "was saved again: other bytes, the same triangles"),
+        (84 + 12 + 1, "was changed a little"),
+    ] {
         let mut bytes = whole.clone();
         bytes[at] ^= 0x10;
         fs::write(&path, bytes).unwrap();
@@ -165,18 +208,33 @@ fn a_changed_byte_is_told_and_a_corner_moved_by_it_too() {
     let job = kit.folder.join("job.toml");
     fs::write(&job, fs::read_to_string(&job).unwrap() + "\n").unwrap();
     let (code, said) = kit.verified();
-    assert!(code == Some(1) && said.contains("job.toml was changed: it has other bytes"), "{said}");
+    assert!(
+        code == Some(1) && said.contains("job.toml was changed: it has other bytes"),
+        "{said}"
+    );
 }
 
 #[test]
 fn a_part_saved_again_as_text_is_told_apart_from_a_changed_one_and_keeps_its_promises() {
     let kit = Kit::new();
-    let corner = |p: Point| format!("vertex {:e} {:e} {:e}\n", p.x as f32, p.y as f32, p.z as f32);
+    let corner = |p: Point| {
+        format!(
+            "vertex {:e} {:e} {:e}\n",
+            p.x as f32, p.y as f32, p.z as f32
+        )
+    };
     let facet = |corners: [Point; 3]| {
-        format!("facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n", corners.map(corner).concat())
+        format!(
+            "facet normal 0 0 0\nouter loop\n{}endloop\nendfacet\n",
+            corners.map(corner).concat()
+        )
     };
     let facets: String = kit.mesh(0).iter_corners().map(facet).collect();
-    fs::write(kit.folder.join(kit.file(0)), format!("solid saved\n{facets}endsolid saved\n")).unwrap();
+    fs::write(
+        kit.folder.join(kit.file(0)),
+        format!("solid saved\n{facets}endsolid saved\n"),
+    )
+    .unwrap();
     kit.must_tell(0, "was saved again: other bytes, the same triangles");
     let (_, said) = kit.verified();
     assert_eq!(said.matches("FAIL").count(), 1, "{said}");
@@ -186,7 +244,10 @@ fn a_part_saved_again_as_text_is_told_apart_from_a_changed_one_and_keeps_its_pro
 #[test]
 fn a_moved_part_is_told_with_the_way_it_went() {
     let kit = Kit::new();
-    kit.write(0, &kit.mesh(0).map_vertices(|p| p + Vector::new(3.0, 4.0, 0.0)));
+    kit.write(
+        0,
+        &kit.mesh(0).map_vertices(|p| p + Vector::new(3.0, 4.0, 0.0)),
+    );
     kit.must_tell(0, "was moved by 5.000 mm");
 }
 
@@ -195,7 +256,10 @@ fn a_missing_file_breaks_a_promise_whatever_it_is_and_no_kit_is_another_thing() 
     let kit = Kit::new();
     fs::remove_file(kit.folder.join("assembly.3mf")).unwrap();
     let (code, said) = kit.verified();
-    assert!(code == Some(1) && said.contains("assembly.3mf is missing"), "{said}");
+    assert!(
+        code == Some(1) && said.contains("assembly.3mf is missing"),
+        "{said}"
+    );
     fs::remove_file(kit.folder.join(kit.file(1))).unwrap();
     let (code, said) = kit.verified();
     assert!(
@@ -204,7 +268,10 @@ fn a_missing_file_breaks_a_promise_whatever_it_is_and_no_kit_is_another_thing() 
     );
     fs::write(kit.folder.join(kit.file(1)), "no mesh").unwrap();
     let (code, said) = kit.verified();
-    assert!(code == Some(1) && said.contains(&format!("{} holds no mesh", kit.file(1))), "{said}");
+    assert!(
+        code == Some(1) && said.contains(&format!("{} holds no mesh", kit.file(1))),
+        "{said}"
+    );
     fs::remove_file(kit.folder.join("checklist.json")).unwrap();
     assert_eq!(kit.verified().0, Some(2));
 }
@@ -223,17 +290,31 @@ fn a_changed_number_of_the_checklist_and_a_changed_word_of_the_sheet_are_told() 
     };
     for key in ["mass_g", "volume_mm3"] {
         let stated = &kit.parts[1][key];
-        let (code, said) =
-            replaced("checklist.json", &format!("\"{key}\": {stated}"), &format!("\"{key}\": 29.5"));
+        let (code, said) = replaced(
+            "checklist.json",
+            &format!("\"{key}\": {stated}"),
+            &format!("\"{key}\": 29.5"),
+        );
         let words = format!("parts[P02].{key} states 29.5, the files have ");
-        let found = said.split_once(&words).map(|(_, rest)| rest.split([')', ',', '\n']).next().unwrap());
-        let found: f64 = found.unwrap_or_else(|| panic!("{words:?} is not told in {said}")).parse().unwrap();
+        let found = said
+            .split_once(&words)
+            .map(|(_, rest)| rest.split([')', ',', '\n']).next().unwrap());
+        let found: f64 = found
+            .unwrap_or_else(|| panic!("{words:?} is not told in {said}"))
+            .parse()
+            .unwrap();
         // The last digit depends on how the sums were taken.
         let stated = stated.as_f64().unwrap();
-        assert!(code == Some(1) && (found - stated).abs() < 1e-12 * stated, "{found} {stated}");
+        assert!(
+            code == Some(1) && (found - stated).abs() < 1e-12 * stated,
+            "{found} {stated}"
+        );
     }
     let (code, said) = replaced("checklist.html", "rpm", "rpn");
-    assert!(code == Some(1) && said.contains("checklist.html was changed"), "{said}");
+    assert!(
+        code == Some(1) && said.contains("checklist.html was changed"),
+        "{said}"
+    );
     assert_eq!(kit.verified().0, Some(0));
 }
 
@@ -242,12 +323,17 @@ fn a_package_that_holds_other_parts_is_told() {
     let kit = Kit::new();
     let [first, second] = [0, 1].map(|part| kit.folder.join(kit.file(part)).with_extension("3mf"));
     fs::copy(&first, &second).unwrap();
-    fs::copy(kit.folder.join("plate.3mf"), kit.folder.join("assembly.3mf")).unwrap();
+    fs::copy(
+        kit.folder.join("plate.3mf"),
+        kit.folder.join("assembly.3mf"),
+    )
+    .unwrap();
     let (code, said) = kit.verified();
     assert_eq!(code, Some(1), "{said}");
-    for words in
-        ["holds P02 0 times", "assembly.3mf: P01 is not the part of its own file, or not in its place"]
-    {
+    for words in [
+        "holds P02 0 times",
+        "assembly.3mf: P01 is not the part of its own file, or not in its place",
+    ] {
         assert!(said.contains(words), "{words:?} is not told in\n{said}");
     }
 }

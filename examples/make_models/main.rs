@@ -4,7 +4,10 @@
 //! cargo run --example make_models -- OUTDIR
 //! ```
 
-#![allow(clippy::print_stdout, reason = "an example talks to the person who runs it")]
+#![allow(
+    clippy::print_stdout,
+    reason = "an example talks to the person who runs it"
+)]
 
 mod models;
 
@@ -14,7 +17,9 @@ use anyhow::{Context, Result};
 use equipoise::io::stl;
 
 fn main() -> Result<()> {
-    let folder = std::env::args_os().nth(1).context("name the folder to write the models to")?;
+    let folder = std::env::args_os()
+        .nth(1)
+        .context("name the folder to write the models to")?;
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;
@@ -22,7 +27,11 @@ fn main() -> Result<()> {
         let solid = models::solid(make).context(name)?;
         let path = folder.join(name).with_extension("stl");
         stl::write(&path, solid.mesh(), name)?;
-        println!("{}: {} triangles", path.display(), solid.mesh().triangles().len());
+        println!(
+            "{}: {} triangles",
+            path.display(),
+            solid.mesh().triangles().len()
+        );
     }
     Ok(())
 }

@@ -66,10 +66,18 @@ fn balancing_figure() -> TriMesh {
     const HEIGHT: f64 = 0.96;
     let rings = (0..=60).map(|i| {
         let z = HEIGHT * f64::from(i) / 60.0;
-        let body = 0.21 * (PI * (0.12 + 0.88 * z / 0.68).min(1.0)).sin().max(0.0).sqrt();
+        let body = 0.21
+            * (PI * (0.12 + 0.88 * z / 0.68).min(1.0))
+                .sin()
+                .max(0.0)
+                .sqrt();
         let head = (0.15_f64.powi(2) - (z - 0.82).powi(2)).max(0.0).sqrt();
         let arms = 0.2 * (-((z - 0.5) / 0.05).powi(2)).exp();
-        Ring { center: Point::from(LEAN * z), radius: body.max(head).max(0.05), arms }
+        Ring {
+            center: Point::from(LEAN * z),
+            radius: body.max(head).max(0.05),
+            arms,
+        }
     });
     stacked(&rings.collect::<Vec<_>>())
 }
@@ -88,11 +96,21 @@ fn three_spheres() -> TriMesh {
     /// Each ball gives its slices from here to there, as angles from its lowest point; straight necks lie between.
     const SLICES_DEG: (f64, f64) = (18.0, 150.0);
     let ring = |(x, z, radius): (f64, f64, f64), step: i32| {
-        let angle = (SLICES_DEG.0 + (SLICES_DEG.1 - SLICES_DEG.0) * f64::from(step) / 24.0).to_radians();
+        let angle =
+            (SLICES_DEG.0 + (SLICES_DEG.1 - SLICES_DEG.0) * f64::from(step) / 24.0).to_radians();
         let center = Point::new(x, 0.0, z - radius * angle.cos());
-        Ring { center, radius: radius * angle.sin(), arms: 0.0 }
+        Ring {
+            center,
+            radius: radius * angle.sin(),
+            arms: 0.0,
+        }
     };
-    stacked(&BALLS.iter().flat_map(|&ball| (0..=24).map(move |step| ring(ball, step))).collect::<Vec<_>>())
+    stacked(
+        &BALLS
+            .iter()
+            .flat_map(|&ball| (0..=24).map(move |step| ring(ball, step)))
+            .collect::<Vec<_>>(),
+    )
 }
 
 fn unit_ball() -> TriMesh {
@@ -125,8 +143,10 @@ impl Ring {
 fn stacked(rings: &[Ring]) -> TriMesh {
     let n = RING_CORNERS as u32;
     let (bottom, top) = (rings.len() as u32 * n, rings.len() as u32 * n + 1);
-    let mut vertices: Vec<Point> =
-        rings.iter().flat_map(|ring| (0..RING_CORNERS).map(|i| ring.corner(i))).collect();
+    let mut vertices: Vec<Point> = rings
+        .iter()
+        .flat_map(|ring| (0..RING_CORNERS).map(|i| ring.corner(i)))
+        .collect();
     vertices.extend(rings.first().map(|ring| ring.center));
     vertices.extend(rings.last().map(|ring| ring.center));
     let mut triangles = Vec::new();
@@ -134,9 +154,15 @@ fn stacked(rings: &[Ring]) -> TriMesh {
         let next = (i + 1) % n;
         for low in (0..bottom - n).step_by(RING_CORNERS) {
             let high = low + n;
-            triangles.extend([[low + i, low + next, high + next], [low + i, high + next, high + i]]);
+            triangles.extend([
+                [low + i, low + next, high + next],
+                [low + i, high + next, high + i],
+            ]);
         }
-        triangles.extend([[bottom, next, i], [top, top - 1 - n + i, top - 1 - n + next]]);
+        triangles.extend([
+            [bottom, next, i],
+            [top, top - 1 - n + i, top - 1 - n + next],
+        ]);
     }
     TriMesh::new(vertices, triangles).unwrap_or_default()
 }

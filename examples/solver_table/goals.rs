@@ -21,14 +21,37 @@ fn rows() -> Vec<(&'static str, &'static str, Request)> {
         (
             "elephant",
             "elephant.obj",
-            Request { contact: Some(Contact::Center), objective, ..Request::new(GoalKind::Top) },
+            Request {
+                contact: Some(Contact::Center),
+                objective,
+                ..Request::new(GoalKind::Top)
+            },
         )
     };
-    let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.0 };
-    let yoyo =
-        |objective| ("cheburashka", "cheburashka.obj", Request { objective, ..Request::new(GoalKind::Yoyo) });
+    let spin_it = |gamma_c| Objective::SpinIt {
+        gamma_c,
+        gamma_i: 1.0,
+    };
+    let yoyo = |objective| {
+        (
+            "cheburashka",
+            "cheburashka.obj",
+            Request {
+                objective,
+                ..Request::new(GoalKind::Yoyo)
+            },
+        )
+    };
     let upright = |kind, objective| {
-        ("elephant", "elephant.obj", Request { up: Up::Y, objective, ..Request::new(kind) })
+        (
+            "elephant",
+            "elephant.obj",
+            Request {
+                up: Up::Y,
+                objective,
+                ..Request::new(kind)
+            },
+        )
     };
     let rotor = |objective| {
         let request = Request {
@@ -63,7 +86,12 @@ pub fn print_table() -> Result<()> {
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (model, file, request) in rows() {
         if let Some(scene) = Scene::of(model, Some(file), &request)? {
-            println!("| {model} | {} {} | {} |", request.kind, request.objective, figures(&scene)?);
+            println!(
+                "| {model} | {} {} | {} |",
+                request.kind,
+                request.objective,
+                figures(&scene)?
+            );
         }
     }
     Ok(())
@@ -73,7 +101,11 @@ fn figures(scene: &Scene) -> Result<String> {
     let columns = scene.columns(scene.shell.coarse_pitch(COARSE))?;
     let (coarse, coarse_s) = timed(COARSE_RUNS, || Ok(solved(&scene.problem(&columns))))?;
     let ends = |solution: &Solution| {
-        format!("{:.0e} | {:.0e}", solution.certificate.gap_ratio.abs(), solution.certificate.residual)
+        format!(
+            "{:.0e} | {:.0e}",
+            solution.certificate.gap_ratio.abs(),
+            solution.certificate.residual
+        )
     };
     let over = coarse.certificate.bound_over_heights;
     let below = |over: Option<f64>, value: f64| {
@@ -117,5 +149,8 @@ fn over_heights(problem: &Problem, known: &Solution) -> Option<f64> {
 /// The status without its proof.
 fn word(solution: &Solution) -> String {
     let text = format!("{:?}", solution.status);
-    text.split([' ', '{', '(']).next().unwrap_or_default().to_owned()
+    text.split([' ', '{', '('])
+        .next()
+        .unwrap_or_default()
+        .to_owned()
 }

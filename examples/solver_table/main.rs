@@ -7,7 +7,10 @@
 //!
 //! `EQUIPOISE_MODELS` names a folder with the larger models; those that are not there are left out.
 
-#![allow(clippy::print_stdout, reason = "an example talks to the person who runs it")]
+#![allow(
+    clippy::print_stdout,
+    reason = "an example talks to the person who runs it"
+)]
 
 #[path = "../make_models/models.rs"]
 mod models;

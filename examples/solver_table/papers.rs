@@ -31,25 +31,67 @@ struct Row {
 
 impl Row {
     fn title(&self) -> String {
-        format!("{} | {} {}", self.model, self.request.kind, self.request.objective)
+        format!(
+            "{} | {} {}",
+            self.model, self.request.kind, self.request.objective
+        )
     }
 }
 
 fn rows() -> Vec<Row> {
-    let functional = Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 };
-    let top = Request { objective: functional, ..Request::new(GoalKind::Top) };
-    let centered = Request { contact: Some(Contact::Center), ..top };
-    let yoyo = Request { objective: functional, ..Request::new(GoalKind::Yoyo) };
-    let slowest = Request { objective: Objective::CriticalSpeed, ..centered };
-    let lowest = Request { objective: Objective::LowestCenter, ..Request::new(GoalKind::Stand) };
-    let row = |model, file, request, variables| Row { model, file, request, variables };
+    let functional = Objective::SpinIt {
+        gamma_c: 0.0,
+        gamma_i: 1.0,
+    };
+    let top = Request {
+        objective: functional,
+        ..Request::new(GoalKind::Top)
+    };
+    let centered = Request {
+        contact: Some(Contact::Center),
+        ..top
+    };
+    let yoyo = Request {
+        objective: functional,
+        ..Request::new(GoalKind::Yoyo)
+    };
+    let slowest = Request {
+        objective: Objective::CriticalSpeed,
+        ..centered
+    };
+    let lowest = Request {
+        objective: Objective::LowestCenter,
+        ..Request::new(GoalKind::Stand)
+    };
+    let row = |model, file, request, variables| Row {
+        model,
+        file,
+        request,
+        variables,
+    };
     vec![
         row("tilted-ellipsoid", None, top, 2886),
-        row("three-spheres", None, Request { up: Up::Principal, ..yoyo }, 1400),
+        row(
+            "three-spheres",
+            None,
+            Request {
+                up: Up::Principal,
+                ..yoyo
+            },
+            1400,
+        ),
         row("elephant", Some("elephant.obj"), centered, 9000),
         row("cheburashka", Some("cheburashka.obj"), yoyo, 4000),
         row("fertility", Some("fertility.stl"), slowest, 6000),
-        row("elephant", Some("elephant.obj"), Request { up: Up::Y, ..lowest }, 4000),
+        row(
+            "elephant",
+            Some("elephant.obj"),
+            Request {
+                up: Up::Y,
+                ..lowest
+            },
+            4000,
+        ),
         row("balancing-figure", None, lowest, 4000),
     ]
 }
@@ -66,14 +108,22 @@ fn differs(found: &Found, best: &Found, problem: &Problem) -> f64 {
 
 /// A value, where there is one.
 fn shown(value: f64) -> String {
-    if value.is_nan() { "none".into() } else { format!("{value:.6}") }
+    if value.is_nan() {
+        "none".into()
+    } else {
+        format!("{value:.6}")
+    }
 }
 
 /// How many times the quadric's time Wu et al.'s own program took at least for as many rays; empty where they report none.
 fn published(method: &dyn Method, found: &Found, best_s: f64) -> String {
     let is_reported =
         method.name() == ByRays::default().name() && PUBLISHED_VARIABLES.contains(&found.variables);
-    if is_reported { format!("≥ {:.0}", PUBLISHED_S / best_s) } else { String::new() }
+    if is_reported {
+        format!("≥ {:.0}", PUBLISHED_S / best_s)
+    } else {
+        String::new()
+    }
 }
 
 fn rays_and_voxels(row: &Row, scene: &Scene) -> Result<()> {
@@ -89,7 +139,8 @@ fn rays_and_voxels(row: &Row, scene: &Scene) -> Result<()> {
         best.residual,
         best.outcome
     );
-    let others: [(&dyn Method, usize); 2] = [(&ByRays::default(), RAYS_RUNS), (&ByVoxels::default(), 1)];
+    let others: [(&dyn Method, usize); 2] =
+        [(&ByRays::default(), RAYS_RUNS), (&ByVoxels::default(), 1)];
     for (method, runs) in others {
         let (found, seconds) = timed(runs, || find(method, &problem))?;
         println!(
@@ -141,7 +192,9 @@ pub fn print_tables() -> Result<()> {
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
     let mut scenes = Vec::new();
     for row in rows() {
-        if let Some(scene) = Scene::of(row.model, row.file, &row.request).with_context(|| row.model)? {
+        if let Some(scene) =
+            Scene::of(row.model, row.file, &row.request).with_context(|| row.model)?
+        {
             rays_and_voxels(&row, &scene)?;
             scenes.push((row, scene));
         }
@@ -152,8 +205,9 @@ pub fn print_tables() -> Result<()> {
          differs, % | quadric s | value | × quadric |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-    for (row, scene) in
-        scenes.iter().filter(|(row, _)| row.file.is_none() && row.request.kind != GoalKind::Stand)
+    for (row, scene) in scenes
+        .iter()
+        .filter(|(row, _)| row.file.is_none() && row.request.kind != GoalKind::Stand)
     {
         level_9(row, scene)?;
     }

@@ -27,14 +27,23 @@ pub struct Scene {
 impl Scene {
     /// A model, one of those made by code or a file of the larger ones; none where that is not there.
     pub fn of(model: &str, file: Option<&str>, request: &Request) -> Result<Option<Self>> {
-        let Some(solid) = solid(model, file)? else { return Ok(None) };
+        let Some(solid) = solid(model, file)? else {
+            return Ok(None);
+        };
         let placement = place(&solid, WALL_MM, request)?;
         let shell = Shell::new(&solid, &placement.goal.frame, WALL_MM, &placement.keeps)?;
-        Ok(Some(Self { goal: placement.goal, shell }))
+        Ok(Some(Self {
+            goal: placement.goal,
+            shell,
+        }))
     }
 
     pub fn columns(&self, pitch_mm: [f64; 2]) -> Result<Columns> {
-        Ok(Columns::of_shell(&self.shell, pitch_mm, &Progress::silent())?)
+        Ok(Columns::of_shell(
+            &self.shell,
+            pitch_mm,
+            &Progress::silent(),
+        )?)
     }
 
     /// Columns at the pitch at which the rays have about this many numbers, two for every stretch.
@@ -49,7 +58,11 @@ impl Scene {
     }
 
     pub fn problem<'a>(&'a self, columns: &'a Columns) -> Problem<'a> {
-        Problem { goal: &self.goal, fixed: self.goal.solid, columns }
+        Problem {
+            goal: &self.goal,
+            fixed: self.goal.solid,
+            columns,
+        }
     }
 }
 
@@ -60,13 +73,17 @@ fn solid(model: &str, file: Option<&str>) -> Result<Option<Solid>> {
         return Ok(Some(models::solid(make)?));
     };
     let beside = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
-    let path =
-        std::env::var_os("EQUIPOISE_MODELS").map_or_else(|| PathBuf::from(beside), PathBuf::from).join(file);
+    let path = std::env::var_os("EQUIPOISE_MODELS")
+        .map_or_else(|| PathBuf::from(beside), PathBuf::from)
+        .join(file);
     if !path.is_file() {
         return Ok(None);
     }
     let (mesh, _) = repair(read_model(&path)?);
-    Ok(Some(Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm()))?))
+    Ok(Some(Solid::new(scaled(
+        &mesh,
+        SIZE_MM / mesh.longest_side_mm(),
+    ))?))
 }
 
 /// What a run gives, and the shortest of the times of several, s.

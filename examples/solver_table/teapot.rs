@@ -12,13 +12,27 @@ const COLUMNS: usize = 400;
 
 /// What is minimised, how Spin-It calls it, and by how much its solution divides the critical speed.
 const ROWS: [(Objective, &str, &str); 4] = [
-    (Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }, "inertia alone", "1.56"),
     (
-        Objective::SpinIt { gamma_c: 0.2, gamma_i: 1.0 },
+        Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        },
+        "inertia alone",
+        "1.56",
+    ),
+    (
+        Objective::SpinIt {
+            gamma_c: 0.2,
+            gamma_i: 1.0,
+        },
         "with the lever, γ_c = 0.2",
         "1.60 (height), 1.68 (lever)",
     ),
-    (Objective::SPIN_IT, "with the lever, γ_c = 1", "1.60 (height), 1.68 (lever)"),
+    (
+        Objective::SPIN_IT,
+        "with the lever, γ_c = 1",
+        "1.60 (height), 1.68 (lever)",
+    ),
     (Objective::CriticalSpeed, "the critical speed itself", ""),
 ];
 
@@ -30,10 +44,20 @@ pub fn print_table() -> Result<()> {
     );
     println!("|---|---|---|---|---|---|---|---|");
     for (objective, words, published) in ROWS {
-        let request = Request { up: Up::Y, objective, ..Request::new(GoalKind::Top) };
-        let Some(scene) = Scene::of("teapot", Some("teapot.obj"), &request)? else { return Ok(()) };
+        let request = Request {
+            up: Up::Y,
+            objective,
+            ..Request::new(GoalKind::Top)
+        };
+        let Some(scene) = Scene::of("teapot", Some("teapot.obj"), &request)? else {
+            return Ok(());
+        };
         let columns = scene.columns(scene.shell.coarse_pitch(COLUMNS))?;
-        let solution = solve(&scene.problem(&columns), &Settings::default(), &Progress::silent());
+        let solution = solve(
+            &scene.problem(&columns),
+            &Settings::default(),
+            &Progress::silent(),
+        );
         let [solid, hollowed] =
             [&scene.goal.solid, &solution.moments].map(|moments| figures(&scene.goal, moments));
         let speed = |figures: &Figures| figures.critical_speed_rpm.unwrap_or(f64::INFINITY);

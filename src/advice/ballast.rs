@@ -45,7 +45,12 @@ pub(super) fn remedy(ground: &Ground) -> Remedy {
         y,
         z
     );
-    Remedy::found(Kind::LeastBallast, mass_g, [String::new(), words], &bought.trial)
+    Remedy::found(
+        Kind::LeastBallast,
+        mass_g,
+        [String::new(), words],
+        &bought.trial,
+    )
 }
 
 /// The least steel, confirmed with as little more as it takes.
@@ -58,15 +63,30 @@ fn bought(ground: &Ground) -> Option<Bought> {
     let (placement, coarse) = exact(SEARCHING_COLUMNS)?;
     let least = |placement: Placement| {
         let question = problem(&placement, &coarse);
-        let settings = Settings { passes_per_ascent: PASSES, ..Settings::default() };
-        let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &Progress::silent())?;
+        let settings = Settings {
+            passes_per_ascent: PASSES,
+            ..Settings::default()
+        };
+        let ballast = least_ballast(
+            &question,
+            1.0 + excess_ratio,
+            &settings,
+            &Progress::silent(),
+        )?;
         Some((placement, ballast))
     };
-    let found = ground.at_its_lines(&placement).into_iter().filter_map(least);
+    let found = ground
+        .at_its_lines(&placement)
+        .into_iter()
+        .filter_map(least);
     let (placement, ballast) = found.min_by(|a, b| a.1.volume_mm3.total_cmp(&b.1.volume_mm3))?;
     let (_, columns) = exact(CONFIRMING_COLUMNS)?;
     least_excess(|excess| {
-        let filled = grown(&columns, ballast.filled, (1.0 + excess) * ballast.volume_mm3)?;
+        let filled = grown(
+            &columns,
+            ballast.filled,
+            (1.0 + excess) * ballast.volume_mm3,
+        )?;
         confirmed(&placement, &columns, &filled, excess_ratio)
     })
 }
@@ -81,11 +101,22 @@ fn confirmed(
     let steel = moments_where_positive(columns, filled);
     let rest = columns.outside(filled);
     let question = problem(placement, &rest);
-    let weighted = Problem { fixed: question.fixed + steel * excess_ratio, ..question };
+    let weighted = Problem {
+        fixed: question.fixed + steel * excess_ratio,
+        ..question
+    };
     let solution = solve(&weighted, &Settings::default(), &Progress::silent());
-    let trial = Trial { placement: placement.clone(), solution, columns: rest.len() };
+    let trial = Trial {
+        placement: placement.clone(),
+        solution,
+        columns: rest.len(),
+    };
     let center = placement.goal.frame.to_model(&steel.centroid());
-    trial.is_possible().then_some(Bought { volume_mm3: steel.volume(), center, trial })
+    trial.is_possible().then_some(Bought {
+        volume_mm3: steel.volume(),
+        center,
+        trial,
+    })
 }
 
 /// The region of a quadric at the level at which it has this volume in the columns, mm³; none if all of them have less.

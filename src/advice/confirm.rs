@@ -35,8 +35,14 @@ mod tests {
     fn what_is_needed_is_found_to_a_per_cent_and_a_half() {
         for needed in [0.0, 0.013, 0.05, 0.1, 0.31] {
             let found = least_excess(|excess| (excess >= needed).then_some(excess)).unwrap();
-            assert!(found >= needed && found <= needed + 0.015 + 1e-12, "{needed}: {found}");
+            assert!(
+                found >= needed && found <= needed + 0.015 + 1e-12,
+                "{needed}: {found}"
+            );
         }
-        assert_eq!(least_excess(|excess| (excess > 0.4).then_some(excess)), None);
+        assert_eq!(
+            least_excess(|excess| (excess > 0.4).then_some(excess)),
+            None
+        );
     }
 }

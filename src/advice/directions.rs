@@ -54,8 +54,16 @@ mod tests {
         // 200 discs that cover the sphere without overlap would each have the radius acos(1 − 2/200) = 8.1°.
         let known = lattice(200);
         let limit = (2.0 * 8.1_f64).to_radians().cos();
-        assert!(known.iter().all(|direction| (direction.norm() - 1.0).abs() < 1e-14));
-        assert!(lattice(3001).iter().all(|direction| !is_new(&known, direction, limit)));
+        assert!(
+            known
+                .iter()
+                .all(|direction| (direction.norm() - 1.0).abs() < 1e-14)
+        );
+        assert!(
+            lattice(3001)
+                .iter()
+                .all(|direction| !is_new(&known, direction, limit))
+        );
     }
 
     #[test]

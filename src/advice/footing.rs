@@ -27,7 +27,10 @@ pub(super) fn resting_directions(mesh: &TriMesh) -> Vec<Vector> {
     faces.retain(|(area_mm2, _)| *area_mm2 >= least_mm2);
     faces.sort_by(|a, b| b.0.total_cmp(&a.0));
     faces.truncate(MOST_FACES);
-    faces.into_iter().map(|(_, normal)| rounded_direction(&-normal)).collect()
+    faces
+        .into_iter()
+        .map(|(_, normal)| rounded_direction(&-normal))
+        .collect()
 }
 
 /// The area and the outward normal of each face, triangles of nearly one normal taken together.
@@ -37,13 +40,17 @@ fn merged_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
     triangles.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
     let mut faces: Vec<Vector> = Vec::new();
     for triangle in triangles.into_iter().filter(|normal| normal.norm() > 0.0) {
-        let is_on = |face: &&mut Vector| face.normalize().dot(&triangle.normalize()) > SAME_FACE_COSINE;
+        let is_on =
+            |face: &&mut Vector| face.normalize().dot(&triangle.normalize()) > SAME_FACE_COSINE;
         match faces.iter_mut().find(is_on) {
             Some(face) => *face += triangle,
             None => faces.push(triangle),
         }
     }
-    faces.into_iter().map(|face| (0.5 * face.norm(), face.normalize())).collect()
+    faces
+        .into_iter()
+        .map(|face| (0.5 * face.norm(), face.normalize()))
+        .collect()
 }
 
 /// The face nearest to the one it is to stand on, by the angle the model is turned, that lets it stand.
@@ -51,9 +58,14 @@ pub(super) fn remedy(ground: &Ground, up: &Vector) -> Remedy {
     let mut faces = resting_directions(ground.case.solid.mesh());
     faces.retain(|face| is_new(&[*up], face, SAME_FACE_COSINE));
     faces.sort_by(|a, b| b.dot(up).total_cmp(&a.dot(up)));
-    let found = faces.into_iter().find_map(|face| Some((face, trial(ground, &face)?)));
+    let found = faces
+        .into_iter()
+        .find_map(|face| Some((face, trial(ground, &face)?)));
     let Some((face, trial)) = found else {
-        return Remedy::nothing(Kind::NearestFace, "it stands on no other face either".to_owned());
+        return Remedy::nothing(
+            Kind::NearestFace,
+            "it stands on no other face either".to_owned(),
+        );
     };
     let angle_deg = face.angle(up).to_degrees();
     let words = format!("turn it by {angle_deg:.1}° onto another face");
@@ -64,7 +76,11 @@ pub(super) fn remedy(ground: &Ground, up: &Vector) -> Remedy {
 /// The confirming solve for a face, if it lets the model stand.
 fn trial(ground: &Ground, face: &Vector) -> Option<Trial> {
     let (request, wall_mm) = (along(&ground.case.request, face), ground.case.wall_mm);
-    if ground.allows(&request, wall_mm) { ground.confirmed(&request, wall_mm) } else { None }
+    if ground.allows(&request, wall_mm) {
+        ground.confirmed(&request, wall_mm)
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]
@@ -77,7 +93,10 @@ mod tests {
         let faces = resting_directions(&cuboid(&Point::origin(), &Point::new(3.0, 2.0, 1.0)));
         assert_eq!(faces.len(), 6);
         for (pair, axis) in faces.chunks(2).zip([2, 1, 0]) {
-            assert!((pair[0][axis].abs(), pair[1][axis]) == (1.0, -pair[0][axis]), "{pair:?}");
+            assert!(
+                (pair[0][axis].abs(), pair[1][axis]) == (1.0, -pair[0][axis]),
+                "{pair:?}"
+            );
         }
     }
 

@@ -2,7 +2,9 @@
 
 use super::Case;
 use super::reached::Reached;
-use crate::goal::{Hydrostatics, Placement, Request, Stock, Warning, Waterline, Weighed, place_weighed};
+use crate::goal::{
+    Hydrostatics, Placement, Request, Stock, Warning, Waterline, Weighed, place_weighed,
+};
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
 use crate::mass::moments_of_mesh;
@@ -51,8 +53,15 @@ impl Trial {
 
 impl<'a> Ground<'a> {
     pub fn new(case: Case<'a>, samples: usize) -> Self {
-        let weighed = Weighed { solid: case.solid, moments: moments_of_mesh(case.solid.mesh()) };
-        Self { depths: Depths::of_solid(case.solid, samples), weighed, case }
+        let weighed = Weighed {
+            solid: case.solid,
+            moments: moments_of_mesh(case.solid.mesh()),
+        };
+        Self {
+            depths: Depths::of_solid(case.solid, samples),
+            weighed,
+            case,
+        }
     }
 
     /// What the solver says on the sampled depths; none where the request cannot be placed.
@@ -64,13 +73,15 @@ impl<'a> Ground<'a> {
 
     /// Whether the sampled depths allow it.
     pub fn allows(&self, request: &Request, wall_mm: f64) -> bool {
-        self.trial(request, wall_mm).is_some_and(|trial| trial.is_possible())
+        self.trial(request, wall_mm)
+            .is_some_and(|trial| trial.is_possible())
     }
 
     /// The same question put to exact columns, with nothing known from before; none unless the answer is yes.
     pub fn confirmed(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let (placement, columns) = self.exact(request, wall_mm, CONFIRMING_COLUMNS)?;
-        self.best(&placement, &columns, solve).filter(Trial::is_possible)
+        self.best(&placement, &columns, solve)
+            .filter(Trial::is_possible)
     }
 
     /// A request placed, with the exact columns of what may then be emptied, so many along the longer side.
@@ -81,7 +92,13 @@ impl<'a> Ground<'a> {
         columns_a_side: usize,
     ) -> Option<(Placement, Columns)> {
         let placement = self.placed(request, wall_mm)?;
-        let shell = Shell::new(self.case.solid, &placement.goal.frame, wall_mm, &placement.keeps).ok()?;
+        let shell = Shell::new(
+            self.case.solid,
+            &placement.goal.frame,
+            wall_mm,
+            &placement.keeps,
+        )
+        .ok()?;
         let pitch_mm = shell.coarse_pitch(columns_a_side);
         let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent()).ok()?;
         Some((placement, columns))
@@ -89,14 +106,23 @@ impl<'a> Ground<'a> {
 
     /// The placement of a request; none where it has none.
     pub fn placed(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
-        let stock = Stock { wall_mm, density_g_cm3: self.case.density_g_cm3 };
+        let stock = Stock {
+            wall_mm,
+            density_g_cm3: self.case.density_g_cm3,
+        };
         place_weighed(&self.weighed, &stock, request).ok()
     }
 
     /// The placement as it is, or, for what floats at a line that is left free, at several lines over its height.
     pub fn at_its_lines(&self, placement: &Placement) -> Vec<Placement> {
-        let water = self.case.request.water.filter(|water| water.waterline == Waterline::Auto);
-        let Some(water) = water else { return vec![placement.clone()] };
+        let water = self
+            .case
+            .request
+            .water
+            .filter(|water| water.waterline == Waterline::Auto);
+        let Some(water) = water else {
+            return vec![placement.clone()];
+        };
         let ratio = water.liquid.density_g_cm3() / self.case.density_g_cm3;
         let hydrostatics = Hydrostatics::new(self.case.solid, &placement.goal.frame, ratio);
         let step_mm = hydrostatics.height_mm() / (WATERLINES + 1) as f64;
@@ -111,11 +137,24 @@ impl<'a> Ground<'a> {
     /// The best answer over the lines at which it may float; where none is possible, the first.
     fn best(&self, placement: &Placement, columns: &Columns, ask: Ask) -> Option<Trial> {
         let trials = self.at_its_lines(placement).into_iter().map(|placement| {
-            let solution = ask(&problem(&placement, columns), &Settings::default(), &Progress::silent());
-            Trial { columns: columns.len(), placement, solution }
+            let solution = ask(
+                &problem(&placement, columns),
+                &Settings::default(),
+                &Progress::silent(),
+            );
+            Trial {
+                columns: columns.len(),
+                placement,
+                solution,
+            }
         });
-        let worth =
-            |trial: &Trial| if trial.is_possible() { Reached::of(trial).score() } else { f64::INFINITY };
+        let worth = |trial: &Trial| {
+            if trial.is_possible() {
+                Reached::of(trial).score()
+            } else {
+                f64::INFINITY
+            }
+        };
         trials.min_by(|a, b| worth(a).total_cmp(&worth(b)))
     }
 }
@@ -125,5 +164,9 @@ type Ask = fn(&Problem, &Settings, &Progress) -> Solution;
 
 /// The plain question: what of these columns is to be emptied for the goal.
 pub(super) fn problem<'p>(placement: &'p Placement, columns: &'p Columns) -> Problem<'p> {
-    Problem { goal: &placement.goal, fixed: placement.goal.solid, columns }
+    Problem {
+        goal: &placement.goal,
+        fixed: placement.goal.solid,
+        columns,
+    }
 }

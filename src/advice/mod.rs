@@ -72,14 +72,21 @@ pub struct Case<'a> {
 /// remedies for any number of threads.
 pub fn remedies(case: &Case) -> Vec<Remedy> {
     let ground = Ground::new(*case, FINE_SAMPLES);
-    let Some(asked) = ground.trial(&case.request, case.wall_mm) else { return Vec::new() };
+    let Some(asked) = ground.trial(&case.request, case.wall_mm) else {
+        return Vec::new();
+    };
     let goal = &asked.placement.goal;
     let moves = Moves::of(case, goal);
     let (mut all, (moved, ballast)): (Vec<Remedy>, (Vec<Remedy>, Remedy)) = rayon::join(
         || ratio::remedies(&ground),
         || {
             rayon::join(
-                || moves.par_iter().map(|moves| moved(&ground, moves)).collect(),
+                || {
+                    moves
+                        .par_iter()
+                        .map(|moves| moved(&ground, moves))
+                        .collect()
+                },
                 || ballast::remedy(&ground),
             )
         },
@@ -95,7 +102,11 @@ pub fn remedies(case: &Case) -> Vec<Remedy> {
 /// The nearest step of a kind; where no axis helps, also with the contact below the centre of mass.
 fn moved(ground: &Ground, moves: &Moves) -> Remedy {
     let found = nearest::nearest(ground, moves);
-    let other = if found.is_none() { moves.over_the_center() } else { None };
+    let other = if found.is_none() {
+        moves.over_the_center()
+    } else {
+        None
+    };
     match other.and_then(|other| Some((nearest::nearest(ground, &other)?, other))) {
         Some((nearest, other)) => other.remedy(Some(nearest)),
         None => moves.remedy(found),

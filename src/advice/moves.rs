@@ -44,15 +44,32 @@ pub(super) struct Moves {
 impl Moves {
     /// The ways in which the goal of a request may give.
     pub fn of(case: &Case, goal: &Goal) -> Vec<Self> {
-        let point = Moves { limit: 0.5 * case.solid.mesh().aabb().size().norm(), ..Self::none(case, goal) };
+        let point = Moves {
+            limit: 0.5 * case.solid.mesh().aabb().size().norm(),
+            ..Self::none(case, goal)
+        };
         let center = goal.solid.centroid().coords;
         let level = Vector::new(center.x, center.y, 0.0);
         match goal.kind {
             GoalKind::Top => {
-                vec![Self { part: Part::Contact, seeds: vec![level], ..point }, Self::tilts(case, goal)]
+                vec![
+                    Self {
+                        part: Part::Contact,
+                        seeds: vec![level],
+                        ..point
+                    },
+                    Self::tilts(case, goal),
+                ]
             }
             GoalKind::Yoyo => {
-                vec![Self { part: Part::SpinPoint, seeds: vec![center], ..point }, Self::tilts(case, goal)]
+                vec![
+                    Self {
+                        part: Part::SpinPoint,
+                        seeds: vec![center],
+                        ..point
+                    },
+                    Self::tilts(case, goal),
+                ]
             }
             GoalKind::Float => vec![Self::tilts(case, goal)],
             _ => Vec::new(),
@@ -61,7 +78,14 @@ impl Moves {
 
     fn none(case: &Case, goal: &Goal) -> Self {
         let (request, frame) = (case.request, goal.frame);
-        Self { part: Part::Axis, request, frame, limit: 0.0, seeds: Vec::new(), far: Vec::new() }
+        Self {
+            part: Part::Axis,
+            request,
+            frame,
+            limit: 0.0,
+            seeds: Vec::new(),
+            far: Vec::new(),
+        }
     }
 
     fn tilts(case: &Case, goal: &Goal) -> Self {
@@ -73,18 +97,34 @@ impl Moves {
         } else {
             Vec::new()
         };
-        let far = lattice(FAR_DIRECTIONS).into_iter().chain(corners).map(local).filter(is_nearer);
+        let far = lattice(FAR_DIRECTIONS)
+            .into_iter()
+            .chain(corners)
+            .map(local)
+            .filter(is_nearer);
         let mut far: Vec<Vector> = far.map(|axis| tilt_to(&axis)).collect();
         far.sort_by(|a, b| a.norm().total_cmp(&b.norm()));
         let seeds = tilts_to_principal(has_sense, &goal.solid);
-        Self { limit: std::f64::consts::PI, seeds, far, ..Self::none(case, goal) }
+        Self {
+            limit: std::f64::consts::PI,
+            seeds,
+            far,
+            ..Self::none(case, goal)
+        }
     }
 
     /// The same tilts with the contact below the centre of mass; none where it is there already, or for what has none.
     pub fn over_the_center(&self) -> Option<Self> {
-        let is_other = self.part == Part::Axis && self.request.contact.is_some_and(|c| c != Contact::Center);
-        let request = Request { contact: Some(Contact::Center), ..self.request };
-        is_other.then(|| Self { request, ..self.clone() })
+        let is_other =
+            self.part == Part::Axis && self.request.contact.is_some_and(|c| c != Contact::Center);
+        let request = Request {
+            contact: Some(Contact::Center),
+            ..self.request
+        };
+        is_other.then(|| Self {
+            request,
+            ..self.clone()
+        })
     }
 
     /// How many coordinates a step has; the others are zero.
@@ -96,17 +136,31 @@ impl Moves {
     pub fn request(&self, step: &Vector) -> Request {
         let point: [f64; 3] = self.frame.to_model(&Point::from(*step)).into();
         match self.part {
-            Part::Contact => Request { contact: Some(Contact::At(point)), ..self.request },
-            Part::SpinPoint => Request { spin_point: Some(SpinPoint::At(point)), ..self.request },
-            Part::Axis => Request { up: Up::Along(self.axis(step).into()), ..self.request },
+            Part::Contact => Request {
+                contact: Some(Contact::At(point)),
+                ..self.request
+            },
+            Part::SpinPoint => Request {
+                spin_point: Some(SpinPoint::At(point)),
+                ..self.request
+            },
+            Part::Axis => Request {
+                up: Up::Along(self.axis(step).into()),
+                ..self.request
+            },
         }
     }
 
     /// The axis tilted by a step, a unit vector of the model.
     fn axis(&self, step: &Vector) -> Vector {
         let tilt = step.norm();
-        let across = if tilt > 0.0 { step / tilt } else { Vector::zeros() };
-        self.frame.direction_to_model(&(across * tilt.sin() + Vector::z() * tilt.cos()))
+        let across = if tilt > 0.0 {
+            step / tilt
+        } else {
+            Vector::zeros()
+        };
+        self.frame
+            .direction_to_model(&(across * tilt.sin() + Vector::z() * tilt.cos()))
     }
 
     /// What was found, as a remedy.
@@ -116,9 +170,15 @@ impl Moves {
             Part::SpinPoint => Kind::NearestSpinPoint,
             Part::Axis => Kind::NearestAxis,
         };
-        let Some(nearest) = found else { return Remedy::nothing(kind, self.leads_nowhere().to_owned()) };
+        let Some(nearest) = found else {
+            return Remedy::nothing(kind, self.leads_nowhere().to_owned());
+        };
         let length = nearest.step.norm();
-        let amount = if self.part == Part::Axis { length.to_degrees() } else { length };
+        let amount = if self.part == Part::Axis {
+            length.to_degrees()
+        } else {
+            length
+        };
         Remedy::found(
             kind,
             amount,
@@ -139,8 +199,13 @@ impl Moves {
         let length = nearest.step.norm();
         let towards = direction_words(&self.frame.direction_to_model(&nearest.step));
         match (self.part, nearest.request.contact) {
-            (Part::Contact, _) => format!("move the contact point {} toward {towards}", show_mm(length)),
-            (Part::SpinPoint, _) => format!("move the spin point {} toward {towards}", show_mm(length)),
+            (Part::Contact, _) => format!(
+                "move the contact point {} toward {towards}",
+                show_mm(length)
+            ),
+            (Part::SpinPoint, _) => {
+                format!("move the spin point {} toward {towards}", show_mm(length))
+            }
             (Part::Axis, Some(Contact::Lowest)) => format!(
                 "tilt the axis by {:.1}° toward {towards}, with the contact where the model then is lowest",
                 length.to_degrees()
@@ -149,7 +214,10 @@ impl Moves {
                 "tilt the axis by {:.1}° toward {towards}, with the contact below the centre of mass",
                 length.to_degrees()
             ),
-            (Part::Axis, _) => format!("tilt the axis by {:.1}° toward {towards}", length.to_degrees()),
+            (Part::Axis, _) => format!(
+                "tilt the axis by {:.1}° toward {towards}",
+                length.to_degrees()
+            ),
         }
     }
 }
@@ -158,7 +226,11 @@ impl Moves {
 fn tilts_to_principal(has_sense: bool, solid: &Moments) -> Vec<Vector> {
     let axis: Vector = Body::new(solid, 1.0).principal().axes.column(2).into();
     let nearer = if axis.z < 0.0 { -axis } else { axis };
-    let senses = if has_sense { vec![nearer, -nearer] } else { vec![nearer] };
+    let senses = if has_sense {
+        vec![nearer, -nearer]
+    } else {
+        vec![nearer]
+    };
     senses.into_iter().map(|axis| tilt_to(&axis)).collect()
 }
 
@@ -166,7 +238,11 @@ fn tilts_to_principal(has_sense: bool, solid: &Moments) -> Vec<Vector> {
 fn tilt_to(axis: &Vector) -> Vector {
     let across = Vector::new(axis.x, axis.y, 0.0);
     let sine = across.norm();
-    let towards = if sine > 0.0 { across / sine } else { Vector::x() };
+    let towards = if sine > 0.0 {
+        across / sine
+    } else {
+        Vector::x()
+    };
     towards * sine.atan2(axis.z)
 }
 
@@ -200,7 +276,11 @@ mod tests {
 
     #[test]
     fn a_tilt_leads_to_the_axis_it_was_made_for() {
-        for axis in [Vector::new(0.6, 0.0, 0.8), Vector::new(0.0, -0.8, -0.6), -Vector::z()] {
+        for axis in [
+            Vector::new(0.6, 0.0, 0.8),
+            Vector::new(0.0, -0.8, -0.6),
+            -Vector::z(),
+        ] {
             let step = tilt_to(&axis);
             let tilt = step.norm();
             let reached = step / tilt * tilt.sin() + Vector::z() * tilt.cos();
@@ -212,6 +292,9 @@ mod tests {
     #[test]
     fn a_direction_is_a_word_where_one_is_true_enough() {
         assert_eq!(direction_words(&Vector::new(0.1, -3.0, 0.1)), "−y");
-        assert_eq!(direction_words(&Vector::new(3.0, 0.0, 4.0)), "(0.60, 0.00, 0.80)");
+        assert_eq!(
+            direction_words(&Vector::new(3.0, 0.0, 4.0)),
+            "(0.60, 0.00, 0.80)"
+        );
     }
 }

@@ -52,7 +52,9 @@ pub(super) struct Nearest {
 pub(super) fn nearest(ground: &Ground, moves: &Moves) -> Option<Nearest> {
     let search = Search { ground, moves };
     let near = search.nearest_border();
-    let first = search.far_border(near.map_or(f64::INFINITY, |border| border.possible)).or(near)?;
+    let first = search
+        .far_border(near.map_or(f64::INFINITY, |border| border.possible))
+        .or(near)?;
     search.confirmed(&search.rounded_by_tangents(first))
 }
 
@@ -63,11 +65,13 @@ struct Search<'a> {
 
 impl Search<'_> {
     fn trial(&self, step: &Vector) -> Option<Trial> {
-        self.ground.trial(&self.moves.request(step), self.ground.case.wall_mm)
+        self.ground
+            .trial(&self.moves.request(step), self.ground.case.wall_mm)
     }
 
     fn allows(&self, step: &Vector) -> bool {
-        self.trial(step).is_some_and(|trial| trial.is_possible() && trial.meets_the_model())
+        self.trial(step)
+            .is_some_and(|trial| trial.is_possible() && trial.meets_the_model())
     }
 
     /// The nearest border on the rays to the seeds.
@@ -82,28 +86,59 @@ impl Search<'_> {
 
     /// The border on the ray to the first of the far places that is possible, if it is nearer than `limit`.
     fn far_border(&self, limit: f64) -> Option<Border> {
-        let nearer: Vec<&Vector> = self.moves.far.iter().filter(|step| step.norm() < limit).collect();
-        let place = nearer.into_par_iter().find_first(|step| self.allows(step))?;
+        let nearer: Vec<&Vector> = self
+            .moves
+            .far
+            .iter()
+            .filter(|step| step.norm() < limit)
+            .collect();
+        let place = nearer
+            .into_par_iter()
+            .find_first(|step| self.allows(step))?;
         let (towards, possible) = (place.try_normalize(0.0)?, place.norm());
-        Some(self.bisected(Border { towards, impossible: 0.0, possible }))
+        Some(self.bisected(Border {
+            towards,
+            impossible: 0.0,
+            possible,
+        }))
     }
 
     /// Where to look first: down the slope of the proof, then towards the known places.
     fn seeds(&self) -> Vec<Vector> {
-        let down = self.down(&Vector::zeros()).map(|direction| direction * self.moves.limit);
-        let known = self.moves.seeds.iter().copied().filter(|seed| seed.norm() > 0.0);
+        let down = self
+            .down(&Vector::zeros())
+            .map(|direction| direction * self.moves.limit);
+        let known = self
+            .moves
+            .seeds
+            .iter()
+            .copied()
+            .filter(|seed| seed.norm() > 0.0);
         known.chain(down).collect()
     }
 
     /// The direction in which the proof of impossibility at a step loses most; none where there is no proof.
     fn down(&self, step: &Vector) -> Option<Vector> {
-        let trial = self.trial(step).filter(|trial| trial.solution.status.is_impossible())?;
+        let trial = self
+            .trial(step)
+            .filter(|trial| trial.solution.status.is_impossible())?;
         let here = trial.placement.goal.frame;
         let moments = trial.solution.moments.from_frame(&here);
         let proof = |step: &Vector| {
-            let moved = self.ground.placed(&self.moves.request(step), self.ground.case.wall_mm)?;
+            let moved = self
+                .ground
+                .placed(&self.moves.request(step), self.ground.case.wall_mm)?;
             let seen = moments.in_frame(&moved.goal.frame);
-            Some(trial.solution.quadric.0.iter().zip(seen.0).map(|(g, s)| g * s).sum::<f64>())
+            Some(
+                trial
+                    .solution
+                    .quadric
+                    .0
+                    .iter()
+                    .zip(seen.0)
+                    .map(|(g, s)| g * s)
+                    .sum::<f64>(),
+            )
         };
         let probe = PROBE_OF_LIMIT * self.moves.limit;
         let mut slope = Vector::zeros();
@@ -123,7 +158,11 @@ impl Search<'_> {
         let mut impossible = 0.0;
         for possible in places.into_iter().filter(|&place| place <= limit) {
             if self.allows(&(towards * possible)) {
-                return Some(self.bisected(Border { towards, impossible, possible }));
+                return Some(self.bisected(Border {
+                    towards,
+                    impossible,
+                    possible,
+                }));
             }
             impossible = possible;
         }
@@ -131,8 +170,9 @@ impl Search<'_> {
     }
 
     fn bisected(&self, mut border: Border) -> Border {
-        let precision =
-            |border: &Border| (PRECISION_RATIO * border.possible).max(PRECISION_OF_LIMIT * self.moves.limit);
+        let precision = |border: &Border| {
+            (PRECISION_RATIO * border.possible).max(PRECISION_OF_LIMIT * self.moves.limit)
+        };
         while border.possible - border.impossible > precision(&border) {
             let middle = 0.5 * (border.possible + border.impossible);
             if self.allows(&(border.towards * middle)) {
@@ -147,10 +187,14 @@ impl Search<'_> {
     /// The border from tangent to tangent, as long as the step shortens.
     fn rounded_by_tangents(&self, mut border: Border) -> Border {
         for _ in 0..MOST_TANGENTS {
-            let Some(down) = self.down(&(border.towards * border.impossible)) else { break };
+            let Some(down) = self.down(&(border.towards * border.impossible)) else {
+                break;
+            };
             let halfway = (down + border.towards).try_normalize(PROBE_OF_LIMIT);
             let ways = std::iter::once(down).chain(halfway);
-            let shorter = ways.into_iter().find_map(|towards| self.shorter(border, &towards));
+            let shorter = ways
+                .into_iter()
+                .find_map(|towards| self.shorter(border, &towards));
             let Some(shorter) = shorter else { break };
             border = shorter;
         }
@@ -160,8 +204,13 @@ impl Search<'_> {
     /// The border along another direction, if it is worthwhile.
     fn shorter(&self, border: Border, towards: &Vector) -> Option<Border> {
         let possible = WORTHWHILE_RATIO * border.possible;
-        let turned = Border { towards: *towards, impossible: 0.0, possible };
-        self.allows(&(towards * possible)).then(|| self.bisected(turned))
+        let turned = Border {
+            towards: *towards,
+            impossible: 0.0,
+            possible,
+        };
+        self.allows(&(towards * possible))
+            .then(|| self.bisected(turned))
     }
 
     /// The step as it is printed, a little longer where the exact columns ask for it.
@@ -171,7 +220,11 @@ impl Search<'_> {
             let step = border.towards * length;
             let request = printed(self.moves.part, self.moves.request(&step));
             let trial = self.ground.confirmed(&request, self.ground.case.wall_mm)?;
-            trial.meets_the_model().then_some(Nearest { step, request, trial })
+            trial.meets_the_model().then_some(Nearest {
+                step,
+                request,
+                trial,
+            })
         })
     }
 }
@@ -181,15 +234,36 @@ impl Search<'_> {
 fn printed(part: Part, request: Request) -> Request {
     use crate::goal::{Contact, SpinPoint, Up};
     match (part, request) {
-        (Part::Contact, Request { contact: Some(Contact::At(at)), .. }) => {
-            Request { contact: Some(Contact::At(rounded(at, POINT_DECIMALS))), ..request }
-        }
-        (Part::SpinPoint, Request { spin_point: Some(SpinPoint::At(at)), .. }) => {
-            Request { spin_point: Some(SpinPoint::At(rounded(at, POINT_DECIMALS))), ..request }
-        }
-        (_, Request { up: Up::Along(along), .. }) => {
-            Request { up: Up::Along(rounded_direction(&along.into()).into()), ..request }
-        }
+        (
+            Part::Contact,
+            Request {
+                contact: Some(Contact::At(at)),
+                ..
+            },
+        ) => Request {
+            contact: Some(Contact::At(rounded(at, POINT_DECIMALS))),
+            ..request
+        },
+        (
+            Part::SpinPoint,
+            Request {
+                spin_point: Some(SpinPoint::At(at)),
+                ..
+            },
+        ) => Request {
+            spin_point: Some(SpinPoint::At(rounded(at, POINT_DECIMALS))),
+            ..request
+        },
+        (
+            _,
+            Request {
+                up: Up::Along(along),
+                ..
+            },
+        ) => Request {
+            up: Up::Along(rounded_direction(&along.into()).into()),
+            ..request
+        },
         _ => request,
     }
 }

@@ -51,10 +51,21 @@ pub struct Orientation {
 /// which a corner lies below the centre of mass; for a standing object the faces of its convex hull. The best few are
 /// refined by tilting less and less. Takes some hundred trials, about a second on 10 000 triangles.
 pub fn best_orientation(case: &Case) -> Option<Orientation> {
-    let center = Request { contact: Some(Contact::Center), ..case.request };
+    let center = Request {
+        contact: Some(Contact::Center),
+        ..case.request
+    };
     let is_lowest = case.request.contact == Some(Contact::Lowest);
-    best_by_its_rule(case)
-        .or_else(|| if is_lowest { best_by_its_rule(&Case { request: center, ..*case }) } else { None })
+    best_by_its_rule(case).or_else(|| {
+        if is_lowest {
+            best_by_its_rule(&Case {
+                request: center,
+                ..*case
+            })
+        } else {
+            None
+        }
+    })
 }
 
 fn best_by_its_rule(case: &Case) -> Option<Orientation> {
@@ -63,10 +74,18 @@ fn best_by_its_rule(case: &Case) -> Option<Orientation> {
     let ranked = ranked(&coarse, &axes);
     let starts = spread(&ranked);
     let ground = Ground::new(*case, FINE_SAMPLES);
-    let refined: Vec<Option<Place>> = starts.par_iter().map(|start| refined(&ground, start)).collect();
+    let refined: Vec<Option<Place>> = starts
+        .par_iter()
+        .map(|start| refined(&ground, start))
+        .collect();
     let best = refined.into_iter().flatten().min_by(by_score)?;
     let (request, reached) = (best.request, best.reached);
-    Some(Orientation { request, reached, tried: axes.len(), possible: ranked.len() })
+    Some(Orientation {
+        request,
+        reached,
+        tried: axes.len(),
+        possible: ranked.len(),
+    })
 }
 
 /// A possible axis.
@@ -83,15 +102,24 @@ fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
 
 /// The request with this axis.
 pub(super) fn along(request: &Request, axis: &Vector) -> Request {
-    Request { up: Up::Along((*axis).into()), ..*request }
+    Request {
+        up: Up::Along((*axis).into()),
+        ..*request
+    }
 }
 
 /// What a goal reaches on an axis; none where it is impossible.
 fn place_on(ground: &Ground, axis: &Vector) -> Option<Place> {
     let axis = rounded_direction(axis);
     let request = along(&ground.case.request, &axis);
-    let trial = ground.trial(&request, ground.case.wall_mm).filter(Trial::is_possible)?;
-    Some(Place { axis, request, reached: Reached::of(&trial) })
+    let trial = ground
+        .trial(&request, ground.case.wall_mm)
+        .filter(Trial::is_possible)?;
+    Some(Place {
+        axis,
+        request,
+        reached: Reached::of(&trial),
+    })
 }
 
 /// The possible axes, the best first.
@@ -118,10 +146,16 @@ fn spread(ranked: &[Place]) -> Vec<Place> {
 /// A place on the finer ground, tilted as long as that is better, less and less.
 fn refined(ground: &Ground, start: &Place) -> Option<Place> {
     let mut best = place_on(ground, &start.axis)?;
-    let mut tilt = if ground.case.request.kind == GoalKind::Stand { 0.0 } else { FIRST_TILT };
+    let mut tilt = if ground.case.request.kind == GoalKind::Stand {
+        0.0
+    } else {
+        FIRST_TILT
+    };
     while tilt > LAST_TILT {
-        let ways: Vec<Option<Place>> =
-            tilted(&best.axis, tilt).par_iter().map(|axis| place_on(ground, axis)).collect();
+        let ways: Vec<Option<Place>> = tilted(&best.axis, tilt)
+            .par_iter()
+            .map(|axis| place_on(ground, axis))
+            .collect();
         let better = ways.into_iter().flatten().min_by(by_score);
         match better.filter(|place| by_score(place, &best).is_lt()) {
             Some(place) => best = place,
@@ -136,7 +170,11 @@ fn tilted(axis: &Vector, tilt: f64) -> Vec<Vector> {
     let frame = Frame::with_axis(Point::origin(), axis);
     let around = (0..WAYS).map(|i| std::f64::consts::TAU * i as f64 / WAYS as f64);
     let aside = |angle: f64| {
-        let local = Vector::new(tilt.sin() * angle.cos(), tilt.sin() * angle.sin(), tilt.cos());
+        let local = Vector::new(
+            tilt.sin() * angle.cos(),
+            tilt.sin() * angle.sin(),
+            tilt.cos(),
+        );
         frame.direction_to_model(&local)
     };
     around.map(aside).collect()
@@ -154,22 +192,32 @@ fn candidates(case: &Case) -> Vec<Vector> {
         all.extend(over_corners(mesh));
     }
     if case.request.kind == GoalKind::Yoyo {
-        all.iter_mut().filter(|axis| points_down(axis)).for_each(|axis| *axis = -*axis);
+        all.iter_mut()
+            .filter(|axis| points_down(axis))
+            .for_each(|axis| *axis = -*axis);
     }
     distinct(all, SAME_COSINE)
 }
 
 /// The coordinate axes and the solid's principal ones, in both senses.
 pub(super) fn special_axes(case: &Case) -> Vec<Vector> {
-    let principal = Body::new(&moments_of_mesh(case.solid.mesh()), 1.0).principal().axes;
+    let principal = Body::new(&moments_of_mesh(case.solid.mesh()), 1.0)
+        .principal()
+        .axes;
     let own = [2, 1, 0].map(|i| rounded_direction(&principal.column(i).into_owned()));
-    let axes = [Vector::z(), Vector::y(), Vector::x()].into_iter().chain(own);
-    axes.flat_map(|axis| [axis, -axis]).map(|axis| rounded_direction(&axis)).collect()
+    let axes = [Vector::z(), Vector::y(), Vector::x()]
+        .into_iter()
+        .chain(own);
+    axes.flat_map(|axis| [axis, -axis])
+        .map(|axis| rounded_direction(&axis))
+        .collect()
 }
 
 /// Whether the first of z, y, x that is not zero is negative: one of the two senses of an axis.
 pub(super) fn points_down(axis: &Vector) -> bool {
-    let first = [axis.z, axis.y, axis.x].into_iter().find(|part| part.abs() > f64::EPSILON);
+    let first = [axis.z, axis.y, axis.x]
+        .into_iter()
+        .find(|part| part.abs() > f64::EPSILON);
     first.is_some_and(|part| part < 0.0)
 }
 
@@ -177,12 +225,23 @@ pub(super) fn points_down(axis: &Vector) -> bool {
 /// solid all but balances on it, and hollowing has the least to do.
 pub(super) fn over_corners(mesh: &TriMesh) -> Vec<Vector> {
     let center = moments_of_mesh(mesh).centroid();
-    let hull = Csg::convex_hull(mesh.vertices()).and_then(|hull| hull.to_mesh()).unwrap_or_default();
+    let hull = Csg::convex_hull(mesh.vertices())
+        .and_then(|hull| hull.to_mesh())
+        .unwrap_or_default();
     let slack_mm = CORNER_SLACK_RATIO * mesh.longest_side_mm();
     let is_low = |corner: &Point, up: &Vector| {
         let height_mm = corner.coords.dot(up) - slack_mm;
-        hull.vertices().iter().all(|other| other.coords.dot(up) >= height_mm)
+        hull.vertices()
+            .iter()
+            .all(|other| other.coords.dot(up) >= height_mm)
     };
-    let over = |corner: &Point| (center - corner).try_normalize(0.0).filter(|up| is_low(corner, up));
-    distinct(hull.vertices().iter().filter_map(over).collect(), SAME_COSINE)
+    let over = |corner: &Point| {
+        (center - corner)
+            .try_normalize(0.0)
+            .filter(|up| is_low(corner, up))
+    };
+    distinct(
+        hull.vertices().iter().filter_map(over).collect(),
+        SAME_COSINE,
+    )
 }

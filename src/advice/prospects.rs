@@ -45,21 +45,31 @@ pub fn prospects(case: &Case) -> Vec<Prospect> {
         .iter()
         .flat_map(|&kind| wishes(kind, &axes))
         .collect();
-    let found: Vec<Option<Prospect>> = wishes.par_iter().map(|wish| prospect(&ground, wish)).collect();
+    let found: Vec<Option<Prospect>> = wishes
+        .par_iter()
+        .map(|wish| prospect(&ground, wish))
+        .collect();
     found.into_iter().flatten().collect()
 }
 
 fn wishes(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
     let has_sense = kind != GoalKind::Yoyo;
     let axes = axes.iter().filter(|axis| has_sense || !points_down(axis));
-    axes.map(|axis| Request { up: worded(axis), ..along(&Request::new(kind), axis) }).collect()
+    axes.map(|axis| Request {
+        up: worded(axis),
+        ..along(&Request::new(kind), axis)
+    })
+    .collect()
 }
 
 /// The word for a coordinate axis, or the vector.
 fn worded(axis: &Vector) -> Up {
     let words = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
     let is_it = |up: &Up| up.direction().is_some_and(|direction| direction == *axis);
-    words.into_iter().find(is_it).unwrap_or(Up::Along((*axis).into()))
+    words
+        .into_iter()
+        .find(is_it)
+        .unwrap_or(Up::Along((*axis).into()))
 }
 
 fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
@@ -67,14 +77,30 @@ fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
     let tried = |contact| ground.trial(&Request { contact, ..*wish }, ground.case.wall_mm);
     let lowest = tried(top.then_some(Contact::Lowest));
     let is_possible = |trial: &Option<Trial>| trial.as_ref().is_some_and(Trial::is_possible);
-    let below = if top && !is_possible(&lowest) { tried(Some(Contact::Center)) } else { None };
+    let below = if top && !is_possible(&lowest) {
+        tried(Some(Contact::Center))
+    } else {
+        None
+    };
     let helps = is_possible(&below);
-    let contact = top.then_some(if helps { Contact::Center } else { Contact::Lowest });
+    let contact = top.then_some(if helps {
+        Contact::Center
+    } else {
+        Contact::Lowest
+    });
     let trial = if helps { below } else { lowest }?;
     let possible = trial.is_possible();
     let reached = Reached::of(&trial);
-    let places = if top { ", neither on its lowest point nor below its centre of mass" } else { "" };
-    let reason = if possible { String::new() } else { brief(&trial) + places };
+    let places = if top {
+        ", neither on its lowest point nor below its centre of mass"
+    } else {
+        ""
+    };
+    let reason = if possible {
+        String::new()
+    } else {
+        brief(&trial) + places
+    };
     Some(Prospect {
         kind: wish.kind,
         up: wish.up,
@@ -89,11 +115,15 @@ fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
 fn brief(trial: &Trial) -> String {
     match trial.solution.status {
         Status::ConstraintsInfeasible { .. } => "it cannot be balanced about this axis".to_owned(),
-        Status::NotDominant { least_ratio } | Status::UnstableForEveryInterior { least_ratio, .. } => {
+        Status::NotDominant { least_ratio }
+        | Status::UnstableForEveryInterior { least_ratio, .. } => {
             format!("I_b/I_c stays above {least_ratio:.3}")
         }
         Status::CannotStand { greatest_angle_rad } => {
-            format!("it leans over by {:.1}° at least", -greatest_angle_rad.to_degrees())
+            format!(
+                "it leans over by {:.1}° at least",
+                -greatest_angle_rad.to_degrees()
+            )
         }
         status => status.explain(&trial.placement.goal),
     }

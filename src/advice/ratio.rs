@@ -23,13 +23,19 @@ const WALLS_PER_MM: f64 = 1e3;
 pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
     let case = &ground.case;
     let Some(thickest_mm) = greatest_wall(ground) else {
-        let words = format!("no size and no wall help: even {MOST_TIMES} times as large it stays impossible");
+        let words = format!(
+            "no size and no wall help: even {MOST_TIMES} times as large it stays impossible"
+        );
         return vec![Remedy::nothing(Kind::LeastSize, words)];
     };
     match confirmed(ground, thickest_mm) {
-        Some((wall_mm, trial)) => vec![larger(case, wall_mm, &trial), thinner(case, wall_mm, &trial)],
+        Some((wall_mm, trial)) => vec![
+            larger(case, wall_mm, &trial),
+            thinner(case, wall_mm, &trial),
+        ],
         None => {
-            let words = "no size was found that surely helps: it stays at the very border of the possible";
+            let words =
+                "no size was found that surely helps: it stays at the very border of the possible";
             vec![Remedy::nothing(Kind::LeastSize, words.to_owned())]
         }
     }
@@ -45,8 +51,12 @@ pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
 fn greatest_wall(ground: &Ground) -> Option<f64> {
     let (request, wall_mm) = (&ground.case.request, ground.case.wall_mm);
     let halves = std::iter::successors(Some(0.5 * wall_mm), |wall| Some(0.5 * wall));
-    let tried = halves.take_while(|&wall| wall > wall_mm / MOST_TIMES).chain([wall_mm / MOST_TIMES]);
-    let mut thickest_mm = tried.into_iter().find(|&wall| ground.allows(request, wall))?;
+    let tried = halves
+        .take_while(|&wall| wall > wall_mm / MOST_TIMES)
+        .chain([wall_mm / MOST_TIMES]);
+    let mut thickest_mm = tried
+        .into_iter()
+        .find(|&wall| ground.allows(request, wall))?;
     let mut too_thick_mm = (2.0 * thickest_mm).min(wall_mm);
     while too_thick_mm > thickest_mm * (1.0 + PRECISION_RATIO) {
         let middle_mm = (too_thick_mm * thickest_mm).sqrt();
@@ -81,7 +91,11 @@ fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     let thinner = (case.least_wall_mm < case.wall_mm).then(|| {
         let least_mm = case.least_wall_mm;
         let size_mm = size_for(case, greatest_mm, least_mm);
-        format!(" ({} with the thinnest wall this printer makes, {})", show_mm(size_mm), show_mm(least_mm))
+        format!(
+            " ({} with the thinnest wall this printer makes, {})",
+            show_mm(size_mm),
+            show_mm(least_mm)
+        )
     });
     let words = format!(
         "make it {} or larger with the wall of {}{}",
@@ -110,7 +124,9 @@ fn scaled_places(request: &Request, times: f64) -> String {
         _ => String::new(),
     };
     let bore = request.rotor.and_then(|rotor| rotor.bore);
-    let bore = bore.map_or(String::new(), |bore| format!(" --bore={:.3}mm", bore.mm() * times));
+    let bore = bore.map_or(String::new(), |bore| {
+        format!(" --bore={:.3}mm", bore.mm() * times)
+    });
     contact + &spin_point + &waterline + &bore
 }
 
@@ -131,7 +147,12 @@ fn thinner(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
         return Remedy::nothing(Kind::GreatestWall, words);
     }
     let words = format!("make the wall {} or thinner at this size", show_mm(wall_mm));
-    Remedy::found(Kind::GreatestWall, wall_mm, [format!("--wall={wall_mm}mm"), words], trial)
+    Remedy::found(
+        Kind::GreatestWall,
+        wall_mm,
+        [format!("--wall={wall_mm}mm"), words],
+        trial,
+    )
 }
 
 /// To three significant digits, never less than the number.
@@ -148,15 +169,23 @@ mod tests {
 
     #[test]
     fn places_in_mm_grow_with_the_model() {
-        let top = Request { contact: Some(Contact::At([1.0, -2.0, 0.5])), ..Request::new(GoalKind::Top) };
+        let top = Request {
+            contact: Some(Contact::At([1.0, -2.0, 0.5])),
+            ..Request::new(GoalKind::Top)
+        };
         assert_eq!(scaled_places(&top, 1.5), " --contact=1.5,-3,0.75");
         assert_eq!(scaled_places(&Request::new(GoalKind::Yoyo), 1.5), "");
     }
 
     #[test]
     fn a_size_is_rounded_up_to_three_digits() {
-        for (number, rounded) in [(100.0, 100.0), (100.2, 101.0), (1234.0, 1240.0), (9.871, 9.88), (0.5, 0.5)]
-        {
+        for (number, rounded) in [
+            (100.0, 100.0),
+            (100.2, 101.0),
+            (1234.0, 1240.0),
+            (9.871, 9.88),
+            (0.5, 0.5),
+        ] {
             assert_eq!(rounded_up(number), rounded);
         }
     }

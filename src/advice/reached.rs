@@ -20,7 +20,10 @@ pub struct Reached {
 impl Reached {
     pub(super) fn of(trial: &Trial) -> Self {
         let certificate = &trial.solution.certificate;
-        Self { figure: certificate.figure, value: certificate.value }
+        Self {
+            figure: certificate.figure,
+            value: certificate.value,
+        }
     }
 
     /// The value so that less is better.
@@ -37,10 +40,18 @@ impl fmt::Display for Reached {
             Figure::CriticalSpeedRpm => write!(f, "spins upright from {value:.0} rpm"),
             Figure::SpinIt => write!(f, "spins, with Spin-It's functional at {value:.3}"),
             Figure::DominanceRatio => write!(f, "spins, with I_b/I_c at {value:.3}"),
-            Figure::TopplingAngleRad => write!(f, "stands and topples at {:.1}°", value.to_degrees()),
-            Figure::CenterHeightMm => write!(f, "stands, its centre of mass {} high", show_mm(value)),
+            Figure::TopplingAngleRad => {
+                write!(f, "stands and topples at {:.1}°", value.to_degrees())
+            }
+            Figure::CenterHeightMm => {
+                write!(f, "stands, its centre of mass {} high", show_mm(value))
+            }
             Figure::MetacentricHeightMm => {
-                write!(f, "floats, its metacentre {} above its centre of mass", show_mm(value))
+                write!(
+                    f,
+                    "floats, its metacentre {} above its centre of mass",
+                    show_mm(value)
+                )
             }
             Figure::VolumeMm3 => write!(f, "runs true with {} of material", show_mm3(value)),
             Figure::BalanceGradeMmS => write!(f, "runs at grade G {value:.2}"),

@@ -28,7 +28,10 @@ pub enum Kind {
 impl Kind {
     /// Whether the contact or the axis gets another place, with warnings of its own.
     fn moves(self) -> bool {
-        matches!(self, Self::NearestContact | Self::NearestAxis | Self::NearestFace)
+        matches!(
+            self,
+            Self::NearestContact | Self::NearestAxis | Self::NearestFace
+        )
     }
 
     /// The unit of the amount.
@@ -94,16 +97,43 @@ impl Remedy {
 
     /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached and what a new place
     /// warns of.
-    pub(super) fn found(kind: Kind, amount: f64, [flags, words]: [String; 2], trial: &Trial) -> Self {
+    pub(super) fn found(
+        kind: Kind,
+        amount: f64,
+        [flags, words]: [String; 2],
+        trial: &Trial,
+    ) -> Self {
         let confirmed = Confirmation::of(trial);
-        let warnings = if kind.moves() { &trial.placement.warnings[..] } else { &[] };
+        let warnings = if kind.moves() {
+            &trial.placement.warnings[..]
+        } else {
+            &[]
+        };
         let warned = warnings.iter().map(|warning| format!("; {warning}"));
-        let words = format!("{words}; it then {}{}", confirmed.reached, warned.collect::<String>());
-        Self { kind, amount: Some(amount), unit: kind.unit(), flags, words, confirmed: Some(confirmed) }
+        let words = format!(
+            "{words}; it then {}{}",
+            confirmed.reached,
+            warned.collect::<String>()
+        );
+        Self {
+            kind,
+            amount: Some(amount),
+            unit: kind.unit(),
+            flags,
+            words,
+            confirmed: Some(confirmed),
+        }
     }
 
     /// A way that leads nowhere.
     pub(super) fn nothing(kind: Kind, words: String) -> Self {
-        Self { kind, amount: None, unit: kind.unit(), flags: String::new(), words, confirmed: None }
+        Self {
+            kind,
+            amount: None,
+            unit: kind.unit(),
+            flags: String::new(),
+            words,
+            confirmed: None,
+        }
     }
 }

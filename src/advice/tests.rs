@@ -19,7 +19,10 @@ fn solid(mesh: TriMesh) -> Solid {
 
 /// A tower of 20 × 20 × 60 mm that leans over its foot.
 fn leaning_tower() -> Solid {
-    let tower = cuboid(&Point::new(-10.0, -10.0, 0.0), &Point::new(10.0, 10.0, 60.0));
+    let tower = cuboid(
+        &Point::new(-10.0, -10.0, 0.0),
+        &Point::new(10.0, 10.0, 60.0),
+    );
     solid(tower.map_vertices(|p| Point::new(p.x + 0.45 * p.z, p.y, p.z)))
 }
 
@@ -42,7 +45,9 @@ fn case(solid: &Solid, request: Request, wall_mm: f64) -> Case<'_> {
 }
 
 fn is_possible(case: &Case, request: &Request, wall_mm: f64) -> bool {
-    Ground::new(*case, FEW).confirmed(request, wall_mm).is_some()
+    Ground::new(*case, FEW)
+        .confirmed(request, wall_mm)
+        .is_some()
 }
 
 fn of_kind(remedies: &[Remedy], kind: Kind) -> &Remedy {
@@ -52,14 +57,25 @@ fn of_kind(remedies: &[Remedy], kind: Kind) -> &Remedy {
 /// A yo-yo whose axis leans away from the lens's own.
 fn askew_yoyo() -> Request {
     let up = Up::Along([0.5, 0.1, 0.8]);
-    Request { up, objective: Objective::Dominance, ..Request::new(GoalKind::Yoyo) }
+    Request {
+        up,
+        objective: Objective::Dominance,
+        ..Request::new(GoalKind::Yoyo)
+    }
 }
 
 /// A top on a lens, its contact too far aside.
 fn top_aside(lens: &Solid) -> Request {
-    let lowest = place(lens, 1.0, &Request::new(GoalKind::Top)).unwrap().goal.frame.origin;
+    let lowest = place(lens, 1.0, &Request::new(GoalKind::Top))
+        .unwrap()
+        .goal
+        .frame
+        .origin;
     let aside = [lowest.x - 12.0, lowest.y + 5.0, lowest.z];
-    Request { contact: Some(Contact::At(aside)), ..Request::new(GoalKind::Top) }
+    Request {
+        contact: Some(Contact::At(aside)),
+        ..Request::new(GoalKind::Top)
+    }
 }
 
 #[test]
@@ -75,7 +91,11 @@ fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them(
     let wall = of_kind(&found, Kind::GreatestWall);
     assert!(is_possible(&case, &case.request, wall.amount.unwrap()));
     // The wall is also rounded down to a tenth of a millimetre.
-    assert!(!is_possible(&case, &case.request, wall.amount.unwrap() / SHORT + 0.1));
+    assert!(!is_possible(
+        &case,
+        &case.request,
+        wall.amount.unwrap() / SHORT + 0.1
+    ));
     assert_eq!(wall.flags, format!("--wall={}mm", wall.amount.unwrap()));
     let reached = wall.confirmed.unwrap().reached;
     assert!(reached.figure == Figure::TopplingAngleRad && reached.value > 0.0);
@@ -86,9 +106,14 @@ fn possible_walls_are_below_one_number_and_impossible_ones_above() {
     let tower = leaning_tower();
     let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
     let ground = Ground::new(case, 20_000);
-    let possible: Vec<bool> = (1..=30).map(|i| ground.allows(&case.request, 0.1 * f64::from(i))).collect();
+    let possible: Vec<bool> = (1..=30)
+        .map(|i| ground.allows(&case.request, 0.1 * f64::from(i)))
+        .collect();
     assert!(possible[0] && !possible[29]);
-    assert!(possible.windows(2).all(|pair| pair[0] || !pair[1]), "{possible:?}");
+    assert!(
+        possible.windows(2).all(|pair| pair[0] || !pair[1]),
+        "{possible:?}"
+    );
 }
 
 #[test]
@@ -100,9 +125,10 @@ fn a_wall_that_cannot_be_printed_is_not_advised_and_a_size_that_does_not_fit_nei
         ..case(&tower, Request::new(GoalKind::Stand), 3.0)
     };
     let found = remedies(&case);
-    for (kind, says) in
-        [(Kind::GreatestWall, "makes none below 2.900 mm"), (Kind::LeastSize, "61.00 mm at most")]
-    {
+    for (kind, says) in [
+        (Kind::GreatestWall, "makes none below 2.900 mm"),
+        (Kind::LeastSize, "61.00 mm at most"),
+    ] {
         let remedy = of_kind(&found, kind);
         assert!(!remedy.helps() && remedy.amount.is_none() && remedy.flags.is_empty());
         assert!(remedy.words.contains(says), "{}", remedy.words);
@@ -115,14 +141,31 @@ fn a_top_spins_on_the_advised_contact_and_on_none_that_is_nearer() {
     let case = case(&lens, top_aside(&lens), 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestContact);
-    let contact: Contact = remedy.flags.strip_prefix("--contact=").unwrap().parse().unwrap();
-    assert!(is_possible(&case, &Request { contact: Some(contact), ..case.request }, 1.5));
-    let Some(Contact::At(asked)) = case.request.contact else { panic!("no contact") };
+    let contact: Contact = remedy
+        .flags
+        .strip_prefix("--contact=")
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(is_possible(
+        &case,
+        &Request {
+            contact: Some(contact),
+            ..case.request
+        },
+        1.5
+    ));
+    let Some(Contact::At(asked)) = case.request.contact else {
+        panic!("no contact")
+    };
     let (asked, radius) = (Point::from(asked), SHORT * remedy.amount.unwrap());
     for i in 0..36 {
         let (sin, cos) = (f64::from(i) * 10.0).to_radians().sin_cos();
         let at = asked + Vector::new(cos, sin, 0.0) * radius;
-        let request = Request { contact: Some(Contact::At(at.into())), ..case.request };
+        let request = Request {
+            contact: Some(Contact::At(at.into())),
+            ..case.request
+        };
         assert!(!is_possible(&case, &request, 1.5), "{i}");
     }
 }
@@ -142,8 +185,12 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
     for i in 0..24 {
         let (sin, cos) = (f64::from(i) * 15.0).to_radians().sin_cos();
         let aside = (SHORT * tilt).sin();
-        let nearer = frame.direction_to_model(&Vector::new(aside * cos, aside * sin, (SHORT * tilt).cos()));
-        let request = Request { up: Up::Along(nearer.into()), ..case.request };
+        let nearer =
+            frame.direction_to_model(&Vector::new(aside * cos, aside * sin, (SHORT * tilt).cos()));
+        let request = Request {
+            up: Up::Along(nearer.into()),
+            ..case.request
+        };
         assert!(!is_possible(&case, &request, 1.5), "{i}");
     }
 }
@@ -151,16 +198,36 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
 #[test]
 fn a_yoyo_about_a_point_out_of_reach_is_told_one_within() {
     let lens = bulging_lens();
-    let away = Request { spin_point: Some(SpinPoint::At([-14.0, 0.0, 1.0])), ..Request::new(GoalKind::Yoyo) };
+    let away = Request {
+        spin_point: Some(SpinPoint::At([-14.0, 0.0, 1.0])),
+        ..Request::new(GoalKind::Yoyo)
+    };
     let case = case(&lens, away, 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestSpinPoint);
-    let point: SpinPoint = remedy.flags.strip_prefix("--spin-point=").unwrap().parse().unwrap();
-    assert!(is_possible(&case, &Request { spin_point: Some(point), ..away }, 1.5));
-    let Some(SpinPoint::At(asked)) = away.spin_point else { panic!("no point") };
+    let point: SpinPoint = remedy
+        .flags
+        .strip_prefix("--spin-point=")
+        .unwrap()
+        .parse()
+        .unwrap();
+    assert!(is_possible(
+        &case,
+        &Request {
+            spin_point: Some(point),
+            ..away
+        },
+        1.5
+    ));
+    let Some(SpinPoint::At(asked)) = away.spin_point else {
+        panic!("no point")
+    };
     for direction in directions::lattice(40) {
         let at = Point::from(asked) + direction * SHORT * remedy.amount.unwrap();
-        let request = Request { spin_point: Some(SpinPoint::At(at.into())), ..away };
+        let request = Request {
+            spin_point: Some(SpinPoint::At(at.into())),
+            ..away
+        };
         assert!(!is_possible(&case, &request, 1.5), "{direction}");
     }
 }
@@ -186,7 +253,10 @@ fn sampled_depths_and_exact_columns_agree_on_what_is_clearly_possible_and_what_i
     let lens = bulging_lens();
     let case = case(&lens, Request::new(GoalKind::Yoyo), 1.5);
     let ground = Ground::new(case, 20_000);
-    let on_edge = Request { up: Up::X, ..case.request };
+    let on_edge = Request {
+        up: Up::X,
+        ..case.request
+    };
     for (request, expected) in [(case.request, true), (on_edge, false)] {
         assert_eq!(is_possible(&case, &request, case.wall_mm), expected);
         assert_eq!(ground.allows(&request, case.wall_mm), expected);
@@ -198,7 +268,10 @@ fn remedies_are_the_same_on_one_thread_and_on_three() {
     let lens = bulging_lens();
     let case = case(&lens, askew_yoyo(), 1.5);
     let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| serde_json::to_string(&remedies(&case)).unwrap())
     };
     assert_eq!(with(1), with(3));
@@ -207,17 +280,32 @@ fn remedies_are_the_same_on_one_thread_and_on_three() {
 #[test]
 fn of_all_axes_a_lens_spins_best_about_its_own() {
     let turn = Frame::with_axis(Point::origin(), &Vector::new(0.3, -0.5, 0.7)).axes;
-    let lens = solid(bulging_lens().mesh().map_vertices(|p| Point::from(turn * p.coords)));
-    let request = Request { up: Up::Auto, ..Request::new(GoalKind::Yoyo) };
+    let lens = solid(
+        bulging_lens()
+            .mesh()
+            .map_vertices(|p| Point::from(turn * p.coords)),
+    );
+    let request = Request {
+        up: Up::Auto,
+        ..Request::new(GoalKind::Yoyo)
+    };
     let case = case(&lens, request, 1.5);
     let best = best_orientation(&case).unwrap();
     let own: Vector = Matrix::column(&turn, 2).into();
     let angle = best.request.up.direction().unwrap().angle(&own);
-    assert!(angle.min(std::f64::consts::PI - angle) < 3f64.to_radians(), "{}", angle.to_degrees());
+    assert!(
+        angle.min(std::f64::consts::PI - angle) < 3f64.to_radians(),
+        "{}",
+        angle.to_degrees()
+    );
     for axis in [Vector::x(), Vector::y(), Vector::new(0.3, -0.4, 0.7)] {
-        let request = Request { up: Up::Along(axis.into()), ..request };
+        let request = Request {
+            up: Up::Along(axis.into()),
+            ..request
+        };
         let other = Ground::new(case, 20_000).trial(&request, 1.5).unwrap();
-        let is_worse = !other.is_possible() || other.solution.certificate.value > best.reached.value;
+        let is_worse =
+            !other.is_possible() || other.solution.certificate.value > best.reached.value;
         assert!(is_worse, "{axis}");
     }
 }
@@ -225,7 +313,10 @@ fn of_all_axes_a_lens_spins_best_about_its_own() {
 #[test]
 fn a_standing_object_is_set_on_the_face_on_which_it_topples_last() {
     let slab = solid(cuboid(&Point::origin(), &Point::new(30.0, 24.0, 8.0)));
-    let request = Request { up: Up::Auto, ..Request::new(GoalKind::Stand) };
+    let request = Request {
+        up: Up::Auto,
+        ..Request::new(GoalKind::Stand)
+    };
     let best = best_orientation(&case(&slab, request, 1.0)).unwrap();
     assert_eq!((best.tried, best.possible), (6, 6));
     assert_eq!(best.request.up.direction().unwrap().z.abs(), 1.0);
@@ -235,20 +326,33 @@ fn a_standing_object_is_set_on_the_face_on_which_it_topples_last() {
 fn what_a_lens_could_become_is_told_for_every_axis() {
     let lens = bulging_lens();
     let found = prospects(&case(&lens, Request::new(GoalKind::Top), 1.5));
-    let prospect =
-        |kind, up| found.iter().find(|prospect| prospect.kind == kind && prospect.up == up).unwrap();
+    let prospect = |kind, up| {
+        found
+            .iter()
+            .find(|prospect| prospect.kind == kind && prospect.up == up)
+            .unwrap()
+    };
     assert!(prospect(GoalKind::Yoyo, Up::Z).possible);
     let upright = prospect(GoalKind::Yoyo, Up::X);
     assert!(!upright.possible && upright.reached.is_none() && upright.reason.contains("I_b/I_c"));
-    let (flat, on_edge) = (prospect(GoalKind::Top, Up::Z), prospect(GoalKind::Top, Up::X));
-    assert!(flat.possible && flat.reached.is_some() && !on_edge.possible, "{flat:?} {on_edge:?}");
+    let (flat, on_edge) = (
+        prospect(GoalKind::Top, Up::Z),
+        prospect(GoalKind::Top, Up::X),
+    );
+    assert!(
+        flat.possible && flat.reached.is_some() && !on_edge.possible,
+        "{flat:?} {on_edge:?}"
+    );
 }
 
 #[test]
 fn the_hull_of_a_cross_has_the_cross_within() {
     let bar = |x: f64, y: f64, z: f64| cuboid(&Point::new(-x, -y, -z), &Point::new(x, y, z));
     let cross = bar(4.0, 1.0, 1.0).joined(&bar(1.0, 3.0, 1.0));
-    let hull = Csg::convex_hull(cross.vertices()).unwrap().to_mesh().unwrap();
+    let hull = Csg::convex_hull(cross.vertices())
+        .unwrap()
+        .to_mesh()
+        .unwrap();
     // An octagon of 8 × 6 less four corners of 3 × 2/2, two high.
     assert!((hull.signed_volume_mm3() - 2.0 * (48.0 - 12.0)).abs() < 1e-9);
 }
@@ -260,5 +364,10 @@ fn the_confirming_solve_is_finer_than_the_search() {
     let request = Request::new(GoalKind::Yoyo);
     let (_, exact) = ground.exact(&request, 1.5, CONFIRMING_COLUMNS).unwrap();
     let trial = ground.trial(&request, 1.5).unwrap();
-    assert!(exact.len() > 4 * trial.columns, "{} {}", exact.len(), trial.columns);
+    assert!(
+        exact.len() > 4 * trial.columns,
+        "{} {}",
+        exact.len(),
+        trial.columns
+    );
 }

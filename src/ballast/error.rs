@@ -11,7 +11,9 @@ pub enum StockFault {
     #[error(transparent)]
     Text(#[from] TextFault),
     /// A number of unknown origin.
-    #[error("{file}: [{table}] names no source; remedy: say in `source` where the numbers are from")]
+    #[error(
+        "{file}: [{table}] names no source; remedy: say in `source` where the numbers are from"
+    )]
     Unsourced {
         /// The catalogue.
         file: String,

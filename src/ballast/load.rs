@@ -52,7 +52,9 @@ impl Load {
 
     /// The pockets, in the order of the parts.
     pub fn pockets(&self) -> impl Iterator<Item = Pocket> + '_ {
-        self.parts.iter().map(|placed| Pocket::of(&placed.lump, self.fit.clearance_mm))
+        self.parts
+            .iter()
+            .map(|placed| Pocket::of(&placed.lump, self.fit.clearance_mm))
     }
 
     /// The pockets with the material that must stay around them.
@@ -63,16 +65,22 @@ impl Load {
     /// What the parts alone add to a body of the print's density, model frame.
     pub fn moments(&self) -> Moments {
         let of_part = |placed: &Placed| placed.lump.moments(self.density_g_mm3);
-        self.parts.iter().map(of_part).fold(Moments::default(), |sum, part| sum + part)
+        self.parts
+            .iter()
+            .map(of_part)
+            .fold(Moments::default(), |sum, part| sum + part)
     }
 
     /// What the parts add less what their pockets take away, model frame.
     pub fn excess(&self) -> Moments {
-        self.pockets().fold(self.moments(), |sum, pocket| sum - pocket.moments())
+        self.pockets()
+            .fold(self.moments(), |sum, pocket| sum - pocket.moments())
     }
 
     /// The columns of a frame without the pockets and what must stay around them.
     pub fn carved(&self, columns: Columns, frame: &Frame) -> Columns {
-        self.jackets().fold(columns, |columns, jacket| columns.without(&jacket.mesh().in_frame(frame)))
+        self.jackets().fold(columns, |columns, jacket| {
+            columns.without(&jacket.mesh().in_frame(frame))
+        })
     }
 }

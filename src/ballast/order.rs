@@ -52,17 +52,26 @@ impl FromStr for Order {
             _ => {}
         }
         let is_id = |id: &str| {
-            !id.is_empty() && id.chars().all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '.')
+            !id.is_empty()
+                && id
+                    .chars()
+                    .all(|c| c.is_ascii_alphanumeric() || c == '-' || c == '.')
         };
         let number = |digits: &str| digits.parse::<u32>().ok();
-        let (id, count) = match text.rsplit_once('x').map(|(id, digits)| (id, number(digits))) {
+        let (id, count) = match text
+            .rsplit_once('x')
+            .map(|(id, digits)| (id, number(digits)))
+        {
             Some((id, Some(count))) => (id, Some(count)),
             _ => (text, None),
         };
         if !is_id(id) || count.is_some_and(|count| !(1..=MOST_PARTS).contains(&count)) {
             return Err(OrderError(text.to_owned()));
         }
-        Ok(Self::Parts { id: id.to_owned(), count })
+        Ok(Self::Parts {
+            id: id.to_owned(),
+            count,
+        })
     }
 }
 
@@ -72,7 +81,10 @@ impl fmt::Display for Order {
             Self::None => f.write_str("none"),
             Self::Auto => f.write_str("auto"),
             Self::Parts { id, count: None } => f.write_str(id),
-            Self::Parts { id, count: Some(count) } => write!(f, "{id}x{count}"),
+            Self::Parts {
+                id,
+                count: Some(count),
+            } => write!(f, "{id}x{count}"),
         }
     }
 }
@@ -85,7 +97,15 @@ mod tests {
 
     #[test]
     fn an_order_prints_as_it_reads() {
-        for text in ["none", "auto", "ball-4", "ball-4x3", "nut-m6x12", "coin-euro-1-cent", "ball-4.5x2"] {
+        for text in [
+            "none",
+            "auto",
+            "ball-4",
+            "ball-4x3",
+            "nut-m6x12",
+            "coin-euro-1-cent",
+            "ball-4.5x2",
+        ] {
             assert_eq!(text.parse::<Order>().unwrap().to_string(), text);
         }
     }

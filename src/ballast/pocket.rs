@@ -65,7 +65,11 @@ impl Pocket {
 
     /// By how much the vertices of its mesh stand out of what the mesh must hold.
     fn stretch(&self) -> f64 {
-        if self.half_height_mm.is_some() { 1.0 / (PI / f64::from(SEGMENTS)).cos() } else { BALL_STRETCH }
+        if self.half_height_mm.is_some() {
+            1.0 / (PI / f64::from(SEGMENTS)).cos()
+        } else {
+            BALL_STRETCH
+        }
     }
 
     /// Its surface, closed and facing outward, model frame, mm.
@@ -78,7 +82,11 @@ impl Pocket {
         let upright = Frame::with_axis(self.center, &self.axis);
         let (sin, cos) = (SKEW_SEGMENTS * 2.0 * PI / f64::from(SEGMENTS)).sin_cos();
         primitives::cylinder(self.radius_mm, 2.0 * half, SEGMENTS).map_vertices(|p| {
-            upright.to_model(&Point::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos, p.z - half))
+            upright.to_model(&Point::new(
+                p.x * cos - p.y * sin,
+                p.x * sin + p.y * cos,
+                p.z - half,
+            ))
         })
     }
 
@@ -90,16 +98,23 @@ impl Pocket {
     /// How far a point lies outside, mm; negative inside.
     pub fn distance_mm(&self, point: &Point) -> f64 {
         let offset = point - self.center;
-        let Some(half) = self.half_height_mm else { return offset.norm() - self.radius_mm };
+        let Some(half) = self.half_height_mm else {
+            return offset.norm() - self.radius_mm;
+        };
         let height = self.axis.dot(&offset);
-        let (beyond, aside) = (height.abs() - half, (offset - self.axis * height).norm() - self.radius_mm);
+        let (beyond, aside) = (
+            height.abs() - half,
+            (offset - self.axis * height).norm() - self.radius_mm,
+        );
         beyond.max(0.0).hypot(aside.max(0.0)) + beyond.max(aside).min(0.0)
     }
 
     /// Points that stand for it, and how far it reaches from each, mm: a ball's centre and radius; points of a cylinder's
     /// rims and caps.
     pub fn outline(&self) -> (Vec<Point>, f64) {
-        let Some(half) = self.half_height_mm else { return (vec![self.center], self.radius_mm) };
+        let Some(half) = self.half_height_mm else {
+            return (vec![self.center], self.radius_mm);
+        };
         let ring = |ratio: f64| rims(&self.center, &self.axis, [self.radius_mm * ratio, half]);
         let rim = ring(1.0).into_iter();
         (rim.chain(RINGS.into_iter().flat_map(ring)).collect(), 0.0)
@@ -122,12 +137,24 @@ mod tests {
     use crate::mesh::{MeshDistance, Solid};
 
     fn lump(shape: LumpShape) -> Lump {
-        Lump { shape, mass_g: 1.0, center_mm: [1.0, 2.0, 3.0], axis: [1.0, 1.0, 0.0] }
+        Lump {
+            shape,
+            mass_g: 1.0,
+            center_mm: [1.0, 2.0, 3.0],
+            axis: [1.0, 1.0, 0.0],
+        }
     }
 
     const BALL: LumpShape = LumpShape::Ball { diameter_mm: 6.0 };
-    const DISC: LumpShape = LumpShape::Disc { diameter_mm: 16.0, thickness_mm: 2.0 };
-    const NUT: LumpShape = LumpShape::HexNut { across_flats_mm: 10.0, bore_mm: 5.35, thickness_mm: 5.0 };
+    const DISC: LumpShape = LumpShape::Disc {
+        diameter_mm: 16.0,
+        thickness_mm: 2.0,
+    };
+    const NUT: LumpShape = LumpShape::HexNut {
+        across_flats_mm: 10.0,
+        bore_mm: 5.35,
+        thickness_mm: 5.0,
+    };
 
     #[test]
     fn a_pocket_is_a_solid_that_leaves_the_clearance_all_around_the_part() {
@@ -136,10 +163,21 @@ mod tests {
             Solid::new(pocket.mesh()).unwrap();
             let distance = MeshDistance::new(&pocket.mesh());
             let (points, _) = lump(shape).outline();
-            let least = points.iter().map(|p| distance.signed(p)).fold(f64::INFINITY, f64::min);
-            let room_mm = least - if shape.is_ball() { shape.radius_mm() } else { 0.0 };
+            let least = points
+                .iter()
+                .map(|p| distance.signed(p))
+                .fold(f64::INFINITY, f64::min);
+            let room_mm = least
+                - if shape.is_ball() {
+                    shape.radius_mm()
+                } else {
+                    0.0
+                };
             // Facets touch from outside; at rims the gap is measured across the corner's nearer face.
-            assert!((0.2 - 1e-9..0.25).contains(&room_mm), "{shape:?}: {room_mm}");
+            assert!(
+                (0.2 - 1e-9..0.25).contains(&room_mm),
+                "{shape:?}: {room_mm}"
+            );
             assert!(pocket.radius_mm < part.radius_mm + 0.25);
         }
     }
@@ -148,7 +186,8 @@ mod tests {
     fn a_jacket_holds_everything_within_the_web() {
         for shape in [BALL, DISC] {
             let pocket = Pocket::of(&lump(shape), 0.1);
-            let gap_mm = MeshDistance::new(&pocket.grown(1.0).mesh()).min_distance_to(&pocket.mesh());
+            let gap_mm =
+                MeshDistance::new(&pocket.grown(1.0).mesh()).min_distance_to(&pocket.mesh());
             assert!(gap_mm >= 1.0 - 1e-9, "{shape:?}: {gap_mm}");
         }
     }
@@ -157,16 +196,33 @@ mod tests {
     fn the_distance_to_a_cylinder_is_that_to_its_mesh() {
         let pocket = Pocket::of(&lump(DISC), 0.0);
         let mesh = MeshDistance::new(&pocket.mesh());
-        for (x, y, z) in [(1.0, 2.0, 3.0), (9.0, -7.0, 4.0), (2.0, 3.0, 3.0), (3.0, 5.0, 14.0)] {
+        for (x, y, z) in [
+            (1.0, 2.0, 3.0),
+            (9.0, -7.0, 4.0),
+            (2.0, 3.0, 3.0),
+            (3.0, 5.0, 14.0),
+        ] {
             let point = Point::new(x, y, z);
             // Facets lie 0.12 % of 8 mm inside the round.
-            assert!((pocket.distance_mm(&point) + mesh.signed(&point)).abs() < 0.011, "{point}");
+            assert!(
+                (pocket.distance_mm(&point) + mesh.signed(&point)).abs() < 0.011,
+                "{point}"
+            );
         }
     }
 
     #[test]
     fn two_discs_that_cross_are_not_clear_of_each_other() {
-        let at = |center_mm, axis| Pocket::of(&Lump { center_mm, axis, ..lump(DISC) }, 0.0);
+        let at = |center_mm, axis| {
+            Pocket::of(
+                &Lump {
+                    center_mm,
+                    axis,
+                    ..lump(DISC)
+                },
+                0.0,
+            )
+        };
         let flat = at([0.0; 3], [0.0, 0.0, 1.0]);
         // The rim of one stands over the middle of the other, whose own rims are far away.
         assert!(!flat.clears(&at([0.0, 0.0, 9.5], [1.0, 0.0, 0.0]), 1.0));

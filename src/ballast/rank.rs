@@ -24,7 +24,11 @@ impl Rank {
     /// The rank of what the solver says.
     pub fn of(solution: &Solution, goal: &Goal) -> Self {
         if solution.is_usable() {
-            let kind = if solution.objective == goal.objective { FULL } else { PARTIAL };
+            let kind = if solution.objective == goal.objective {
+                FULL
+            } else {
+                PARTIAL
+            };
             let certificate = &solution.certificate;
             return Self(kind, certificate.figure.cost(certificate.value));
         }
@@ -33,9 +37,13 @@ impl Rank {
             Status::UnstableForEveryInterior { least_ratio, .. } => Self(MISSED, least_ratio),
             Status::CannotStand { greatest_angle_rad } => Self(MISSED, -greatest_angle_rad),
             Status::Capsizes { greatest_gm_mm } => Self(MISSED, -greatest_gm_mm),
-            Status::CannotBalance { least_grade_mm_s, .. } => Self(MISSED, least_grade_mm_s),
+            Status::CannotBalance {
+                least_grade_mm_s, ..
+            } => Self(MISSED, least_grade_mm_s),
             Status::ConstraintsInfeasible { least_miss, .. } => Self(ASIDE, least_miss),
-            Status::CannotTrim { least_offset_mm, .. } => Self(ASIDE, least_offset_mm),
+            Status::CannotTrim {
+                least_offset_mm, ..
+            } => Self(ASIDE, least_offset_mm),
             Status::Sinks { least_ratio } => Self(TOO_HEAVY_OR_LIGHT, least_ratio),
             Status::RidesHigh { greatest_ratio } => Self(TOO_HEAVY_OR_LIGHT, -greatest_ratio),
             _ => Self(UNKNOWN, solution.certificate.residual),

@@ -62,10 +62,16 @@ impl<'a> Search<'a> {
     pub fn new(shop: Shop<'a>) -> Result<Self, BallastError> {
         let Placement { goal, keeps, .. } = shop.placement;
         let shell = Shell::new(shop.solid, &goal.frame, shop.wall_mm, keeps)?;
-        let columns = |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Progress::silent());
+        let columns =
+            |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Progress::silent());
         let (coarse, fine) = (columns(SEARCHING_COLUMNS)?, columns(CONFIRMING_COLUMNS)?);
         let sites = Sites::new(shop.solid, shop.placement, shop.wall_mm, &fine);
-        Ok(Self { shop, sites, coarse, fine })
+        Ok(Self {
+            shop,
+            sites,
+            coarse,
+            fine,
+        })
     }
 
     /// The ballast that an order asks for; none where no number of the parts that fit makes the goal possible, or where
@@ -76,7 +82,10 @@ impl<'a> Search<'a> {
         match order {
             Order::None => Ok(None),
             Order::Auto => Ok(self.fewest_balls(&catalogue()?)),
-            Order::Parts { id, count: Some(count) } => Ok(self.so_many(&find(id)?, *count)),
+            Order::Parts {
+                id,
+                count: Some(count),
+            } => Ok(self.so_many(&find(id)?, *count)),
             Order::Parts { id, count: None } => {
                 let part = find(id)?;
                 Ok((1..=MOST_PARTS).find_map(|count| self.possible(&part, count)))
@@ -92,7 +101,10 @@ impl<'a> Search<'a> {
         let least_g = self.least_g(balls.first()?)?;
         (1..=MOST_PARTS).find_map(|count| {
             let heavy_enough = |ball: &&&Part| ball.mass_g * f64::from(count) >= least_g;
-            let found = balls.iter().filter(heavy_enough).filter_map(|ball| self.possible(ball, count));
+            let found = balls
+                .iter()
+                .filter(heavy_enough)
+                .filter_map(|ball| self.possible(ball, count));
             best_kind(found, |found| self.rank(&found.solution))
         })
     }
@@ -101,9 +113,16 @@ impl<'a> Search<'a> {
     fn least_g(&self, ball: &Part) -> Option<f64> {
         let metal_g_mm3 = ball.mass_g / ball.shape.volume_mm3();
         let density_ratio = metal_g_mm3 * MM3_PER_CM3 / self.shop.density_g_cm3;
-        let settings = Settings { passes_per_ascent: PASSES, ..Settings::default() };
+        let settings = Settings {
+            passes_per_ascent: PASSES,
+            ..Settings::default()
+        };
         let goal = &self.shop.placement.goal;
-        let problem = Problem { goal, fixed: goal.solid, columns: &self.coarse };
+        let problem = Problem {
+            goal,
+            fixed: goal.solid,
+            columns: &self.coarse,
+        };
         let least = least_ballast(&problem, density_ratio, &settings, &Progress::silent())?;
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
@@ -138,12 +157,19 @@ impl<'a> Search<'a> {
         for index in 0..found.load.parts.len() {
             let (before, rest) = (found.load.parts[index].clone(), found.load.without(index));
             // With the prices of the answer at hand: the multipliers know what the other parts already do.
-            let rest = Found { load: rest, solution: found.solution.clone() };
-            let Some(after) = self.placed(part, &rest) else { continue };
-            let ways =
-                STEPS.iter().filter_map(|&share| self.sites.between(&before, &after, share, &rest.load));
+            let rest = Found {
+                load: rest,
+                solution: found.solution.clone(),
+            };
+            let Some(after) = self.placed(part, &rest) else {
+                continue;
+            };
+            let ways = STEPS
+                .iter()
+                .filter_map(|&share| self.sites.between(&before, &after, share, &rest.load));
             let tried = ways.map(|placed| self.solved(rest.load.with(placed), &self.coarse));
-            let better = |other: &Found| self.rank(&other.solution).beats(self.rank(&found.solution));
+            let better =
+                |other: &Found| self.rank(&other.solution).beats(self.rank(&found.solution));
             if let Some(other) = { tried }.find(better) {
                 found = other;
             }
@@ -155,7 +181,11 @@ impl<'a> Search<'a> {
     fn placed(&self, part: &Part, found: &Found) -> Option<Placed> {
         let solution = &found.solution;
         let prices = solution.status.separator().unwrap_or(solution.quadric);
-        self.sites.best(&Wish { part, prices, load: &found.load })
+        self.sites.best(&Wish {
+            part,
+            prices,
+            load: &found.load,
+        })
     }
 
     /// The interior around a load.
@@ -163,14 +193,22 @@ impl<'a> Search<'a> {
         let goal = &self.shop.placement.goal;
         let columns = load.carved(columns.clone(), &goal.frame);
         let fixed = goal.solid + load.excess().in_frame(&goal.frame);
-        let problem = Problem { goal, fixed, columns: &columns };
+        let problem = Problem {
+            goal,
+            fixed,
+            columns: &columns,
+        };
         let solution = solve(&problem, &Settings::default(), &Progress::silent());
         Found { load, solution }
     }
 
     fn nothing(&self) -> Load {
         let density_g_mm3 = self.shop.density_g_cm3 / MM3_PER_CM3;
-        Load { parts: Vec::new(), fit: self.shop.fit, density_g_mm3 }
+        Load {
+            parts: Vec::new(),
+            fit: self.shop.fit,
+            density_g_mm3,
+        }
     }
 
     fn rank(&self, solution: &Solution) -> Rank {
@@ -179,7 +217,10 @@ impl<'a> Search<'a> {
 }
 
 /// The first that does all that was asked; where there is none, the first.
-fn best_kind(mut found: impl Iterator<Item = Found>, rank: impl Fn(&Found) -> Rank) -> Option<Found> {
+fn best_kind(
+    mut found: impl Iterator<Item = Found>,
+    rank: impl Fn(&Found) -> Rank,
+) -> Option<Found> {
     let first = found.next()?;
     if rank(&first).is_full() {
         return Some(first);
@@ -202,14 +243,34 @@ mod tests {
     const DENSITY_G_CM3: f64 = 1.2;
 
     fn placed(solid: &Solid, wall_mm: f64, request: Request) -> Placement {
-        place_made_of(solid, &Stock { wall_mm, density_g_cm3: DENSITY_G_CM3 }, &request).unwrap()
+        place_made_of(
+            solid,
+            &Stock {
+                wall_mm,
+                density_g_cm3: DENSITY_G_CM3,
+            },
+            &request,
+        )
+        .unwrap()
     }
 
     fn searched(solid: &Solid, wall_mm: f64, request: Request, order: &str) -> Option<Found> {
         let placement = placed(solid, wall_mm, request);
-        let fit = Fit { clearance_mm: 0.2, web_mm: WEB_MM };
-        let shop = Shop { solid, placement: &placement, wall_mm, fit, density_g_cm3: DENSITY_G_CM3 };
-        let found = Search::new(shop).unwrap().of_order(&order.parse().unwrap()).unwrap()?;
+        let fit = Fit {
+            clearance_mm: 0.2,
+            web_mm: WEB_MM,
+        };
+        let shop = Shop {
+            solid,
+            placement: &placement,
+            wall_mm,
+            fit,
+            density_g_cm3: DENSITY_G_CM3,
+        };
+        let found = Search::new(shop)
+            .unwrap()
+            .of_order(&order.parse().unwrap())
+            .unwrap()?;
         assert_sound(solid, wall_mm, &found.load);
         Some(found)
     }
@@ -219,7 +280,10 @@ mod tests {
         let outside = MeshDistance::new(solid.mesh());
         let meshes: Vec<_> = load.pockets().map(|pocket| pocket.mesh()).collect();
         for (index, mesh) in meshes.iter().enumerate() {
-            assert!(outside.min_distance_to(mesh) >= wall_mm && outside.signed(&mesh.vertices()[0]) > 0.0);
+            assert!(
+                outside.min_distance_to(mesh) >= wall_mm
+                    && outside.signed(&mesh.vertices()[0]) > 0.0
+            );
             let distance = MeshDistance::new(mesh);
             for other in &meshes[..index] {
                 assert!(distance.min_distance_to(other) >= WEB_MM, "{index}");
@@ -231,7 +295,14 @@ mod tests {
     fn rotor() -> (Solid, Request) {
         let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
         let spin_point = Some(SpinPoint::At([20.0, 8.0, 18.0]));
-        (solid, Request { up: Up::X, spin_point, ..Request::new(GoalKind::Balance) })
+        (
+            solid,
+            Request {
+                up: Up::X,
+                spin_point,
+                ..Request::new(GoalKind::Balance)
+            },
+        )
     }
 
     /// A foot with an arm to one side.
@@ -243,8 +314,13 @@ mod tests {
     fn bare(solid: &Solid, wall_mm: f64, request: Request) -> Solution {
         let placement = placed(solid, wall_mm, request);
         let shell = Shell::new(solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
-        let columns = Columns::of_shell(&shell, shell.coarse_pitch(100), &Progress::silent()).unwrap();
-        let problem = Problem { goal: &placement.goal, fixed: placement.goal.solid, columns: &columns };
+        let columns =
+            Columns::of_shell(&shell, shell.coarse_pitch(100), &Progress::silent()).unwrap();
+        let problem = Problem {
+            goal: &placement.goal,
+            fixed: placement.goal.solid,
+            columns: &columns,
+        };
         solve(&problem, &Settings::default(), &Progress::silent())
     }
 
@@ -258,11 +334,27 @@ mod tests {
         // 7.5 mm down, is 38250 of it. A ball of diameter d, 7.83/1.2 times as dense, has its middle at most 27 − d/2 − 0.2 high.
         let missing = 19_200.0 * 3.0 - 34.0 * 10.0 * 15.0 * 7.5;
         let pull = |d: f64| std::f64::consts::PI / 6.0 * d.powi(3) * (7.83 / 1.2) * (8.8 - d / 2.0);
-        let most = (1..=19).map(|half| pull(0.5 * f64::from(half))).fold(0.0, f64::max);
+        let most = (1..=19)
+            .map(|half| pull(0.5 * f64::from(half)))
+            .fold(0.0, f64::max);
         let least = (missing / most).ceil() as usize;
-        assert!(least >= 2 && found.load.parts.len() >= least, "{least} {}", found.load.parts.len());
-        assert!(found.load.parts.len() <= least + 1, "{}", found.load.parts.len());
-        assert!(found.load.parts.iter().all(|placed| placed.lump.center_mm[2] > 18.0));
+        assert!(
+            least >= 2 && found.load.parts.len() >= least,
+            "{least} {}",
+            found.load.parts.len()
+        );
+        assert!(
+            found.load.parts.len() <= least + 1,
+            "{}",
+            found.load.parts.len()
+        );
+        assert!(
+            found
+                .load
+                .parts
+                .iter()
+                .all(|placed| placed.lump.center_mm[2] > 18.0)
+        );
     }
 
     #[test]
@@ -281,7 +373,13 @@ mod tests {
         let (solid, request) = rotor();
         let found = searched(&solid, WALL_MM, request, "ball-5x3").unwrap();
         assert_eq!(found.load.parts.len(), 3);
-        assert!(found.load.parts.iter().all(|placed| placed.part.id == "ball-5"));
+        assert!(
+            found
+                .load
+                .parts
+                .iter()
+                .all(|placed| placed.part.id == "ball-5")
+        );
         // The interior is 10 mm wide.
         assert!(searched(&solid, WALL_MM, request, "ball-10x1").is_none());
         assert!(searched(&solid, WALL_MM, request, "coin-us-quarterx1").is_none());
@@ -299,7 +397,11 @@ mod tests {
         // A pole on its edge: the axis lies 6 mm outside the block.
         let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
         let spin_point = Some(SpinPoint::At([20.0, 8.0, 36.0]));
-        let request = Request { up: Up::X, spin_point, ..Request::new(GoalKind::Balance) };
+        let request = Request {
+            up: Up::X,
+            spin_point,
+            ..Request::new(GoalKind::Balance)
+        };
         assert!(searched(&solid, WALL_MM, request, "auto").is_none());
     }
 }

@@ -56,11 +56,21 @@ impl<'a> Sites<'a> {
     /// The sites within these columns of what may be emptied.
     pub fn new(solid: &Solid, placement: &'a Placement, wall_mm: f64, columns: &Columns) -> Self {
         let surface = MeshDistance::new(solid.mesh());
-        let (frame, step_mm) = (placement.goal.frame, solid.mesh().longest_side_mm() / SITES_A_SIDE);
+        let (frame, step_mm) = (
+            placement.goal.frame,
+            solid.mesh().longest_side_mm() / SITES_A_SIDE,
+        );
         let points: Vec<Point> = points_of(columns, step_mm);
         let depth = |p: Point| (p, surface.signed(&frame.to_model(&p)));
         let points = points.into_par_iter().map(depth).collect();
-        Self { surface, keeps: &placement.keeps, frame, wall_mm, step_mm, points }
+        Self {
+            surface,
+            keeps: &placement.keeps,
+            frame,
+            wall_mm,
+            step_mm,
+            points,
+        }
     }
 
     /// The place where the part acts most; none where it does not fit.
@@ -69,8 +79,17 @@ impl<'a> Sites<'a> {
     pub fn best(&self, wish: &Wish) -> Option<Placed> {
         let stamps = self.stamps(wish);
         let costs = |stamp: usize| {
-            let cost = |site: usize| (stamp_cost(&stamps[stamp], wish, &self.points[site].0), stamp, site);
-            (0..self.points.len()).into_par_iter().map(cost).collect::<Vec<_>>()
+            let cost = |site: usize| {
+                (
+                    stamp_cost(&stamps[stamp], wish, &self.points[site].0),
+                    stamp,
+                    site,
+                )
+            };
+            (0..self.points.len())
+                .into_par_iter()
+                .map(cost)
+                .collect::<Vec<_>>()
         };
         let mut order: Vec<(f64, usize, usize)> = (0..stamps.len()).flat_map(costs).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
@@ -78,11 +97,17 @@ impl<'a> Sites<'a> {
             self.points[site].1 >= self.wall_mm + stamps[stamp].least_depth_mm
         };
         let first = order.iter().filter(is_deep).find(|&&(_, stamp, site)| {
-            self.has_room(&self.lump(wish, &stamps[stamp], &self.points[site].0), wish.load)
+            self.has_room(
+                &self.lump(wish, &stamps[stamp], &self.points[site].0),
+                wish.load,
+            )
         });
         let &(_, stamp, site) = first?;
         let lump = self.refined(wish, &stamps[stamp], self.points[site].0);
-        Some(Placed { part: wish.part.clone(), lump })
+        Some(Placed {
+            part: wish.part.clone(),
+            lump,
+        })
     }
 
     /// The part in every direction it may have: a ball in one, the others along the axes of the goal's frame.
@@ -92,10 +117,20 @@ impl<'a> Sites<'a> {
             // The third axis first: up, or the spin axis.
             let axis: Vector = self.frame.axes.column(2 - i).into_owned();
             let lump = self.lump_at(wish.part, &self.frame.origin, &axis);
-            let Load { fit: Fit { clearance_mm, web_mm }, density_g_mm3, .. } = *wish.load;
+            let Load {
+                fit:
+                    Fit {
+                        clearance_mm,
+                        web_mm,
+                    },
+                density_g_mm3,
+                ..
+            } = *wish.load;
             let pocket = Pocket::of(&lump, clearance_mm);
             let added = lump.moments(density_g_mm3) - pocket.moments();
-            let half_mm = pocket.half_height_mm.map_or(pocket.radius_mm, |half| half.min(pocket.radius_mm));
+            let half_mm = pocket
+                .half_height_mm
+                .map_or(pocket.radius_mm, |half| half.min(pocket.radius_mm));
             Stamp {
                 axis,
                 added: added.in_frame(&self.frame),
@@ -111,14 +146,28 @@ impl<'a> Sites<'a> {
     }
 
     fn lump_at(&self, part: &Part, center: &Point, axis: &Vector) -> Lump {
-        Lump { shape: part.shape, mass_g: part.mass_g, center_mm: (*center).into(), axis: (*axis).into() }
+        Lump {
+            shape: part.shape,
+            mass_g: part.mass_g,
+            center_mm: (*center).into(),
+            axis: (*axis).into(),
+        }
     }
 
     /// The part moved by a share of the way to another place; none where that has no room.
     pub fn between(&self, from: &Placed, to: &Placed, share: f64, load: &Load) -> Option<Placed> {
-        let (a, b) = (Point::from(from.lump.center_mm), Point::from(to.lump.center_mm));
-        let lump = Lump { center_mm: (a + (b - a) * share).into(), ..to.lump };
-        self.has_room(&lump, load).then(|| Placed { part: to.part.clone(), lump })
+        let (a, b) = (
+            Point::from(from.lump.center_mm),
+            Point::from(to.lump.center_mm),
+        );
+        let lump = Lump {
+            center_mm: (a + (b - a) * share).into(),
+            ..to.lump
+        };
+        self.has_room(&lump, load).then(|| Placed {
+            part: to.part.clone(),
+            lump,
+        })
     }
 
     /// Whether its pocket leaves the wall, what must stay solid, and the other pockets' webs.
@@ -127,24 +176,31 @@ impl<'a> Sites<'a> {
         let wall_mm = self.wall_mm + SPARE_MM;
         let (points, reach_mm) = pocket.outline();
         let is_free = |p: &Point| {
-            self.keeps.iter().all(|keep| keep.distance_mm(p) >= reach_mm)
+            self.keeps
+                .iter()
+                .all(|keep| keep.distance_mm(p) >= reach_mm)
                 && self.surface.signed(p) - reach_mm >= wall_mm
         };
         points.iter().all(is_free)
-            && load.pockets().all(|other| other.clears(&pocket, load.fit.web_mm))
-            && (pocket.half_height_mm.is_none() || self.surface.min_distance_to(&pocket.mesh()) >= wall_mm)
+            && load
+                .pockets()
+                .all(|other| other.clears(&pocket, load.fit.web_mm))
+            && (pocket.half_height_mm.is_none()
+                || self.surface.min_distance_to(&pocket.mesh()) >= wall_mm)
     }
 
     /// The place moved along the axes as long as that gains, in steps that halve where nothing does.
     fn refined(&self, wish: &Wish, stamp: &Stamp, start: Point) -> Lump {
-        let (mut best, mut step_mm) = ((stamp_cost(stamp, wish, &start), start), self.step_mm / 2.0);
+        let (mut best, mut step_mm) =
+            ((stamp_cost(stamp, wish, &start), start), self.step_mm / 2.0);
         for _ in 0..MOST_MOVES {
             let moves = (0..6).map(|i| {
                 let way = Vector::ith(i / 2, if i % 2 == 0 { step_mm } else { -step_mm });
                 (stamp_cost(stamp, wish, &(best.1 + way)), best.1 + way)
             });
-            let gains = moves
-                .filter(|(cost, p)| *cost < best.0 && self.has_room(&self.lump(wish, stamp, p), wish.load));
+            let gains = moves.filter(|(cost, p)| {
+                *cost < best.0 && self.has_room(&self.lump(wish, stamp, p), wish.load)
+            });
             match gains.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some(better) => best = better,
                 None if step_mm < FINEST_STEP_MM => break,
@@ -159,7 +215,13 @@ impl<'a> Sites<'a> {
 /// the void would have been.
 fn stamp_cost(stamp: &Stamp, wish: &Wish, p: &Point) -> f64 {
     let moved = stamp.added.translated(&p.coords);
-    let added: f64 = wish.prices.0.iter().zip(moved.0).map(|(price, moment)| price * moment).sum();
+    let added: f64 = wish
+        .prices
+        .0
+        .iter()
+        .zip(moved.0)
+        .map(|(price, moment)| price * moment)
+        .sum();
     added + stamp.jacket_mm3 * wish.prices.value(p).max(0.0)
 }
 

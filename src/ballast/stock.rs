@@ -81,8 +81,10 @@ const BUILT_IN: &[(&str, &str)] = built_in!("balls" "nuts" "coins");
 const PLAUSIBLE_G_CM3: [f64; 2] = [0.5, 20.0];
 /// Every stock part: balls, then nuts, then coins, each from small to large.
 pub fn catalogue() -> Result<Vec<Part>, StockFault> {
-    let families: Vec<Vec<Part>> =
-        BUILT_IN.iter().map(|(file, text)| read(file, text)).collect::<Result<_, _>>()?;
+    let families: Vec<Vec<Part>> = BUILT_IN
+        .iter()
+        .map(|(file, text)| read(file, text))
+        .collect::<Result<_, _>>()?;
     Ok(families.concat())
 }
 
@@ -97,30 +99,59 @@ pub fn find(id: &str) -> Result<Part, BallastError> {
         Some(near) => format!("did you mean `{near}`?"),
         None => format!("use one of {}", known.join(", ")),
     };
-    Err(BallastError::Unknown { id: id.to_owned(), remedy })
+    Err(BallastError::Unknown {
+        id: id.to_owned(),
+        remedy,
+    })
 }
 
 /// The parts of one file of the catalogue; refused where a number has no source or cannot be.
 fn read(file: &str, text: &str) -> Result<Vec<Part>, StockFault> {
-    let Family { size, mass, part, .. } = toml_text::read(file, text)?;
+    let Family {
+        size, mass, part, ..
+    } = toml_text::read(file, text)?;
     for (table, source) in [("size", &size.source), ("mass", &mass.source)] {
         if source.trim().is_empty() {
-            return Err(StockFault::Unsourced { file: file.to_owned(), table });
+            return Err(StockFault::Unsourced {
+                file: file.to_owned(),
+                table,
+            });
         }
     }
     let spread_ratio = mass.spread_ratio;
-    let mass = Provenance { source: mass.source, sure: mass.sure };
+    let mass = Provenance {
+        source: mass.source,
+        sure: mass.sure,
+    };
     let parts: Vec<Part> = part
         .into_iter()
-        .map(|PartText { id, name, shape, mass_g }| {
-            let (size, mass) = (size.clone(), mass.clone());
-            Part { id, name, shape, mass_g, mass_spread_ratio: spread_ratio, size, mass }
-        })
+        .map(
+            |PartText {
+                 id,
+                 name,
+                 shape,
+                 mass_g,
+             }| {
+                let (size, mass) = (size.clone(), mass.clone());
+                Part {
+                    id,
+                    name,
+                    shape,
+                    mass_g,
+                    mass_spread_ratio: spread_ratio,
+                    size,
+                    mass,
+                }
+            },
+        )
         .collect();
     for (index, part) in parts.iter().enumerate() {
         check(file, part)?;
         if parts[..index].iter().any(|other| other.id == part.id) {
-            return Err(StockFault::Twice { file: file.to_owned(), part: part.id.clone() });
+            return Err(StockFault::Twice {
+                file: file.to_owned(),
+                part: part.id.clone(),
+            });
         }
     }
     Ok(parts)
@@ -130,16 +161,30 @@ fn read(file: &str, text: &str) -> Result<Vec<Part>, StockFault> {
 fn check(file: &str, part: &Part) -> Result<(), StockFault> {
     let (file, id) = (file.to_owned(), part.id.clone());
     let mut numbers = part.shape.sizes_mm();
-    numbers.extend([("mass_g", part.mass_g), ("spread_ratio", part.mass_spread_ratio)]);
-    if let Some(&(key, _)) = numbers.iter().find(|(_, value)| !(*value > 0.0 && value.is_finite())) {
-        return Err(StockFault::NotPositive { file, part: id, key });
+    numbers.extend([
+        ("mass_g", part.mass_g),
+        ("spread_ratio", part.mass_spread_ratio),
+    ]);
+    if let Some(&(key, _)) = numbers
+        .iter()
+        .find(|(_, value)| !(*value > 0.0 && value.is_finite()))
+    {
+        return Err(StockFault::NotPositive {
+            file,
+            part: id,
+            key,
+        });
     }
     let density = part.mass_g / part.shape.volume_mm3() * MM3_PER_CM3;
     let [least, most] = PLAUSIBLE_G_CM3;
     if (least..=most).contains(&density) {
         return Ok(());
     }
-    Err(StockFault::Implausible { file, part: id, density })
+    Err(StockFault::Implausible {
+        file,
+        part: id,
+        density,
+    })
 }
 
 #[cfg(test)]
@@ -159,7 +204,11 @@ mod tests {
     fn the_catalogue_has_balls_nuts_and_coins_and_no_id_twice() {
         let parts = catalogue().unwrap();
         let mut ids: Vec<&str> = parts.iter().map(|part| part.id.as_str()).collect();
-        assert!(["ball-4", "nut-m3", "nut-m12", "coin-euro-1-cent"].iter().all(|id| ids.contains(id)));
+        assert!(
+            ["ball-4", "nut-m3", "nut-m12", "coin-euro-1-cent"]
+                .iter()
+                .all(|id| ids.contains(id))
+        );
         ids.sort_unstable();
         assert!(ids.windows(2).all(|pair| pair[0] != pair[1]));
     }
@@ -175,9 +224,17 @@ mod tests {
 
     #[test]
     fn a_ball_is_of_bearing_steel_to_the_digits_given() {
-        for part in catalogue().unwrap().iter().filter(|part| part.shape.is_ball()) {
+        for part in catalogue()
+            .unwrap()
+            .iter()
+            .filter(|part| part.shape.is_ball())
+        {
             // Four significant digits.
-            assert!((part.mass_g / (7.83e-3 * part.shape.volume_mm3()) - 1.0).abs() < 5e-4, "{}", part.id);
+            assert!(
+                (part.mass_g / (7.83e-3 * part.shape.volume_mm3()) - 1.0).abs() < 5e-4,
+                "{}",
+                part.id
+            );
         }
     }
 
@@ -186,19 +243,31 @@ mod tests {
         assert!(family("a table", "a table").is_ok());
         for (line, table) in [("a table", "size"), ("a balance", "mass")] {
             let error = family(line, "  ").unwrap_err();
-            assert_eq!(error, StockFault::Unsourced { file: "balls.toml".into(), table });
+            assert_eq!(
+                error,
+                StockFault::Unsourced {
+                    file: "balls.toml".into(),
+                    table
+                }
+            );
         }
-        let error = family("source = \"a table\"\n", "").unwrap_err().to_string();
+        let error = family("source = \"a table\"\n", "")
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("missing field `source`"), "{error}");
     }
 
     #[test]
     fn sizes_and_masses_that_cannot_be_are_refused_by_name() {
-        let error = family("diameter_mm = 4.0", "diameter_mm = -4.0").unwrap_err().to_string();
+        let error = family("diameter_mm = 4.0", "diameter_mm = -4.0")
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("diameter_mm of `ball-4`"), "{error}");
         let error = family("mass_g = 0.26", "mass_g = 260.0").unwrap_err();
         assert!(matches!(error, StockFault::Implausible { .. }), "{error}");
-        let error = family("mass_g = 0.26", "mass_kg = 0.26").unwrap_err().to_string();
+        let error = family("mass_g = 0.26", "mass_kg = 0.26")
+            .unwrap_err()
+            .to_string();
         assert!(error.contains("did you mean `mass_g`?"), "{error}");
     }
 

@@ -144,7 +144,10 @@ mod tests {
     use clap::Parser;
 
     fn action(line: &str) -> Option<PrintersAction> {
-        match Cli::try_parse_from(line.split_whitespace()).unwrap().command {
+        match Cli::try_parse_from(line.split_whitespace())
+            .unwrap()
+            .command
+        {
             Command::Printers(args) => args.action,
             other => panic!("{other:?}"),
         }
@@ -153,19 +156,32 @@ mod tests {
     #[test]
     fn printers_takes_list_show_and_check() {
         assert_eq!(action("equipoise printers"), None);
-        assert_eq!(action("equipoise printers list"), Some(PrintersAction::List { markdown: false }));
-        let show = PrintersAction::Show { id: "prusa-mk4".into() };
+        assert_eq!(
+            action("equipoise printers list"),
+            Some(PrintersAction::List { markdown: false })
+        );
+        let show = PrintersAction::Show {
+            id: "prusa-mk4".into(),
+        };
         assert_eq!(action("equipoise printers show prusa-mk4"), Some(show));
         assert_eq!(
             action("equipoise printers check a.toml"),
-            Some(PrintersAction::Check { file: "a.toml".into() })
+            Some(PrintersAction::Check {
+                file: "a.toml".into()
+            })
         );
     }
 
     #[test]
     fn coupons_are_weighed_one_by_one() {
-        let line = "equipoise printers calibrate s.toml --lot A --weighed 9.8 --weighed 9.9 --wall 1.1";
-        let Some(PrintersAction::Calibrate(args)) = action(line) else { panic!("{line}") };
-        assert_eq!((args.weighed, args.wall, args.pin), (vec![9.8, 9.9], Some(1.1), None));
+        let line =
+            "equipoise printers calibrate s.toml --lot A --weighed 9.8 --weighed 9.9 --wall 1.1";
+        let Some(PrintersAction::Calibrate(args)) = action(line) else {
+            panic!("{line}")
+        };
+        assert_eq!(
+            (args.weighed, args.wall, args.pin),
+            (vec![9.8, 9.9], Some(1.1), None)
+        );
     }
 }

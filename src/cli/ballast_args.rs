@@ -14,6 +14,11 @@ pub struct BallastArgs {
     #[arg(long, value_name = "auto|ID[xN]|none")]
     pub ballast: Option<Order>,
     /// Fill the voids with a material of this density, such as 2.3 for plaster, instead of leaving air in them
-    #[arg(long, value_name = "G/CM3", allow_hyphen_values = true, conflicts_with = "ballast")]
+    #[arg(
+        long,
+        value_name = "G/CM3",
+        allow_hyphen_values = true,
+        conflicts_with = "ballast"
+    )]
     pub fill: Option<Filling>,
 }

@@ -60,15 +60,32 @@ struct Course {
 impl Course {
     fn start() -> Self {
         let now = Instant::now();
-        Self { since: now, stage: 0, done_ratio: 0.0, stage_since: now }
+        Self {
+            since: now,
+            stage: 0,
+            done_ratio: 0.0,
+            stage_since: now,
+        }
     }
 
     /// Goes on to that stage, or on in it. A run may come back to an earlier one; the bar does not.
     fn advance(&mut self, phase: &str, done_ratio: f64) {
-        let stage = STAGES.iter().position(|(name, ..)| *name == phase).unwrap_or(self.stage);
-        let done_ratio = if done_ratio.is_nan() { 0.0 } else { done_ratio.clamp(0.0, 1.0) };
+        let stage = STAGES
+            .iter()
+            .position(|(name, ..)| *name == phase)
+            .unwrap_or(self.stage);
+        let done_ratio = if done_ratio.is_nan() {
+            0.0
+        } else {
+            done_ratio.clamp(0.0, 1.0)
+        };
         if stage > self.stage {
-            *self = Self { stage, done_ratio, stage_since: Instant::now(), ..*self };
+            *self = Self {
+                stage,
+                done_ratio,
+                stage_since: Instant::now(),
+                ..*self
+            };
         } else if stage == self.stage {
             self.done_ratio = self.done_ratio.max(done_ratio);
         }
@@ -87,7 +104,11 @@ impl Course {
     /// too little is done to tell.
     fn left_s(&self, now: Instant) -> Option<f64> {
         let share = self.share();
-        let known_s = if self.done_ratio > 0.0 { now - self.since } else { self.stage_since - self.since };
+        let known_s = if self.done_ratio > 0.0 {
+            now - self.since
+        } else {
+            self.stage_since - self.since
+        };
         let whole_s = known_s.as_secs_f64() / share;
         (share >= TELLING_SHARE).then(|| (whole_s - (now - self.since).as_secs_f64()).max(0.0))
     }
@@ -110,7 +131,9 @@ impl Course {
 
     fn left_words(&self, now: Instant) -> String {
         self.left_s(now)
-            .map_or("time left unknown".to_owned(), |left_s| format!("about {:.0} s left", left_s.ceil()))
+            .map_or("time left unknown".to_owned(), |left_s| {
+                format!("about {:.0} s left", left_s.ceil())
+            })
     }
 }
 
@@ -118,7 +141,11 @@ impl Bars {
     /// A bar that begins now.
     pub fn new(manner: Manner) -> Self {
         let course = Arc::new(Mutex::new(Course::start()));
-        let bar = if manner.shows_bars() { drawn(&course, manner) } else { ProgressBar::hidden() };
+        let bar = if manner.shows_bars() {
+            drawn(&course, manner)
+        } else {
+            ProgressBar::hidden()
+        };
         Self { bar, course }
     }
 
@@ -159,8 +186,13 @@ fn drawn(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
             let _ = line.write_str(&words(&course, Instant::now()));
         }
     };
-    let style = ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
-    bar.set_style(style.with_key("stage", shown(Course::words)).with_key("left", shown(Course::left_words)));
+    let style =
+        ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar());
+    bar.set_style(
+        style
+            .with_key("stage", shown(Course::words))
+            .with_key("left", shown(Course::left_words)),
+    );
     bar.enable_steady_tick(TICK);
     bar
 }
@@ -170,8 +202,13 @@ mod tests {
     use super::*;
     use crate::progress::Progress;
 
-    const SILENT: Manner =
-        Manner { quiet: true, verbose: 0, is_terminal: false, is_coloured: false, is_output_coloured: false };
+    const SILENT: Manner = Manner {
+        quiet: true,
+        verbose: 0,
+        is_terminal: false,
+        is_coloured: false,
+        is_output_coloured: false,
+    };
 
     fn course(phase: &str, done_ratio: f64, gone_s: u64) -> (Course, Instant) {
         let mut course = Course::start();
@@ -187,7 +224,11 @@ mod tests {
 
     #[test]
     fn bars_take_any_report_and_end_twice_without_harm() {
-        let bars = Bars::new(Manner { quiet: false, is_terminal: true, ..SILENT });
+        let bars = Bars::new(Manner {
+            quiet: false,
+            is_terminal: true,
+            ..SILENT
+        });
         let observer = bars.observer();
         let progress = Progress::observed(&observer);
         for ratio in [0.0, 0.5, 2.0, f64::NAN, -1.0] {
@@ -222,7 +263,10 @@ mod tests {
     fn the_rate_of_a_stage_is_told_where_it_says_how_far_it_is() {
         let (columns, now) = course("columns", 0.5, 5);
         let words = columns.words(now);
-        assert!(words.contains("2/8 measuring columns") && words.contains("50 %, 10 %/s"), "{words}");
+        assert!(
+            words.contains("2/8 measuring columns") && words.contains("50 %, 10 %/s"),
+            "{words}"
+        );
         let (silent, now) = course("verify", 0.0, 5);
         assert!(!silent.words(now).contains('%'));
     }

@@ -34,11 +34,22 @@ pub enum CouponCommandError {
 }
 
 /// Writes the coupons of a printer and says where.
-pub fn coupon(args: &CouponArgs, voice: Voice, out: &mut dyn Write) -> Result<(), CouponCommandError> {
+pub fn coupon(
+    args: &CouponArgs,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<(), CouponCommandError> {
     let printer = Printer::find(&args.printer)?;
     let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
-    let target = args.out.clone().unwrap_or_else(|| PathBuf::from(format!("{}-coupon", printer.id)));
-    let existing = if args.force { Existing::Replace } else { Existing::Keep };
+    let target = args
+        .out
+        .clone()
+        .unwrap_or_else(|| PathBuf::from(format!("{}-coupon", printer.id)));
+    let existing = if args.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
     coupon_kit(&set)?.write(&target, existing)?;
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&set)?)?;

@@ -39,7 +39,9 @@ impl FromStr for CutArg {
     type Err = Infallible;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        Ok(text.parse().map_or_else(|_| Self::Plan(text.into()), Self::Mode))
+        Ok(text
+            .parse()
+            .map_or_else(|_| Self::Plan(text.into()), Self::Mode))
     }
 }
 

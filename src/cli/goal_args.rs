@@ -84,8 +84,20 @@ pub struct HardwareArgs {
 impl HardwareArgs {
     /// What was asked for; none where nothing was.
     pub fn asked(&self) -> Option<Hardware> {
-        let Self { string_gap, axle, hardware_mass: mass_g, tip, stem } = *self;
-        let hardware = Hardware { string_gap, axle, mass_g, tip, stem };
+        let Self {
+            string_gap,
+            axle,
+            hardware_mass: mass_g,
+            tip,
+            stem,
+        } = *self;
+        let hardware = Hardware {
+            string_gap,
+            axle,
+            mass_g,
+            tip,
+            stem,
+        };
         (!hardware.is_empty()).then_some(hardware)
     }
 }

@@ -90,7 +90,11 @@ struct Mass {
 
 /// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends as `prepare` ends with
 /// it, in [`Exit::CouldNotRun`].
-pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, InspectError> {
+pub fn inspect(
+    args: &InspectArgs,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<Exit, InspectError> {
     let (file, repairs) = repair(read_model(&args.model)?);
     let mesh = scaled(&file, args.scaling.scaling().factor(file.longest_side_mm()));
     let facts = MeshFacts::of(&mesh);
@@ -109,7 +113,11 @@ pub fn inspect(args: &InspectArgs, voice: Voice, out: &mut dyn Write) -> Result<
     if !is_sound && voice.manner.quiet && !voice.json {
         say(text(&findings).trim_end());
     }
-    Ok(if is_sound { Exit::Kept } else { Exit::CouldNotRun })
+    Ok(if is_sound {
+        Exit::Kept
+    } else {
+        Exit::CouldNotRun
+    })
 }
 
 fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) -> Findings {
@@ -127,7 +135,10 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
         degenerate_triangles: facts.degenerate_triangles,
         repairs,
         defects: solid.as_ref().err().map(ToString::to_string),
-        not_one_body: solid.as_ref().ok().and_then(|solid| Some(one_body(solid).err()?.to_string())),
+        not_one_body: solid
+            .as_ref()
+            .ok()
+            .and_then(|solid| Some(one_body(solid).err()?.to_string())),
         solid: solid.as_ref().ok().map(|solid| mass(solid.mesh())),
         could_become: None,
     }
@@ -150,7 +161,11 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
     let asked_mm = args.wall.map(|wall| wall.mm());
     let size_mm = solid.mesh().longest_side_mm();
     let wall_mm = match &args.printer {
-        Some(id) => Printer::find(id)?.quantised_wall(asked_mm, size_mm)?.wall_mm,
+        Some(id) => {
+            Printer::find(id)?
+                .quantised_wall(asked_mm, size_mm)?
+                .wall_mm
+        }
         None => asked_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
     };
     let case = Case {
@@ -162,7 +177,10 @@ fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError>
         density_g_cm3: PLAIN_DENSITY_G_CM3,
         greatest_size_mm: f64::INFINITY,
     };
-    Ok(Becoming { wall_mm, prospects: prospects(&case) })
+    Ok(Becoming {
+        wall_mm,
+        prospects: prospects(&case),
+    })
 }
 
 fn mass(mesh: &TriMesh) -> Mass {
@@ -183,7 +201,10 @@ fn mass(mesh: &TriMesh) -> Mass {
 fn dominance(body: &Body, axis: usize) -> f64 {
     let inertia = body.inertia_g_mm2;
     let about = Vector::ith(axis, 1.0).dot(&(inertia * Vector::ith(axis, 1.0)));
-    let across = inertia.remove_row(axis).remove_column(axis).symmetric_eigenvalues();
+    let across = inertia
+        .remove_row(axis)
+        .remove_column(axis)
+        .symmetric_eigenvalues();
     across.max() / about
 }
 
@@ -194,17 +215,25 @@ fn text(findings: &Findings) -> String {
         findings.triangles,
         findings.vertices,
         counted(findings.shells, "shell"),
-        findings.genus.map_or(String::new(), |genus| format!(", genus {genus}")),
+        findings
+            .genus
+            .map_or(String::new(), |genus| format!(", genus {genus}")),
         plain(findings.area_mm2, "mm²"),
         findings.repairs,
     );
-    text += &findings.size_hint.as_ref().map_or(String::new(), |hint| format!("warning: {hint}\n"));
+    text += &findings
+        .size_hint
+        .as_ref()
+        .map_or(String::new(), |hint| format!("warning: {hint}\n"));
     for (count, what) in [
         (
             findings.crossing_pairs.unwrap_or(0),
             "pairs of triangles pass through each other (moments count the overlap twice)",
         ),
-        (findings.pinch_vertices, "vertices in which surfaces only touch"),
+        (
+            findings.pinch_vertices,
+            "vertices in which surfaces only touch",
+        ),
         (findings.degenerate_triangles, "triangles without area"),
     ] {
         if count > 0 {
@@ -219,7 +248,10 @@ fn text(findings: &Findings) -> String {
         (_, Some(defects)) => text += &format!("{defects}\n"),
         _ => {}
     }
-    text + &findings.could_become.as_ref().map_or(String::new(), becoming_text)
+    text + &findings
+        .could_become
+        .as_ref()
+        .map_or(String::new(), becoming_text)
 }
 
 /// A quantity with blanks that a terminal can search for.
@@ -232,15 +264,25 @@ fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
         let reached = prospect.reached.map(|reached| format!("it {reached}"));
         let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
-        [prospect.kind.to_string(), format!("--up={}{}", prospect.up, contact(prospect)), verdict]
+        [
+            prospect.kind.to_string(),
+            format!("--up={}{}", prospect.up, contact(prospect)),
+            verdict,
+        ]
     };
     let rows: Vec<[String; 3]> = becoming.prospects.iter().map(line).collect();
-    format!("hollowed with a wall of {}, as\n{}", show_mm(becoming.wall_mm), table(&rows))
+    format!(
+        "hollowed with a wall of {}, as\n{}",
+        show_mm(becoming.wall_mm),
+        table(&rows)
+    )
 }
 
 /// The contact of a top that differs from what `prepare` takes.
 fn contact(prospect: &Prospect) -> String {
-    let other = prospect.contact.filter(|contact| *contact != Contact::Lowest);
+    let other = prospect
+        .contact
+        .filter(|contact| *contact != Contact::Lowest);
     other.map_or(String::new(), |contact| format!(" --contact={contact}"))
 }
 

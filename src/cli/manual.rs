@@ -32,9 +32,10 @@ pub fn page(command: Option<&str>, out: &mut dyn Write) -> Result<(), ManualErro
     program.build();
     let page = match command {
         None => program.clone(),
-        Some(name) => {
-            program.find_subcommand(name).ok_or_else(|| ManualError::Unknown(name.to_owned()))?.clone()
-        }
+        Some(name) => program
+            .find_subcommand(name)
+            .ok_or_else(|| ManualError::Unknown(name.to_owned()))?
+            .clone(),
     };
     let mut text = Vec::new();
     Man::new(page).render(&mut text)?;
@@ -47,7 +48,13 @@ mod tests {
 
     #[test]
     fn every_shell_has_completions_that_know_the_commands() {
-        for shell in [Shell::Bash, Shell::Zsh, Shell::Fish, Shell::PowerShell, Shell::Elvish] {
+        for shell in [
+            Shell::Bash,
+            Shell::Zsh,
+            Shell::Fish,
+            Shell::PowerShell,
+            Shell::Elvish,
+        ] {
             let mut script = Vec::new();
             completions(shell, &mut script).unwrap();
             let script = String::from_utf8(script).unwrap();
@@ -60,12 +67,17 @@ mod tests {
     #[test]
     fn the_program_and_each_of_its_commands_have_a_page() {
         let commands = Cli::command();
-        let names = commands.get_subcommands().map(|command| Some(command.get_name()));
+        let names = commands
+            .get_subcommands()
+            .map(|command| Some(command.get_name()));
         for name in names.chain([None]) {
             let mut text = Vec::new();
             page(name, &mut text).unwrap();
             let text = String::from_utf8(text).unwrap();
-            assert!(text.contains(".TH equipoise") && text.contains(".SH SYNOPSIS"), "{name:?}: {text}");
+            assert!(
+                text.contains(".TH equipoise") && text.contains(".SH SYNOPSIS"),
+                "{name:?}: {text}"
+            );
         }
         let error = page(Some("frobnicate"), &mut Vec::new()).unwrap_err();
         assert!(error.to_string().contains("no command frobnicate"));

@@ -56,12 +56,17 @@ impl From<Exit> for ExitCode {
 /// Runs the command on as many threads as it asks for, and prints what came of it on the standard output.
 pub fn run(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
     let threads = cli.global.threads.map_or(0, usize::from);
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build()?;
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()?;
     pool.install(|| dispatch(cli, manner))
 }
 
 fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
-    let voice = Voice { manner, json: cli.global.json };
+    let voice = Voice {
+        manner,
+        json: cli.global.json,
+    };
     let out = &mut std::io::stdout();
     match cli.command {
         Command::Prepare(args) => Ok(prepare::prepare(*args, voice, out)?),

@@ -42,7 +42,11 @@ pub struct Voice {
 /// Prepares the kit and writes it; says what came of it on `out`.
 pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, PrepareError> {
     let request = args.request()?;
-    let existing = if request.force { Existing::Replace } else { Existing::Keep };
+    let existing = if request.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
     existing.allows(&request.out).map_err(Error::from)?;
     let bars = Bars::new(voice.manner);
     let observer = bars.observer();
@@ -50,9 +54,16 @@ pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<E
     bars.finish();
     match outcome? {
         Outcome::Prepared(prepared) => {
-            prepared.kit.write(&request.out, existing).map_err(Error::from)?;
+            prepared
+                .kit
+                .write(&request.out, existing)
+                .map_err(Error::from)?;
             tell_prepared(&prepared, &request, voice, out)?;
-            Ok(if prepared.passes() { Exit::Kept } else { Exit::NotKept })
+            Ok(if prepared.passes() {
+                Exit::Kept
+            } else {
+                Exit::NotKept
+            })
         }
         Outcome::Impossible(impossible) => {
             tell_impossible(&impossible, voice, out)?;
@@ -69,12 +80,18 @@ fn tell_prepared(
 ) -> Result<(), PrepareError> {
     let checklist = &prepared.checklist;
     if voice.json {
-        return Ok(writeln!(out, "{}", serde_json::to_string_pretty(checklist)?)?);
+        return Ok(writeln!(
+            out,
+            "{}",
+            serde_json::to_string_pretty(checklist)?
+        )?);
     }
     if voice.manner.quiet {
         if let Some(failure) = &prepared.failure {
             let broken = broken(&checklist.checks, voice.manner);
-            say(&format!("{broken}{}", failure_text(failure)).trim_end().replace('\u{a0}', " "));
+            say(&format!("{broken}{}", failure_text(failure))
+                .trim_end()
+                .replace('\u{a0}', " "));
         }
         return Ok(());
     }
@@ -94,9 +111,17 @@ fn tell_prepared(
     Ok(())
 }
 
-fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -> Result<(), PrepareError> {
+fn tell_impossible(
+    impossible: &Impossible,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<(), PrepareError> {
     if voice.json {
-        return Ok(writeln!(out, "{}", serde_json::to_string_pretty(impossible)?)?);
+        return Ok(writeln!(
+            out,
+            "{}",
+            serde_json::to_string_pretty(impossible)?
+        )?);
     }
     if voice.manner.quiet {
         // Quiet is silent about what went well only.
@@ -106,7 +131,11 @@ fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -
     writeln!(out, "{}", impossible.reason)?;
     write!(out, "{}", advice(impossible))?;
     if voice.manner.verbose > 0 {
-        writeln!(out, "  proof: the quadric {:?} (goal frame, mm)", impossible.proof_quadric)?;
+        writeln!(
+            out,
+            "  proof: the quadric {:?} (goal frame, mm)",
+            impossible.proof_quadric
+        )?;
     }
     Ok(())
 }
@@ -114,24 +143,40 @@ fn tell_impossible(impossible: &Impossible, voice: Voice, out: &mut dyn Write) -
 /// What was chosen and warned of, and what helps.
 fn advice(impossible: &Impossible) -> String {
     let choice = impossible.choice.iter().map(|choice| format!("{choice}\n"));
-    let warnings = impossible.warnings.iter().map(|warning| format!("warning: {warning}\n"));
+    let warnings = impossible
+        .warnings
+        .iter()
+        .map(|warning| format!("warning: {warning}\n"));
     let remedies = remedies_text(&impossible.remedies, &impossible.hints);
     choice.chain(warnings).chain([remedies]).collect()
 }
 
 /// Why a kit fails, and what helps.
 fn failure_text(failure: &Failure) -> String {
-    format!("{}\n{}", failure.reason, remedies_text(&failure.remedies, &failure.hints))
+    format!(
+        "{}\n{}",
+        failure.reason,
+        remedies_text(&failure.remedies, &failure.hints)
+    )
 }
 
 /// What helps, with what to type, what may help, and what does not.
 fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
-    let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) = remedies.iter().partition(|remedy| remedy.helps());
+    let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
+        remedies.iter().partition(|remedy| remedy.helps());
     let typed = |remedy: &Remedy| {
-        if remedy.flags.is_empty() { String::new() } else { format!("{}: ", remedy.flags) }
+        if remedy.flags.is_empty() {
+            String::new()
+        } else {
+            format!("{}: ", remedy.flags)
+        }
     };
-    let helpful = helpful.into_iter().map(|remedy| format!("  remedy: {}{}\n", typed(remedy), remedy.words));
+    let helpful = helpful
+        .into_iter()
+        .map(|remedy| format!("  remedy: {}{}\n", typed(remedy), remedy.words));
     let hints = hints.iter().map(|hint| format!("  perhaps: {hint}\n"));
-    let useless = useless.into_iter().map(|remedy| format!("  no remedy: {}\n", remedy.words));
+    let useless = useless
+        .into_iter()
+        .map(|remedy| format!("  no remedy: {}\n", remedy.words));
     helpful.chain(hints).chain(useless).collect()
 }

@@ -33,9 +33,15 @@ pub enum PrintersError {
 }
 
 /// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as JSON.
-pub fn run(action: Option<PrintersAction>, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
+pub fn run(
+    action: Option<PrintersAction>,
+    json: bool,
+    out: &mut dyn Write,
+) -> Result<(), PrintersError> {
     match action.unwrap_or(PrintersAction::List { markdown: false }) {
-        PrintersAction::List { markdown: true } => Ok(out.write_all(markdown(&Printer::all()?).as_bytes())?),
+        PrintersAction::List { markdown: true } => {
+            Ok(out.write_all(markdown(&Printer::all()?).as_bytes())?)
+        }
         PrintersAction::List { markdown: false } => list(&Printer::all()?, json, out),
         PrintersAction::Show { id } => show(&Printer::find(&id)?, json, out),
         PrintersAction::Check { file } => check(&Printer::read(&file)?, json, out),
@@ -49,15 +55,26 @@ fn list(printers: &[Printer], json: bool, out: &mut dyn Write) -> Result<(), Pri
     if json {
         return write_json(printers, out);
     }
-    let head = ["id", "printer", "process", "pixel or line", "layer", "build volume", "least wall"];
-    let rows: Vec<_> =
-        std::iter::once(head.map(str::to_owned)).chain(printers.iter().map(list_row)).collect();
+    let head = [
+        "id",
+        "printer",
+        "process",
+        "pixel or line",
+        "layer",
+        "build volume",
+        "least wall",
+    ];
+    let rows: Vec<_> = std::iter::once(head.map(str::to_owned))
+        .chain(printers.iter().map(list_row))
+        .collect();
     Ok(out.write_all(table(&rows).as_bytes())?)
 }
 
 fn list_row(printer: &Printer) -> [String; 7] {
-    let volume =
-        printer.build_volume_mm.as_ref().map_or_else(|| "not known".to_owned(), |v| show_box(v.value));
+    let volume = printer
+        .build_volume_mm
+        .as_ref()
+        .map_or_else(|| "not known".to_owned(), |v| show_box(v.value));
     [
         printer.id.clone(),
         printer.name.clone(),
@@ -72,7 +89,11 @@ fn list_row(printer: &Printer) -> [String; 7] {
 /// The steps along x and y, told once where they are equal.
 pub(super) fn show_pixel(printer: &Printer) -> String {
     let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
-    if x == y { show_step(x) } else { format!("{} × {}", show_step(x), show_step(y)) }
+    if x == y {
+        show_step(x)
+    } else {
+        format!("{} × {}", show_step(x), show_step(y))
+    }
 }
 
 fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
@@ -96,7 +117,13 @@ third party = not from the maker; recalled = remembered, not read again; own cho
 fn words(printer: &Printer) -> Vec<[String; 2]> {
     let word = |name: &str, value: String| [name.to_owned(), value];
     vec![
-        word("process", printer.process.clone().unwrap_or_else(|| "its own".to_owned())),
+        word(
+            "process",
+            printer
+                .process
+                .clone()
+                .unwrap_or_else(|| "its own".to_owned()),
+        ),
         word("inherits", printer.inherits.join(" → ")),
         word("grid", kebab(&printer.grid)),
         word("support", kebab(&printer.support)),
@@ -108,14 +135,21 @@ fn words(printer: &Printer) -> Vec<[String; 2]> {
 
 /// The word a unit-like value has in profiles.
 fn kebab(value: &impl Serialize) -> String {
-    serde_json::to_value(value).ok().and_then(|word| word.as_str().map(str::to_owned)).unwrap_or_default()
+    serde_json::to_value(value)
+        .ok()
+        .and_then(|word| word.as_str().map(str::to_owned))
+        .unwrap_or_default()
 }
 
 fn numbers(printer: &Printer) -> Vec<[String; 4]> {
     let mut rows = vec![["number", "value", "sure", "source"].map(str::to_owned)];
     rows.extend(plate(printer));
     for wall in &printer.walls_by_part_size {
-        let value = format!("{} for parts up to {}", show_mm(wall.wall_mm.value), show_mm(wall.up_to_mm));
+        let value = format!(
+            "{} for parts up to {}",
+            show_mm(wall.wall_mm.value),
+            show_mm(wall.up_to_mm)
+        );
         rows.push(number_row("walls_by_part_size", value, &wall.wall_mm));
     }
     for (quantity, number) in printer.numbers() {
@@ -129,11 +163,16 @@ fn numbers(printer: &Printer) -> Vec<[String; 4]> {
 
 /// What is known of the plate and the room over it, and of shrinkage.
 fn plate(printer: &Printer) -> Vec<[String; 4]> {
-    let boxes =
-        [("build_volume_mm", &printer.build_volume_mm), ("largest_part_mm", &printer.largest_part_mm)];
-    let boxes = boxes.into_iter().filter_map(|(key, volume)| Some((key, volume.as_ref()?)));
-    let mut rows: Vec<_> =
-        boxes.map(|(key, volume)| number_row(key, show_box(volume.value), volume)).collect();
+    let boxes = [
+        ("build_volume_mm", &printer.build_volume_mm),
+        ("largest_part_mm", &printer.largest_part_mm),
+    ];
+    let boxes = boxes
+        .into_iter()
+        .filter_map(|(key, volume)| Some((key, volume.as_ref()?)));
+    let mut rows: Vec<_> = boxes
+        .map(|(key, volume)| number_row(key, show_box(volume.value), volume))
+        .collect();
     for corner in &printer.excluded_corners {
         let [x, y] = corner.size_mm.value;
         let value = format!("{} {x} × {y} mm", kebab(&corner.corner));
@@ -169,22 +208,26 @@ pub(super) fn show_step(step_mm: f64) -> String {
 }
 
 fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
-    let default = number.process_default_of.as_ref().map(|id| format!(" (default of {id})"));
+    let default = number
+        .process_default_of
+        .as_ref()
+        .map(|id| format!(" (default of {id})"));
     let source = format!("{}{}", number.source, default.unwrap_or_default());
     [key.to_owned(), value, number.sure.to_string(), source]
 }
 
 fn materials(printer: &Printer) -> Vec<[String; 6]> {
-    let mut rows = vec![["material", "name", "density", "± mass", "sure", "source"].map(str::to_owned)];
+    let mut rows =
+        vec![["material", "name", "density", "± mass", "sure", "source"].map(str::to_owned)];
     rows.extend(printer.materials.iter().map(|material| {
         [
             material.id.clone(),
             material.name.clone(),
             format!("{} g/cm³", material.density_g_cm3.value),
-            material
-                .density_spread_ratio
-                .as_ref()
-                .map_or_else(|| "not known".to_owned(), |spread| show_percent(spread.value)),
+            material.density_spread_ratio.as_ref().map_or_else(
+                || "not known".to_owned(),
+                |spread| show_percent(spread.value),
+            ),
             material.density_g_cm3.sure.to_string(),
             material.density_g_cm3.source.clone(),
         ]
@@ -201,9 +244,13 @@ fn check(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Print
         return write_json(printer, out);
     }
     let numbers = printer.numbers();
-    let unsure =
-        |quantity: &&(Quantity, &Sourced<f64>)| matches!(quantity.1.sure, Sure::Recalled | Sure::OwnChoice);
-    let inherited = numbers.iter().filter(|(_, number)| number.process_default_of.is_some()).count();
+    let unsure = |quantity: &&(Quantity, &Sourced<f64>)| {
+        matches!(quantity.1.sure, Sure::Recalled | Sure::OwnChoice)
+    };
+    let inherited = numbers
+        .iter()
+        .filter(|(_, number)| number.process_default_of.is_some())
+        .count();
     writeln!(
         out,
         "{}: a profile that can be used; {} numbers, {inherited} of them process defaults, {} recalled or own choices",
@@ -237,8 +284,14 @@ mod tests {
     fn the_list_has_a_line_for_each_printer_and_says_what_is_not_known() {
         let list = text(None, false);
         assert_eq!(list.lines().count(), 1 + Printer::all().unwrap().len());
-        let objet = list.lines().find(|line| line.starts_with("objet-connex350")).unwrap();
-        assert!(objet.contains("0.0423 mm") && objet.contains("not known"), "{objet}");
+        let objet = list
+            .lines()
+            .find(|line| line.starts_with("objet-connex350"))
+            .unwrap();
+        assert!(
+            objet.contains("0.0423 mm") && objet.contains("not known"),
+            "{objet}"
+        );
         assert!(list.contains("250 × 210 × 220 mm"), "{list}");
     }
 
@@ -247,8 +300,14 @@ mod tests {
         let shown = text(show_action("prusa-mk4"), false);
         let printer = Printer::find("prusa-mk4").unwrap();
         for (quantity, number) in printer.numbers() {
-            let line = shown.lines().find(|line| line.starts_with(quantity.key())).unwrap();
-            assert!(line.contains(&number.source) && line.contains(&number.sure.to_string()), "{line}");
+            let line = shown
+                .lines()
+                .find(|line| line.starts_with(quantity.key()))
+                .unwrap();
+            assert!(
+                line.contains(&number.source) && line.contains(&number.sure.to_string()),
+                "{line}"
+            );
         }
         for material in &printer.materials {
             assert!(shown.contains(&material.name), "{}", material.name);
@@ -258,8 +317,12 @@ mod tests {
     #[test]
     fn json_has_the_same_numbers() {
         let list: serde_json::Value = serde_json::from_str(&text(None, true)).unwrap();
-        assert_eq!(list.as_array().unwrap().len(), Printer::all().unwrap().len());
-        let shown: serde_json::Value = serde_json::from_str(&text(show_action("prusa-mk4"), true)).unwrap();
+        assert_eq!(
+            list.as_array().unwrap().len(),
+            Printer::all().unwrap().len()
+        );
+        let shown: serde_json::Value =
+            serde_json::from_str(&text(show_action("prusa-mk4"), true)).unwrap();
         assert_eq!(shown["pixel_x_mm"]["value"], 0.45);
         assert_eq!(shown["min_wall_mm"]["process_default_of"], "fdm");
         assert_eq!(shown["materials"][0]["id"], "pla");
@@ -269,7 +332,8 @@ mod tests {
     fn a_profile_of_ones_own_is_checked_and_a_known_id_is_not_taken_for_a_file() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("shop.toml");
-        let profile = include_str!("../../profiles/printers/prusa-mk4.toml").replace("prusa-mk4", "shop-mk4");
+        let profile =
+            include_str!("../../profiles/printers/prusa-mk4.toml").replace("prusa-mk4", "shop-mk4");
         std::fs::write(&file, profile).unwrap();
         let said = text(Some(PrintersAction::Check { file }), false);
         assert_eq!(
@@ -277,9 +341,20 @@ mod tests {
             "shop-mk4: a profile that can be used; 23 numbers, 17 of them process defaults, 7 recalled or own choices\n"
         );
         let mut out = Vec::new();
-        let error =
-            run(Some(PrintersAction::Check { file: "prusa-mk4".into() }), false, &mut out).unwrap_err();
-        assert!(error.to_string().contains("cannot read the printer profile prusa-mk4"), "{error}");
+        let error = run(
+            Some(PrintersAction::Check {
+                file: "prusa-mk4".into(),
+            }),
+            false,
+            &mut out,
+        )
+        .unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("cannot read the printer profile prusa-mk4"),
+            "{error}"
+        );
         assert!(out.is_empty());
     }
 }

@@ -22,7 +22,13 @@ pub fn markdown(printers: &[Printer]) -> String {
 }
 
 fn row(printer: &Printer) -> String {
-    let own_mark = |number: &Sourced<f64>| if number.process_default_of.is_some() { "*" } else { "" };
+    let own_mark = |number: &Sourced<f64>| {
+        if number.process_default_of.is_some() {
+            "*"
+        } else {
+            ""
+        }
+    };
     let materials: Vec<String> = printer
         .materials
         .iter()
@@ -44,16 +50,27 @@ fn row(printer: &Printer) -> String {
 /// The least wall, by part size where it depends on that.
 fn walls(printer: &Printer) -> String {
     let sized = printer.walls_by_part_size.iter();
-    let sized = sized.map(|wall| format!("{} (≤ {} mm)", show_mm(wall.wall_mm.value), wall.up_to_mm));
-    let mark = if printer.min_wall_mm.process_default_of.is_some() { "*" } else { "" };
+    let sized =
+        sized.map(|wall| format!("{} (≤ {} mm)", show_mm(wall.wall_mm.value), wall.up_to_mm));
+    let mark = if printer.min_wall_mm.process_default_of.is_some() {
+        "*"
+    } else {
+        ""
+    };
     let last = show_mm(printer.min_wall_mm.value) + mark;
     sized.chain([last]).collect::<Vec<_>>().join(", ")
 }
 
 /// Who vouches for the numbers that are neither the process's nor chosen: the first words of each source, once.
 fn sources(printer: &Printer) -> String {
-    let numbers = printer.numbers().into_iter().map(|(_, number)| vouched(number));
-    let volumes = [&printer.build_volume_mm, &printer.largest_part_mm].into_iter().flatten().map(vouched);
+    let numbers = printer
+        .numbers()
+        .into_iter()
+        .map(|(_, number)| vouched(number));
+    let volumes = [&printer.build_volume_mm, &printer.largest_part_mm]
+        .into_iter()
+        .flatten()
+        .map(vouched);
     let names: BTreeSet<&str> = numbers.chain(volumes).flatten().collect();
     if names.is_empty() {
         "none was found".to_owned()
@@ -92,9 +109,21 @@ mod tests {
         let printers = Printer::all().unwrap();
         let table = markdown(&printers);
         assert_eq!(table.lines().count(), printers.len() + 4);
-        let row = |id: &str| table.lines().find(|line| line.contains(&format!("`{id}`"))).unwrap();
+        let row = |id: &str| {
+            table
+                .lines()
+                .find(|line| line.contains(&format!("`{id}`")))
+                .unwrap()
+        };
         assert!(row("elegoo-saturn-4-ultra").contains("0.0190 mm × 0.0240 mm"));
-        assert!(row("eos-p396").contains("0.2500 mm*") && row("eos-p396").contains("0.700 mm (≤ 100 mm)"));
-        assert!(row("prusa-mk4").contains("0.4500 mm |"), "{}", row("prusa-mk4"));
+        assert!(
+            row("eos-p396").contains("0.2500 mm*")
+                && row("eos-p396").contains("0.700 mm (≤ 100 mm)")
+        );
+        assert!(
+            row("prusa-mk4").contains("0.4500 mm |"),
+            "{}",
+            row("prusa-mk4")
+        );
     }
 }

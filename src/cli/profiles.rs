@@ -59,7 +59,9 @@ pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     let id = args.id.clone().unwrap_or_else(|| slug(&stem(&args.out)));
     let is_slicers = |path: &PathBuf| {
         let name = path.to_string_lossy();
-        [".ini", ".json", ".xml", ".fdm_material", ".cfg"].iter().any(|ending| name.ends_with(ending))
+        [".ini", ".json", ".xml", ".fdm_material", ".cfg"]
+            .iter()
+            .any(|ending| name.ends_with(ending))
     };
     let text = if args.from.iter().any(is_slicers) {
         let all = Imported::read(&args.from)?;
@@ -76,14 +78,20 @@ pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
 }
 
 fn stem(path: &Path) -> String {
-    path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default()
+    path.file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_default()
 }
 
 /// The text of a profile that inherits from a printer, with its numbers as remarks.
 fn inheriting(from: &str, id: &str, target: &Path) -> Result<String, ProfilesError> {
     let printer = Printer::find(from)?;
     let is_file = Path::new(from).is_file();
-    let parent = if is_file { relative(Path::new(from), target) } else { printer.id.clone() };
+    let parent = if is_file {
+        relative(Path::new(from), target)
+    } else {
+        printer.id.clone()
+    };
     let name = toml_string(&format!("{}, our own", printer.name));
     let mut text = format!(
         "# A shop's own profile: what it does not say is as in the profile it inherits from.\n\
@@ -92,8 +100,10 @@ fn inheriting(from: &str, id: &str, target: &Path) -> Result<String, ProfilesErr
         toml_string(&parent)
     );
     for (quantity, number) in printer.numbers() {
-        text +=
-            &format!("# {quantity} = {{ value = {}, source = \"…\", sure = \"measured\" }}\n", number.value);
+        text += &format!(
+            "# {quantity} = {{ value = {}, source = \"…\", sure = \"measured\" }}\n",
+            number.value
+        );
     }
     Ok(text)
 }
@@ -119,7 +129,9 @@ pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesErro
     let printer = all.printer(args.printer.as_deref())?;
     let id = args.id.clone().unwrap_or_else(|| slug(&printer.name));
     let text = all.to_toml(printer, &id);
-    let Some(target) = &args.out else { return Ok(out.write_all(text.as_bytes())?) };
+    let Some(target) = &args.out else {
+        return Ok(out.write_all(text.as_bytes())?);
+    };
     let imported = written_and_checked(target, &text, args.force)?;
     Ok(writeln!(
         out,
@@ -132,13 +144,25 @@ pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesErro
 
 fn list(all: &Imported, out: &mut dyn Write) -> Result<(), ProfilesError> {
     for printer in &all.printers {
-        writeln!(out, "printer   {} ({})", printer.name, printer.technology.process())?;
+        writeln!(
+            out,
+            "printer   {} ({})",
+            printer.name,
+            printer.technology.process()
+        )?;
     }
     for material in &all.materials {
         let density = material.density_g_cm3.as_ref();
-        let density =
-            density.map_or_else(|| "no density".to_owned(), |found| format!("{} g/cm³", found.value));
-        writeln!(out, "material  {} ({}), {density}", material.name, material.technology.process())?;
+        let density = density.map_or_else(
+            || "no density".to_owned(),
+            |found| format!("{} g/cm³", found.value),
+        );
+        writeln!(
+            out,
+            "material  {} ({}), {density}",
+            material.name,
+            material.technology.process()
+        )?;
     }
     Ok(())
 }
@@ -148,14 +172,22 @@ fn written_and_checked(target: &Path, text: &str, force: bool) -> Result<Printer
     if target.exists() && !force {
         return Err(ProfilesError::Exists(target.to_owned()));
     }
-    let refused = |source| ProfilesError::Write { path: target.to_owned(), source };
-    let mut name = target.file_name().map(|name| name.to_owned()).unwrap_or_default();
+    let refused = |source| ProfilesError::Write {
+        path: target.to_owned(),
+        source,
+    };
+    let mut name = target
+        .file_name()
+        .map(|name| name.to_owned())
+        .unwrap_or_default();
     name.push(".new");
     let draft = target.with_file_name(name);
     fs::write(&draft, text).map_err(refused)?;
     let read = Printer::read(&draft);
     let printer = match read {
-        Ok(printer) => fs::rename(&draft, target).map(|()| printer).map_err(refused),
+        Ok(printer) => fs::rename(&draft, target)
+            .map(|()| printer)
+            .map_err(refused),
         Err(error) => Err(error.into()),
     };
     if printer.is_err() {
@@ -169,11 +201,15 @@ fn written_and_checked(target: &Path, text: &str, force: bool) -> Result<Printer
 pub fn calibrate(args: &CalibrateArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     let name = args.file.to_string_lossy();
     if !args.file.is_file() && Printer::find(&name).is_ok() {
-        return Err(ProfilesError::ShippedPrinter { id: name.into_owned() });
+        return Err(ProfilesError::ShippedPrinter {
+            id: name.into_owned(),
+        });
     }
     let printer = Printer::read(&args.file)?;
-    let text = fs::read_to_string(&args.file)
-        .map_err(|source| ProfileError::Unreadable { path: args.file.clone(), source })?;
+    let text = fs::read_to_string(&args.file).map_err(|source| ProfileError::Unreadable {
+        path: args.file.clone(),
+        source,
+    })?;
     let measured = measured(args, &printer)?;
     let after = calibrated(&name, &text, &measured)?;
     written_and_checked(&args.file, &after, true)?;
@@ -196,7 +232,10 @@ fn measured(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, Profile
         material: Some((material.id.clone(), material.name.clone())),
         weighed_g: args.weighed.clone(),
         coupon_mm3: args.volume.unwrap_or(set.density_volume_mm3),
-        lengths: lengths.into_iter().filter_map(|(quantity, value)| Some((quantity, value?))).collect(),
+        lengths: lengths
+            .into_iter()
+            .filter_map(|(quantity, value)| Some((quantity, value?)))
+            .collect(),
     })
 }
 

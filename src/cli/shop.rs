@@ -19,20 +19,33 @@ pub fn chosen_printer(
         return Ok(PrinterChoice { id, material });
     }
     let shop = Shop::of_folders(&shop_folders(model))?.ok_or(ArgsError::NoPrinter)?;
-    Ok(PrinterChoice { id: shop.printer, material: material.or(shop.material) })
+    Ok(PrinterChoice {
+        id: shop.printer,
+        material: material.or(shop.material),
+    })
 }
 
 /// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the user's.
 pub fn shop_folders(model: &Path) -> Vec<PathBuf> {
     let beside = model.parent().map(Path::to_owned);
-    [PathBuf::from(".")].into_iter().chain(beside).chain(configuration_folder()).collect()
+    [PathBuf::from(".")]
+        .into_iter()
+        .chain(beside)
+        .chain(configuration_folder())
+        .collect()
 }
 
 /// The program's folder in the user's configuration folder; none where the system names none.
 fn configuration_folder() -> Option<PathBuf> {
-    let named = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let named = |name: &str| {
+        std::env::var_os(name)
+            .filter(|value| !value.is_empty())
+            .map(PathBuf::from)
+    };
     let home = || named("HOME").map(|home| home.join(".config"));
-    let folder = named("XDG_CONFIG_HOME").or_else(|| named("APPDATA")).or_else(home);
+    let folder = named("XDG_CONFIG_HOME")
+        .or_else(|| named("APPDATA"))
+        .or_else(home);
     folder.map(|folder| folder.join(CONFIGURATION))
 }
 
@@ -41,14 +54,17 @@ const DAY_S: u64 = 86_400;
 
 /// Today in Greenwich, as 2026-11-21.
 pub fn today() -> String {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs());
+    let since = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .map_or(0, |since| since.as_secs());
     day(since / DAY_S)
 }
 
 /// The day that many days after 1970-01-01, in the Gregorian calendar.
 fn day(mut days: u64) -> String {
-    let is_leap =
-        |year: u64| year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400));
+    let is_leap = |year: u64| {
+        year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))
+    };
     let mut year = 1970;
     while days >= 365 + u64::from(is_leap(year)) {
         days -= 365 + u64::from(is_leap(year));

@@ -29,7 +29,13 @@ impl Manner {
         let is_terminal = std::io::stderr().is_terminal();
         let may = !is_set("NO_COLOR") && !is_dumb;
         let is_output_coloured = may && std::io::stdout().is_terminal();
-        Self { quiet, verbose, is_terminal, is_coloured: may && is_terminal, is_output_coloured }
+        Self {
+            quiet,
+            verbose,
+            is_terminal,
+            is_coloured: may && is_terminal,
+            is_output_coloured,
+        }
     }
 
     /// Whether the progress of a run is drawn.
@@ -68,17 +74,31 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
         if said.contains(&message) {
             continue;
         }
-        let label = if said.is_empty() { paint("error", RED, is_coloured) } else { "  caused by".to_owned() };
+        let label = if said.is_empty() {
+            paint("error", RED, is_coloured)
+        } else {
+            "  caused by".to_owned()
+        };
         let is_list = message.contains('\n');
         // The head of a list says again what it is the cause of.
         let is_head = |line: &&str| is_list && !said.is_empty() && line.ends_with(':');
-        for line in message.lines().filter(|line| !is_head(line)).map(str::trim_start) {
-            let split = if is_list { None } else { line.split_once(REMEDY_MARK) };
-            let (statement, remedy) =
-                split.map_or((line, None), |(statement, remedy)| (statement, Some(remedy)));
+        for line in message
+            .lines()
+            .filter(|line| !is_head(line))
+            .map(str::trim_start)
+        {
+            let split = if is_list {
+                None
+            } else {
+                line.split_once(REMEDY_MARK)
+            };
+            let (statement, remedy) = split.map_or((line, None), |(statement, remedy)| {
+                (statement, Some(remedy))
+            });
             lines.push(format!("{label}: {statement}"));
-            remedies
-                .extend(remedy.map(|remedy| format!("  {}: {remedy}", paint("remedy", GREEN, is_coloured))));
+            remedies.extend(
+                remedy.map(|remedy| format!("  {}: {remedy}", paint("remedy", GREEN, is_coloured))),
+            );
         }
         said.push_str(&message);
     }
@@ -100,12 +120,20 @@ const PLAIN: &str = "\x1b[0m";
 
 /// The text in a colour, if colours may be used.
 pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
-    if is_coloured { format!("{colour}{text}{PLAIN}") } else { text.to_owned() }
+    if is_coloured {
+        format!("{colour}{text}{PLAIN}")
+    } else {
+        text.to_owned()
+    }
 }
 
 /// "pass" in green or "FAIL" in red, for a table of promises.
 pub fn verdict(passes: bool, is_coloured: bool) -> String {
-    if passes { paint("pass", GREEN, is_coloured) } else { paint("FAIL", RED, is_coloured) }
+    if passes {
+        paint("pass", GREEN, is_coloured)
+    } else {
+        paint("FAIL", RED, is_coloured)
+    }
 }
 
 /// Blanks between the columns of a table.
@@ -114,22 +142,32 @@ const COLUMN_GAP: usize = 2;
 /// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of colours take no room.
 pub fn table<Row: AsRef<[String]>>(rows: &[Row]) -> String {
     let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
-    let widest =
-        |column: usize| rows.iter().filter_map(|row| row.as_ref().get(column)).map(|cell| width(cell)).max();
-    let widths: Vec<usize> = (0..columns).map(|column| widest(column).unwrap_or(0)).collect();
-    rows.iter().map(|row| table_line(row.as_ref(), &widths) + "\n").collect()
+    let widest = |column: usize| {
+        rows.iter()
+            .filter_map(|row| row.as_ref().get(column))
+            .map(|cell| width(cell))
+            .max()
+    };
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| widest(column).unwrap_or(0))
+        .collect();
+    rows.iter()
+        .map(|row| table_line(row.as_ref(), &widths) + "\n")
+        .collect()
 }
 
 fn table_line(row: &[String], widths: &[usize]) -> String {
     let cells = row.iter().zip(widths);
-    let padded =
-        cells.map(|(cell, &column)| format!("{cell}{}", " ".repeat(column + COLUMN_GAP - width(cell))));
+    let padded = cells
+        .map(|(cell, &column)| format!("{cell}{}", " ".repeat(column + COLUMN_GAP - width(cell))));
     padded.collect::<String>().trim_end().to_owned()
 }
 
 /// How many characters of the text a terminal shows.
 fn width(text: &str) -> usize {
-    let plain = [RED, GREEN, PLAIN].iter().fold(text.to_owned(), |text, escape| text.replace(escape, ""));
+    let plain = [RED, GREEN, PLAIN]
+        .iter()
+        .fold(text.to_owned(), |text, escape| text.replace(escape, ""));
     plain.chars().count()
 }
 
@@ -140,7 +178,10 @@ mod tests {
 
     fn unreadable() -> JobError {
         let source = std::io::Error::new(std::io::ErrorKind::NotFound, "no such file");
-        JobError::Unreadable { path: "j.toml".into(), source }
+        JobError::Unreadable {
+            path: "j.toml".into(),
+            source,
+        }
     }
 
     #[test]
@@ -157,7 +198,10 @@ mod tests {
         let error = anyhow::Error::new(unreadable()).context("cannot replay");
         let text = error_text(error.as_ref(), false);
         assert_eq!(text.matches("cannot read the job").count(), 1, "{text}");
-        assert!(text.starts_with("error: cannot replay\n  caused by: cannot read"), "{text}");
+        assert!(
+            text.starts_with("error: cannot replay\n  caused by: cannot read"),
+            "{text}"
+        );
     }
 
     #[test]
@@ -170,7 +214,8 @@ mod tests {
         let text = error_text(&error, false);
         assert_eq!(text.lines().count(), 2, "{text}");
         assert!(
-            text.lines().all(|line| line.starts_with("error: ") && line.contains("; remedy: ")),
+            text.lines()
+                .all(|line| line.starts_with("error: ") && line.contains("; remedy: ")),
             "{text}"
         );
     }
@@ -186,11 +231,17 @@ mod tests {
     #[test]
     fn columns_stand_under_each_other_whatever_the_colours() {
         let rows = [
-            ["axis tilt".to_owned(), verdict(true, true), "≤ 0.05°".to_owned()],
+            [
+                "axis tilt".to_owned(),
+                verdict(true, true),
+                "≤ 0.05°".to_owned(),
+            ],
             ["µ".to_owned(), "no".to_owned(), "1".to_owned()],
         ];
         let text = table(&rows);
-        let plain = [RED, GREEN, PLAIN].iter().fold(text, |text, escape| text.replace(escape, ""));
+        let plain = [RED, GREEN, PLAIN]
+            .iter()
+            .fold(text, |text, escape| text.replace(escape, ""));
         assert_eq!(plain, "axis tilt  pass  ≤ 0.05°\nµ          no    1\n");
         assert_eq!(table::<[String; 2]>(&[]), "");
     }

@@ -23,15 +23,27 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         Some(("filled solid", filled_solid(checklist))),
         Some(("at best", proved(checklist))),
         balance(checklist).map(|words| ("balance", words)),
-        Some(("mass, size", format!("{}; {}", masses(checklist), size(checklist)))),
+        Some((
+            "mass, size",
+            format!("{}; {}", masses(checklist), size(checklist)),
+        )),
         wall(checklist).map(|words| ("wall", words)),
         Some(("parts", parts(checklist))),
         Some(("verdict", summary(&checklist.checks, manner))),
-        checklist.timing_s.as_ref().map(|timing| ("time", times(timing.total_s(), &timing.0))),
-        Some(("job sheet", out.join("checklist.html").display().to_string())),
+        checklist
+            .timing_s
+            .as_ref()
+            .map(|timing| ("time", times(timing.total_s(), &timing.0))),
+        Some((
+            "job sheet",
+            out.join("checklist.html").display().to_string(),
+        )),
     ];
-    let rows: Vec<[String; 2]> =
-        lines.into_iter().flatten().map(|(name, words)| [name.to_owned(), words]).collect();
+    let rows: Vec<[String; 2]> = lines
+        .into_iter()
+        .flatten()
+        .map(|(name, words)| [name.to_owned(), words])
+        .collect();
     // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in the way of a search.
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
@@ -49,19 +61,31 @@ fn filled_solid(checklist: &Checklist) -> String {
 /// What no hollowing can beat.
 fn proved(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
-    let (name, bound) = (proof.figure.name(), figure(proof.bound, proof.figure.unit()));
+    let (name, bound) = (
+        proof.figure.name(),
+        figure(proof.bound, proof.figure.unit()),
+    );
     let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
     let written = match proof.written_value.map(away) {
-        Some(percent) if percent < SHOWN_PERCENT => format!("; this kit is less than {SHOWN_PERCENT} % away"),
+        Some(percent) if percent < SHOWN_PERCENT => {
+            format!("; this kit is less than {SHOWN_PERCENT} % away")
+        }
         Some(percent) if percent > FAR_PERCENT => {
             let written = proof.written_value.unwrap_or_default();
-            format!("; this kit reaches {}", figure(written, proof.figure.unit()))
+            format!(
+                "; this kit reaches {}",
+                figure(written, proof.figure.unit())
+            )
         }
         Some(percent) => format!("; this kit is {percent:.2} % away"),
         None => String::new(),
     };
     let is_solid = proof.kept_solid_mm3 + proof.bosses_mm3 > 0.0;
-    let solid = if is_solid { " with what is kept solid for cleaning and pins" } else { "" };
+    let solid = if is_solid {
+        " with what is kept solid for cleaning and pins"
+    } else {
+        ""
+    };
     format!("no hollowing{solid} has a better {name} than {bound}{written}")
 }
 
@@ -70,13 +94,22 @@ fn balance(checklist: &Checklist) -> Option<String> {
     let tilt = checklist
         .assembly
         .axis_tilt_deg
-        .map_or(String::new(), |tilt| format!(", its principal axis {} off", small(tilt, "°")));
-    Some(format!("centre of mass {} from the axis{tilt}", small(offset_mm, "mm")))
+        .map_or(String::new(), |tilt| {
+            format!(", its principal axis {} off", small(tilt, "°"))
+        });
+    Some(format!(
+        "centre of mass {} from the axis{tilt}",
+        small(offset_mm, "mm")
+    ))
 }
 
 /// What should be zero, no more exactly than it can be made.
 fn small(value: f64, unit: &str) -> String {
-    if value < SHOWN_OFF { format!("less than {}", figure(SHOWN_OFF, unit)) } else { figure(value, unit) }
+    if value < SHOWN_OFF {
+        format!("less than {}", figure(SHOWN_OFF, unit))
+    } else {
+        figure(value, unit)
+    }
 }
 
 /// The size of the finished object along the model's axes.
@@ -89,14 +122,25 @@ fn masses(checklist: &Checklist) -> String {
     let printed_g: f64 = checklist.parts.iter().map(|part| part.mass_g).sum();
     let whole_g = checklist.assembly.mass_g;
     let is_all = (whole_g - printed_g).abs() <= 1e-3 * whole_g;
-    let besides =
-        if is_all { String::new() } else { format!(", {} with all that goes in", figure(whole_g, "g")) };
-    format!("{} of {}{besides}", figure(printed_g, "g"), checklist.material.name)
+    let besides = if is_all {
+        String::new()
+    } else {
+        format!(", {} with all that goes in", figure(whole_g, "g"))
+    };
+    format!(
+        "{} of {}{besides}",
+        figure(printed_g, "g"),
+        checklist.material.name
+    )
 }
 
 fn wall(checklist: &Checklist) -> Option<String> {
     let [thinnest, ordered] = [checklist.wall.measured_min_mm?, checklist.wall.required_mm];
-    Some(format!("{} at its thinnest, {} ordered", figure(thinnest, "mm"), figure(ordered, "mm")))
+    Some(format!(
+        "{} at its thinnest, {} ordered",
+        figure(thinnest, "mm"),
+        figure(ordered, "mm")
+    ))
 }
 
 fn parts(checklist: &Checklist) -> String {
@@ -107,56 +151,97 @@ fn parts(checklist: &Checklist) -> String {
         counted(pins, "pin"),
         counted(checklist.voids.len(), "void"),
     ];
-    let plates = checklist.files.keys().filter(|file| file.starts_with("plate")).count();
-    let plates = if plates > 0 { format!(" on {}", counted(plates, "plate")) } else { String::new() };
-    format!("{}{plates} for {}", counts.join(", "), checklist.printer.name)
+    let plates = checklist
+        .files
+        .keys()
+        .filter(|file| file.starts_with("plate"))
+        .count();
+    let plates = if plates > 0 {
+        format!(" on {}", counted(plates, "plate"))
+    } else {
+        String::new()
+    };
+    format!(
+        "{}{plates} for {}",
+        counts.join(", "),
+        checklist.printer.name
+    )
 }
 
 /// The time of a run, and of the two stages that took most of it.
 fn times(total_s: f64, stages: &[(String, f64)]) -> String {
     let mut longest: Vec<&(String, f64)> = stages.iter().collect();
     longest.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let most: Vec<String> =
-        longest.iter().take(2).map(|(stage, seconds)| format!("{stage} {seconds:.1} s")).collect();
+    let most: Vec<String> = longest
+        .iter()
+        .take(2)
+        .map(|(stage, seconds)| format!("{stage} {seconds:.1} s"))
+        .collect();
     format!("{total_s:.1} s, most of it {}", most.join(" and "))
 }
 
 /// Whether every promise is kept, in words.
 pub fn summary(checks: &[Check], manner: Manner) -> String {
     let broken = checks.iter().filter(|check| !check.pass).count();
-    let kept = format!("{} of {} promises kept", checks.len() - broken, checks.len());
-    let words = if broken == 0 { kept } else { format!("{kept}, {broken} BROKEN") };
-    paint(&words, if broken == 0 { GREEN } else { RED }, manner.is_output_coloured)
+    let kept = format!(
+        "{} of {} promises kept",
+        checks.len() - broken,
+        checks.len()
+    );
+    let words = if broken == 0 {
+        kept
+    } else {
+        format!("{kept}, {broken} BROKEN")
+    };
+    paint(
+        &words,
+        if broken == 0 { GREEN } else { RED },
+        manner.is_output_coloured,
+    )
 }
 
 /// What is wrong, a line each; nothing where all is well.
 pub fn broken(checks: &[Check], manner: Manner) -> String {
     let failed: Vec<Check> = checks.iter().filter(|check| !check.pass).cloned().collect();
-    if failed.is_empty() { String::new() } else { checks_table(&failed, manner) }
+    if failed.is_empty() {
+        String::new()
+    } else {
+        checks_table(&failed, manner)
+    }
 }
 
 /// Promise, measured, limit, verdict: one line each.
 pub fn checks_table(checks: &[Check], manner: Manner) -> String {
     let head = ["promise", "measured", "limit", "verdict"].map(str::to_owned);
     let row = |check: &Check| {
-        let measured = check.value.map_or("none".to_owned(), |value| quantity(value, &check.unit));
+        let measured = check
+            .value
+            .map_or("none".to_owned(), |value| quantity(value, &check.unit));
         let detail = check.detail.as_ref().filter(|_| !check.pass);
         [
             check.promise.clone(),
             measured,
-            format!("{} {}", check.comparison.sign(), quantity(check.limit, &check.unit)),
+            format!(
+                "{} {}",
+                check.comparison.sign(),
+                quantity(check.limit, &check.unit)
+            ),
             verdict(check.pass, manner.is_output_coloured)
                 + &detail.map_or(String::new(), |at| format!(" ({at})")),
         ]
     };
-    let rows: Vec<[String; 4]> = std::iter::once(head).chain(checks.iter().map(row)).collect();
+    let rows: Vec<[String; 4]> = std::iter::once(head)
+        .chain(checks.iter().map(row))
+        .collect();
     table(&rows)
 }
 
 /// Four significant digits, or as many as an integer has.
 fn quantity(value: f64, unit: &str) -> String {
     let number = match value.abs() {
-        magnitude if magnitude == 0.0 || (value.fract() == 0.0 && magnitude < 1e6) => format!("{value}"),
+        magnitude if magnitude == 0.0 || (value.fract() == 0.0 && magnitude < 1e6) => {
+            format!("{value}")
+        }
         magnitude if magnitude >= 100.0 => format!("{value:.1}"),
         magnitude if magnitude >= 0.01 => figure(value, ""),
         _ => format!("{value:.2e}"),
@@ -176,13 +261,18 @@ pub fn details(checklist: &Checklist, manner: Manner) -> String {
         certificate.value, certificate.bound, certificate.gap_ratio
     );
     let stages = checklist.timing_s.iter().flat_map(|timing| &timing.0);
-    let stages: Vec<[String; 2]> =
-        stages.map(|(stage, seconds)| [stage.clone(), format!("{seconds:.3} s")]).collect();
+    let stages: Vec<[String; 2]> = stages
+        .map(|(stage, seconds)| [stage.clone(), format!("{seconds:.3} s")])
+        .collect();
     text += &table(&stages);
     for note in &checklist.notes {
         text += &format!("note: {note}\n");
     }
-    text + &steps(&checklist.log) + &certificate.course.as_ref().map_or(String::new(), iterations)
+    text + &steps(&checklist.log)
+        + &certificate
+            .course
+            .as_ref()
+            .map_or(String::new(), iterations)
 }
 
 /// The solver's steps, a row each, with a column for every number that one of them has.
@@ -194,34 +284,59 @@ fn steps(log: &[LogRow]) -> String {
         }
     }
     names.sort_by_key(|name| {
-        STEP_NUMBERS.iter().position(|known| known == name).unwrap_or(STEP_NUMBERS.len())
-    });
-    let head = std::iter::once("step").chain(names.iter().copied()).map(str::to_owned).collect();
-    let row = |row: &LogRow| -> Vec<String> {
-        let cells = names
+        STEP_NUMBERS
             .iter()
-            .map(|name| row.figures.get(*name).map_or(String::new(), |value| step_number(*value)));
+            .position(|known| known == name)
+            .unwrap_or(STEP_NUMBERS.len())
+    });
+    let head = std::iter::once("step")
+        .chain(names.iter().copied())
+        .map(str::to_owned)
+        .collect();
+    let row = |row: &LogRow| -> Vec<String> {
+        let cells = names.iter().map(|name| {
+            row.figures
+                .get(*name)
+                .map_or(String::new(), |value| step_number(*value))
+        });
         std::iter::once(row.phase.clone()).chain(cells).collect()
     };
     let rows: Vec<Vec<String>> = std::iter::once(head).chain(log.iter().map(row)).collect();
-    if log.is_empty() { String::new() } else { table(&rows) }
+    if log.is_empty() {
+        String::new()
+    } else {
+        table(&rows)
+    }
 }
 
 /// The solver's last ascent, on coarse columns: what it found and what nothing beats, pass by pass.
 fn iterations(course: &Course) -> String {
     let head = ["pass on coarse columns", "value", "bound"].map(str::to_owned);
     let row = |(index, pass): (usize, &PassRow)| {
-        [index.to_string(), step_number(pass.value), step_number(pass.bound)]
+        [
+            index.to_string(),
+            step_number(pass.value),
+            step_number(pass.bound),
+        ]
     };
-    let rows: Vec<[String; 3]> =
-        std::iter::once(head).chain(course.passes.iter().enumerate().map(row)).collect();
-    if course.passes.is_empty() { String::new() } else { table(&rows) }
+    let rows: Vec<[String; 3]> = std::iter::once(head)
+        .chain(course.passes.iter().enumerate().map(row))
+        .collect();
+    if course.passes.is_empty() {
+        String::new()
+    } else {
+        table(&rows)
+    }
 }
 
 /// A count as it is, anything else to seven digits.
 fn step_number(value: f64) -> String {
     let is_count = value.fract() == 0.0 && value.abs() < 1e6;
-    if is_count { format!("{value}") } else { format!("{value:.6e}") }
+    if is_count {
+        format!("{value}")
+    } else {
+        format!("{value:.6e}")
+    }
 }
 
 #[cfg(test)]
@@ -240,15 +355,23 @@ mod tests {
     };
 
     fn row(phase: &str, figures: &[(&str, f64)]) -> LogRow {
-        let figures: BTreeMap<String, f64> =
-            figures.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        LogRow { phase: phase.to_owned(), figures }
+        let figures: BTreeMap<String, f64> = figures
+            .iter()
+            .map(|(name, value)| ((*name).to_owned(), *value))
+            .collect();
+        LogRow {
+            phase: phase.to_owned(),
+            figures,
+        }
     }
 
     #[test]
     fn value_and_bound_are_told_pass_by_pass_where_they_were_recorded() {
         let pass = |value, bound| PassRow { value, bound };
-        let course = Course { passes: vec![pass(2.5, 0.5), pass(1.5, 1.5)], speeds: vec![] };
+        let course = Course {
+            passes: vec![pass(2.5, 0.5), pass(1.5, 1.5)],
+            speeds: vec![],
+        };
         assert_eq!(
             iterations(&course),
             "pass on coarse columns  value       bound\n0                       2.500000e0  5.000000e-1\n1                       1.500000e0  1.500000e0\n"
@@ -258,19 +381,31 @@ mod tests {
 
     #[test]
     fn the_table_of_steps_has_a_column_for_every_number_and_gaps_where_a_step_has_none() {
-        let text =
-            steps(&[row("first", &[("passes", 3.0)]), row("second", &[("bound", 0.5), ("passes", 12.0)])]);
-        assert_eq!(text, "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n");
+        let text = steps(&[
+            row("first", &[("passes", 3.0)]),
+            row("second", &[("bound", 0.5), ("passes", 12.0)]),
+        ]);
+        assert_eq!(
+            text,
+            "step    passes  bound\nfirst   3\nsecond  12      5.000000e-1\n"
+        );
         assert_eq!(steps(&[]), "");
     }
 
     #[test]
     fn what_failed_is_told_in_full_and_what_passed_is_counted() {
-        let check = |name: &str, value| Check::new(name, name, Some(value), Limit::at_most(1.0, "mm"));
-        let checks = [check("one", 0.5), check("two", 2.0).at(Some("at P01".into()))];
+        let check =
+            |name: &str, value| Check::new(name, name, Some(value), Limit::at_most(1.0, "mm"));
+        let checks = [
+            check("one", 0.5),
+            check("two", 2.0).at(Some("at P01".into())),
+        ];
         assert_eq!(summary(&checks, PLAIN), "1 of 2 promises kept, 1 BROKEN");
         let told = broken(&checks, PLAIN);
-        assert!(told.contains("two") && told.contains("FAIL (at P01)") && !told.contains("one"), "{told}");
+        assert!(
+            told.contains("two") && told.contains("FAIL (at P01)") && !told.contains("one"),
+            "{told}"
+        );
         assert_eq!(broken(&checks[..1], PLAIN), "");
         assert_eq!(summary(&checks[..1], PLAIN), "1 of 1 promises kept");
     }

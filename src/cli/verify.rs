@@ -24,7 +24,11 @@ pub enum VerifyCommandError {
 }
 
 /// Judges the kit in `folder` from its files; says on `out` what was found.
-pub fn verify(folder: &Path, voice: Voice, out: &mut dyn Write) -> Result<Exit, VerifyCommandError> {
+pub fn verify(
+    folder: &Path,
+    voice: Voice,
+    out: &mut dyn Write,
+) -> Result<Exit, VerifyCommandError> {
     let judged = verify_kit(folder).map(|judgement| (judgement.checks, judgement.changes));
     let (checks, changes) = judged.or_else(|error| match error.changes(folder) {
         changes if changes.is_empty() => Err(error),

@@ -21,15 +21,41 @@ const MARK_MM: f64 = 3.0;
 
 /// Every coupon of the set.
 pub(super) fn coupons(set: &CouponSet) -> Result<Vec<Coupon>, ClipError> {
-    let coupon =
-        |file, purpose, count, body: Csg| Ok(Coupon { file, purpose, count, solid: body.to_solid()? });
+    let coupon = |file, purpose, count, body: Csg| {
+        Ok(Coupon {
+            file,
+            purpose,
+            count,
+            solid: body.to_solid()?,
+        })
+    };
     [
-        coupon("density.stl", "to be weighed", 3, block([0.0; 3], set.density_size_mm)?),
+        coupon(
+            "density.stl",
+            "to be weighed",
+            3,
+            block([0.0; 3], set.density_size_mm)?,
+        ),
         coupon("comb.stl", "sockets for the trial pin", 1, comb(set)?),
-        coupon("trial-pin.stl", "to be tried in the comb", 1, trial_pin(set)?),
+        coupon(
+            "trial-pin.stl",
+            "to be tried in the comb",
+            1,
+            trial_pin(set)?,
+        ),
         coupon("pins.stl", "a ladder of pins", 1, ladder(set)?),
-        coupon("walls-x.stl", "thin walls, thick along x", 1, fan(&set.walls_x_mm, false)?),
-        coupon("walls-y.stl", "thin walls, thick along y", 1, fan(&set.walls_y_mm, true)?),
+        coupon(
+            "walls-x.stl",
+            "thin walls, thick along x",
+            1,
+            fan(&set.walls_x_mm, false)?,
+        ),
+        coupon(
+            "walls-y.stl",
+            "thin walls, thick along y",
+            1,
+            fan(&set.walls_y_mm, true)?,
+        ),
     ]
     .into_iter()
     .collect()
@@ -42,7 +68,12 @@ fn block(low: [f64; 3], high: [f64; 3]) -> Result<Csg, ClipError> {
 
 /// An upright round of this diameter between two heights about (x, y); `is_hole` puts the polygon around the circle, so that
 /// nothing of the gap is lost to its flats, else inside it.
-fn round(diameter_mm: f64, [x, y]: [f64; 2], [low, high]: [f64; 2], is_hole: bool) -> Result<Csg, ClipError> {
+fn round(
+    diameter_mm: f64,
+    [x, y]: [f64; 2],
+    [low, high]: [f64; 2],
+    is_hole: bool,
+) -> Result<Csg, ClipError> {
     let flats = (std::f64::consts::PI / f64::from(SIDES)).cos();
     let radius_mm = diameter_mm / 2.0 / if is_hole { flats } else { 1.0 };
     let upright = primitives::cylinder(radius_mm, high - low, SIDES);
@@ -56,14 +87,24 @@ fn moved(mesh: &TriMesh, by: Vector) -> TriMesh {
 /// The body with the corner at the origin cut off, as a mark of where to begin.
 fn marked(body: &Csg, height_mm: f64) -> Result<Csg, ClipError> {
     let knife = primitives::cylinder(MARK_MM, height_mm + 2.0 * OVERLAP_MM, 4);
-    body.subtract(&Csg::of_mesh(&moved(&knife, Vector::new(0.0, 0.0, -OVERLAP_MM)))?)
+    body.subtract(&Csg::of_mesh(&moved(
+        &knife,
+        Vector::new(0.0, 0.0, -OVERLAP_MM),
+    ))?)
 }
 
 /// A plate with a socket right through it for every clearance.
 fn comb(set: &CouponSet) -> Result<Csg, ClipError> {
-    let widest = set.holes.iter().fold(0.0, |widest: f64, hole| widest.max(hole.diameter_mm));
+    let widest = set
+        .holes
+        .iter()
+        .fold(0.0, |widest: f64, hole| widest.max(hole.diameter_mm));
     let pitch = widest + GAP_MM;
-    let size = [pitch * set.holes.len() as f64 + GAP_MM, widest + 2.0 * GAP_MM, set.trial_length_mm];
+    let size = [
+        pitch * set.holes.len() as f64 + GAP_MM,
+        widest + 2.0 * GAP_MM,
+        set.trial_length_mm,
+    ];
     let mut plate = marked(&block([0.0; 3], size)?, size[2])?;
     for (index, hole) in set.holes.iter().enumerate() {
         let x = GAP_MM / 2.0 + pitch * (index as f64 + 0.5);
@@ -78,14 +119,26 @@ fn trial_pin(set: &CouponSet) -> Result<Csg, ClipError> {
     let side = set.trial_pin_mm + 2.0 * GAP_MM;
     let handle = block([0.0; 3], [side, side, PLATE_MM])?;
     let top = PLATE_MM + set.trial_length_mm;
-    handle.union(&round(set.trial_pin_mm, [side / 2.0; 2], [PLATE_MM - OVERLAP_MM, top], false)?)
+    handle.union(&round(
+        set.trial_pin_mm,
+        [side / 2.0; 2],
+        [PLATE_MM - OVERLAP_MM, top],
+        false,
+    )?)
 }
 
 /// Pins of rising diameters on a plate, each twice as high as it is wide.
 fn ladder(set: &CouponSet) -> Result<Csg, ClipError> {
-    let widest = set.pins_mm.iter().fold(0.0, |widest: f64, pin| widest.max(*pin));
+    let widest = set
+        .pins_mm
+        .iter()
+        .fold(0.0, |widest: f64, pin| widest.max(*pin));
     let pitch = widest + GAP_MM;
-    let size = [pitch * set.pins_mm.len() as f64 + GAP_MM, widest + 2.0 * GAP_MM, PLATE_MM];
+    let size = [
+        pitch * set.pins_mm.len() as f64 + GAP_MM,
+        widest + 2.0 * GAP_MM,
+        PLATE_MM,
+    ];
     let mut plate = marked(&block([0.0; 3], size)?, PLATE_MM)?;
     for (index, &pin_mm) in set.pins_mm.iter().enumerate() {
         let x = GAP_MM / 2.0 + pitch * (index as f64 + 0.5);
@@ -101,11 +154,18 @@ fn fan(walls_mm: &[f64], along_y: bool) -> Result<Csg, ClipError> {
     let length = sum + GAP_MM * (walls_mm.len() + 1) as f64;
     let width = FIN_LENGTH_MM + 2.0 * GAP_MM;
     let turned = |[x, y, z]: [f64; 3]| if along_y { [y, x, z] } else { [x, y, z] };
-    let mut plate = marked(&block([0.0; 3], turned([length, width, PLATE_MM]))?, PLATE_MM)?;
+    let mut plate = marked(
+        &block([0.0; 3], turned([length, width, PLATE_MM]))?,
+        PLATE_MM,
+    )?;
     let mut x = GAP_MM;
     for wall_mm in walls_mm {
         let low = turned([x, GAP_MM, PLATE_MM - OVERLAP_MM]);
-        let high = turned([x + wall_mm, GAP_MM + FIN_LENGTH_MM, PLATE_MM + FIN_HEIGHT_MM]);
+        let high = turned([
+            x + wall_mm,
+            GAP_MM + FIN_LENGTH_MM,
+            PLATE_MM + FIN_HEIGHT_MM,
+        ]);
         plate = plate.union(&block(low, high)?)?;
         x += wall_mm + GAP_MM;
     }
@@ -125,13 +185,28 @@ mod tests {
 
     #[test]
     fn every_coupon_rests_on_the_plate_and_is_one_solid_that_fits_the_machine() {
-        for id in ["elegoo-saturn-4-ultra", "objet-connex350", "prusa-mk4", "hp-mjf-5200"] {
+        for id in [
+            "elegoo-saturn-4-ultra",
+            "objet-connex350",
+            "prusa-mk4",
+            "hp-mjf-5200",
+        ] {
             let printer = Printer::find(id).unwrap();
             for coupon in coupons(&set(id)).unwrap() {
                 let aabb = coupon.solid.mesh().aabb();
                 assert!(aabb.min.z.abs() < 1e-12, "{id} {}", coupon.file);
-                assert_ne!(printer.fits(aabb.size().into()), Some(false), "{id} {}", coupon.file);
-                assert_eq!(crate::mesh::bodies(coupon.solid.mesh()).len(), 1, "{id} {}", coupon.file);
+                assert_ne!(
+                    printer.fits(aabb.size().into()),
+                    Some(false),
+                    "{id} {}",
+                    coupon.file
+                );
+                assert_eq!(
+                    crate::mesh::bodies(coupon.solid.mesh()).len(),
+                    1,
+                    "{id} {}",
+                    coupon.file
+                );
             }
         }
     }
@@ -145,13 +220,28 @@ mod tests {
             coupon.solid.mesh().signed_volume_mm3()
         };
         assert!((volume("density.stl") / set.density_volume_mm3 - 1.0).abs() < 1e-12);
-        let size = coupons.iter().find(|c| c.file == "comb.stl").unwrap().solid.mesh().aabb().size();
+        let size = coupons
+            .iter()
+            .find(|c| c.file == "comb.stl")
+            .unwrap()
+            .solid
+            .mesh()
+            .aabb()
+            .size();
         // A circumscribed polygon of n sides holds n·tan(π/n) of r².
         let n = f64::from(SIDES);
         let share = n * (PI / n).tan();
-        let holes: f64 = set.holes.iter().map(|hole| share * (hole.diameter_mm / 2.0).powi(2) * size.z).sum();
+        let holes: f64 = set
+            .holes
+            .iter()
+            .map(|hole| share * (hole.diameter_mm / 2.0).powi(2) * size.z)
+            .sum();
         let corner = MARK_MM * MARK_MM / 2.0 * size.z;
         let left = size.x * size.y * size.z - holes - corner;
-        assert!((volume("comb.stl") / left - 1.0).abs() < 1e-9, "{} {left}", volume("comb.stl"));
+        assert!(
+            (volume("comb.stl") / left - 1.0).abs() < 1e-9,
+            "{} {left}",
+            volume("comb.stl")
+        );
     }
 }

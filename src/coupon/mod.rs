@@ -41,7 +41,10 @@ pub fn coupon_kit(set: &CouponSet) -> Result<Kit, CouponError> {
     for coupon in &coupons {
         kit.add(coupon.file, stl::encode(coupon.solid.mesh(), coupon.file));
     }
-    kit.add(COUPON_FILE, (serde_json::to_string_pretty(set)? + "\n").into_bytes());
+    kit.add(
+        COUPON_FILE,
+        (serde_json::to_string_pretty(set)? + "\n").into_bytes(),
+    );
     kit.add("coupon.html", sheet::page(set, &coupons).into_bytes());
     Ok(kit)
 }

@@ -64,9 +64,13 @@ impl CouponSet {
     /// The coupons of a printer and one of its materials. Density coupons, pins and walls are whole steps of its grid; the
     /// comb's sockets are not, since their steps are what is tried.
     pub fn of(printer: &Printer, material: &Material) -> Self {
-        let [x, y, z] = [&printer.pixel_x_mm, &printer.pixel_y_mm, &printer.layer_mm].map(|step| step.value);
+        let [x, y, z] =
+            [&printer.pixel_x_mm, &printer.pixel_y_mm, &printer.layer_mm].map(|step| step.value);
         let density_size_mm = [x, y, z].map(|step| up_to_step(DENSITY_SIDE_MM, step));
-        let trial_pin_mm = up_to_step(TRIAL_PIN_MM.max(printer.pin_min_diameter_mm.value), x.max(y));
+        let trial_pin_mm = up_to_step(
+            TRIAL_PIN_MM.max(printer.pin_min_diameter_mm.value),
+            x.max(y),
+        );
         let walls = |step: f64| whole(&WALL_RATIOS, printer.min_wall_mm.value, step);
         Self {
             printer: printer.id.clone(),
@@ -92,7 +96,10 @@ fn holes(pin_mm: f64, clearance_mm: f64) -> Vec<Hole> {
     let tightest = (clearance_mm - CLEARANCE_STEPS as f64 * CLEARANCE_STEP_MM).max(0.0);
     let hole = |step: usize| {
         let clearance_mm = tightest + step as f64 * CLEARANCE_STEP_MM;
-        Hole { clearance_mm, diameter_mm: pin_mm + 2.0 * clearance_mm }
+        Hole {
+            clearance_mm,
+            diameter_mm: pin_mm + 2.0 * clearance_mm,
+        }
     };
     (0..=2 * CLEARANCE_STEPS).map(hole).collect()
 }
@@ -106,10 +113,15 @@ fn up_to_step(length_mm: f64, step_mm: f64) -> f64 {
 
 /// The shares of a length, to the nearest whole step, each once, the smallest first.
 fn whole(ratios: &[f64], length_mm: f64, step_mm: f64) -> Vec<f64> {
-    let mut steps: Vec<u32> =
-        ratios.iter().map(|ratio| (ratio * length_mm / step_mm).round().max(1.0) as u32).collect();
+    let mut steps: Vec<u32> = ratios
+        .iter()
+        .map(|ratio| (ratio * length_mm / step_mm).round().max(1.0) as u32)
+        .collect();
     steps.dedup();
-    steps.into_iter().map(|steps| f64::from(steps) * step_mm).collect()
+    steps
+        .into_iter()
+        .map(|steps| f64::from(steps) * step_mm)
+        .collect()
 }
 
 #[cfg(test)]
@@ -117,16 +129,30 @@ mod tests {
     use super::*;
 
     #[test]
-    fn coupons_of_every_shipped_printer_lie_on_its_grid_and_the_comb_goes_in_steps_about_its_clearance() {
+    fn coupons_of_every_shipped_printer_lie_on_its_grid_and_the_comb_goes_in_steps_about_its_clearance()
+     {
         for printer in Printer::all().unwrap() {
             let set = CouponSet::of(&printer, printer.material(None).unwrap());
-            let is_whole = |length: f64, step: f64| (length / step - (length / step).round()).abs() < 1e-6;
-            let steps = [printer.pixel_x_mm.value, printer.pixel_y_mm.value, printer.layer_mm.value];
+            let is_whole =
+                |length: f64, step: f64| (length / step - (length / step).round()).abs() < 1e-6;
+            let steps = [
+                printer.pixel_x_mm.value,
+                printer.pixel_y_mm.value,
+                printer.layer_mm.value,
+            ];
             for (side, step) in set.density_size_mm.into_iter().zip(steps) {
                 assert!(is_whole(side, step), "{}", printer.id);
             }
-            assert!(set.walls_x_mm.iter().all(|wall| is_whole(*wall, steps[0])), "{}", printer.id);
-            assert!(set.walls_y_mm.iter().all(|wall| is_whole(*wall, steps[1])), "{}", printer.id);
+            assert!(
+                set.walls_x_mm.iter().all(|wall| is_whole(*wall, steps[0])),
+                "{}",
+                printer.id
+            );
+            assert!(
+                set.walls_y_mm.iter().all(|wall| is_whole(*wall, steps[1])),
+                "{}",
+                printer.id
+            );
             assert!(set.holes.len() == 7 && set.holes[0].clearance_mm >= 0.0);
             for pair in set.holes.windows(2) {
                 assert!((pair[1].clearance_mm - pair[0].clearance_mm - 0.05).abs() < 1e-12);
@@ -134,11 +160,17 @@ mod tests {
             }
             let nominal = printer.clearance_per_side_mm.value;
             assert!(
-                set.holes.iter().any(|hole| (hole.clearance_mm - nominal).abs() < 1e-12),
+                set.holes
+                    .iter()
+                    .any(|hole| (hole.clearance_mm - nominal).abs() < 1e-12),
                 "{}",
                 printer.id
             );
-            assert!(set.pins_mm.is_sorted() && set.walls_x_mm.len() >= 2, "{}: {set:?}", printer.id);
+            assert!(
+                set.pins_mm.is_sorted() && set.walls_x_mm.len() >= 2,
+                "{}: {set:?}",
+                printer.id
+            );
         }
     }
 

@@ -65,7 +65,11 @@ impl VoidAccess {
     /// something cannot get out. Areas are those of a ball of its volume.
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
         let asked = asked_ratio(request);
-        let closed = if self.is_clean { 0.0 } else { f64::from(u8::from(self.sight_ratio >= asked)) };
+        let closed = if self.is_clean {
+            0.0
+        } else {
+            f64::from(u8::from(self.sight_ratio >= asked))
+        };
         self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
     }
 
@@ -86,7 +90,11 @@ impl VoidAccess {
 /// The share of a wall that the planner wants in sight.
 pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
     let least = request.cleaning.sight_ratio;
-    if least > 0.0 { (least + SIGHT_MARGIN_RATIO).min(1.0) } else { 0.0 }
+    if least > 0.0 {
+        (least + SIGHT_MARGIN_RATIO).min(1.0)
+    } else {
+        0.0
+    }
 }
 
 /// A void and what is asked of its openings.
@@ -107,7 +115,10 @@ pub(crate) fn accesses(
     tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
-    (0..chambers.len()).into_par_iter().map(|void| access(chambers, void, tree, request)).collect()
+    (0..chambers.len())
+        .into_par_iter()
+        .map(|void| access(chambers, void, tree, request))
+        .collect()
 }
 
 /// How the cuts open each void, the shares in sight as they are told of a finished plan.
@@ -117,7 +128,13 @@ pub(crate) fn told(
     request: &PlanRequest,
 ) -> Result<Vec<VoidAccess>, CutError> {
     let chambers = Chamber::all(hollowed)?;
-    let of = |void| Opened { is_told: true, ..Opened::new(&chambers, void, tree, request) }.access();
+    let of = |void| {
+        Opened {
+            is_told: true,
+            ..Opened::new(&chambers, void, tree, request)
+        }
+        .access()
+    };
     (0..hollowed.voids.len()).into_par_iter().map(of).collect()
 }
 
@@ -140,14 +157,28 @@ impl<'a> Opened<'a> {
         request: &'a PlanRequest,
     ) -> Self {
         let needed_mm = request.needed_mm(void, chambers.len());
-        Self { void, chamber: &chambers[void], tree, request, needed_mm, is_told: false }
+        Self {
+            void,
+            chamber: &chambers[void],
+            tree,
+            request,
+            needed_mm,
+            is_told: false,
+        }
     }
 
     /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
         let pieces = self.chamber.split(self.tree)?;
-        let met = |cut: &usize| pieces.iter().any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut));
-        let mouths: Vec<Mouths> = pieces.iter().map(|piece| Mouths::of(piece, &self.tree.planes)).collect();
+        let met = |cut: &usize| {
+            pieces
+                .iter()
+                .any(|piece| piece.caps.iter().any(|cap| cap.cut == *cut))
+        };
+        let mouths: Vec<Mouths> = pieces
+            .iter()
+            .map(|piece| Mouths::of(piece, &self.tree.planes))
+            .collect();
         let widest_mm = mouths.iter().map(Mouths::widest_mm).fold(0.0, f64::max);
         let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
         let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
@@ -156,9 +187,15 @@ impl<'a> Opened<'a> {
         Ok(VoidAccess {
             void: self.void,
             volume_mm3: self.chamber.solid.mesh().signed_volume_mm3(),
-            opened_by: (0..self.tree.planes.len()).filter(met).map(cut_id).collect(),
+            opened_by: (0..self.tree.planes.len())
+                .filter(met)
+                .map(cut_id)
+                .collect(),
             opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
-            depth_mm: mouths.iter().map(|mouths| mouths.depth_mm).fold(0.0, f64::max),
+            depth_mm: mouths
+                .iter()
+                .map(|mouths| mouths.depth_mm)
+                .fold(0.0, f64::max),
             sight_ratio,
             is_clean: lets_out && sight_ratio >= asked_ratio(self.request),
         })
@@ -170,19 +207,26 @@ impl<'a> Opened<'a> {
     }
 
     fn is_wide(&self, mouths: &Mouths) -> bool {
-        self.request.cleaning.lets_out(&mouths.diameters_mm, self.needed_mm)
+        self.request
+            .cleaning
+            .lets_out(&mouths.diameters_mm, self.needed_mm)
     }
 
     /// What is seen of all pieces together.
     fn seen(&self, pieces: &[Piece]) -> Seen {
-        self.seen_each(pieces).into_iter().fold(Seen::default(), Seen::and)
+        self.seen_each(pieces)
+            .into_iter()
+            .fold(Seen::default(), Seen::and)
     }
 
     /// What is seen of each piece.
     pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
         let look = Look::new(self.tree, self.request);
         let look = if self.is_told { look.thorough() } else { look };
-        pieces.iter().map(|piece| self.chamber.walls.seen(piece, &look)).collect()
+        pieces
+            .iter()
+            .map(|piece| self.chamber.walls.seen(piece, &look))
+            .collect()
     }
 
     /// The points of the wall that are out of sight or reach.
@@ -201,15 +245,33 @@ pub(crate) struct Mouths {
 
 impl Mouths {
     pub(crate) fn of(piece: &Piece, planes: &[Plane]) -> Self {
-        let disc_mm = |cap: &Cap| cap.outline.largest_disc(0.0).map_or(0.0, |disc| 2.0 * disc.radius_mm);
-        let mut mouths: Vec<(usize, f64)> = piece.caps.iter().map(|cap| (cap.cut, disc_mm(cap))).collect();
+        let disc_mm = |cap: &Cap| {
+            cap.outline
+                .largest_disc(0.0)
+                .map_or(0.0, |disc| 2.0 * disc.radius_mm)
+        };
+        let mut mouths: Vec<(usize, f64)> = piece
+            .caps
+            .iter()
+            .map(|cap| (cap.cut, disc_mm(cap)))
+            .collect();
         mouths.sort_by(|a, b| b.1.total_cmp(&a.1));
         let Some(&(cut, _)) = mouths.first() else {
-            return Self { diameters_mm: Vec::new(), depth_mm: piece.mesh.aabb().size().norm() };
+            return Self {
+                diameters_mm: Vec::new(),
+                depth_mm: piece.mesh.aabb().size().norm(),
+            };
         };
-        let heights = piece.mesh.vertices().iter().map(|p| planes[cut].distance(p).abs());
+        let heights = piece
+            .mesh
+            .vertices()
+            .iter()
+            .map(|p| planes[cut].distance(p).abs());
         let diameters_mm = mouths.into_iter().map(|(_, mm)| mm).collect();
-        Self { diameters_mm, depth_mm: heights.fold(0.0, f64::max) }
+        Self {
+            diameters_mm,
+            depth_mm: heights.fold(0.0, f64::max),
+        }
     }
 
     fn is_dimple(&self) -> bool {

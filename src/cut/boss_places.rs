@@ -35,12 +35,17 @@ impl Cost {
     /// The cost of bosses at some sites together.
     pub(crate) fn of(sites: &[&Site], view: &BossView) -> Self {
         let hides: Vec<&[f64]> = sites.iter().map(|site| &site.hides[..]).collect();
-        Self { lack_mm2: view.lack_mm2(&hides), price: sites.iter().map(|site| site.price).sum() }
+        Self {
+            lack_mm2: view.lack_mm2(&hides),
+            price: sites.iter().map(|site| site.price).sum(),
+        }
     }
 
     /// Less where less is hidden of what must be seen, then where the price is less.
     pub(crate) fn order(&self, other: &Self) -> Ordering {
-        self.lack_mm2.total_cmp(&other.lack_mm2).then(self.price.total_cmp(&other.price))
+        self.lack_mm2
+            .total_cmp(&other.lack_mm2)
+            .then(self.price.total_cmp(&other.price))
     }
 }
 
@@ -52,12 +57,17 @@ pub(crate) struct Pair {
 
 /// A square grid over what an outline holds.
 pub(crate) fn grid(outline: &Outline) -> Vec<Point2> {
-    let Some((min, max)) = outline.bounds() else { return Vec::new() };
+    let Some((min, max)) = outline.bounds() else {
+        return Vec::new();
+    };
     let size = max - min;
     let pitch = (size.x * size.y / PLACES_PER_CUT).sqrt().max(MIN_PITCH_MM);
     let [columns, rows] = [size.x, size.y].map(|extent| (extent / pitch).floor() as usize);
-    let at = |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
-    (0..columns).flat_map(|i| (0..rows).map(move |j| at(i, j))).collect()
+    let at =
+        |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
+    (0..columns)
+        .flat_map(|i| (0..rows).map(move |j| at(i, j)))
+        .collect()
 }
 
 /// Pairs of sites that are far enough apart: those first that leave in sight what must be, or lack least; of these the cheapest,
@@ -67,10 +77,19 @@ pub(crate) fn best_pairs(sites: &[Site], gap_mm: f64, view: &BossView) -> Vec<Pa
     let apart = |[i, j]: [usize; 2]| (sites[i].at - sites[j].at).norm();
     let widest = indices().map(apart).fold(0.0, f64::max);
     let least = gap_mm.max(SPREAD_RATIO * widest);
-    let pair = |[i, j]: [usize; 2]| Pair { sites: [i, j], cost: Cost::of(&[&sites[i], &sites[j]], view) };
-    let mut pairs: Vec<Pair> = indices().filter(|&pair| apart(pair) >= least).map(pair).collect();
+    let pair = |[i, j]: [usize; 2]| Pair {
+        sites: [i, j],
+        cost: Cost::of(&[&sites[i], &sites[j]], view),
+    };
+    let mut pairs: Vec<Pair> = indices()
+        .filter(|&pair| apart(pair) >= least)
+        .map(pair)
+        .collect();
     pairs.sort_by(|a, b| {
-        a.cost.order(&b.cost).then(apart(b.sites).total_cmp(&apart(a.sites))).then(a.sites.cmp(&b.sites))
+        a.cost
+            .order(&b.cost)
+            .then(apart(b.sites).total_cmp(&apart(a.sites)))
+            .then(a.sites.cmp(&b.sites))
     });
     pairs
 }
@@ -88,7 +107,13 @@ pub(crate) struct OpenPairs<'a> {
 
 impl<'a> OpenPairs<'a> {
     pub(crate) fn new(view: &'a BossView, sites: &'a [Site], near_mm: f64) -> Self {
-        Self { view, sites, near_mm, opens: vec![None; sites.len()], looks_left: TRIED_OPENINGS }
+        Self {
+            view,
+            sites,
+            near_mm,
+            opens: vec![None; sites.len()],
+            looks_left: TRIED_OPENINGS,
+        }
     }
 
     /// Whether no more looks are left.
@@ -111,13 +136,22 @@ impl<'a> OpenPairs<'a> {
 
     fn is_beside_closing(&self, site: usize) -> bool {
         let at = &self.sites[site].at;
-        let closing = self.sites.iter().zip(&self.opens).filter(|(_, opens)| **opens == Some(false));
-        closing.into_iter().any(|(other, _)| (other.at - at).norm() < self.near_mm)
+        let closing = self
+            .sites
+            .iter()
+            .zip(&self.opens)
+            .filter(|(_, opens)| **opens == Some(false));
+        closing
+            .into_iter()
+            .any(|(other, _)| (other.at - at).norm() < self.near_mm)
     }
 
     fn look(&mut self, sites: &[usize]) -> Result<bool, CutError> {
         self.looks_left = self.looks_left.saturating_sub(1);
-        let bodies: Vec<TriMesh> = sites.iter().map(|&site| self.sites[site].body.clone()).collect();
+        let bodies: Vec<TriMesh> = sites
+            .iter()
+            .map(|&site| self.sites[site].body.clone())
+            .collect();
         self.view.stays_open(&bodies)
     }
 }
@@ -137,15 +171,26 @@ mod tests {
         let site = |&(x, price, hides, is_lid): &(f64, f64, f64, bool)| {
             let side = if is_lid { 20.0 } else { 1.0 };
             let body = cuboid([x - side, -side, -4.0], [x + side, side, -2.0]).into_mesh();
-            Site { at: Point2::new(x, 0.0), price, hides: vec![hides], body }
+            Site {
+                at: Point2::new(x, 0.0),
+                price,
+                hides: vec![hides],
+                body,
+            }
         };
         rows.iter().map(site).collect()
     }
 
     fn in_a_box(test: impl Fn(&BossView)) {
         let void = cuboid([-10.0, -10.0, -20.0], [10.0, 10.0, 20.0]);
-        let body = Hollowed { outer: cuboid([-15.0, -15.0, -25.0], [15.0, 15.0, 25.0]), voids: vec![void] };
-        let tree = CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 0.01 }]);
+        let body = Hollowed {
+            outer: cuboid([-15.0, -15.0, -25.0], [15.0, 15.0, 25.0]),
+            voids: vec![void],
+        };
+        let tree = CutTree::everywhere(&[Plane {
+            normal: Vector::z(),
+            offset_mm: 0.01,
+        }]);
         test(&BossView::new(&body, &tree, &request()).unwrap());
     }
 
@@ -166,7 +211,8 @@ mod tests {
     }
 
     #[test]
-    fn a_pair_with_a_site_that_closes_the_void_does_not_hold_and_its_neighbours_are_not_looked_at() {
+    fn a_pair_with_a_site_that_closes_the_void_does_not_hold_and_its_neighbours_are_not_looked_at()
+    {
         in_a_box(|view| {
             let sites = sites(&[
                 (-9.0, 1.0, 0.0, true),

@@ -53,14 +53,26 @@ impl<'a> BossView<'a> {
         let view = |(void, chamber): (usize, Chamber<'a>)| {
             View::new(chamber, (tree, request), request.needed_mm(void, voids))
         };
-        let views = chambers.into_iter().take(plain).enumerate().map(view).collect();
-        Ok(Self { views, tree, tool_radius_mm: request.min_opening_mm / 2.0 })
+        let views = chambers
+            .into_iter()
+            .take(plain)
+            .enumerate()
+            .map(view)
+            .collect();
+        Ok(Self {
+            views,
+            tree,
+            tool_radius_mm: request.min_opening_mm / 2.0,
+        })
     }
 
     /// How much of each void's wall a boss hides that was in sight, as a share of it.
     pub(crate) fn hidden_by(&self, boss: &TriMesh) -> Vec<f64> {
         let block = Convex::of(boss);
-        self.views.iter().map(|view| view.hidden_by(&block, self.tool_radius_mm)).collect()
+        self.views
+            .iter()
+            .map(|view| view.hidden_by(&block, self.tool_radius_mm))
+            .collect()
     }
 
     /// How much less than asked is in sight, mm² of all walls, where so much of each is hidden by some bosses together.
@@ -76,22 +88,42 @@ impl<'a> BossView<'a> {
 
     /// Whether every void stays open where these bosses stand in it.
     pub(crate) fn stays_open(&self, bosses: &[TriMesh]) -> Result<bool, CutError> {
-        let open = self.views.par_iter().map(|view| view.stays_open(bosses, self.tree));
-        Ok(open.collect::<Result<Vec<bool>, _>>()?.into_iter().all(|is_open| is_open))
+        let open = self
+            .views
+            .par_iter()
+            .map(|view| view.stays_open(bosses, self.tree));
+        Ok(open
+            .collect::<Result<Vec<bool>, _>>()?
+            .into_iter()
+            .all(|is_open| is_open))
     }
 }
 
 impl<'a> View<'a> {
-    fn new(chamber: Chamber<'a>, (tree, request): (&CutTree, &PlanRequest), needed_mm: f64) -> Self {
+    fn new(
+        chamber: Chamber<'a>,
+        (tree, request): (&CutTree, &PlanRequest),
+        needed_mm: f64,
+    ) -> Self {
         let asked = asked_ratio(request);
-        let lines = if asked > 0.0 { chamber.sightlines(tree, request) } else { Vec::new() };
+        let lines = if asked > 0.0 {
+            chamber.sightlines(tree, request)
+        } else {
+            Vec::new()
+        };
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
         let spare_ratio = seen as f64 / lines.len().max(1) as f64 - asked - SPARE_RATIO;
-        Self { chamber, needed_mm, lines, spare_ratio }
+        Self {
+            chamber,
+            needed_mm,
+            lines,
+            spare_ratio,
+        }
     }
 
     fn hidden_by(&self, block: &Convex, tool_radius_mm: f64) -> f64 {
-        let is_blind = |eye: &Point, at: &Point| block.holds(eye, tool_radius_mm) || block.parts(eye, at);
+        let is_blind =
+            |eye: &Point, at: &Point| block.holds(eye, tool_radius_mm) || block.parts(eye, at);
         let is_hidden = |line: &&Sightlines| {
             let at = &line.at;
             line.is_seen() && !block.holds(at, 0.0) && line.eyes.iter().all(|eye| is_blind(eye, at))
@@ -107,7 +139,8 @@ impl<'a> View<'a> {
             let mut is_open = piece.signed_volume_mm3() < crumb_mm3;
             for parting in tree.partings() {
                 let there = reached(&parting, &piece)?;
-                is_open |= opening(&there, &parting.plane).is_some_and(|o| o.diameter_mm >= self.needed_mm);
+                is_open |= opening(&there, &parting.plane)
+                    .is_some_and(|o| o.diameter_mm >= self.needed_mm);
             }
             if !is_open {
                 return Ok(false);
@@ -132,8 +165,16 @@ impl Convex {
             Some(Plane::through(&a, &normal))
         };
         let center = mesh.aabb().center();
-        let far = mesh.vertices().iter().map(|p| (p - center).norm()).fold(0.0, f64::max);
-        Self { faces: mesh.iter_corners().filter_map(face).collect(), center, radius_mm: far }
+        let far = mesh
+            .vertices()
+            .iter()
+            .map(|p| (p - center).norm())
+            .fold(0.0, f64::max);
+        Self {
+            faces: mesh.iter_corners().filter_map(face).collect(),
+            center,
+            radius_mm: far,
+        }
     }
 
     /// Whether a point is in it, or about so near.
@@ -166,7 +207,8 @@ impl Convex {
     /// The distance of its centre from a line between two points, mm.
     fn distance_mm(&self, from: &Point, along: &Vector) -> f64 {
         let to_center = self.center - from;
-        let place = (to_center.dot(along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let place =
+            (to_center.dot(along) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
         (to_center - along * place).norm()
     }
 }
@@ -180,13 +222,29 @@ mod tests {
     /// A box with a shaft of 20 × 20 mm from z = −20 to 20 in it, to be seen by 95 %.
     fn shaft() -> (Hollowed, PlanRequest) {
         let void = cuboid([-10.0, -10.0, -20.0], [10.0, 10.0, 20.0]);
-        let cleaning = Cleaning { rule: CleaningRule::InSight, sight_ratio: 0.95, ..Cleaning::MELT_OUT };
-        let body = Hollowed { outer: cuboid([-15.0; 3], [15.0, 15.0, 25.0]), voids: vec![void] };
-        (body, PlanRequest { cleaning, ..request() })
+        let cleaning = Cleaning {
+            rule: CleaningRule::InSight,
+            sight_ratio: 0.95,
+            ..Cleaning::MELT_OUT
+        };
+        let body = Hollowed {
+            outer: cuboid([-15.0; 3], [15.0, 15.0, 25.0]),
+            voids: vec![void],
+        };
+        (
+            body,
+            PlanRequest {
+                cleaning,
+                ..request()
+            },
+        )
     }
 
     fn level() -> CutTree {
-        CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 0.01 }])
+        CutTree::everywhere(&[Plane {
+            normal: Vector::z(),
+            offset_mm: 0.01,
+        }])
     }
 
     #[test]
@@ -202,10 +260,16 @@ mod tests {
         let lack_mm2 = view.lack_mm2(&[&hidden]);
         // All was in sight: what may be hidden are 5 % less both margins.
         let spare = 1.0 - asked_ratio(&request) - SPARE_RATIO;
-        assert!((lack_mm2 - (hidden[0] - spare) * 4000.0).abs() < 1.0, "{lack_mm2}");
+        assert!(
+            (lack_mm2 - (hidden[0] - spare) * 4000.0).abs() < 1.0,
+            "{lack_mm2}"
+        );
         let post = cuboid([-11.0, -11.0, -6.0], [-8.0, -8.0, 6.0]);
         let hidden = view.hidden_by(post.mesh());
-        assert!(hidden[0] < 0.02 && view.lack_mm2(&[&hidden]) == 0.0, "{hidden:?}");
+        assert!(
+            hidden[0] < 0.02 && view.lack_mm2(&[&hidden]) == 0.0,
+            "{hidden:?}"
+        );
     }
 
     #[test]
@@ -213,7 +277,9 @@ mod tests {
         let (body, request) = shaft();
         let tree = level();
         let view = BossView::new(&body, &tree, &request).unwrap();
-        let of = |low: [f64; 3], high: [f64; 3]| view.stays_open(&[cuboid(low, high).into_mesh()]).unwrap();
+        let of = |low: [f64; 3], high: [f64; 3]| {
+            view.stays_open(&[cuboid(low, high).into_mesh()]).unwrap()
+        };
         assert!(!of([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]));
         assert!(of([-11.0, -11.0, -6.0], [-8.0, -8.0, 6.0]));
     }
@@ -223,17 +289,28 @@ mod tests {
         let block = Convex::of(cuboid([-1.0; 3], [1.0; 3]).mesh());
         let at = |x: f64, y: f64| Point::new(x, y, 0.0);
         assert!(block.parts(&at(-3.0, 0.0), &at(3.0, 0.0)));
-        assert!(!block.parts(&at(-3.0, 0.0), &at(-1.5, 0.0)), "it begins behind the end");
-        assert!(!block.parts(&at(-3.0, 1.1), &at(3.0, 1.1)), "it passes beside");
+        assert!(
+            !block.parts(&at(-3.0, 0.0), &at(-1.5, 0.0)),
+            "it begins behind the end"
+        );
+        assert!(
+            !block.parts(&at(-3.0, 1.1), &at(3.0, 1.1)),
+            "it passes beside"
+        );
         // Past the corner at (1, 1) by 0.07 mm, and through it by as much.
-        assert!(!block.parts(&at(0.0, 2.1), &at(2.1, 0.0)) && block.parts(&at(0.0, 1.9), &at(1.9, 0.0)));
+        assert!(
+            !block.parts(&at(0.0, 2.1), &at(2.1, 0.0)) && block.parts(&at(0.0, 1.9), &at(1.9, 0.0))
+        );
         assert!(block.holds(&at(1.2, 0.0), 0.3) && !block.holds(&at(1.2, 0.0), 0.1));
     }
 
     #[test]
     fn where_no_sight_is_asked_nothing_counts_as_hidden() {
         let (body, request) = shaft();
-        let request = PlanRequest { cleaning: Cleaning::MELT_OUT, ..request };
+        let request = PlanRequest {
+            cleaning: Cleaning::MELT_OUT,
+            ..request
+        };
         let tree = level();
         let view = BossView::new(&body, &tree, &request).unwrap();
         let hidden = view.hidden_by(cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]).mesh());

@@ -85,7 +85,10 @@ pub struct Boss {
 impl Boss {
     /// The joint that its pin aligns.
     pub fn joint(&self) -> JointName {
-        JointName { cut: self.pin.cut.clone(), parts: self.parts.clone() }
+        JointName {
+            cut: self.pin.cut.clone(),
+            parts: self.parts.clone(),
+        }
     }
 }
 
@@ -104,27 +107,52 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let material = order.hollowed.to_mesh();
     let pieces = rejoined(split(&material, &tree)?, &tree, &bridges)?;
     let filled = filled(order);
-    let scene = |material| PinScene { request: order.request, tree: &tree, material };
+    let scene = |material| PinScene {
+        request: order.request,
+        tree: &tree,
+        material,
+    };
     let (hollow, filled) = (scene(&material), scene(&filled));
     let joints = joints(&pieces, &tree);
     let mut placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
     let [air, outer] = [hollow.material, filled.material].map(|mesh| Bvh::new(mesh.iter_corners()));
     let view = BossView::new(order.hollowed, &tree, order.request)?;
-    let search = Search { order, hollow: &hollow, filled: &filled, air, outer, view };
+    let search = Search {
+        order,
+        hollow: &hollow,
+        filled: &filled,
+        air,
+        outer,
+        view,
+    };
     let mut bosses = Vec::new();
     if let Some(pins) = order.ordered {
-        let able: Vec<Boss> = pins.iter().filter_map(|pin| search.for_ordered(&joints, pin)).collect();
+        let able: Vec<Boss> = pins
+            .iter()
+            .filter_map(|pin| search.for_ordered(&joints, pin))
+            .collect();
         // As when the planner finds a pattern: all of a joint's pins keep their material, or none needs to.
-        let is_needy = |boss: &&Boss| able.iter().any(|other| other.is_new && other.joint() == boss.joint());
+        let is_needy = |boss: &&Boss| {
+            able.iter()
+                .any(|other| other.is_new && other.joint() == boss.joint())
+        };
         return Ok(able.iter().filter(is_needy).cloned().collect());
     }
     for (index, joint) in joints.iter().enumerate() {
         if !placements[index].is_sound() && !order.given_up.contains(&search.name(joint)) {
-            let others = placements.iter().enumerate().filter(|(i, _)| *i != index).map(|(_, p)| p);
+            let others = placements
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| *i != index)
+                .map(|(_, p)| p);
             let others: Vec<&Placement> = others.collect();
             let is_bare = placements[index].sites.is_empty();
             let pair = search.found(joint, &others)?;
-            let found = if pair.is_none() && is_bare { search.lone(joint, &others) } else { pair };
+            let found = if pair.is_none() && is_bare {
+                search.lone(joint, &others)
+            } else {
+                pair
+            };
             if let Some(found) = found {
                 bosses.extend(found.sites.iter().filter_map(|pin| search.boss(joint, pin)));
                 placements[index] = found;
@@ -138,7 +166,11 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
 fn filled(order: &BossOrder) -> TriMesh {
     let Hollowed { outer, voids } = order.hollowed;
     let seats = voids.len().saturating_sub(order.request.seats.len());
-    Hollowed { outer: outer.clone(), voids: voids[seats..].to_vec() }.to_mesh()
+    Hollowed {
+        outer: outer.clone(),
+        voids: voids[seats..].to_vec(),
+    }
+    .to_mesh()
 }
 
 struct Search<'a> {
@@ -158,12 +190,19 @@ struct Search<'a> {
 impl Search<'_> {
     /// The boss of an ordered pin that has its material, or could have.
     fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
-        let cut = self.order.plan.cuts.iter().position(|cut| cut.id == pin.cut)?;
+        let cut = self
+            .order
+            .plan
+            .cuts
+            .iter()
+            .position(|cut| cut.id == pin.cut)?;
         let (plane, outline) = (&self.filled.tree.planes[cut], self.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
-        self.has_meat(self.filled, joint, pin).then(|| self.boss(joint, pin)).flatten()
+        self.has_meat(self.filled, joint, pin)
+            .then(|| self.boss(joint, pin))
+            .flatten()
     }
 
     /// The outline of the filled body in a cut.
@@ -195,8 +234,9 @@ impl Search<'_> {
         let request = self.order.request;
         let pairs = thin_first(size_pairs(request)).chain(thin_first(short_pairs(request)));
         let pairs: Vec<[Size; 2]> = pairs.collect();
-        let ways =
-            [true, false].into_iter().flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
+        let ways = [true, false]
+            .into_iter()
+            .flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
         for (must_open, sizes) in ways {
             let mut best: Option<(Cost, Placement)> = None;
             for is_upward in [true, false] {
@@ -224,7 +264,9 @@ impl Search<'_> {
             Some((cost, face.placement(&[(at, size)], false)))
         };
         let found = [true, false].into_iter().filter_map(along);
-        found.min_by(|a, b| a.0.order(&b.0)).map(|(_, placement)| placement)
+        found
+            .min_by(|a, b| a.0.order(&b.0))
+            .map(|(_, placement)| placement)
     }
 
     /// The best pattern of two pins of these sizes, and what it costs; with `must_open` of those that leave every void open.
@@ -237,12 +279,16 @@ impl Search<'_> {
     ) -> Result<Option<(Cost, Placement)>, CutError> {
         let face = Face::bare(self.filled, joint, (others, is_upward));
         let sites = self.sites(joint, &face, (&sizes[0], is_upward));
-        let mut open = OpenPairs::new(&self.view, &sites, sizes[0].room_mm(self.order.request) / 2.0);
+        let mut open = OpenPairs::new(
+            &self.view,
+            &sites,
+            sizes[0].room_mm(self.order.request) / 2.0,
+        );
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_taken =
-                !is_confused(&face.end_views(&pattern), others) && (!must_open || open.holds(pair.sites)?);
+            let is_taken = !is_confused(&face.end_views(&pattern), others)
+                && (!must_open || open.holds(pair.sites)?);
             if is_taken {
                 return Ok(Some((pair.cost, face.placement(&pattern, true))));
             }
@@ -260,13 +306,21 @@ impl Search<'_> {
         let outline = self.outline(joint.cut);
         let room = size.room_mm(request) / 2.0 + MARGIN_MM;
         let chart = Chart::of_plane(plane);
-        let refused: Vec<Point2> = self.order.refused.iter().map(|p| chart.flat(&Point::from(*p))).collect();
+        let refused: Vec<Point2> = self
+            .order
+            .refused
+            .iter()
+            .map(|p| chart.flat(&Point::from(*p)))
+            .collect();
         let is_near = |p: &Point2| (room..2.0 * room).contains(&outline.signed_distance(p));
         let is_refused = |p: &Point2| refused.iter().any(|at| (at - p).norm() < room);
         let places: Vec<Point2> = grid(&outline)
             .into_par_iter()
             .filter(|p| {
-                is_near(p) && !is_refused(p) && self.is_of_joint(joint, &outline, p) && face.has_meat(p, size)
+                is_near(p)
+                    && !is_refused(p)
+                    && self.is_of_joint(joint, &outline, p)
+                    && face.has_meat(p, size)
             })
             .collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
@@ -276,9 +330,18 @@ impl Search<'_> {
             let along = plane.normal * sign;
             let price = self.price(&mouth, &along, size);
             let body = self.body(joint, (&mouth, &along), size)?;
-            Some(Site { at, price, hides: self.view.hidden_by(&body), body })
+            Some(Site {
+                at,
+                price,
+                hides: self.view.hidden_by(&body),
+                body,
+            })
         };
-        places.par_iter().step_by(stride).filter_map(priced).collect()
+        places
+            .par_iter()
+            .step_by(stride)
+            .filter_map(priced)
+            .collect()
     }
 
     /// What the boss of a pin costs, to first order and up to a factor: the integral of the quadric over what it fills.
@@ -291,25 +354,38 @@ impl Search<'_> {
             let aside = (u * turn.cos() + v * turn.sin()) * (ring * radius);
             let p = mouth + aside + along * (low + height * (high - low));
             let value = quadric.value(&frame.to_local(&p));
-            if value > 0.0 && self.air.winding(&p) == 0 { value } else { 0.0 }
+            if value > 0.0 && self.air.winding(&p) == 0 {
+                value
+            } else {
+                0.0
+            }
         };
         let rings = PRICED_RINGS.iter().flat_map(|&(ring, count)| {
             let turn = move |k: usize| TAU * (k as f64 + ASKEW) / count as f64;
             (0..count).map(move |k| (ring, turn(k)))
         });
-        rings.flat_map(|(ring, turn)| PRICED_HEIGHTS.map(|height| value(height, ring, turn))).sum()
+        rings
+            .flat_map(|(ring, turn)| PRICED_HEIGHTS.map(|height| value(height, ring, turn)))
+            .sum()
     }
 
     /// From where to where along the pin its boss reaches, mm from the cut.
     fn ends_mm(&self, size: &Size) -> [f64; 2] {
         let wall = size.corner() + self.order.request.wall_mm + MARGIN_MM;
-        let back = if size.dowel.is_some() { size.depth } else { size.chamfer };
+        let back = if size.dowel.is_some() {
+            size.depth
+        } else {
+            size.chamfer
+        };
         [-(wall + back), size.depth + wall]
     }
 
     fn name(&self, joint: &Joint) -> JointName {
         let cut = self.order.plan.cuts[joint.cut].id.clone();
-        JointName { cut, parts: [part_id(joint.below), part_id(joint.above)] }
+        JointName {
+            cut,
+            parts: [part_id(joint.below), part_id(joint.above)],
+        }
     }
 
     /// The pin with its boss, none where it has no volume: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
@@ -318,18 +394,31 @@ impl Search<'_> {
         let is_new = !self.has_meat(self.hollow, joint, pin);
         let axis = (&Point::from(pin.center_mm), &Vector::from(pin.direction));
         let body = self.body(joint, axis, &Size::of(pin))?;
-        Some(Boss { pin: PinSite { cut, ..pin.clone() }, parts, body, is_new })
+        Some(Boss {
+            pin: PinSite { cut, ..pin.clone() },
+            parts,
+            body,
+            is_new,
+        })
     }
 
     /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
     /// would stay between.
-    fn body(&self, joint: &Joint, (middle, along): (&Point, &Vector), size: &Size) -> Option<TriMesh> {
+    fn body(
+        &self,
+        joint: &Joint,
+        (middle, along): (&Point, &Vector),
+        size: &Size,
+    ) -> Option<TriMesh> {
         let radius = size.room_mm(self.order.request) / 2.0 + MARGIN_MM;
         let ends = self.ends_mm(size).map(|height| middle + along * height);
         let ribs = ends.iter().filter_map(|end| self.rib(end, along, radius));
         let ribs = ribs.chain([self.root(joint, middle, radius)]);
         let centers: Vec<Point> = ends.iter().copied().chain(ribs).collect();
-        let points: Vec<Point> = centers.iter().flat_map(|center| disc(center, along, radius)).collect();
+        let points: Vec<Point> = centers
+            .iter()
+            .flat_map(|center| disc(center, along, radius))
+            .collect();
         Csg::convex_hull(&points).ok()?.to_mesh().ok()
     }
 
@@ -339,7 +428,10 @@ impl Search<'_> {
         let chart = Chart::of_plane(plane);
         let at = chart.flat(middle);
         let outward = self.outline(joint.cut).nearest(&at) - at;
-        chart.lift(plane, &(at + outward.normalize() * (outward.norm() - radius).max(0.0)))
+        chart.lift(
+            plane,
+            &(at + outward.normalize() * (outward.norm() - radius).max(0.0)),
+        )
     }
 
     /// A disc's middle moved to the wall beside it, across its axis; none where the gap between them can be cleaned, or is none.

@@ -23,7 +23,11 @@ pub(crate) struct Chamber<'a> {
 impl<'a> Chamber<'a> {
     fn new(solid: &'a Solid) -> Result<Self, CutError> {
         let (body, walls) = rayon::join(|| Csg::of_solid(solid), || Walls::of(solid));
-        Ok(Self { solid, walls, body: body? })
+        Ok(Self {
+            solid,
+            walls,
+            body: body?,
+        })
     }
 
     /// All voids of a body.
@@ -39,18 +43,21 @@ impl<'a> Chamber<'a> {
     /// About the share of its wall that is in sight once these planes cut it, from its sections alone: a tenth of the work of
     /// cutting it. A mouth that another plane crosses counts whole, so the share may be too large there by slivers.
     pub(crate) fn glance(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
-        self.walls.glimpsed(&self.mouths(tree), &Look::new(tree, request))
+        self.walls
+            .glimpsed(&self.mouths(tree), &Look::new(tree, request))
     }
 
     /// About where each point of its wall is seen from once these planes cut it, as in [`Self::glance`].
     pub(crate) fn sightlines(&self, tree: &CutTree, request: &PlanRequest) -> Vec<Sightlines> {
-        self.walls.sightlines(&self.mouths(tree), &Look::new(tree, request))
+        self.walls
+            .sightlines(&self.mouths(tree), &Look::new(tree, request))
     }
 
     /// What some bodies leave of it.
     pub(crate) fn without(&self, bodies: &[TriMesh]) -> Result<TriMesh, CutError> {
-        let rest =
-            bodies.iter().try_fold(self.body.clone(), |rest, body| rest.subtract(&Csg::of_mesh(body)?))?;
+        let rest = bodies.iter().try_fold(self.body.clone(), |rest, body| {
+            rest.subtract(&Csg::of_mesh(body)?)
+        })?;
         Ok(rest.to_mesh()?)
     }
 
@@ -58,7 +65,10 @@ impl<'a> Chamber<'a> {
     fn mouths(&self, tree: &CutTree) -> Vec<(usize, Outline)> {
         let mouths = |(cut, plane)| {
             let section = Section::of_mesh(self.solid.mesh(), plane);
-            let outlines = section.groups().into_iter().map(|rings| (cut, section.outline(&rings)));
+            let outlines = section
+                .groups()
+                .into_iter()
+                .map(|rings| (cut, section.outline(&rings)));
             outlines.collect::<Vec<(usize, Outline)>>()
         };
         tree.planes.iter().enumerate().flat_map(mouths).collect()
@@ -85,25 +95,50 @@ mod tests {
         let bend = shaft.union(&arm).unwrap().to_solid().unwrap();
         let ball = solid(primitives::ball(&Point::new(0.0, 30.0, 0.0), 10.0, 3));
         let flat = solid(cuboid([30.0, -9.0, -2.0], [50.0, 9.0, 2.0]));
-        Hollowed { outer: solid(cuboid([-60.0; 3], [60.0; 3])), voids: vec![bend, ball, flat] }
+        Hollowed {
+            outer: solid(cuboid([-60.0; 3], [60.0; 3])),
+            voids: vec![bend, ball, flat],
+        }
     }
 
     #[test]
     fn a_glance_tells_what_cutting_and_looking_tells_but_for_two_hundredths() {
         let hollowed = shapes();
         let chambers = Chamber::all(&hollowed).unwrap();
-        let cleaning = Cleaning { rule: CleaningRule::InSight, sight_ratio: 0.95, ..Cleaning::MELT_OUT };
-        let request = PlanRequest { cleaning, ..request() };
-        let level = Plane { normal: Vector::z(), offset_mm: 0.01 };
+        let cleaning = Cleaning {
+            rule: CleaningRule::InSight,
+            sight_ratio: 0.95,
+            ..Cleaning::MELT_OUT
+        };
+        let request = PlanRequest {
+            cleaning,
+            ..request()
+        };
+        let level = Plane {
+            normal: Vector::z(),
+            offset_mm: 0.01,
+        };
         let askew = Plane::through(&Point::new(0.3, 0.2, 0.1), &Vector::new(0.2, 0.5, 0.8));
-        let deep = Plane { normal: Vector::z(), offset_mm: -17.9 };
-        let sets = [vec![], vec![level], vec![askew], vec![level, askew], vec![level, deep]];
+        let deep = Plane {
+            normal: Vector::z(),
+            offset_mm: -17.9,
+        };
+        let sets = [
+            vec![],
+            vec![level],
+            vec![askew],
+            vec![level, askew],
+            vec![level, deep],
+        ];
         for planes in &sets {
             let tree = CutTree::everywhere(planes);
             let told = accesses(&chambers, &tree, &request).unwrap();
             for (chamber, told) in chambers.iter().zip(told) {
                 let glance = chamber.glance(&tree, &request);
-                assert!((glance - told.sight_ratio).abs() < 0.02, "{planes:?}: {glance} against {told:?}");
+                assert!(
+                    (glance - told.sight_ratio).abs() < 0.02,
+                    "{planes:?}: {glance} against {told:?}"
+                );
             }
         }
     }

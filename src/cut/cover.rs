@@ -31,17 +31,35 @@ pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
     let useful = undominated(sets, all);
     let mut nodes = 0;
     for size in 0..greedy.len() {
-        let mut search = Search { sets: &useful, size, limit: 1, nodes, found: Vec::new() };
+        let mut search = Search {
+            sets: &useful,
+            size,
+            limit: 1,
+            nodes,
+            found: Vec::new(),
+        };
         search.extend(all, &mut Vec::new());
         nodes = search.nodes;
         if let Some(chosen) = search.found.pop() {
-            return Some(Cover { chosen, at_least: size, nodes });
+            return Some(Cover {
+                chosen,
+                at_least: size,
+                nodes,
+            });
         }
         if nodes >= MAX_NODES {
-            return Some(Cover { chosen: greedy, at_least: size, nodes });
+            return Some(Cover {
+                chosen: greedy,
+                at_least: size,
+                nodes,
+            });
         }
     }
-    Some(Cover { at_least: greedy.len(), chosen: greedy, nodes })
+    Some(Cover {
+        at_least: greedy.len(),
+        chosen: greedy,
+        nodes,
+    })
 }
 
 /// A choice of sets whose union is `all`, by always taking the first of those that hold the most of what is missing; `None`
@@ -51,7 +69,10 @@ pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>>
     let (mut missing, mut chosen) = (all, Vec::new());
     while missing != 0 {
         let gain = |index: usize| (sets[index] & missing).count_ones();
-        let best = (0..sets.len()).rev().max_by_key(|&index| gain(index)).filter(|&index| gain(index) > 0)?;
+        let best = (0..sets.len())
+            .rev()
+            .max_by_key(|&index| gain(index))
+            .filter(|&index| gain(index) > 0)?;
         missing &= !sets[best];
         chosen.push(best);
     }
@@ -60,9 +81,19 @@ pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>>
 
 /// Choices of `size` sets whose union is `all`, each as ascending indices, at most `limit` of them (and what [`MAX_NODES`] allow), in the
 /// order in which sets early in the list come first.
-pub(crate) fn covers_of_size(sets: &[VoidSet], all: VoidSet, [size, limit]: [usize; 2]) -> Vec<Vec<usize>> {
+pub(crate) fn covers_of_size(
+    sets: &[VoidSet],
+    all: VoidSet,
+    [size, limit]: [usize; 2],
+) -> Vec<Vec<usize>> {
     let numbered: Vec<(usize, VoidSet)> = sets.iter().map(|set| set & all).enumerate().collect();
-    let mut search = Search { sets: &numbered, size, limit, nodes: 0, found: Vec::new() };
+    let mut search = Search {
+        sets: &numbered,
+        size,
+        limit,
+        nodes: 0,
+        found: Vec::new(),
+    };
     search.extend(all, &mut Vec::new());
     for cover in &mut search.found {
         cover.sort_unstable();
@@ -74,12 +105,16 @@ pub(crate) fn covers_of_size(sets: &[VoidSet], all: VoidSet, [size, limit]: [usi
 
 /// The sets that are not part of another (of equal ones the first).
 fn undominated(sets: &[VoidSet], all: VoidSet) -> Vec<(usize, VoidSet)> {
-    let mut distinct: Vec<(usize, VoidSet)> = sets.iter().map(|set| set & all).enumerate().collect();
+    let mut distinct: Vec<(usize, VoidSet)> =
+        sets.iter().map(|set| set & all).enumerate().collect();
     distinct.sort_by_key(|&(index, set)| (set, index));
     distinct.dedup_by_key(|&mut (_, set)| set);
     let is_part = |a: VoidSet, b: VoidSet| a != b && a & b == a;
-    let mut kept: Vec<_> =
-        distinct.iter().copied().filter(|&(_, a)| !distinct.iter().any(|&(_, b)| is_part(a, b))).collect();
+    let mut kept: Vec<_> = distinct
+        .iter()
+        .copied()
+        .filter(|&(_, a)| !distinct.iter().any(|&(_, b)| is_part(a, b)))
+        .collect();
     kept.sort_unstable();
     kept
 }
@@ -115,14 +150,22 @@ impl Search<'_> {
 
     /// Whether `left` more sets, each as useful as the most useful, could hold what is missing.
     fn can_suffice(&self, missing: VoidSet, left: usize) -> bool {
-        let most = self.sets.iter().map(|(_, set)| (set & missing).count_ones()).max().unwrap_or(0);
+        let most = self
+            .sets
+            .iter()
+            .map(|(_, set)| (set & missing).count_ones())
+            .max()
+            .unwrap_or(0);
         left > 0 && most as usize * left >= missing.count_ones() as usize
     }
 
     /// The missing element that the fewest sets hold, as a set.
     fn rarest(&self, missing: VoidSet) -> VoidSet {
-        let bits = (0..VoidSet::BITS).map(|i| 1 << i).filter(|bit| missing & bit != 0);
-        bits.min_by_key(|bit| self.sets.iter().filter(|(_, set)| set & bit != 0).count()).unwrap_or(0)
+        let bits = (0..VoidSet::BITS)
+            .map(|i| 1 << i)
+            .filter(|bit| missing & bit != 0);
+        bits.min_by_key(|bit| self.sets.iter().filter(|(_, set)| set & bit != 0).count())
+            .unwrap_or(0)
     }
 }
 
@@ -140,10 +183,17 @@ mod tests {
     fn greedy_would_take_three_but_two_suffice() {
         // The largest set (4 of 6) tempts; the two halves of three are the answer.
         assert_eq!(
-            greedy_cover(&[0b001111, 0b010101, 0b101010, 0b010000, 0b100000], 0b111111).map(|c| c.len()),
+            greedy_cover(
+                &[0b001111, 0b010101, 0b101010, 0b010000, 0b100000],
+                0b111111
+            )
+            .map(|c| c.len()),
             Some(3)
         );
-        let cover = smallest_cover(&[0b001111, 0b010101, 0b101010, 0b010000, 0b100000], 0b111111);
+        let cover = smallest_cover(
+            &[0b001111, 0b010101, 0b101010, 0b010000, 0b100000],
+            0b111111,
+        );
         assert_eq!(cover.unwrap().chosen, vec![1, 2]);
     }
 
@@ -157,11 +207,22 @@ mod tests {
     fn on_families_of_four_sets_over_four_elements_the_answer_is_that_of_exhaustion() {
         // Each family is written as a 16-bit number; every 97th is tried, 675 in all.
         for code in (0u32..=0xffff).step_by(97) {
-            let sets: Vec<VoidSet> = (0..4).map(|i| VoidSet::from(code >> (4 * i) & 0xf)).collect();
-            let union = |pick: u32| (0..4).filter(|i| pick >> i & 1 == 1).fold(0, |u, i| u | sets[i]);
-            let exhausted = (0u32..16).filter(|&pick| union(pick) == 0xf).map(u32::count_ones).min();
+            let sets: Vec<VoidSet> = (0..4)
+                .map(|i| VoidSet::from(code >> (4 * i) & 0xf))
+                .collect();
+            let union = |pick: u32| {
+                (0..4)
+                    .filter(|i| pick >> i & 1 == 1)
+                    .fold(0, |u, i| u | sets[i])
+            };
+            let exhausted = (0u32..16)
+                .filter(|&pick| union(pick) == 0xf)
+                .map(u32::count_ones)
+                .min();
             let found = smallest_cover(&sets, 0xf).map(|cover| cover.chosen.len() as u32);
-            assert!(smallest_cover(&sets, 0xf).is_none_or(|cover| cover.at_least == cover.chosen.len()));
+            assert!(
+                smallest_cover(&sets, 0xf).is_none_or(|cover| cover.at_least == cover.chosen.len())
+            );
             assert_eq!(found, exhausted, "family {code:#06x}");
         }
     }
@@ -170,11 +231,18 @@ mod tests {
     fn a_search_that_ends_early_still_covers_and_does_not_claim_to_be_smallest() {
         // Ninety triples over fifty elements, spread by a multiplicative sequence modulo a prime.
         let sets: Vec<VoidSet> = (1u32..91)
-            .map(|i| [7u32, 11, 13].iter().fold(0, |set, k| set | 1 << (i * i * k % 53 % 50)))
+            .map(|i| {
+                [7u32, 11, 13]
+                    .iter()
+                    .fold(0, |set, k| set | 1 << (i * i * k % 53 % 50))
+            })
             .collect();
         let all = sets.iter().fold(0, |union, set| union | set);
         let cover = smallest_cover(&sets, all).unwrap();
-        assert_eq!(cover.chosen.iter().fold(0, |union, &i| union | sets[i]), all);
+        assert_eq!(
+            cover.chosen.iter().fold(0, |union, &i| union | sets[i]),
+            all
+        );
         assert!(cover.nodes < MAX_NODES || cover.at_least < cover.chosen.len());
         assert!(cover.at_least <= cover.chosen.len());
     }

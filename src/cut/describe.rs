@@ -24,22 +24,44 @@ pub(crate) fn described(
     layout: &Layout,
     (pins, mut notes): (Pins, Vec<String>),
 ) -> Result<CutPlan, CutError> {
-    let Layout { tree, voids, pieces, bridges } = layout;
+    let Layout {
+        tree,
+        voids,
+        pieces,
+        bridges,
+    } = layout;
     check_no_cavity(pieces)?;
-    let pin_scene = PinScene { request: scene.request, tree, material: &scene.material };
+    let pin_scene = PinScene {
+        request: scene.request,
+        tree,
+        material: &scene.material,
+    };
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
     let proofs = notes.clone();
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let told = joints.iter().zip(&placements);
-    notes.extend(told.clone().filter_map(|(joint, placement)| shortage(scene.request, joint, placement)));
+    notes.extend(
+        told.clone()
+            .filter_map(|(joint, placement)| shortage(scene.request, joint, placement)),
+    );
     notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
     notes.extend(unlabelled);
     Ok(CutPlan {
-        cuts: (0..tree.planes.len()).map(|index| cut(tree, index)).collect(),
-        joints: told.map(|(joint, placement)| joint_note(&pin_scene, joint, placement)).collect(),
-        pins: placements.into_iter().flat_map(|placement| placement.sites).collect(),
-        uncut: bridges.iter().map(|bridge| uncut_face(&tree.planes, bridge)).collect(),
+        cuts: (0..tree.planes.len())
+            .map(|index| cut(tree, index))
+            .collect(),
+        joints: told
+            .map(|(joint, placement)| joint_note(&pin_scene, joint, placement))
+            .collect(),
+        pins: placements
+            .into_iter()
+            .flat_map(|placement| placement.sites)
+            .collect(),
+        uncut: bridges
+            .iter()
+            .map(|bridge| uncut_face(&tree.planes, bridge))
+            .collect(),
         labels,
         voids: voids.clone(),
         notes,
@@ -58,10 +80,17 @@ pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
         }
     };
     plan.pins.iter_mut().for_each(|pin| name(&mut pin.cut));
-    plan.joints.iter_mut().for_each(|joint| name(&mut joint.cut));
-    plan.labels.iter_mut().for_each(|label| name(&mut label.cut));
+    plan.joints
+        .iter_mut()
+        .for_each(|joint| name(&mut joint.cut));
+    plan.labels
+        .iter_mut()
+        .for_each(|label| name(&mut label.cut));
     plan.uncut.iter_mut().for_each(|face| name(&mut face.cut));
-    plan.voids.iter_mut().flat_map(|void| &mut void.opened_by).for_each(name);
+    plan.voids
+        .iter_mut()
+        .flat_map(|void| &mut void.opened_by)
+        .for_each(name);
     plan.cuts = cuts.to_vec();
     plan
 }
@@ -69,7 +98,10 @@ pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
 fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     let plane = &planes[bridge.cut];
     let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
-    UncutFace { cut: cut_id(bridge.cut), point_mm }
+    UncutFace {
+        cut: cut_id(bridge.cut),
+        point_mm,
+    }
 }
 
 fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
@@ -84,20 +116,34 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
 }
 
 /// Where the parts of a joint touch: its faces less the mouths of its sockets.
-fn contact<'a>(planes: &[Plane], joint: &Joint, pins: impl IntoIterator<Item = &'a PinSite>) -> FlatFace {
+fn contact<'a>(
+    planes: &[Plane],
+    joint: &Joint,
+    pins: impl IntoIterator<Item = &'a PinSite>,
+) -> FlatFace {
     let plane = &planes[joint.cut];
     let chart = Chart::of_plane(plane);
     let triangles = joint.faces.iter().flat_map(|face| &face.triangles);
     let faces = triangles.map(|corners| (corners.map(|p| chart.lift(plane, &p)), 1.0));
-    let mouths = pins.into_iter().flat_map(PinSite::mouth).map(|corners| (corners, -1.0));
+    let mouths = pins
+        .into_iter()
+        .flat_map(PinSite::mouth)
+        .map(|corners| (corners, -1.0));
     FlatFace::of_triangles(faces.chain(mouths))
 }
 
 /// The plan with the faces of its joints as they are between these pieces, of a body that was solved for again.
 pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
     for joint in joints(pieces, tree) {
-        let (cut, parts) = (&plan.cuts[joint.cut].id, [part_id(joint.below), part_id(joint.above)]);
-        let Some(note) = plan.joints.iter_mut().find(|note| note.cut == *cut && note.parts == parts) else {
+        let (cut, parts) = (
+            &plan.cuts[joint.cut].id,
+            [part_id(joint.below), part_id(joint.above)],
+        );
+        let Some(note) = plan
+            .joints
+            .iter_mut()
+            .find(|note| note.cut == *cut && note.parts == parts)
+        else {
             continue;
         };
         let pins = plan.pins.iter().filter(|pin| note.pins.contains(&pin.id));
@@ -111,8 +157,11 @@ pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> Cu
 fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
     let (index, opening) = (void.void, void.opening_mm);
     let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());
-    let note =
-        || format!("void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm");
+    let note = || {
+        format!(
+            "void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm"
+        )
+    };
     (opening < asked).then(note)
 }
 
@@ -121,21 +170,33 @@ fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
     let name = format!("joint {}–{}", part_id(joint.below), part_id(joint.above));
     let (widest, needed) = (placement.widest_mm, needed_room_mm(request));
     match placement.sites.len() {
-        0 if widest < needed => {
-            Some(format!("{name}: no room for pins: widest section {widest:.1} mm, needs {needed:.1} mm"))
-        }
-        0 => Some(format!("{name}: no room for pins: the material behind the cut is too thin for a socket")),
-        1 => Some(format!("{name}: room for one pin only; mind the turn when gluing")),
-        _ if !placement.is_one_way => {
-            Some(format!("{name}: the pins fit in more than one way; mind the turn when gluing"))
-        }
+        0 if widest < needed => Some(format!(
+            "{name}: no room for pins: widest section {widest:.1} mm, needs {needed:.1} mm"
+        )),
+        0 => Some(format!(
+            "{name}: no room for pins: the material behind the cut is too thin for a socket"
+        )),
+        1 => Some(format!(
+            "{name}: room for one pin only; mind the turn when gluing"
+        )),
+        _ if !placement.is_one_way => Some(format!(
+            "{name}: the pins fit in more than one way; mind the turn when gluing"
+        )),
         _ => None,
     }
 }
 
 fn cut(tree: &CutTree, index: usize) -> Cut {
     let plane = &tree.planes[index];
-    let side = |limit: &Limit| CutSide { cut: cut_id(limit.cut), side: Side::of(limit.is_above) };
+    let side = |limit: &Limit| CutSide {
+        cut: cut_id(limit.cut),
+        side: Side::of(limit.is_above),
+    };
     let within = tree.limits(index).iter().map(side).collect();
-    Cut { id: cut_id(index), point_mm: plane.foot().into(), normal: plane.normal.into(), within }
+    Cut {
+        id: cut_id(index),
+        point_mm: plane.foot().into(),
+        normal: plane.normal.into(),
+        within,
+    }
 }

@@ -36,7 +36,9 @@ pub enum CutError {
         needed_mm: f64,
     },
     /// A cut of the plan has a normal without length or a point that is not finite.
-    #[error("cut {cut} is degenerate: its normal must have a length and all its numbers must be finite")]
+    #[error(
+        "cut {cut} is degenerate: its normal must have a length and all its numbers must be finite"
+    )]
     DegenerateCut {
         /// The cut's id.
         cut: String,
@@ -72,5 +74,9 @@ pub enum CutError {
 
 /// The numbers with commas between them.
 fn list(numbers: &[usize]) -> String {
-    numbers.iter().map(usize::to_string).collect::<Vec<_>>().join(", ")
+    numbers
+        .iter()
+        .map(usize::to_string)
+        .collect::<Vec<_>>()
+        .join(", ")
 }

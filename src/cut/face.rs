@@ -35,7 +35,10 @@ impl Taken {
         let (center, along) = (Point::from(site.center_mm), Vector::from(site.direction));
         let root = center - along * site.back_mm();
         let radius_mm = PinSite::socket_corner_mm(site.socket_diameter_mm);
-        Self { ends: [root, center + along * site.socket_depth_mm], radius_mm }
+        Self {
+            ends: [root, center + along * site.socket_depth_mm],
+            radius_mm,
+        }
     }
 
     /// Whether a segment keeps `distance_mm` from it.
@@ -62,9 +65,17 @@ pub(super) struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// The faces of a joint, looked at where the pins of others leave room.
-    pub(super) fn new(scene: &'a PinScene<'a>, joint: &'a Joint, look: (&[&Placement], bool)) -> Self {
+    pub(super) fn new(
+        scene: &'a PinScene<'a>,
+        joint: &'a Joint,
+        look: (&[&Placement], bool),
+    ) -> Self {
         let (points, widest_mm) = face_points(scene, joint);
-        Self { points, widest_mm, ..Self::bare(scene, joint, look) }
+        Self {
+            points,
+            widest_mm,
+            ..Self::bare(scene, joint, look)
+        }
     }
 
     /// The faces without points to look at.
@@ -81,15 +92,30 @@ impl<'a> Face<'a> {
         };
         let surface = Bvh::new(scene.material.iter_corners().filter(near));
         let sign = if is_upward { 1.0 } else { -1.0 };
-        let taken = placed.iter().flat_map(|placement| &placement.sites).map(Taken::of).collect();
-        Self { scene, joint, plane, sign, surface, taken, points: Vec::new(), widest_mm: 0.0 }
+        let taken = placed
+            .iter()
+            .flat_map(|placement| &placement.sites)
+            .map(Taken::of)
+            .collect();
+        Self {
+            scene,
+            joint,
+            plane,
+            sign,
+            surface,
+            taken,
+            points: Vec::new(),
+            widest_mm: 0.0,
+        }
     }
 
     /// The points where a pin and socket of this size keep the wall.
     pub(super) fn places(&self, size: &Size) -> Vec<Point2> {
         let room = size.room_mm(self.scene.request) / 2.0;
         let wide = self.points.iter().filter(|(_, distance)| *distance >= room);
-        wide.map(|(p, _)| *p).filter(|p| self.has_meat(p, size)).collect()
+        wide.map(|(p, _)| *p)
+            .filter(|p| self.has_meat(p, size))
+            .collect()
     }
 
     /// Whether the socket at a point, with the wall around it, lies inside the material and clear of other cuts.
@@ -109,7 +135,10 @@ impl<'a> Face<'a> {
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
         others.filter(is_made).all(is_clear)
-            && self.taken.iter().all(|taken| taken.is_clear_of([&root, &bottom], radius))
+            && self
+                .taken
+                .iter()
+                .all(|taken| taken.is_clear_of([&root, &bottom], radius))
             && self.keeps_off([&hollow, &bottom], radius)
             && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
     }
@@ -137,22 +166,36 @@ impl<'a> Face<'a> {
         let two = |&(i, j): &(usize, usize)| vec![(places[i], sizes[0]), (places[j], sizes[1])];
         for pair in &pairs {
             let pattern = two(pair);
-            let with_third =
-                self.third(&pattern, places, gap).map(|p| [&pattern[..], &[(p, sizes[1])]].concat());
+            let with_third = self
+                .third(&pattern, places, gap)
+                .map(|p| [&pattern[..], &[(p, sizes[1])]].concat());
             for pattern in with_third.into_iter().chain([pattern]) {
                 if !is_confused(&self.end_views(&pattern), placed) {
                     return pattern;
                 }
             }
         }
-        let alone = || places.first().map(|&p| vec![(p, sizes[0])]).unwrap_or_default();
+        let alone = || {
+            places
+                .first()
+                .map(|&p| vec![(p, sizes[0])])
+                .unwrap_or_default()
+        };
         pairs.first().map_or_else(alone, two)
     }
 
     /// The place farthest from the nearer of two pins, if it keeps the gap from both.
     fn third(&self, pattern: &[(Point2, Size)], places: &[Point2], gap: f64) -> Option<Point2> {
-        let off = |p: &Point2| pattern.iter().map(|(q, _)| (p - q).norm()).fold(f64::INFINITY, f64::min);
-        let best = places.iter().copied().max_by(|p, q| off(p).total_cmp(&off(q)))?;
+        let off = |p: &Point2| {
+            pattern
+                .iter()
+                .map(|(q, _)| (p - q).norm())
+                .fold(f64::INFINITY, f64::min)
+        };
+        let best = places
+            .iter()
+            .copied()
+            .max_by(|p, q| off(p).total_cmp(&off(q)))?;
         (pattern.len() < MAX_PINS && off(&best) >= gap).then_some(best)
     }
 
@@ -176,8 +219,14 @@ impl<'a> Face<'a> {
     }
 
     fn dowel(&self, rod: usize, length_mm: f64) -> Dowel {
-        let Rod { id, density_g_cm3, .. } = &self.scene.request.rods[rod];
-        Dowel { rod: id.clone(), length_mm, density_g_cm3: *density_g_cm3 }
+        let Rod {
+            id, density_g_cm3, ..
+        } = &self.scene.request.rods[rod];
+        Dowel {
+            rod: id.clone(),
+            length_mm,
+            density_g_cm3: *density_g_cm3,
+        }
     }
 
     fn site(&self, p: &Point2, size: &Size) -> PinSite {
@@ -188,11 +237,17 @@ impl<'a> Face<'a> {
             direction: (self.plane.normal * self.sign).into(),
             diameter_mm: size.diameter,
             length_mm: size.length,
-            chamfer_mm: if size.dowel.is_some() { 0.0 } else { size.chamfer },
+            chamfer_mm: if size.dowel.is_some() {
+                0.0
+            } else {
+                size.chamfer
+            },
             socket_diameter_mm: size.socket_diameter,
             socket_depth_mm: size.depth,
             socket_chamfer_mm: size.chamfer,
-            dowel: size.dowel.map(|(rod, length_mm)| self.dowel(rod, length_mm)),
+            dowel: size
+                .dowel
+                .map(|(rod, length_mm)| self.dowel(rod, length_mm)),
         }
     }
 }
@@ -219,7 +274,9 @@ fn grid(cap: &Cap, pitch: f64) -> impl Iterator<Item = (Point2, f64)> + '_ {
     let (min, max) = cap.outline.bounds().unwrap_or_default();
     let count = |extent: f64| (extent / pitch).floor() as usize;
     let (columns, rows) = (count(max.x - min.x), count(max.y - min.y));
-    let at = move |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
+    let at = move |i: usize, j: usize| {
+        min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch
+    };
     let points = (0..columns).flat_map(move |i| (0..rows).map(move |j| at(i, j)));
     points.map(|p| (p, cap.outline.signed_distance(&p)))
 }

@@ -53,17 +53,29 @@ struct Extent {
 /// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets into cells that
 /// meet the same voids; each cell is sampled. Sorted by direction, then offset; the model's planes of symmetry come last.
 pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
-    let breadths: Vec<f64> = hollowed.voids.iter().map(|void| breadth_mm(void.mesh())).collect();
+    let breadths: Vec<f64> = hollowed
+        .voids
+        .iter()
+        .map(|void| breadth_mm(void.mesh()))
+        .collect();
     let directions = directions(hollowed, request);
     let rows: Vec<Vec<Candidate>> = directions
         .par_iter()
         .map(|normal| {
-            let extents = hollowed.voids.iter().zip(&breadths).map(|(v, &b)| extent(v.mesh(), normal, b));
+            let extents = hollowed
+                .voids
+                .iter()
+                .zip(&breadths)
+                .map(|(v, &b)| extent(v.mesh(), normal, b));
             in_direction(normal, &extents.collect::<Vec<_>>(), &request.seats)
         })
         .collect();
     let middles = symmetry(hollowed.outer.mesh()).into_iter().map(|plane| {
-        let extents = hollowed.voids.iter().zip(&breadths).map(|(v, &b)| extent(v.mesh(), &plane.normal, b));
+        let extents = hollowed
+            .voids
+            .iter()
+            .zip(&breadths)
+            .map(|(v, &b)| extent(v.mesh(), &plane.normal, b));
         candidate(plane, &extents.collect::<Vec<_>>(), &request.seats)
     });
     let middles = middles.filter(|middle| middle.met != 0);
@@ -95,11 +107,19 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
 
 /// The centres of the largest voids.
 fn centers(hollowed: &Hollowed) -> Vec<Point> {
-    let bodies = hollowed.voids.iter().map(|void| moments_of_mesh(void.mesh()));
-    let mut sized: Vec<(f64, Point)> =
-        bodies.map(|moments| (moments.volume(), Body::new(&moments, 1.0).center)).collect();
+    let bodies = hollowed
+        .voids
+        .iter()
+        .map(|void| moments_of_mesh(void.mesh()));
+    let mut sized: Vec<(f64, Point)> = bodies
+        .map(|moments| (moments.volume(), Body::new(&moments, 1.0).center))
+        .collect();
     sized.sort_by(|a, b| b.0.total_cmp(&a.0));
-    sized.into_iter().take(PAIRED_VOIDS).map(|(_, center)| center).collect()
+    sized
+        .into_iter()
+        .take(PAIRED_VOIDS)
+        .map(|(_, center)| center)
+        .collect()
 }
 
 /// The directions in which points may lie flattest: the common normals of two lines through two of them each. The least
@@ -111,7 +131,9 @@ fn flattest(points: &[Point]) -> Vec<Vector> {
     let lines: Vec<Vector> = pairs(points.len())
         .filter_map(|(i, j)| (points[i] - points[j]).try_normalize(f64::MIN_POSITIVE))
         .collect();
-    pairs(lines.len()).filter_map(|(i, j)| lines[i].cross(&lines[j]).try_normalize(PARALLEL_SINE)).collect()
+    pairs(lines.len())
+        .filter_map(|(i, j)| lines[i].cross(&lines[j]).try_normalize(PARALLEL_SINE))
+        .collect()
 }
 
 /// Point `index` of the spiral over the upper half sphere.
@@ -136,10 +158,18 @@ fn breadth_mm(mesh: &TriMesh) -> f64 {
 
 /// The extent of a mesh along `normal`.
 fn extent(mesh: &TriMesh, normal: &Vector, breadth_mm: f64) -> Extent {
-    let heights = mesh.vertices().iter().map(|p: &Point| normal.dot(&p.coords));
-    let (low_mm, high_mm) =
-        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (low.min(h), high.max(h)));
-    Extent { low_mm, high_mm, breadth_mm }
+    let heights = mesh
+        .vertices()
+        .iter()
+        .map(|p: &Point| normal.dot(&p.coords));
+    let (low_mm, high_mm) = heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| {
+        (low.min(h), high.max(h))
+    });
+    Extent {
+        low_mm,
+        high_mm,
+        breadth_mm,
+    }
 }
 
 impl Extent {
@@ -160,25 +190,43 @@ impl Extent {
 fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
-    let cells = ends.windows(2).filter(|cell| cell[1] - cell[0] >= MIN_INTERVAL_MM);
+    let cells = ends
+        .windows(2)
+        .filter(|cell| cell[1] - cell[0] >= MIN_INTERVAL_MM);
     let offsets = cells.flat_map(|cell| {
         let step = (cell[1] - cell[0]) / OFFSETS_PER_INTERVAL as f64;
         (0..OFFSETS_PER_INTERVAL).map(move |i| cell[0] + step * (i as f64 + 0.5))
     });
     let middles = seats.iter().map(|seat| seat.height_mm(normal));
-    let planes = middles.chain(offsets).map(|offset_mm| Plane { normal: *normal, offset_mm });
-    planes.map(|plane| candidate(plane, extents, seats)).filter(|c| c.met != 0).collect()
+    let planes = middles.chain(offsets).map(|offset_mm| Plane {
+        normal: *normal,
+        offset_mm,
+    });
+    planes
+        .map(|plane| candidate(plane, extents, seats))
+        .filter(|c| c.met != 0)
+        .collect()
 }
 
 /// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part into.
 fn candidate(plane: Plane, extents: &[Extent], seats: &[Seat]) -> Candidate {
     let (offset_mm, first) = (plane.offset_mm, extents.len().saturating_sub(seats.len()));
-    let is_seat_opened =
-        |i: usize| i.checked_sub(first).and_then(|i| seats.get(i)).is_none_or(|s| s.is_opened_by(&plane));
-    let met = || extents.iter().enumerate().filter(|(i, e)| e.meets(offset_mm) && is_seat_opened(*i));
+    let is_seat_opened = |i: usize| {
+        i.checked_sub(first)
+            .and_then(|i| seats.get(i))
+            .is_none_or(|s| s.is_opened_by(&plane))
+    };
+    let met = || {
+        extents
+            .iter()
+            .enumerate()
+            .filter(|(i, e)| e.meets(offset_mm) && is_seat_opened(*i))
+    };
     Candidate {
         plane,
         met: met().fold(0, |set, (i, _)| set | 1 << i),
-        guess_mm: met().map(|(_, e)| e.guess_mm(offset_mm)).fold(f64::INFINITY, f64::min),
+        guess_mm: met()
+            .map(|(_, e)| e.guess_mm(offset_mm))
+            .fold(f64::INFINITY, f64::min),
     }
 }

@@ -46,14 +46,25 @@ pub(crate) struct Tried {
 
 impl Tried {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
-        let planes: Vec<Plane> = planes.iter().map(|plane| off_vertices(&scene.material, plane)).collect();
-        let voids = accesses(&scene.chambers, &CutTree::everywhere(&planes), scene.request)?;
+        let planes: Vec<Plane> = planes
+            .iter()
+            .map(|plane| off_vertices(&scene.material, plane))
+            .collect();
+        let voids = accesses(
+            &scene.chambers,
+            &CutTree::everywhere(&planes),
+            scene.request,
+        )?;
         Ok(Self::of(scene, planes, voids))
     }
 
     fn of(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Self {
         let lack_mm2 = voids.iter().map(|void| void.lack_mm2(scene.request)).sum();
-        Self { planes, voids, lack_mm2 }
+        Self {
+            planes,
+            voids,
+            lack_mm2,
+        }
     }
 
     /// The areas of all voids as [`VoidAccess::area_mm2`] has them, mm².
@@ -69,18 +80,28 @@ impl Tried {
     /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a joint.
     fn is_nearly_clean(&self, scene: &Scene) -> bool {
         let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
-        self.voids.iter().all(|void| void.is_clean || margin.contains(&void.sight_ratio))
+        self.voids
+            .iter()
+            .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
     }
 
     /// The cleaner of two, the first where they are alike.
     fn or_cleaner(self, other: Self) -> Self {
-        if other.lack_mm2 < self.lack_mm2 { other } else { self }
+        if other.lack_mm2 < self.lack_mm2 {
+            other
+        } else {
+            self
+        }
     }
 
     /// The same cuts and one more; the voids that it does not meet stay as they are.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let voids = looked_at_again(scene, &self.voids, (&CutTree::everywhere(&planes), &[plane]))?;
+        let voids = looked_at_again(
+            scene,
+            &self.voids,
+            (&CutTree::everywhere(&planes), &[plane]),
+        )?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -133,7 +154,9 @@ fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
 /// All are glanced at, and those cut for trial in their order that seem to be clean; then the most hopeful of the others.
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
     let glance = |planes: &Vec<Plane>| {
-        (0..scene.chambers.len()).map(|void| glanced_lack_ratio(scene, void, planes)).fold(0.0, f64::max)
+        (0..scene.chambers.len())
+            .map(|void| glanced_lack_ratio(scene, void, planes))
+            .fold(0.0, f64::max)
     };
     let mut trial = Trial { scene, best: None };
     let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
@@ -180,14 +203,21 @@ impl Trial<'_> {
 
 /// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut brings much more; each is
 /// told in the notes.
-pub(crate) fn furthered(scene: &Scene, mut tried: Tried, notes: &mut Vec<String>) -> Result<Tried, CutError> {
+pub(crate) fn furthered(
+    scene: &Scene,
+    mut tried: Tried,
+    notes: &mut Vec<String>,
+) -> Result<Tried, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
         if tried.is_nearly_clean(scene) {
             break;
         }
-        let Some(next) = one_more(scene, &tried)? else { break };
+        let Some(next) = one_more(scene, &tried)? else {
+            break;
+        };
         let gain_mm2 = tried.lack_mm2 - next.lack_mm2;
-        if gain_mm2 < WORTH_RATIO * tried.lack_mm2 || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
+        if gain_mm2 < WORTH_RATIO * tried.lack_mm2
+            || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
         {
             break;
         }
@@ -199,36 +229,67 @@ pub(crate) fn furthered(scene: &Scene, mut tried: Tried, notes: &mut Vec<String>
 
 /// What a further cut is for.
 fn note(before: &Tried, after: &Tried) -> String {
-    let changed = before.voids.iter().zip(&after.voids).filter(|(b, a)| a.sight_ratio > b.sight_ratio);
+    let changed = before
+        .voids
+        .iter()
+        .zip(&after.voids)
+        .filter(|(b, a)| a.sight_ratio > b.sight_ratio);
     let percent = |ratio: f64| 100.0 * ratio;
     let told = changed.map(|(b, a)| {
         let (was, is) = (percent(b.sight_ratio), percent(a.sight_ratio));
-        format!("void V{}: {was:.0} % of the wall in sight without it, {is:.0} % with it", a.void + 1)
+        format!(
+            "void V{}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
+            a.void + 1
+        )
     });
     let told: Vec<String> = told.collect();
-    format!("cut {}: so that voids can be cleaned ({})", cut_id(before.planes.len()), told.join("; "))
+    format!(
+        "cut {}: so that voids can be cleaned ({})",
+        cut_id(before.planes.len()),
+        told.join("; ")
+    )
 }
 
 /// The cuts with the one more that lets the void that lacks most be cleaned best.
 fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
-    let Some(worst) = tried.voids.iter().max_by(|a, b| lack(a).total_cmp(&lack(b))) else { return Ok(None) };
+    let Some(worst) = tried
+        .voids
+        .iter()
+        .max_by(|a, b| lack(a).total_cmp(&lack(b)))
+    else {
+        return Ok(None);
+    };
     let tree = CutTree::everywhere(&tried.planes);
     let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
     let planes = through(scene, worst.void, &hidden);
-    let glanced = planes.par_iter().map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
+    let glanced = planes
+        .par_iter()
+        .map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
     let mut glanced: Vec<(f64, Plane)> = glanced.collect();
     glanced.sort_by(|a, b| a.0.total_cmp(&b.0));
     glanced.truncate(WEIGHED);
-    let more = glanced.par_iter().map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
+    let more = glanced
+        .par_iter()
+        .map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
     let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
     more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
-    let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else { return Ok(None) };
+    let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else {
+        return Ok(None);
+    };
     let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (tried.lack_mm2 - least_mm2);
-    let near = more.into_iter().take_while(|next| next.lack_mm2 <= enough_mm2);
-    let penalty = |next: &Tried| next.planes.last().map_or(0.0, |plane| burden(scene, plane).penalty(scene));
+    let near = more
+        .into_iter()
+        .take_while(|next| next.lack_mm2 <= enough_mm2);
+    let penalty = |next: &Tried| {
+        next.planes
+            .last()
+            .map_or(0.0, |plane| burden(scene, plane).penalty(scene))
+    };
     let weighed = near.map(|next| (penalty(&next), next));
-    Ok(weighed.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, next)| next))
+    Ok(weighed
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, next)| next))
 }
 
 /// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those of the points.
@@ -236,15 +297,25 @@ fn through(scene: &Scene, void: usize, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
-    let own = Body::new(&moments_of_mesh(scene.hollowed.voids[void].mesh()), 1.0).principal().axes;
+    let own = Body::new(&moments_of_mesh(scene.hollowed.voids[void].mesh()), 1.0)
+        .principal()
+        .axes;
     normals.extend((0..3).map(|i| own.column(i).into_owned()));
     normals.extend(axes_of(hidden));
     let at = |normal: &Vector| {
         let mut heights: Vec<f64> = hidden.iter().map(|p| normal.dot(&p.coords)).collect();
         heights.sort_by(f64::total_cmp);
-        let place = |share: f64| heights.get((share * heights.len() as f64) as usize).copied();
+        let place = |share: f64| {
+            heights
+                .get((share * heights.len() as f64) as usize)
+                .copied()
+        };
         let normal = *normal;
-        QUANTILES.map(place).into_iter().flatten().map(move |offset_mm| Plane { normal, offset_mm })
+        QUANTILES
+            .map(place)
+            .into_iter()
+            .flatten()
+            .map(move |offset_mm| Plane { normal, offset_mm })
     };
     normals.iter().flat_map(at).collect::<Vec<_>>()
 }
@@ -259,5 +330,6 @@ fn axes_of(points: &[Point]) -> Vec<Vector> {
     });
     let axes = spread.symmetric_eigen().eigenvectors;
     let axes = (0..3).map(|i| axes.column(i).into_owned());
-    axes.filter(|axis| (axis.norm() - 1.0).abs() < f64::EPSILON.sqrt()).collect()
+    axes.filter(|axis| (axis.norm() - 1.0).abs() < f64::EPSILON.sqrt())
+        .collect()
 }

@@ -94,13 +94,24 @@ impl Label {
     fn boxes(&self) -> Vec<[f64; 4]> {
         let [width, height] = size_mm(&self.text, self.stroke_mm);
         let cell = (CELL[0] + CELL[2]) * self.stroke_mm;
-        let boxes = self.text.chars().enumerate().flat_map(|(index, character)| {
-            strokes_of(character).iter().map(move |&stroke| (index, STROKES[stroke]))
-        });
+        let boxes = self
+            .text
+            .chars()
+            .enumerate()
+            .flat_map(|(index, character)| {
+                strokes_of(character)
+                    .iter()
+                    .map(move |&stroke| (index, STROKES[stroke]))
+            });
         let place = |(index, stroke): (usize, [f64; 4])| {
             let [left, right, bottom, top] = stroke.map(|x| x * self.stroke_mm);
             let shift = cell * index as f64 - width / 2.0;
-            [left + shift, right + shift, bottom - height / 2.0, top - height / 2.0]
+            [
+                left + shift,
+                right + shift,
+                bottom - height / 2.0,
+                top - height / 2.0,
+            ]
         };
         boxes.map(place).collect()
     }
@@ -115,11 +126,16 @@ impl Label {
 
     fn bodies(&self, out_mm: f64) -> TriMesh {
         let body = |[left, right, bottom, top]: [f64; 4]| {
-            let body = cuboid(&Point::new(left, bottom, -out_mm), &Point::new(right, top, self.depth_mm));
+            let body = cuboid(
+                &Point::new(left, bottom, -out_mm),
+                &Point::new(right, top, self.depth_mm),
+            );
             // Text, up and depth are left-handed.
             body.map_vertices(|p| self.place(p)).reversed()
         };
-        self.boxes().into_iter().fold(TriMesh::default(), |all, stroke| all.joined(&body(stroke)))
+        self.boxes()
+            .into_iter()
+            .fold(TriMesh::default(), |all, stroke| all.joined(&body(stroke)))
     }
 }
 
@@ -144,14 +160,19 @@ fn strokes_of(character: char) -> &'static [usize] {
 /// Width and height of a text, mm.
 fn size_mm(text: &str, stroke_mm: f64) -> [f64; 2] {
     let count = text.chars().count() as f64;
-    [(count * CELL[0] + (count - 1.0) * CELL[2]) * stroke_mm, CELL[1] * stroke_mm]
+    [
+        (count * CELL[0] + (count - 1.0) * CELL[2]) * stroke_mm,
+        CELL[1] * stroke_mm,
+    ]
 }
 
 /// What may be written for the part with this index, the fullest first. A lone 6 or 9 could be read the other way up.
 fn texts(part: usize) -> Vec<String> {
     let number = (part + 1).to_string();
     let is_clear = !number.contains(['6', '9']);
-    std::iter::once(part_id(part)).chain(is_clear.then_some(number)).collect()
+    std::iter::once(part_id(part))
+        .chain(is_clear.then_some(number))
+        .collect()
 }
 
 /// The labels of all joints' faces with room for one, and a word on those without.
@@ -160,10 +181,21 @@ pub(crate) fn labels(
     joints: &[Joint],
     placements: &[Placement],
 ) -> (Vec<Label>, Vec<String>) {
-    let Some(style) = scene.request.labels else { return (Vec::new(), Vec::new()) };
+    let Some(style) = scene.request.labels else {
+        return (Vec::new(), Vec::new());
+    };
     let surface = Bvh::new(scene.material.iter_corners());
-    let taken = placements.iter().flat_map(|placement| &placement.sites).map(Taken::of).collect();
-    let marker = Marker { scene, style, surface, taken };
+    let taken = placements
+        .iter()
+        .flat_map(|placement| &placement.sites)
+        .map(Taken::of)
+        .collect();
+    let marker = Marker {
+        scene,
+        style,
+        surface,
+        taken,
+    };
     let (mut labels, mut notes) = (Vec::new(), Vec::new());
     for joint in joints {
         for part in [joint.below, joint.above] {
@@ -192,7 +224,11 @@ impl Marker<'_> {
     /// The label of a part's face in a joint: the fullest text for which there is room.
     fn label(&self, joint: &Joint, part: usize) -> Option<Label> {
         let plane = &self.scene.tree.planes[joint.cut];
-        let into = if part == joint.above { plane.normal } else { -plane.normal };
+        let into = if part == joint.above {
+            plane.normal
+        } else {
+            -plane.normal
+        };
         let at = |text: &str, (p, turn): (Point2, usize)| {
             let center = Chart::of_plane(plane).lift(plane, &p);
             let (u, v) = plane.basis();
@@ -209,10 +245,14 @@ impl Marker<'_> {
             }
         };
         texts(part).iter().find_map(|text| {
-            let places =
-                joint.faces.iter().flat_map(|cap| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
+            let places = joint
+                .faces
+                .iter()
+                .flat_map(|cap| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
             let mut turned = places.flat_map(|p| (0..TURNS).map(move |turn| (p, turn)));
-            turned.find_map(|place| Some(at(text, place)).filter(|label| self.has_room(label, joint.cut)))
+            turned.find_map(|place| {
+                Some(at(text, place)).filter(|label| self.has_room(label, joint.cut))
+            })
         })
     }
 
@@ -231,13 +271,19 @@ impl Marker<'_> {
         };
         let tree = self.scene.tree;
         let others = |at: &Point| {
-            let made = (0..tree.planes.len()).filter(|&other| other != cut && tree.acts_at(other, at));
+            let made =
+                (0..tree.planes.len()).filter(|&other| other != cut && tree.acts_at(other, at));
             made.map(|other| &tree.planes[other]).collect::<Vec<_>>()
         };
         (0..LINES).map(line).all(|ends| {
             let reach = radius + wall_mm;
-            others(&ends[0]).into_iter().all(|plane| is_clear(plane, &ends))
-                && self.taken.iter().all(|taken| taken.is_clear_of(ends.each_ref(), reach))
+            others(&ends[0])
+                .into_iter()
+                .all(|plane| is_clear(plane, &ends))
+                && self
+                    .taken
+                    .iter()
+                    .all(|taken| taken.is_clear_of(ends.each_ref(), reach))
                 && self.surface.segment_distance(&ends[0], &ends[1], reach) >= reach
         })
     }
@@ -245,13 +291,18 @@ impl Marker<'_> {
 
 /// Points spread over a face, at least so far from its edge, mm, the farthest from it first.
 fn places(cap: &Cap, least_mm: f64) -> Vec<Point2> {
-    let Some((min, max)) = cap.outline.bounds() else { return Vec::new() };
+    let Some((min, max)) = cap.outline.bounds() else {
+        return Vec::new();
+    };
     let pitch = (cap.area_mm2 / PLACES).sqrt();
     let size = max - min;
     let [columns, rows] = [size.x, size.y].map(|extent| (extent / pitch).ceil() as usize);
-    let at = |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
+    let at =
+        |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
     let points = (0..columns).flat_map(|i| (0..rows).map(move |j| at(i, j)));
-    let mut deep: Vec<(f64, Point2)> = points.map(|p| (cap.outline.signed_distance(&p), p)).collect();
+    let mut deep: Vec<(f64, Point2)> = points
+        .map(|p| (cap.outline.signed_distance(&p), p))
+        .collect();
     deep.retain(|(distance, _)| *distance >= least_mm);
     deep.sort_by(|a, b| b.0.total_cmp(&a.0));
     deep.into_iter().map(|(_, p)| p).collect()
@@ -292,13 +343,21 @@ mod tests {
     fn a_label_reads_from_left_to_right_for_whoever_looks_at_the_face() {
         // Seen from above, along −z, x runs to the right and y up: the 1 after P lies at larger x, the bow of P in the upper half.
         let strokes = label("P1").strokes();
-        assert!(strokes.iter().take(5).all(|p| p.x < 1.0) && strokes.iter().skip(5).all(|p| p.x > 1.0));
+        assert!(
+            strokes.iter().take(5).all(|p| p.x < 1.0) && strokes.iter().skip(5).all(|p| p.x > 1.0)
+        );
         let upper = strokes.iter().take(5).filter(|p| p.y > 2.1).count();
         assert_eq!(upper, 3);
     }
 
     #[test]
     fn a_six_is_never_written_alone() {
-        assert_eq!((texts(0), texts(5)), (vec!["P01".to_owned(), "1".to_owned()], vec!["P06".to_owned()]));
+        assert_eq!(
+            (texts(0), texts(5)),
+            (
+                vec!["P01".to_owned(), "1".to_owned()],
+                vec!["P06".to_owned()]
+            )
+        );
     }
 }

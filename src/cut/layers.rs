@@ -70,8 +70,13 @@ pub(crate) fn at_layers(
     let mut planes = layout.tree.planes.clone();
     for (cut, _, moved_mm) in &moves {
         let plane = planes[*cut];
-        planes[*cut] =
-            off_vertices(&scene.material, &Plane { offset_mm: plane.offset_mm + moved_mm, ..plane });
+        planes[*cut] = off_vertices(
+            &scene.material,
+            &Plane {
+                offset_mm: plane.offset_mm + moved_mm,
+                ..plane
+            },
+        );
     }
     let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
         cut: cut_id(cut),
@@ -79,8 +84,13 @@ pub(crate) fn at_layers(
         moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
-    let Some(layout) = still_open(scene, layout, planes)? else { return Ok(plan) };
-    Ok(CutPlan { moves: moved, ..described(scene, &layout, (Pins::Placed, notes))? })
+    let Some(layout) = still_open(scene, layout, planes)? else {
+        return Ok(plan);
+    };
+    Ok(CutPlan {
+        moves: moved,
+        ..described(scene, &layout, (Pins::Placed, notes))?
+    })
 }
 
 /// Which cuts are moved for which part, and how far along their normals, mm.
@@ -88,10 +98,15 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
     if request.layer_mm <= 0.0 {
         return Vec::new();
     }
-    let mut levels: Vec<Level> =
-        (0..layout.pieces.len()).flat_map(|part| levels(request, layout, plan, part)).collect();
+    let mut levels: Vec<Level> = (0..layout.pieces.len())
+        .flat_map(|part| levels(request, layout, plan, part))
+        .collect();
     levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
-    let decides = |cut: usize| levels.iter().find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM);
+    let decides = |cut: usize| {
+        levels
+            .iter()
+            .find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM)
+    };
     let mut moved_mm = vec![0.0; layout.tree.planes.len()];
     for _ in 0..SWEEPS {
         for cut in 0..moved_mm.len() {
@@ -100,8 +115,13 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
             }
         }
     }
-    let moves = moved_mm.iter().enumerate().filter(|(_, moved)| **moved != 0.0);
-    moves.filter_map(|(cut, &moved)| Some((cut, decides(cut)?.part, moved))).collect()
+    let moves = moved_mm
+        .iter()
+        .enumerate()
+        .filter(|(_, moved)| **moved != 0.0);
+    moves
+        .filter_map(|(cut, &moved)| Some((cut, decides(cut)?.part, moved)))
+        .collect()
 }
 
 /// How far the face's plane must move along its normal to end at the nearest whole layer, mm.
@@ -126,10 +146,20 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
             let at = Chart::of_plane(plane).lift(plane, &cap.inner_point());
             let height_mm = apply(&motion, &at).z;
             let (cut, area_mm2) = (cap.cut, cap.area_mm2);
-            levels.push(Level { cut, part, area_mm2, height_mm, up: up.signum(), rest: None });
+            levels.push(Level {
+                cut,
+                part,
+                area_mm2,
+                height_mm,
+                up: up.signum(),
+                rest: None,
+            });
         }
     }
-    let rest = levels.iter().find(|level| level.height_mm <= ON_PLATE_MM).map(|level| (level.cut, level.up));
+    let rest = levels
+        .iter()
+        .find(|level| level.height_mm <= ON_PLATE_MM)
+        .map(|level| (level.cut, level.up));
     for level in &mut levels {
         level.rest = rest;
     }
@@ -140,21 +170,31 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
 fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
     let id = part_id(part);
     let carries = |cut: usize| {
-        plan.joints.iter().filter(|joint| joint.cut == cut_id(cut)).any(|joint| {
-            let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
-            let pins = plan.pins.iter().filter(stands);
-            let carrier = |direction: [f64; 3]| {
-                let is_upward = layout.tree.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
-                &joint.parts[usize::from(!is_upward)]
-            };
-            pins.into_iter().any(|pin| *carrier(pin.direction) == id)
-        })
+        plan.joints
+            .iter()
+            .filter(|joint| joint.cut == cut_id(cut))
+            .any(|joint| {
+                let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
+                let pins = plan.pins.iter().filter(stands);
+                let carrier = |direction: [f64; 3]| {
+                    let is_upward =
+                        layout.tree.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
+                    &joint.parts[usize::from(!is_upward)]
+                };
+                pins.into_iter().any(|pin| *carrier(pin.direction) == id)
+            })
     };
-    (0..layout.tree.planes.len()).filter(|&cut| carries(cut)).collect()
+    (0..layout.tree.planes.len())
+        .filter(|&cut| carries(cut))
+        .collect()
 }
 
 /// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
-fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Option<Layout>, CutError> {
+fn still_open(
+    scene: &Scene,
+    layout: &Layout,
+    planes: Vec<Plane>,
+) -> Result<Option<Layout>, CutError> {
     let tree = layout.tree.moved(planes);
     let Ok(pieces) = rejoined(scene.split(&tree)?, &tree, &layout.bridges) else {
         return Ok(None);
@@ -169,7 +209,12 @@ fn still_open(scene: &Scene, layout: &Layout, planes: Vec<Plane>) -> Result<Opti
         is_narrower || (before.is_clean && !now.is_clean)
     };
     let is_open = !voids.iter().zip(&layout.voids).any(is_worse);
-    Ok(is_open.then(|| Layout { tree, voids, pieces, bridges: layout.bridges.clone() }))
+    Ok(is_open.then(|| Layout {
+        tree,
+        voids,
+        pieces,
+        bridges: layout.bridges.clone(),
+    }))
 }
 
 #[cfg(test)]
@@ -204,7 +249,10 @@ mod tests {
     #[test]
     fn a_face_that_looks_up_ends_at_a_whole_layer() {
         for layer_mm in [0.2, 0.03] {
-            let off = off_layers(&PlanRequest { layer_mm, ..request() });
+            let off = off_layers(&PlanRequest {
+                layer_mm,
+                ..request()
+            });
             assert!(!off.is_empty());
             // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest layer.
             assert!(off.iter().all(|off| *off < 1e-3), "{layer_mm}: {off:?}");
@@ -213,7 +261,11 @@ mod tests {
 
     #[test]
     fn where_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
-        let both = PlanRequest { pose: PosePreference::OpenHollowUp, layer_mm: 0.2, ..request() };
+        let both = PlanRequest {
+            pose: PosePreference::OpenHollowUp,
+            layer_mm: 0.2,
+            ..request()
+        };
         let off = off_layers(&both);
         assert_eq!(off.len(), 2);
         assert!(off.iter().any(|off| *off < 1e-3), "{off:?}");
@@ -223,7 +275,14 @@ mod tests {
     fn without_layers_nothing_is_moved() {
         let outer = cuboid([0.0; 3], [30.0; 3]);
         let hollowed = with_balls(outer, &[[15.0, 15.0, 15.0, 8.0]]);
-        let still = plan(&hollowed, &PlanRequest { layer_mm: 0.0, ..request() }).unwrap();
+        let still = plan(
+            &hollowed,
+            &PlanRequest {
+                layer_mm: 0.0,
+                ..request()
+            },
+        )
+        .unwrap();
         assert!(still.moves.is_empty());
     }
 }

@@ -17,15 +17,23 @@ const TOLERANCE_RATIO: f64 = 0.01;
 pub(crate) fn mirror_planes(mesh: &TriMesh, center: &Point, directions: &[Vector]) -> Vec<Plane> {
     let bvh = Bvh::new(mesh.iter_corners());
     let farthest_mm = TOLERANCE_RATIO * mesh.aabb().size().norm();
-    let samples: Vec<Point> =
-        mesh.vertices().iter().step_by(mesh.vertices().len().div_ceil(SAMPLES).max(1)).copied().collect();
+    let samples: Vec<Point> = mesh
+        .vertices()
+        .iter()
+        .step_by(mesh.vertices().len().div_ceil(SAMPLES).max(1))
+        .copied()
+        .collect();
     let is_mirror = |plane: &Plane| {
         samples.iter().all(|p| {
             let image = p - plane.normal * (2.0 * plane.distance(p));
             bvh.closest(&image, farthest_mm, &[]).is_some()
         })
     };
-    directions.iter().map(|normal| Plane::through(center, normal)).filter(is_mirror).collect()
+    directions
+        .iter()
+        .map(|normal| Plane::through(center, normal))
+        .filter(is_mirror)
+        .collect()
 }
 
 #[cfg(test)]
@@ -47,9 +55,17 @@ mod tests {
 
     #[test]
     fn a_ball_with_a_bump_has_lost_the_plane_that_the_bump_is_above() {
-        let bumped = ball(&Point::origin(), 10.0, 4)
-            .map_vertices(|p| if p.z > 8.0 { p + Vector::z() * (p.z - 8.0) } else { *p });
+        let bumped = ball(&Point::origin(), 10.0, 4).map_vertices(|p| {
+            if p.z > 8.0 {
+                p + Vector::z() * (p.z - 8.0)
+            } else {
+                *p
+            }
+        });
         let planes = mirror_planes(&bumped, &Point::origin(), &axes());
-        assert_eq!(planes.iter().map(|plane| plane.normal).collect::<Vec<_>>(), axes()[..2]);
+        assert_eq!(
+            planes.iter().map(|plane| plane.normal).collect::<Vec<_>>(),
+            axes()[..2]
+        );
     }
 }

@@ -23,7 +23,9 @@ pub(crate) fn opening(void: &TriMesh, plane: &Plane) -> Option<Opening> {
     if section.rings.is_empty() {
         return None;
     }
-    Some(Opening { diameter_mm: narrowest_mouth_mm(void, plane, section) })
+    Some(Opening {
+        diameter_mm: narrowest_mouth_mm(void, plane, section),
+    })
 }
 
 /// Whether a pocket is so shallow for its mouth that all of it lies in sight.
@@ -35,7 +37,10 @@ pub(crate) fn is_dimple(depth_mm: f64, mouth_mm: f64) -> bool {
 fn narrowest_mouth_mm(void: &TriMesh, plane: &Plane, section: Section) -> f64 {
     let polygons = section.groups();
     let mouth_mm = |rings: &Vec<usize>| {
-        section.outline(rings).largest_disc(0.0).map_or(0.0, |disc| 2.0 * disc.radius_mm)
+        section
+            .outline(rings)
+            .largest_disc(0.0)
+            .map_or(0.0, |disc| 2.0 * disc.radius_mm)
     };
     let mouths: Vec<f64> = polygons.iter().map(mouth_mm).collect();
     let widest_mm = mouths.iter().copied().fold(0.0, f64::max);
@@ -44,7 +49,9 @@ fn narrowest_mouth_mm(void: &TriMesh, plane: &Plane, section: Section) -> f64 {
     }
     let sides = Sides::new(void, *plane, section);
     let pieces = pieces(&sides, &mouths);
-    let deep = pieces.iter().filter(|&&(piece, mm)| !is_dimple(sides.depth_mm(piece), mm));
+    let deep = pieces
+        .iter()
+        .filter(|&&(piece, mm)| !is_dimple(sides.depth_mm(piece), mm));
     deep.map(|&(_, mm)| mm).fold(widest_mm, f64::min)
 }
 

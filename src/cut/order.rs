@@ -110,10 +110,16 @@ impl CutOrder {
             }
         };
         let mut own = self.clone();
-        own.cuts.iter_mut().flat_map(|cut| &mut cut.within).for_each(|side| number(&mut side.cut));
+        own.cuts
+            .iter_mut()
+            .flat_map(|cut| &mut cut.within)
+            .for_each(|side| number(&mut side.cut));
         own.cuts.iter_mut().for_each(|cut| number(&mut cut.id));
         own.uncut.iter_mut().for_each(|face| number(&mut face.cut));
-        own.pins.iter_mut().flatten().for_each(|pin| number(&mut pin.cut));
+        own.pins
+            .iter_mut()
+            .flatten()
+            .for_each(|pin| number(&mut pin.cut));
         own
     }
 
@@ -132,7 +138,12 @@ impl TryFrom<Given> for CutOrder {
     type Error = OrderError;
 
     fn try_from(given: Given) -> Result<Self, OrderError> {
-        let Given { pins, cuts, uncut, solid } = given;
+        let Given {
+            pins,
+            cuts,
+            uncut,
+            solid,
+        } = given;
         let ids = |what, ids: Vec<&String>| no_twin(what, ids);
         ids("cut", cuts.iter().map(|cut| &cut.id).collect())?;
         ids("pin", pins.iter().flatten().map(|pin| &pin.id).collect())?;
@@ -140,38 +151,67 @@ impl TryFrom<Given> for CutOrder {
             return Err(OrderError::NoPlane(cut.id.clone()));
         }
         let known = |id: &str| cuts.iter().any(|cut| cut.id == id);
-        let mut sides = cuts.iter().flat_map(|cut| cut.within.iter().map(move |side| (cut, side)));
+        let mut sides = cuts
+            .iter()
+            .flat_map(|cut| cut.within.iter().map(move |side| (cut, side)));
         if let Some((cut, side)) = sides.find(|(_, side)| !known(&side.cut)) {
-            return Err(OrderError::NoCut { what: format!("cut {}", cut.id), cut: side.cut.clone() });
+            return Err(OrderError::NoCut {
+                what: format!("cut {}", cut.id),
+                cut: side.cut.clone(),
+            });
         }
         if tree_of(&cuts).is_err() {
             return Err(OrderError::Circular);
         }
         if let Some(face) = uncut.iter().find(|face| !known(&face.cut)) {
-            return Err(OrderError::NoCut { what: "an uncut face".to_owned(), cut: face.cut.clone() });
+            return Err(OrderError::NoCut {
+                what: "an uncut face".to_owned(),
+                cut: face.cut.clone(),
+            });
         }
         for pin in pins.iter().flatten() {
             if !known(&pin.cut) {
-                return Err(OrderError::NoCut { what: format!("pin {}", pin.id), cut: pin.cut.clone() });
+                return Err(OrderError::NoCut {
+                    what: format!("pin {}", pin.id),
+                    cut: pin.cut.clone(),
+                });
             }
-            check_pin(pin).map_err(|reason| OrderError::BadPin { id: pin.id.clone(), reason })?;
+            check_pin(pin).map_err(|reason| OrderError::BadPin {
+                id: pin.id.clone(),
+                reason,
+            })?;
         }
         if let Some(index) = solid.iter().position(|end| !end.is_sound()) {
             return Err(OrderError::NoRegion(index + 1));
         }
-        Ok(Self { pins, cuts, uncut, solid })
+        Ok(Self {
+            pins,
+            cuts,
+            uncut,
+            solid,
+        })
     }
 }
 
 fn no_twin(what: &'static str, mut ids: Vec<&String>) -> Result<(), OrderError> {
     ids.sort_unstable();
     let twin = ids.windows(2).find(|pair| pair[0] == pair[1]);
-    twin.map_or(Ok(()), |pair| Err(OrderError::Twice { what, id: pair[0].clone() }))
+    twin.map_or(Ok(()), |pair| {
+        Err(OrderError::Twice {
+            what,
+            id: pair[0].clone(),
+        })
+    })
 }
 
 /// What keeps a pin from being made.
 fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
-    let sizes = [pin.diameter_mm, pin.length_mm, pin.socket_diameter_mm, pin.socket_depth_mm];
+    let sizes = [
+        pin.diameter_mm,
+        pin.length_mm,
+        pin.socket_diameter_mm,
+        pin.socket_depth_mm,
+    ];
     let chamfers = [pin.chamfer_mm, pin.socket_chamfer_mm];
     let places = [pin.center_mm, pin.direction];
     if !places.as_flattened().iter().all(|x| x.is_finite()) || pin.direction == [0.0; 3] {
@@ -180,7 +220,10 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
     if !sizes.iter().all(|size| size.is_finite() && *size > 0.0) {
         return Err("its diameters, length and depth must be positive numbers, mm");
     }
-    if !chamfers.iter().all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0) {
+    if !chamfers
+        .iter()
+        .all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0)
+    {
         return Err("its chamfers must be zero or positive, mm");
     }
     if let Some(dowel) = &pin.dowel {
@@ -226,14 +269,24 @@ mod tests {
         let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
         assert_eq!(order, CutOrder::of(&plan));
         let again = plan_by(&body, &request(), &order).unwrap();
-        assert_eq!((&again.cuts, &again.pins, &again.joints), (&plan.cuts, &plan.pins, &plan.joints));
+        assert_eq!(
+            (&again.cuts, &again.pins, &again.joints),
+            (&plan.cuts, &plan.pins, &plan.joints)
+        );
     }
 
     #[test]
     fn what_is_to_stay_solid_is_read_as_it_was_written_and_a_box_without_volume_is_refused() {
         let (body, plan) = planned();
-        let end = SolidEnd { at_mm: [0.5, 1.0 / 3.0, 8.0], low_mm: [0.0; 3], high_mm: [1.0, 2.0, 9.0] };
-        let order = CutOrder { solid: vec![end], ..CutOrder::of(&plan) };
+        let end = SolidEnd {
+            at_mm: [0.5, 1.0 / 3.0, 8.0],
+            low_mm: [0.0; 3],
+            high_mm: [1.0, 2.0, 9.0],
+        };
+        let order = CutOrder {
+            solid: vec![end],
+            ..CutOrder::of(&plan)
+        };
         let text = order.to_toml().unwrap();
         let read = CutOrder::from_toml("cuts.toml", &text).unwrap();
         assert_eq!(read, order);
@@ -242,31 +295,52 @@ mod tests {
             order,
             "a plan made by it says it again"
         );
-        for bad in ["high_mm = [1.0, 2.0, 0.0]", "high_mm = [1.0, 2.0, 7.9]", "high_mm = [1.0, nan, 9.0]"] {
+        for bad in [
+            "high_mm = [1.0, 2.0, 0.0]",
+            "high_mm = [1.0, 2.0, 7.9]",
+            "high_mm = [1.0, nan, 9.0]",
+        ] {
             let text = text.replace("high_mm = [1.0, 2.0, 9.0]", bad);
-            let message = CutOrder::from_toml("cuts.toml", &text).unwrap_err().to_string();
-            assert!(message.contains("solid region 1 is none; remedy: give `low_mm` below"), "{message}");
+            let message = CutOrder::from_toml("cuts.toml", &text)
+                .unwrap_err()
+                .to_string();
+            assert!(
+                message.contains("solid region 1 is none; remedy: give `low_mm` below"),
+                "{message}"
+            );
         }
     }
 
     #[test]
     fn a_cut_keeps_the_name_it_was_given_wherever_the_plan_speaks_of_it() {
         let (body, plan) = planned();
-        let text = CutOrder::of(&plan).to_toml().unwrap().replace("\"C1\"", "\"waist\"");
+        let text = CutOrder::of(&plan)
+            .to_toml()
+            .unwrap()
+            .replace("\"C1\"", "\"waist\"");
         let order = CutOrder::from_toml("cuts.toml", &text).unwrap();
         let made = plan_by(&body, &request(), &order).unwrap();
-        assert_eq!(serde_json::to_string(&made).unwrap().replace("waist", "C1"), {
-            let notes = made.notes.clone();
-            serde_json::to_string(&CutPlan { notes, ..plan }).unwrap()
-        });
+        assert_eq!(
+            serde_json::to_string(&made).unwrap().replace("waist", "C1"),
+            {
+                let notes = made.notes.clone();
+                serde_json::to_string(&CutPlan { notes, ..plan }).unwrap()
+            }
+        );
     }
 
     #[test]
     fn pins_not_given_are_placed_and_an_empty_list_makes_none() {
         let (body, plan) = planned();
-        let cuts = CutOrder { pins: None, ..CutOrder::of(&plan) };
+        let cuts = CutOrder {
+            pins: None,
+            ..CutOrder::of(&plan)
+        };
         assert_eq!(plan_by(&body, &request(), &cuts).unwrap().pins, plan.pins);
-        let none = CutOrder { pins: Some(Vec::new()), ..cuts };
+        let none = CutOrder {
+            pins: Some(Vec::new()),
+            ..cuts
+        };
         assert!(plan_by(&body, &request(), &none).unwrap().pins.is_empty());
     }
 
@@ -276,7 +350,11 @@ mod tests {
         let mut order = CutOrder::of(&plan);
         let mut pins = plan.pins[..2].to_vec();
         let first = pins[0].clone();
-        pins[1] = PinSite { id: "N2".into(), center_mm: pins[1].center_mm, ..first };
+        pins[1] = PinSite {
+            id: "N2".into(),
+            center_mm: pins[1].center_mm,
+            ..first
+        };
         order.pins = Some(pins);
         let made = plan_by(&body, &request(), &order).unwrap();
         assert!(
@@ -287,19 +365,43 @@ mod tests {
 
     /// What to replace in a written order, by what, and what the message must say.
     const BROKEN: [(&str, &str, &str); 9] = [
-        ("id = \"C1\"\npoint", "id = \"C2\"\npoint", "names cut C1, which is not there"),
+        (
+            "id = \"C1\"\npoint",
+            "id = \"C2\"\npoint",
+            "names cut C1, which is not there",
+        ),
         ("id = \"N2\"", "id = \"N1\"", "pin N1 is there twice"),
-        ("normal = ", "normal = [0.0, 0.0, 0.0] # ", "cut C1 has no direction"),
+        (
+            "normal = ",
+            "normal = [0.0, 0.0, 0.0] # ",
+            "cut C1 has no direction",
+        ),
         (
             "point_mm = ",
             "point_mm = [nan, 0.0, 0.0] # ",
             "cut C1 has no direction, or numbers that are not finite",
         ),
-        ("diameter_mm = ", "diametre_mm = ", "did you mean `diameter_mm`"),
+        (
+            "diameter_mm = ",
+            "diametre_mm = ",
+            "did you mean `diameter_mm`",
+        ),
         ("length_mm = ", "length_mm = -", "must be positive numbers"),
-        ("chamfer_mm = ", "chamfer_mm = 9 # ", "chamfer must be less than its radius"),
-        ("socket_diameter_mm = ", "socket_diameter_mm = 0.01 # ", "its socket must be wider"),
-        ("direction = ", "direction = [0.0, 1.0] # ", "array of length 3"),
+        (
+            "chamfer_mm = ",
+            "chamfer_mm = 9 # ",
+            "chamfer must be less than its radius",
+        ),
+        (
+            "socket_diameter_mm = ",
+            "socket_diameter_mm = 0.01 # ",
+            "its socket must be wider",
+        ),
+        (
+            "direction = ",
+            "direction = [0.0, 1.0] # ",
+            "array of length 3",
+        ),
     ];
 
     #[test]
@@ -309,7 +411,10 @@ mod tests {
             assert!(whole.contains(from), "{from} in\n{whole}");
             let refused = CutOrder::from_toml("cuts.toml", &whole.replacen(from, to, 1));
             let message = refused.expect_err(to).to_string();
-            assert!(message.starts_with("cuts.toml:") && message.contains(reason), "{to}: {message}");
+            assert!(
+                message.starts_with("cuts.toml:") && message.contains(reason),
+                "{to}: {message}"
+            );
         }
     }
 }

@@ -48,7 +48,8 @@ impl Outline {
     /// The point of the boundary nearest to `p`; `p` itself where there is no boundary.
     pub(crate) fn nearest(&self, p: &Point2) -> Point2 {
         let on = self.segments.iter().map(|[a, b]| nearest_on(p, a, b));
-        on.min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared())).unwrap_or(*p)
+        on.min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
+            .unwrap_or(*p)
     }
 
     /// The corners of the bounding box; `None` when there is no segment or a coordinate is not finite.
@@ -68,7 +69,10 @@ impl Outline {
         let precision_mm = DISC_PRECISION_RATIO * size.norm();
         let half = size.x.min(size.y).max(precision_mm) / 2.0;
         let mut cells = BinaryHeap::new();
-        let (columns, rows) = ((size.x / half / 2.0).ceil() as usize, (size.y / half / 2.0).ceil() as usize);
+        let (columns, rows) = (
+            (size.x / half / 2.0).ceil() as usize,
+            (size.y / half / 2.0).ceil() as usize,
+        );
         for i in 0..columns.max(1) * rows.max(1) {
             let (column, row) = ((i % columns.max(1)) as f64, (i / columns.max(1)) as f64);
             let center = min + nalgebra::Vector2::new(2.0 * column + 1.0, 2.0 * row + 1.0) * half;
@@ -78,13 +82,20 @@ impl Outline {
     }
 
     /// Splits the most promising cell until none can hold a disc better by `precision_mm`.
-    fn refine(&self, mut cells: BinaryHeap<Cell>, [floor_mm, precision_mm]: [f64; 2]) -> Option<Disc> {
+    fn refine(
+        &self,
+        mut cells: BinaryHeap<Cell>,
+        [floor_mm, precision_mm]: [f64; 2],
+    ) -> Option<Disc> {
         let mut best: Option<Disc> = None;
         for _ in 0..MAX_CELLS {
             let Some(cell) = cells.pop() else { break };
             let best_mm = best.map_or(floor_mm, |disc| disc.radius_mm);
             if cell.distance > best_mm {
-                best = Some(Disc { center: cell.center, radius_mm: cell.distance });
+                best = Some(Disc {
+                    center: cell.center,
+                    radius_mm: cell.distance,
+                });
             }
             if cell.bound() <= best.map_or(floor_mm, |disc| disc.radius_mm) + precision_mm {
                 break;
@@ -98,7 +109,11 @@ impl Outline {
     }
 
     fn cell(&self, center: Point2, half: f64) -> Cell {
-        Cell { center, half, distance: self.signed_distance(&center) }
+        Cell {
+            center,
+            half,
+            distance: self.signed_distance(&center),
+        }
     }
 }
 
@@ -135,7 +150,9 @@ impl Ord for Cell {
         let place = |cell: &Self| (cell.center.x, cell.center.y);
         let ((x, y), (other_x, other_y)) = (place(self), place(other));
         let by_bound = self.bound().total_cmp(&other.bound());
-        by_bound.then(x.total_cmp(&other_x)).then(y.total_cmp(&other_y))
+        by_bound
+            .then(x.total_cmp(&other_x))
+            .then(y.total_cmp(&other_y))
     }
 }
 
@@ -148,7 +165,11 @@ fn distance_squared(p: &Point2, a: &Point2, b: &Point2) -> f64 {
 fn nearest_on(p: &Point2, a: &Point2, b: &Point2) -> Point2 {
     let along = b - a;
     let length_squared = along.norm_squared();
-    let t = if length_squared > 0.0 { ((p - a).dot(&along) / length_squared).clamp(0.0, 1.0) } else { 0.0 };
+    let t = if length_squared > 0.0 {
+        ((p - a).dot(&along) / length_squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     a + along * t
 }
 
@@ -157,20 +178,26 @@ mod tests {
     use super::*;
 
     fn rectangle(x: [f64; 2], y: [f64; 2]) -> Vec<[Point2; 2]> {
-        let corners =
-            [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])].map(|(x, y)| Point2::new(x, y));
+        let corners = [(x[0], y[0]), (x[1], y[0]), (x[1], y[1]), (x[0], y[1])]
+            .map(|(x, y)| Point2::new(x, y));
         (0..4).map(|i| [corners[i], corners[(i + 1) % 4]]).collect()
     }
 
     #[test]
     fn the_largest_disc_of_a_long_rectangle_touches_its_long_sides() {
-        let disc = Outline::new(rectangle([0.0, 10.0], [0.0, 2.0])).largest_disc(0.0).unwrap();
+        let disc = Outline::new(rectangle([0.0, 10.0], [0.0, 2.0]))
+            .largest_disc(0.0)
+            .unwrap();
         assert!((disc.radius_mm - 1.0).abs() < DISC_PRECISION_RATIO * 10.2);
     }
 
     #[test]
     fn a_frame_holds_only_discs_of_its_width() {
-        let frame = [rectangle([0.0, 10.0], [0.0, 10.0]), rectangle([1.0, 9.0], [1.0, 9.0])].concat();
+        let frame = [
+            rectangle([0.0, 10.0], [0.0, 10.0]),
+            rectangle([1.0, 9.0], [1.0, 9.0]),
+        ]
+        .concat();
         let disc = Outline::new(frame).largest_disc(0.0).unwrap();
         // The disc in a corner touches both outer sides (r from each) and the inner corner: r + r·√½ ... solved by
         // √2·(1 − r) = r, so r = 2 − √2, a little more than half the width.
@@ -181,7 +208,15 @@ mod tests {
     fn an_empty_or_boundless_outline_holds_no_disc() {
         assert!(Outline::default().largest_disc(0.0).is_none());
         let nowhere = Point2::new(f64::NAN, 0.0);
-        assert!(Outline::new(vec![[nowhere, nowhere]]).largest_disc(0.0).is_none());
-        assert!(Outline::new(rectangle([1.0, 1.0], [2.0, 2.0])).largest_disc(0.0).is_none());
+        assert!(
+            Outline::new(vec![[nowhere, nowhere]])
+                .largest_disc(0.0)
+                .is_none()
+        );
+        assert!(
+            Outline::new(rectangle([1.0, 1.0], [2.0, 2.0]))
+                .largest_disc(0.0)
+                .is_none()
+        );
     }
 }

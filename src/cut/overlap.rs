@@ -22,10 +22,12 @@ impl Flat {
         let mut known: BTreeMap<[u64; 2], u32> = BTreeMap::new();
         for triangle in triangles {
             let index = triangle.map(|p| {
-                *known.entry([p.x.to_bits(), p.y.to_bits()]).or_insert_with(|| {
-                    flat.corners.push(p);
-                    flat.corners.len() as u32 - 1
-                })
+                *known
+                    .entry([p.x.to_bits(), p.y.to_bits()])
+                    .or_insert_with(|| {
+                        flat.corners.push(p);
+                        flat.corners.len() as u32 - 1
+                    })
             });
             flat.triangles.push(index);
         }
@@ -34,7 +36,10 @@ impl Flat {
 
     /// The triangles by their corners.
     pub(crate) fn shapes(&self) -> Vec<[Point2; 3]> {
-        self.triangles.iter().map(|t| t.map(|v| self.corners[v as usize])).collect()
+        self.triangles
+            .iter()
+            .map(|t| t.map(|v| self.corners[v as usize]))
+            .collect()
     }
 
     /// Its connected pieces.
@@ -46,9 +51,15 @@ impl Flat {
         }
         let mut pieces: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
         for triangle in &self.triangles {
-            pieces.entry(sets.root(triangle[0])).or_default().push(*triangle);
+            pieces
+                .entry(sets.root(triangle[0]))
+                .or_default()
+                .push(*triangle);
         }
-        let piece = |triangles| Self { corners: self.corners.clone(), triangles };
+        let piece = |triangles| Self {
+            corners: self.corners.clone(),
+            triangles,
+        };
         pieces.into_values().map(piece).collect()
     }
 
@@ -67,15 +78,25 @@ impl Flat {
 
     fn heights(&self, own: &Plane, other: &Plane) -> Vec<f64> {
         let chart = Chart::of_plane(own);
-        self.corners.iter().map(|p| other.distance(&chart.lift(own, p))).collect()
+        self.corners
+            .iter()
+            .map(|p| other.distance(&chart.lift(own, p)))
+            .collect()
     }
 
     /// What of it lies above another plane, or below it; sides of triangles that cross it get a corner there, the same one from both
     /// triangles (Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17, 1974).
     pub(crate) fn on_side(&self, own: &Plane, (other, is_above): (&Plane, bool)) -> Self {
         let sign = if is_above { 1.0 } else { -1.0 };
-        let heights: Vec<f64> = self.heights(own, other).into_iter().map(|h| sign * h).collect();
-        let mut kept = Self { corners: self.corners.clone(), triangles: Vec::new() };
+        let heights: Vec<f64> = self
+            .heights(own, other)
+            .into_iter()
+            .map(|h| sign * h)
+            .collect();
+        let mut kept = Self {
+            corners: self.corners.clone(),
+            triangles: Vec::new(),
+        };
         let mut crossings: BTreeMap<[u32; 2], u32> = BTreeMap::new();
         for triangle in &self.triangles {
             let mut ring: Vec<u32> = Vec::new();
@@ -95,7 +116,8 @@ impl Flat {
                     }));
                 }
             }
-            kept.triangles.extend((2..ring.len()).map(|i| [ring[0], ring[i - 1], ring[i]]));
+            kept.triangles
+                .extend((2..ring.len()).map(|i| [ring[0], ring[i - 1], ring[i]]));
         }
         kept
     }
@@ -108,7 +130,10 @@ mod tests {
     use crate::geom::Vector;
 
     fn level() -> Plane {
-        Plane { normal: Vector::z(), offset_mm: 0.0 }
+        Plane {
+            normal: Vector::z(),
+            offset_mm: 0.0,
+        }
     }
 
     /// A square of 4 mm about the origin of the plane z = 0, of four triangles about its middle.
@@ -116,23 +141,34 @@ mod tests {
         let chart = Chart::of_plane(&level());
         let at = |x: f64, y: f64| chart.flat(&crate::geom::Point::new(x, y, 0.0));
         let corners = [at(-2.0, -2.0), at(2.0, -2.0), at(2.0, 2.0), at(-2.0, 2.0)];
-        let triangles: Vec<_> = (0..4).map(|i| [at(0.0, 0.0), corners[i], corners[(i + 1) % 4]]).collect();
+        let triangles: Vec<_> = (0..4)
+            .map(|i| [at(0.0, 0.0), corners[i], corners[(i + 1) % 4]])
+            .collect();
         Flat::of(&triangles)
     }
 
     fn across(x: f64, y: f64, offset_mm: f64) -> Plane {
-        Plane { normal: Vector::new(x, y, 0.0).normalize(), offset_mm }
+        Plane {
+            normal: Vector::new(x, y, 0.0).normalize(),
+            offset_mm,
+        }
     }
 
     #[test]
     fn a_side_of_a_square_has_its_share_of_the_area_and_a_closed_outline() {
-        for (plane, expected) in
-            [(across(1.0, 0.0, 1.0), 4.0), (across(1.0, 1.0, 0.0), 8.0), (across(0.3, 1.0, -0.2), f64::NAN)]
-        {
-            let sides = [true, false].map(|is_above| square().on_side(&level(), (&plane, is_above)));
+        for (plane, expected) in [
+            (across(1.0, 0.0, 1.0), 4.0),
+            (across(1.0, 1.0, 0.0), 8.0),
+            (across(0.3, 1.0, -0.2), f64::NAN),
+        ] {
+            let sides =
+                [true, false].map(|is_above| square().on_side(&level(), (&plane, is_above)));
             let areas = sides.each_ref().map(|side| cap_of(side, 0).area_mm2);
             assert!((areas[0] + areas[1] - 16.0).abs() < 1e-12, "{areas:?}");
-            assert!(expected.is_nan() || (areas[0] - expected).abs() < 1e-12, "{areas:?}");
+            assert!(
+                expected.is_nan() || (areas[0] - expected).abs() < 1e-12,
+                "{areas:?}"
+            );
             for side in &sides {
                 let cap = cap_of(side, 0);
                 let middle = cap.inner_point();
@@ -157,12 +193,24 @@ mod tests {
         let chart = Chart::of_plane(&level());
         let at = |x: f64, y: f64| chart.flat(&crate::geom::Point::new(x, y, 0.0));
         let block = |x: f64, y: f64, w: f64, h: f64| {
-            [[at(x, y), at(x + w, y), at(x + w, y + h)], [at(x, y), at(x + w, y + h), at(x, y + h)]]
+            [
+                [at(x, y), at(x + w, y), at(x + w, y + h)],
+                [at(x, y), at(x + w, y + h), at(x, y + h)],
+            ]
         };
-        let fork = [block(0.0, -1.0, 1.0, 1.0), block(1.0, -1.0, 1.0, 1.0), block(2.0, -1.0, 1.0, 1.0)];
+        let fork = [
+            block(0.0, -1.0, 1.0, 1.0),
+            block(1.0, -1.0, 1.0, 1.0),
+            block(2.0, -1.0, 1.0, 1.0),
+        ];
         let prongs = [block(0.0, 0.0, 1.0, 2.0), block(2.0, 0.0, 1.0, 2.0)];
         let all = Flat::of(&[fork.concat(), prongs.concat()].concat());
         assert_eq!(all.pieces().len(), 1);
-        assert_eq!(all.on_side(&level(), (&across(0.0, 1.0, 0.5), true)).pieces().len(), 2);
+        assert_eq!(
+            all.on_side(&level(), (&across(0.0, 1.0, 0.5), true))
+                .pieces()
+                .len(),
+            2
+        );
     }
 }

@@ -66,9 +66,18 @@ struct Seat<'a> {
 ///
 /// The body may differ a little from the one the plan was made for, as when voids were solved for again: cuts,
 /// pins and parts keep their names.
-pub fn parts(hollowed: &Hollowed, plan: &CutPlan, request: &PlanRequest) -> Result<Vec<Part>, CutError> {
+pub fn parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<Vec<Part>, CutError> {
     let tree = plan.tree()?;
-    parts_of(hollowed, plan, (&tree, &pieces(hollowed, plan, &tree)?), request)
+    parts_of(
+        hollowed,
+        plan,
+        (&tree, &pieces(hollowed, plan, &tree)?),
+        request,
+    )
 }
 
 /// The parts, and the plan with the faces of its joints as they are in this body.
@@ -84,7 +93,11 @@ pub fn parts_and_faces(
 }
 
 /// The pieces that the plan leaves, none of which encloses a cavity where there are cuts.
-pub(super) fn pieces(hollowed: &Hollowed, plan: &CutPlan, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+pub(super) fn pieces(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    tree: &CutTree,
+) -> Result<Vec<Piece>, CutError> {
     let bridges = plan.bridges(&tree.planes);
     let pieces = rejoined(split(&hollowed.to_mesh(), tree)?, tree, &bridges)?;
     if !tree.planes.is_empty() {
@@ -100,7 +113,11 @@ fn parts_of(
     request: &PlanRequest,
 ) -> Result<Vec<Part>, CutError> {
     let planes = &tree.planes;
-    let seats = plan.pins.iter().map(|pin| seat(plan, planes, pieces, pin)).collect::<Result<Vec<_>, _>>()?;
+    let seats = plan
+        .pins
+        .iter()
+        .map(|pin| seat(plan, planes, pieces, pin))
+        .collect::<Result<Vec<_>, _>>()?;
     let void_of = void_vertices(hollowed);
     let part = |(index, piece): (usize, &Piece)| {
         let carried = || seats.iter().filter(move |seat| seat.carrier == index);
@@ -108,15 +125,31 @@ fn parts_of(
         let standing = carried().filter(|seat| seat.site.dowel.is_none());
         let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
         let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
-        let pins: Vec<PinSite> = carried().filter(is_printed).map(|seat| seat.site.clone()).collect();
-        let second = carried().filter(|seat| !is_printed(seat)).map(|seat| seat.site.mirrored());
-        let sockets: Vec<PinSite> = received().map(|seat| seat.site.clone()).chain(second).collect();
-        let labels: Vec<Label> =
-            plan.labels.iter().filter(|label| label.part == part_id(index)).cloned().collect();
+        let pins: Vec<PinSite> = carried()
+            .filter(is_printed)
+            .map(|seat| seat.site.clone())
+            .collect();
+        let second = carried()
+            .filter(|seat| !is_printed(seat))
+            .map(|seat| seat.site.mirrored());
+        let sockets: Vec<PinSite> = received()
+            .map(|seat| seat.site.clone())
+            .chain(second)
+            .collect();
+        let labels: Vec<Label> = plan
+            .labels
+            .iter()
+            .filter(|label| label.part == part_id(index))
+            .cloned()
+            .collect();
         let solid = fitted(piece, (&pins, &sockets), &labels)?;
         Ok(Part {
             id: part_id(index),
-            pose: laid(solid.mesh(), &sides_down(piece, planes, &pin_cuts, request), request),
+            pose: laid(
+                solid.mesh(),
+                &sides_down(piece, planes, &pin_cuts, request),
+                request,
+            ),
             solid,
             pins,
             sockets,
@@ -134,13 +167,24 @@ fn seat<'a>(
     pieces: &[Piece],
     site: &'a PinSite,
 ) -> Result<Seat<'a>, CutError> {
-    let lost = || CutError::PinOffFace { pin: site.id.clone() };
-    let cut = plan.cuts.iter().position(|cut| cut.id == site.cut).ok_or_else(lost)?;
+    let lost = || CutError::PinOffFace {
+        pin: site.id.clone(),
+    };
+    let cut = plan
+        .cuts
+        .iter()
+        .position(|cut| cut.id == site.cut)
+        .ok_or_else(lost)?;
     let at = Chart::of_plane(&planes[cut]).flat(&Point::from(site.center_mm));
     let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
     let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
     let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(lost)?;
-    Ok(Seat { site, carrier, receiver, cut })
+    Ok(Seat {
+        site,
+        carrier,
+        receiver,
+        cut,
+    })
 }
 
 /// The piece with its pins united, and its sockets and labels taken away.
@@ -178,22 +222,29 @@ fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
         return Ok(solid);
     }
     let simple = body.simplify(SHORT_EDGE_MM).to_solid()?;
-    let (before, after) = (solid.mesh().signed_volume_mm3(), simple.mesh().signed_volume_mm3());
-    let is_same =
-        (after - before).abs() <= VOLUME_CHANGE_RATIO * before && Crossings::of(simple.mesh()).pairs == 0;
+    let (before, after) = (
+        solid.mesh().signed_volume_mm3(),
+        simple.mesh().signed_volume_mm3(),
+    );
+    let is_same = (after - before).abs() <= VOLUME_CHANGE_RATIO * before
+        && Crossings::of(simple.mesh()).pairs == 0;
     Ok(if is_same { simple } else { solid })
 }
 
 fn has_short_edge(mesh: &TriMesh) -> bool {
     mesh.iter_corners().any(|[a, b, c]| {
-        [b - a, c - b, a - c].iter().any(|edge| edge.norm_squared() < SHORT_EDGE_MM * SHORT_EDGE_MM)
+        [b - a, c - b, a - c]
+            .iter()
+            .any(|edge| edge.norm_squared() < SHORT_EDGE_MM * SHORT_EDGE_MM)
     })
 }
 
 /// Which void each vertex of a void belongs to, by the bits of its coordinates.
 fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], usize> {
     let voids = hollowed.voids.iter().enumerate();
-    voids.flat_map(|(i, void)| void.mesh().vertices().iter().map(move |p| (bits(p), i))).collect()
+    voids
+        .flat_map(|(i, void)| void.mesh().vertices().iter().map(move |p| (bits(p), i)))
+        .collect()
 }
 
 fn bits(p: &Point) -> [u64; 3] {
@@ -202,8 +253,12 @@ fn bits(p: &Point) -> [u64; 3] {
 
 /// The voids whose vertices the piece has, ascending.
 fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], usize>) -> Vec<usize> {
-    let mut voids: Vec<usize> =
-        piece.mesh.vertices().iter().filter_map(|p| void_of.get(&bits(p)).copied()).collect();
+    let mut voids: Vec<usize> = piece
+        .mesh
+        .vertices()
+        .iter()
+        .filter_map(|p| void_of.get(&bits(p)).copied())
+        .collect();
     voids.sort_unstable();
     voids.dedup();
     voids

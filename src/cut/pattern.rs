@@ -18,8 +18,14 @@ pub(crate) const FORCE_TOLERANCE_MM: f64 = 0.1;
 /// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first two pins
 /// could take, so it costs the square of the sockets. One pin alone enters every wider socket.
 pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
-    let Some((first, rest)) = pins.split_first() else { return false };
-    if rest.is_empty() { sockets.iter().any(|s| enters(first, s)) } else { fits_turned(pins, sockets, None) }
+    let Some((first, rest)) = pins.split_first() else {
+        return false;
+    };
+    if rest.is_empty() {
+        sockets.iter().any(|s| enters(first, s))
+    } else {
+        fits_turned(pins, sockets, None)
+    }
 }
 
 /// Whether the pins of a joint enter their own sockets in a second way.
@@ -29,13 +35,17 @@ pub(crate) fn fits_itself(pegs: &[Peg]) -> bool {
 
 /// Whether two pins or more enter sockets, the first two of them any but the pair that is left out.
 fn fits_turned(pins: &[Peg], sockets: &[Peg], left_out: Option<(usize, usize)>) -> bool {
-    let [first, second, ..] = pins else { return false };
+    let [first, second, ..] = pins else {
+        return false;
+    };
     (0..sockets.len()).any(|i| {
-        (0..sockets.len()).filter(|&j| j != i && left_out != Some((i, j))).any(|j| {
-            enters(first, &sockets[i])
-                && enters(second, &sockets[j])
-                && turned_fit(pins, sockets, [&sockets[i], &sockets[j]])
-        })
+        (0..sockets.len())
+            .filter(|&j| j != i && left_out != Some((i, j)))
+            .any(|j| {
+                enters(first, &sockets[i])
+                    && enters(second, &sockets[j])
+                    && turned_fit(pins, sockets, [&sockets[i], &sockets[j]])
+            })
     })
 }
 
@@ -47,7 +57,9 @@ fn enters(pin: &Peg, socket: &Peg) -> bool {
 /// Whether all pins find a socket once the first two sit in `seats`.
 fn turned_fit(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
     let (from, to) = (pins[1].at - pins[0].at, seats[1].at - seats[0].at);
-    let play = |pin: &Peg, socket: &Peg| (socket.socket_mm - pin.pin_mm).max(0.0) / 2.0 + FORCE_TOLERANCE_MM;
+    let play = |pin: &Peg, socket: &Peg| {
+        (socket.socket_mm - pin.pin_mm).max(0.0) / 2.0 + FORCE_TOLERANCE_MM
+    };
     let slack = play(&pins[0], seats[0]) + play(&pins[1], seats[1]);
     if (from.norm() - to.norm()).abs() > slack || from.norm() == 0.0 || to.norm() == 0.0 {
         return false;
@@ -56,10 +68,12 @@ fn turned_fit(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
     let (cos, sin) = (a.dot(&b), a.perp(&b));
     pins[2..].iter().all(|pin| {
         let arm = pin.at - pins[0].at;
-        let turned =
-            seats[0].at + nalgebra::Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
+        let turned = seats[0].at
+            + nalgebra::Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
         let lever = 1.0 + arm.norm() / from.norm();
-        sockets.iter().any(|s| enters(pin, s) && (s.at - turned).norm() <= play(pin, s) + lever * slack)
+        sockets
+            .iter()
+            .any(|s| enters(pin, s) && (s.at - turned).norm() <= play(pin, s) + lever * slack)
     })
 }
 
@@ -68,7 +82,11 @@ mod tests {
     use super::*;
 
     fn peg(x: f64, y: f64, diameter: f64) -> Peg {
-        Peg { at: Point2::new(x, y), pin_mm: diameter, socket_mm: diameter + 0.2 }
+        Peg {
+            at: Point2::new(x, y),
+            pin_mm: diameter,
+            socket_mm: diameter + 0.2,
+        }
     }
 
     #[test]
@@ -81,7 +99,11 @@ mod tests {
 
     #[test]
     fn an_equilateral_triangle_turns_onto_itself_and_a_scalene_one_does_not() {
-        let equilateral = [peg(0.0, 0.0, 2.0), peg(8.0, 0.0, 2.0), peg(4.0, 48f64.sqrt(), 2.0)];
+        let equilateral = [
+            peg(0.0, 0.0, 2.0),
+            peg(8.0, 0.0, 2.0),
+            peg(4.0, 48f64.sqrt(), 2.0),
+        ];
         let scalene = [peg(0.0, 0.0, 2.0), peg(12.0, 0.0, 2.0), peg(3.0, 7.0, 2.0)];
         assert!(fits_itself(&equilateral));
         assert!(!fits_itself(&scalene));

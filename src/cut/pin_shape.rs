@@ -49,20 +49,34 @@ impl PinSite {
     /// The pin as it is united with its part: what stands out, and a root inside the part.
     pub(crate) fn pin_body(&self) -> TriMesh {
         let radius = self.diameter_mm / 2.0;
-        self.turned(&[vec![(radius, -self.overlap_mm())], self.pin_profile()[1..].to_vec()].concat())
+        self.turned(
+            &[
+                vec![(radius, -self.overlap_mm())],
+                self.pin_profile()[1..].to_vec(),
+            ]
+            .concat(),
+        )
     }
 
     /// The socket as it is subtracted from its part: what is taken away, and a stub outside the mouth.
     pub(crate) fn socket_body(&self) -> TriMesh {
         let profile = self.socket_profile();
-        let slope = if self.socket_chamfer_mm > 0.0 { 1.0 } else { 0.0 };
+        let slope = if self.socket_chamfer_mm > 0.0 {
+            1.0
+        } else {
+            0.0
+        };
         let mouth = (profile[0].0 + slope * self.overlap_mm(), -self.overlap_mm());
         self.turned(&[vec![mouth], profile[1..].to_vec()].concat())
     }
 
     /// What is printed standing out of the cut face, as a closed mesh; nothing of a dowel.
     pub fn standing_out(&self) -> TriMesh {
-        if self.dowel.is_some() { TriMesh::default() } else { self.turned(&self.pin_profile()) }
+        if self.dowel.is_some() {
+            TriMesh::default()
+        } else {
+            self.turned(&self.pin_profile())
+        }
     }
 
     /// What the socket takes away, as a closed mesh.
@@ -89,7 +103,9 @@ impl PinSite {
             let (sin, cos) = (2.0 * std::f64::consts::PI * side as f64 / SIDES as f64).sin_cos();
             center + (u * cos + v * sin) * radius
         };
-        (0..SIDES).map(|side| [center, corner(side), corner(side + 1)]).collect()
+        (0..SIDES)
+            .map(|side| [center, corner(side), corner(side + 1)])
+            .collect()
     }
 
     /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's diameter, so that the
@@ -138,7 +154,9 @@ impl PinSite {
             let (sin, cos) = (2.0 * std::f64::consts::PI * side as f64 / SIDES as f64).sin_cos();
             center + (u * cos + v * sin) * radius + axis * height
         };
-        let rings = profile.iter().flat_map(|&(r, h)| (0..SIDES).map(move |side| corner(r, h, side)));
+        let rings = profile
+            .iter()
+            .flat_map(|&(r, h)| (0..SIDES).map(move |side| corner(r, h, side)));
         let mut vertices: Vec<Point> = rings.collect();
         let ends = [profile.first(), profile.last()].map(|end| end.map_or(0.0, |end| end.1));
         vertices.extend(ends.map(|height| center + axis * height));

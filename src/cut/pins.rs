@@ -55,7 +55,11 @@ impl Placement {
 }
 
 /// The pins of every joint.
-pub(crate) fn pinned(scene: &PinScene, joints: &[Joint], pins: Pins) -> Result<Vec<Placement>, CutError> {
+pub(crate) fn pinned(
+    scene: &PinScene,
+    joints: &[Joint],
+    pins: Pins,
+) -> Result<Vec<Placement>, CutError> {
     let held = match pins {
         Pins::Placed => &[],
         Pins::Around(pins) => pins,
@@ -74,7 +78,8 @@ pub(crate) fn pinned(scene: &PinScene, joints: &[Joint], pins: Pins) -> Result<V
 /// The pins numbered through, and named after their cuts.
 fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> {
     let pins = placements.iter_mut().zip(joints);
-    let pins = pins.flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
+    let pins = pins
+        .flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
     for (count, (site, joint)) in pins.enumerate() {
         (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
     }
@@ -92,7 +97,11 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
     }
     let downward = place_along(scene, joint, (placed, false));
     let worth = |p: &Placement| (p.is_sound(), p.sites.len());
-    if worth(&downward) > worth(&upward) { downward } else { upward }
+    if worth(&downward) > worth(&upward) {
+        downward
+    } else {
+        upward
+    }
 }
 
 /// The ordered pins joint by joint, with whether they let the parts together one way only. A pin between no two cut faces is
@@ -104,7 +113,9 @@ pub(crate) fn seated(
 ) -> Result<Vec<Placement>, CutError> {
     let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
     for pin in pins {
-        let lost = || CutError::PinOffFace { pin: pin.id.clone() };
+        let lost = || CutError::PinOffFace {
+            pin: pin.id.clone(),
+        };
         let is_under = |joint: &Joint| {
             let plane = &scene.tree.planes[joint.cut];
             let center = Point::from(pin.center_mm);
@@ -118,10 +129,18 @@ pub(crate) fn seated(
     }
     let mut placed: Vec<Placement> = Vec::new();
     for (joint, pins) in joints.iter().zip(of_joint) {
-        let pegs: Vec<Peg> = pins.iter().map(|pin| peg(&scene.tree.planes[joint.cut], pin)).collect();
+        let pegs: Vec<Peg> = pins
+            .iter()
+            .map(|pin| peg(&scene.tree.planes[joint.cut], pin))
+            .collect();
         let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed.iter().collect::<Vec<_>>());
         let widest_mm = face_points(scene, joint).1;
-        placed.push(Placement { sites: pins.into_iter().cloned().collect(), pegs, is_one_way, widest_mm });
+        placed.push(Placement {
+            sites: pins.into_iter().cloned().collect(),
+            pegs,
+            is_one_way,
+            widest_mm,
+        });
     }
     Ok(placed)
 }
@@ -131,14 +150,28 @@ fn peg(plane: &Plane, pin: &PinSite) -> Peg {
     let sign = plane.normal.dot(&Vector::from(pin.direction)).signum();
     let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
     let at = Point2::new(at.x, at.y * sign);
-    Peg { at, pin_mm: pin.diameter_mm, socket_mm: pin.socket_diameter_mm }
+    Peg {
+        at,
+        pin_mm: pin.diameter_mm,
+        socket_mm: pin.socket_diameter_mm,
+    }
 }
 
 /// The pins of a joint that stand out upward, or downward.
-fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[&Placement], bool)) -> Placement {
+fn place_along(
+    scene: &PinScene,
+    joint: &Joint,
+    (placed, is_upward): (&[&Placement], bool),
+) -> Placement {
     let face = Face::new(scene, joint, (placed, is_upward));
-    let mut fallback = Placement { widest_mm: face.widest_mm, ..Placement::default() };
-    for sizes in size_pairs(scene.request).into_iter().chain(short_pairs(scene.request)) {
+    let mut fallback = Placement {
+        widest_mm: face.widest_mm,
+        ..Placement::default()
+    };
+    for sizes in size_pairs(scene.request)
+        .into_iter()
+        .chain(short_pairs(scene.request))
+    {
         let places = face.places(&sizes[0]);
         if places.is_empty() {
             continue;
@@ -158,13 +191,22 @@ fn place_along(scene: &PinScene, joint: &Joint, (placed, is_upward): (&[&Placeme
 /// Whether the pattern fits itself in a second way, or another joint, or another joint fits it.
 pub(super) fn is_confused(pattern: &[Peg], placed: &[&Placement]) -> bool {
     let apart = || placed.iter().filter(|placement| placement.pegs.len() >= 2);
-    let is_dowelled = |placement: &Placement| placement.sites.iter().all(|site| site.dowel.is_some());
+    let is_dowelled =
+        |placement: &Placement| placement.sites.iter().all(|site| site.dowel.is_some());
     // Either side of a dowelled joint has sockets, and shows the pattern as a mirror does.
-    let mirrored: Vec<Vec<Peg>> = apart().filter(|p| is_dowelled(p)).map(|p| turned_over(&p.pegs)).collect();
+    let mirrored: Vec<Vec<Peg>> = apart()
+        .filter(|p| is_dowelled(p))
+        .map(|p| turned_over(&p.pegs))
+        .collect();
     let mut others = apart().map(|placement| &placement.pegs).chain(&mirrored);
     fits_itself(pattern) || others.any(|other| fits(pattern, other) || fits(other, pattern))
 }
 
 fn turned_over(pegs: &[Peg]) -> Vec<Peg> {
-    pegs.iter().map(|peg| Peg { at: Point2::new(peg.at.x, -peg.at.y), ..*peg }).collect()
+    pegs.iter()
+        .map(|peg| Peg {
+            at: Point2::new(peg.at.x, -peg.at.y),
+            ..*peg
+        })
+        .collect()
 }

@@ -159,15 +159,22 @@ impl CutPlan {
         };
         let sockets = |pin: &PinSite| pin.taken_away().joined(&second(pin)).reversed();
         let peg = |pin: &PinSite| pin.standing_out().joined(&sockets(pin));
-        let pegs = self.pins.iter().fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
-        self.labels.iter().fold(pegs, |pegs, label| pegs.joined(&label.taken_away().reversed()))
+        let pegs = self
+            .pins
+            .iter()
+            .fold(TriMesh::default(), |pegs, pin| pegs.joined(&peg(pin)));
+        self.labels.iter().fold(pegs, |pegs, label| {
+            pegs.joined(&label.taken_away().reversed())
+        })
     }
 
     /// The cuts in which a part meets others.
     pub fn cuts_of<'a>(&'a self, part: &'a str) -> impl Iterator<Item = &'a Cut> {
         let meets = move |joint: &JointNote| joint.parts.iter().any(|id| id == part);
         let joints = move || self.joints.iter().filter(move |joint| meets(joint));
-        self.cuts.iter().filter(move |cut| joints().any(|joint| joint.cut == cut.id))
+        self.cuts
+            .iter()
+            .filter(move |cut| joints().any(|joint| joint.cut == cut.id))
     }
 
     /// Its cuts as they are made, in their order.
@@ -191,7 +198,10 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let limit = |side: &CutSide| {
         let cut = cuts.iter().position(|cut| cut.id == side.cut)?;
-        Some(Limit { cut, is_above: side.side == Side::Above })
+        Some(Limit {
+            cut,
+            is_above: side.side == Side::Above,
+        })
     };
     let limits = |cut: &Cut| {
         let known: Option<Vec<Limit>> = cut.within.iter().map(limit).collect();
@@ -205,7 +215,10 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
 pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) -> Vec<Bridge> {
     let bridge = |face: &UncutFace| {
         let cut = cuts.iter().position(|cut| cut.id == face.cut)?;
-        Some(Bridge { cut, at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)) })
+        Some(Bridge {
+            cut,
+            at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)),
+        })
     };
     uncut.iter().filter_map(bridge).collect()
 }
@@ -215,8 +228,15 @@ impl Cut {
     pub fn plane(&self) -> Result<Plane, CutError> {
         let (point, normal) = (Point::from(self.point_mm), Vector::from(self.normal));
         let plane = Plane::through(&point, &normal);
-        let is_plane = plane.offset_mm.is_finite() && (plane.normal.norm() - 1.0).abs() < f64::EPSILON.sqrt();
-        if is_plane { Ok(plane) } else { Err(CutError::DegenerateCut { cut: self.id.clone() }) }
+        let is_plane =
+            plane.offset_mm.is_finite() && (plane.normal.norm() - 1.0).abs() < f64::EPSILON.sqrt();
+        if is_plane {
+            Ok(plane)
+        } else {
+            Err(CutError::DegenerateCut {
+                cut: self.id.clone(),
+            })
+        }
     }
 }
 

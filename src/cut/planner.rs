@@ -48,7 +48,11 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
 
 /// The plan by a person's order: each cut through what lies on the sides that it is kept to, but for the faces that are to stay whole; pins as ordered,
 /// or placed as in [`plan`]. Joints and openings follow.
-pub fn plan_by(hollowed: &Hollowed, request: &PlanRequest, order: &CutOrder) -> Result<CutPlan, CutError> {
+pub fn plan_by(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    order: &CutOrder,
+) -> Result<CutPlan, CutError> {
     ordered(hollowed, request, (order, Others::None))
 }
 
@@ -68,8 +72,11 @@ fn ordered(
 ) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request)?;
-    let cuts =
-        order.cuts.iter().map(|cut| beside_faces(&scene, cut)).collect::<Result<Vec<_>, CutError>>()?;
+    let cuts = order
+        .cuts
+        .iter()
+        .map(|cut| beside_faces(&scene, cut))
+        .collect::<Result<Vec<_>, CutError>>()?;
     let (tree, own) = (tree_of(&cuts)?, order.numbered());
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let pieces = rejoined(scene.split(&tree)?, &tree, &bridges)?;
@@ -79,8 +86,20 @@ fn ordered(
         (Some(pins), Others::None) => Pins::Ordered(pins),
         (Some(pins), Others::Placed) => Pins::Around(pins),
     };
-    let plan = described(&scene, &Layout { tree, voids, pieces, bridges }, (pins, Vec::new()))?;
-    Ok(CutPlan { solid: order.solid.clone(), ..named_as(plan, &cuts) })
+    let plan = described(
+        &scene,
+        &Layout {
+            tree,
+            voids,
+            pieces,
+            bridges,
+        },
+        (pins, Vec::new()),
+    )?;
+    Ok(CutPlan {
+        solid: order.solid.clone(),
+        ..named_as(plan, &cuts)
+    })
 }
 
 /// The cut as ordered, or beside the faces that it would leave a sheet of.
@@ -92,7 +111,10 @@ fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
     } else {
         (Point::from(cut.point_mm) + plane.normal * moved_mm).into()
     };
-    Ok(Cut { point_mm, ..cut.clone() })
+    Ok(Cut {
+        point_mm,
+        ..cut.clone()
+    })
 }
 
 /// Which pins joints get where a person ordered none.
@@ -103,8 +125,15 @@ enum Others {
 
 /// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
 /// sights. Cuts, pins and joints stay.
-pub fn plan_of(hollowed: &Hollowed, plan: CutPlan, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    Ok(CutPlan { voids: told(hollowed, &plan.tree()?, request)?, ..plan })
+pub fn plan_of(
+    hollowed: &Hollowed,
+    plan: CutPlan,
+    request: &PlanRequest,
+) -> Result<CutPlan, CutError> {
+    Ok(CutPlan {
+        voids: told(hollowed, &plan.tree()?, request)?,
+        ..plan
+    })
 }
 
 /// Cuts, how they open the voids, and the pieces they leave.
@@ -118,14 +147,30 @@ pub(crate) struct Layout {
 impl Layout {
     /// The pieces between the cuts, each made only where it is needed, and left joined where a cut would part them needlessly.
     fn new(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Result<Self, CutError> {
-        let Kept { tree, voids, pieces: parted } = kept(scene, &planes, voids)?;
-        let cutting = Cutting { hollowed: scene.hollowed, tree: &tree, request: scene.request };
+        let Kept {
+            tree,
+            voids,
+            pieces: parted,
+        } = kept(scene, &planes, voids)?;
+        let cutting = Cutting {
+            hollowed: scene.hollowed,
+            tree: &tree,
+            request: scene.request,
+        };
         let bridges = bridges(&cutting, &parted);
         let pieces = rejoined(parted.clone(), &tree, &bridges)?;
         // What stays joined must not seal what the cut opened.
-        let (pieces, bridges) =
-            if check_no_cavity(&pieces).is_ok() { (pieces, bridges) } else { (parted, Vec::new()) };
-        Ok(Self { tree, voids, pieces, bridges })
+        let (pieces, bridges) = if check_no_cavity(&pieces).is_ok() {
+            (pieces, bridges)
+        } else {
+            (parted, Vec::new())
+        };
+        Ok(Self {
+            tree,
+            voids,
+            pieces,
+            bridges,
+        })
     }
 }
 
@@ -147,9 +192,15 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
         ("hole_step_mm", request.hole_step_mm),
         ("layer_mm", request.layer_mm),
     ];
-    let bad = positive.into_iter().find(|(_, value)| !(*value > 0.0 && value.is_finite()));
-    let bad = bad.or(not_negative.into_iter().find(|(_, value)| !(*value >= 0.0 && value.is_finite())));
-    bad.map_or(Ok(()), |(name, value)| Err(CutError::BadRequest { name, value }))
+    let bad = positive
+        .into_iter()
+        .find(|(_, value)| !(*value > 0.0 && value.is_finite()));
+    let bad = bad.or(not_negative
+        .into_iter()
+        .find(|(_, value)| !(*value >= 0.0 && value.is_finite())));
+    bad.map_or(Ok(()), |(name, value)| {
+        Err(CutError::BadRequest { name, value })
+    })
 }
 
 /// The best of the smallest plans, and its pieces.
@@ -161,16 +212,26 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
     notes.push(proof_note(&found));
     let best = cleanest(scene, &found.plans)?;
     let Tried { planes, voids, .. } = furthered(scene, best, notes)?;
-    notes.extend(planes.iter().enumerate().map(|(i, plane)| score_note(scene, (i, plane))));
+    notes.extend(
+        planes
+            .iter()
+            .enumerate()
+            .map(|(i, plane)| score_note(scene, (i, plane))),
+    );
     Layout::new(scene, planes, voids)
 }
 
 /// Which cuts are made on a side of others only.
 fn side_notes(tree: &CutTree) -> impl Iterator<Item = String> {
     let note = |cut: usize| {
-        let side = |limit: &Limit| format!("{} {}", Side::of(limit.is_above).word(), cut_id(limit.cut));
+        let side =
+            |limit: &Limit| format!("{} {}", Side::of(limit.is_above).word(), cut_id(limit.cut));
         let sides: Vec<String> = tree.limits(cut).iter().map(side).collect();
-        let words = format!("cut {}: only {}; beyond it nothing needs it", cut_id(cut), sides.join(" and "));
+        let words = format!(
+            "cut {}: only {}; beyond it nothing needs it",
+            cut_id(cut),
+            sides.join(" and ")
+        );
         (!sides.is_empty()).then_some(words)
     };
     (0..tree.planes.len()).filter_map(note)
@@ -180,16 +241,24 @@ fn side_notes(tree: &CutTree) -> impl Iterator<Item = String> {
 fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
     let terms = burden(scene, plane).terms(scene);
     let told = terms.iter().filter(|(_, value)| *value >= SHOWN_PENALTY);
-    let told: Vec<String> = told.map(|(name, value)| format!("{name} {value:.2}")).collect();
+    let told: Vec<String> = told
+        .map(|(name, value)| format!("{name} {value:.2}"))
+        .collect();
     let sum: f64 = terms.iter().map(|(_, value)| value).sum();
-    format!("cut {}: score {sum:.2}, 0 at best ({})", cut_id(cut), told.join(", "))
+    format!(
+        "cut {}: score {sum:.2}, 0 at best ({})",
+        cut_id(cut),
+        told.join(", ")
+    )
 }
 
 fn proof_note(found: &Found) -> String {
     let cuts = counted(found.plans.first().map_or(0, Vec::len), "cut");
     let (family, nodes) = (found.family, found.nodes);
     if found.is_proved {
-        format!("{cuts}: fewer do not open every void (exact cover over {family} planes, {nodes} nodes)")
+        format!(
+            "{cuts}: fewer do not open every void (exact cover over {family} planes, {nodes} nodes)"
+        )
     } else {
         format!("{cuts}: fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
     }
@@ -197,19 +266,34 @@ fn proof_note(found: &Found) -> String {
 
 /// Whether the piece fits the build volume in some pose.
 pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
-    laid(&piece.mesh, &sides_down(piece, planes, &[], request), request).fits
+    laid(
+        &piece.mesh,
+        &sides_down(piece, planes, &[], request),
+        request,
+    )
+    .fits
 }
 
 /// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
-fn fit_build_volume(scene: &Scene, layout: &mut Layout, notes: &mut Vec<String>) -> Result<(), CutError> {
+fn fit_build_volume(
+    scene: &Scene,
+    layout: &mut Layout,
+    notes: &mut Vec<String>,
+) -> Result<(), CutError> {
     for _ in 0..MAX_FITTING_CUTS {
         let is_large = |piece: &&Piece| !fits(piece, &layout.tree.planes, scene.request);
-        let Some(piece) = layout.pieces.iter().find(is_large) else { return Ok(()) };
+        let Some(piece) = layout.pieces.iter().find(is_large) else {
+            return Ok(());
+        };
         let aabb = piece.mesh.aabb();
         let middle = Plane::through(&aabb.center(), &Vector::ith(aabb.size().imax(), 1.0));
         let middle = off_vertices(&scene.material, &middle);
         let planes: Vec<Plane> = layout.tree.planes.iter().copied().chain([middle]).collect();
-        let voids = accesses(&scene.chambers, &CutTree::everywhere(&planes), scene.request)?;
+        let voids = accesses(
+            &scene.chambers,
+            &CutTree::everywhere(&planes),
+            scene.request,
+        )?;
         *layout = Layout::new(scene, planes, voids)?;
         notes.push(format!(
             "cut {}: a part would not fit the build volume",

@@ -24,7 +24,9 @@ pub struct Pose {
 }
 
 /// Turns about the vertical that are tried when a part does not fit as it stands, degrees.
-const TURNS_DEG: [f64; 12] = [0.0, 90.0, 15.0, 30.0, 45.0, 60.0, 75.0, 105.0, 120.0, 135.0, 150.0, 165.0];
+const TURNS_DEG: [f64; 12] = [
+    0.0, 90.0, 15.0, 30.0, 45.0, 60.0, 75.0, 105.0, 120.0, 135.0, 150.0, 165.0,
+];
 
 /// A side of a part that may look down in the printer.
 #[derive(Debug, Clone)]
@@ -47,7 +49,10 @@ struct Rest {
 impl Rest {
     /// The face looking down (sign 1) or up (sign −1).
     fn laid(&self, sign: f64, word: &str) -> Side {
-        Side { down: self.outward * sign, lies: format!("cut face {} {word}", cut_id(self.cut)) }
+        Side {
+            down: self.outward * sign,
+            lies: format!("cut face {} {word}", cut_id(self.cut)),
+        }
     }
 }
 
@@ -61,7 +66,10 @@ pub(crate) fn sides_down(
 ) -> Vec<Side> {
     let mut rests = rests(piece, planes, pin_cuts);
     rests.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
-    let flat = rests.iter().filter(|rest| !rest.has_pins).map(|rest| rest.laid(1.0, "down"));
+    let flat = rests
+        .iter()
+        .filter(|rest| !rest.has_pins)
+        .map(|rest| rest.laid(1.0, "down"));
     let up = rests.iter().map(|rest| rest.laid(-1.0, "up"));
     let mut sides: Vec<Side> = match request.pose {
         PosePreference::CutFaceDown => flat.chain(up).collect(),
@@ -69,18 +77,30 @@ pub(crate) fn sides_down(
     };
     let axis = request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
-    let words = ["upright", "upside down", "on its side", "on its side", "on its side", "on its side"];
+    let words = [
+        "upright",
+        "upside down",
+        "on its side",
+        "on its side",
+        "on its side",
+        "on its side",
+    ];
     let turned = [-axis, axis, -u, u, -v, v].into_iter().zip(words);
-    sides.extend(turned.map(|(down, lies)| Side { down, lies: lies.into() }));
+    sides.extend(turned.map(|(down, lies)| Side {
+        down,
+        lies: lies.into(),
+    }));
     sides
 }
 
 /// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on the first of all
 /// if none does.
 pub(crate) fn laid(mesh: &TriMesh, sides: &[Side], request: &PlanRequest) -> Pose {
-    let mut choices = sides.iter().flat_map(|side| TURNS_DEG.map(|turn| (side, turn)));
-    let fitting =
-        choices.find_map(|(side, turn)| Some(lay(mesh, side, turn, request)).filter(|pose| pose.fits));
+    let mut choices = sides
+        .iter()
+        .flat_map(|side| TURNS_DEG.map(|turn| (side, turn)));
+    let fitting = choices
+        .find_map(|(side, turn)| Some(lay(mesh, side, turn, request)).filter(|pose| pose.fits));
     fitting.unwrap_or_else(|| lay(mesh, &sides[0], 0.0, request))
 }
 
@@ -89,11 +109,23 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
     let mut rests = Vec::new();
     for (cut, plane) in planes.iter().enumerate() {
         for is_above in [false, true] {
-            let caps = piece.caps.iter().filter(|cap| cap.cut == cut && cap.is_above == is_above);
+            let caps = piece
+                .caps
+                .iter()
+                .filter(|cap| cap.cut == cut && cap.is_above == is_above);
             let area_mm2: f64 = caps.map(|cap| cap.area_mm2).sum();
             if area_mm2 > 0.0 {
-                let outward = if is_above { -plane.normal } else { plane.normal };
-                rests.push(Rest { area_mm2, outward, has_pins: pin_cuts.contains(&cut), cut });
+                let outward = if is_above {
+                    -plane.normal
+                } else {
+                    plane.normal
+                };
+                rests.push(Rest {
+                    area_mm2,
+                    outward,
+                    has_pins: pin_cuts.contains(&cut),
+                    cut,
+                });
             }
         }
     }
@@ -104,16 +136,35 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
 /// the build plate.
 fn lay(mesh: &TriMesh, side: &Side, turn_deg: f64, request: &PlanRequest) -> Pose {
     let rotation = upright(&side.down, turn_deg);
-    let turned = mesh.vertices().iter().map(|p| Point::from(rotate(&rotation, p)));
+    let turned = mesh
+        .vertices()
+        .iter()
+        .map(|p| Point::from(rotate(&rotation, p)));
     let aabb = turned.fold(Aabb::EMPTY, |aabb, p| aabb.grown_over(&p));
-    let middle = request.build_volume_mm.map_or([0.0; 2], |[x, y, _]| [x / 2.0, y / 2.0]);
+    let middle = request
+        .build_volume_mm
+        .map_or([0.0; 2], |[x, y, _]| [x / 2.0, y / 2.0]);
     let center = aabb.center();
     let shift = [middle[0] - center.x, middle[1] - center.y, -aabb.min.z];
     let size_mm: [f64; 3] = aabb.size().into();
-    let fits = request.build_volume_mm.is_none_or(|room| (0..3).all(|i| size_mm[i] <= room[i]));
-    let row = |i: usize| [rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)], shift[i]];
+    let fits = request
+        .build_volume_mm
+        .is_none_or(|room| (0..3).all(|i| size_mm[i] <= room[i]));
+    let row = |i: usize| {
+        [
+            rotation[(i, 0)],
+            rotation[(i, 1)],
+            rotation[(i, 2)],
+            shift[i],
+        ]
+    };
     let print_from_model = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
-    Pose { print_from_model, size_mm, fits, lies: side.lies.clone() }
+    Pose {
+        print_from_model,
+        size_mm,
+        fits,
+        lies: side.lies.clone(),
+    }
 }
 
 /// The rotation that takes `down` to −z, then turns by `turn_deg` about z.
@@ -126,7 +177,11 @@ fn upright(down: &Vector, turn_deg: f64) -> Matrix {
         orthonormal_basis(&up)
     };
     let (sin, cos) = turn_deg.to_radians().sin_cos();
-    Matrix::from_rows(&[(u * cos - v * sin).transpose(), (u * sin + v * cos).transpose(), up.transpose()])
+    Matrix::from_rows(&[
+        (u * cos - v * sin).transpose(),
+        (u * sin + v * cos).transpose(),
+        up.transpose(),
+    ])
 }
 
 /// The rotated position, each coordinate summed in the order of [`apply`].

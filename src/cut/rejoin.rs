@@ -80,7 +80,10 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
-            let at = |face: &Cap| Bridge { cut: joint.cut, at: face.inner_point() };
+            let at = |face: &Cap| Bridge {
+                cut: joint.cut,
+                at: face.inner_point(),
+            };
             bridges.extend(joint.faces.iter().map(at));
         }
     }
@@ -105,15 +108,24 @@ pub(crate) fn rejoined(
         groups[sets.root(index as u32) as usize].push(piece);
     }
     groups.retain(|group| !group.is_empty());
-    let united = groups.into_par_iter().map(|group| united(group, tree, bridges));
+    let united = groups
+        .into_par_iter()
+        .map(|group| united(group, tree, bridges));
     Ok(in_order(united.collect::<Result<_, _>>()?))
 }
 
 /// The corners of every void's section by every plane.
 fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
     let corners = |plane: &Plane| {
-        let sections = cutting.hollowed.voids.iter().map(|void| Section::of_mesh(void.mesh(), plane));
-        sections.flat_map(|section| section.rings).flat_map(|ring| ring.points).collect()
+        let sections = cutting
+            .hollowed
+            .voids
+            .iter()
+            .map(|void| Section::of_mesh(void.mesh(), plane));
+        sections
+            .flat_map(|section| section.rings)
+            .flat_map(|ring| ring.points)
+            .collect()
     };
     cutting.tree.planes.par_iter().map(corners).collect()
 }
@@ -121,17 +133,26 @@ fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
 /// Whether a void opens in one of the joint's faces.
 fn has_mouth(joint: &Joint, mouths: &[Vec<Point2>]) -> bool {
     let on_edge = |cap: &Cap| {
-        let Some((min, max)) = cap.outline.bounds() else { return false };
-        let near =
-            mouths[joint.cut].iter().filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
-        near.into_iter().any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
+        let Some((min, max)) = cap.outline.bounds() else {
+            return false;
+        };
+        let near = mouths[joint.cut]
+            .iter()
+            .filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
+        near.into_iter()
+            .any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
     };
     joint.faces.iter().any(on_edge)
 }
 
 /// Whether a piece is thinner than the least wall over the face that it would be glued by.
 fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
-    let face_mm2: f64 = piece.caps.iter().filter(|cap| cap.cut == joint.cut).map(|cap| cap.area_mm2).sum();
+    let face_mm2: f64 = piece
+        .caps
+        .iter()
+        .filter(|cap| cap.cut == joint.cut)
+        .map(|cap| cap.area_mm2)
+        .sum();
     piece.volume_mm3 < cutting.request.wall_mm * face_mm2
 }
 
@@ -143,12 +164,19 @@ fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usiz
     let shadow = Shadow::new(&pieces[index].mesh, plane, sign);
     let is_parted = |i: usize| cutting.parts(joint.cut, &pieces[i]);
     let moves = |i: &usize| *i != index && is_parted(*i) && pieces[*i].is_above(plane) == is_above;
-    (0..pieces.len()).filter(moves).all(|i| !shadow.holds_back(&pieces[i].mesh))
+    (0..pieces.len())
+        .filter(moves)
+        .all(|i| !shadow.holds_back(&pieces[i].mesh))
 }
 
 fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
     let both = a.mesh.clone().joined(&b.mesh);
-    laid(&both, &sides_down(b, &cutting.tree.planes, &[], cutting.request), cutting.request).fits
+    laid(
+        &both,
+        &sides_down(b, &cutting.tree.planes, &[], cutting.request),
+        cutting.request,
+    )
+    .fits
 }
 
 /// One piece of several that touch at bridges.
@@ -168,16 +196,27 @@ fn united(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result
 ///
 /// A union would find the faces' planes 1e-14 mm apart, and at times leaves a sheet between them.
 fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
-    let is_bridge = |cap: &Cap| bridges.iter().any(|bridge| bridge.cut == cap.cut && cap.holds(&bridge.at));
+    let is_bridge = |cap: &Cap| {
+        bridges
+            .iter()
+            .any(|bridge| bridge.cut == cap.cut && cap.holds(&bridge.at))
+    };
     let open = |member: &Piece| {
         let mut stays = vec![true; member.mesh.triangles().len()];
         for cap in member.caps.iter().filter(|cap| is_bridge(cap)) {
             cap.faces.iter().for_each(|&face| stays[face] = false);
         }
-        let left = member.mesh.triangles().iter().zip(stays).filter_map(|(t, stays)| stays.then_some(*t));
+        let left = member
+            .mesh
+            .triangles()
+            .iter()
+            .zip(stays)
+            .filter_map(|(t, stays)| stays.then_some(*t));
         TriMesh::new(member.mesh.vertices().to_vec(), left.collect()).ok()
     };
-    let all = members.iter().try_fold(TriMesh::default(), |all, member| Some(all.joined(&open(member)?)))?;
+    let all = members.iter().try_fold(TriMesh::default(), |all, member| {
+        Some(all.joined(&open(member)?))
+    })?;
     Some(Solid::new(sewn(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
 }
 
@@ -210,7 +249,14 @@ impl Shadow {
         let (min, max) = flat.fold((all, -all), |(min, max), p| (min.inf(&p), max.sup(&p)));
         let cell = (max - min) / SHADOW_CELLS as f64;
         let top = vec![f64::NEG_INFINITY; SHADOW_CELLS * SHADOW_CELLS];
-        let mut shadow = Self { chart, plane: *plane, sign, min, cell, top };
+        let mut shadow = Self {
+            chart,
+            plane: *plane,
+            sign,
+            min,
+            cell,
+            top,
+        };
         for corners in mesh.iter_corners() {
             let (_, high, cells) = shadow.span(&corners);
             for cell in cells {
@@ -235,12 +281,18 @@ impl Shadow {
         let range = |axis: usize| {
             let (from, to) = extent(places.map(|p| p[axis]));
             // Casts saturate: a triangle beside the grid has an empty range.
-            let first = if to < 0.0 { SHADOW_CELLS } else { from.max(0.0) as usize };
+            let first = if to < 0.0 {
+                SHADOW_CELLS
+            } else {
+                from.max(0.0) as usize
+            };
             first..((to.max(0.0) as usize).saturating_add(1)).min(SHADOW_CELLS)
         };
         let (columns, rows) = (range(0), range(1));
         let cells = columns.flat_map(move |i| rows.clone().map(move |j| [i, j]));
-        let met = cells.filter(move |cell| meets(&places, *cell)).map(|[i, j]| i * SHADOW_CELLS + j);
+        let met = cells
+            .filter(move |cell| meets(&places, *cell))
+            .map(|[i, j]| i * SHADOW_CELLS + j);
         let (low, high) = extent(heights);
         (low, high, met)
     }
@@ -275,15 +327,31 @@ mod tests {
     use crate::geom::Vector;
 
     fn union(boxes: &[([f64; 3], [f64; 3])]) -> Solid {
-        let bodies = boxes.iter().map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());
-        bodies.reduce(|sum, body| sum.union(&body).unwrap()).unwrap().to_solid().unwrap()
+        let bodies = boxes
+            .iter()
+            .map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());
+        bodies
+            .reduce(|sum, body| sum.union(&body).unwrap())
+            .unwrap()
+            .to_solid()
+            .unwrap()
     }
 
     /// The pieces that the plane z = 15 leaves and those left after joining again.
     fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
-        let tree = CutTree::everywhere(&[Plane { normal: Vector::z(), offset_mm: 15.0 }]);
+        let tree = CutTree::everywhere(&[Plane {
+            normal: Vector::z(),
+            offset_mm: 15.0,
+        }]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = bridges(&Cutting { hollowed, tree: &tree, request: &request() }, &pieces);
+        let bridges = bridges(
+            &Cutting {
+                hollowed,
+                tree: &tree,
+                request: &request(),
+            },
+            &pieces,
+        );
         (pieces.len(), rejoined(pieces, &tree, &bridges).unwrap())
     }
 
@@ -297,7 +365,10 @@ mod tests {
             leg(0.0, 40.0),
             leg(40.0, 40.0),
         ]);
-        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])] };
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])],
+        };
         let (cut, left) = cut_at_15(&hollowed);
         assert_eq!((cut, left.len()), (5, 2));
         let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
@@ -310,8 +381,12 @@ mod tests {
         // A post in the void that reaches `over` mm beyond the plane z = 15.
         let post = |over: f64| {
             let void = Csg::of_solid(&cuboid([5.0; 3], [25.0; 3])).unwrap();
-            let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.0 + over])).unwrap();
-            Hollowed { outer: outer.clone(), voids: vec![void.subtract(&post).unwrap().to_solid().unwrap()] }
+            let post =
+                Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.0 + over])).unwrap();
+            Hollowed {
+                outer: outer.clone(),
+                voids: vec![void.subtract(&post).unwrap().to_solid().unwrap()],
+            }
         };
         let (cut, left) = cut_at_15(&post(0.05));
         assert_eq!((cut, left.len()), (3, 2));
@@ -327,12 +402,25 @@ mod tests {
         let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
         let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
         let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];
-        let hollowed = Hollowed { outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]), voids };
-        let level = Plane { normal: Vector::z(), offset_mm: 15.0 };
+        let hollowed = Hollowed {
+            outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]),
+            voids,
+        };
+        let level = Plane {
+            normal: Vector::z(),
+            offset_mm: 15.0,
+        };
         let askew = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
         let tree = CutTree::everywhere(&[level, askew]);
         let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
-        let bridges = bridges(&Cutting { hollowed: &hollowed, tree: &tree, request: &request() }, &pieces);
+        let bridges = bridges(
+            &Cutting {
+                hollowed: &hollowed,
+                tree: &tree,
+                request: &request(),
+            },
+            &pieces,
+        );
         let left = rejoined(pieces.clone(), &tree, &bridges).unwrap();
         assert_eq!((pieces.len(), left.len()), (5, 4));
     }
@@ -344,11 +432,16 @@ mod tests {
             [corner(0.0, 0.0), corner(9.0, 0.5), corner(0.5, 9.0)],
             [corner(0.0, 0.0), corner(0.5, 9.0), corner(9.0, 0.5)],
         ] {
-            assert!(meets(&triangle, [0, 0]) && meets(&triangle, [2, 2]) && meets(&triangle, [4, 4]));
+            assert!(
+                meets(&triangle, [0, 0]) && meets(&triangle, [2, 2]) && meets(&triangle, [4, 4])
+            );
             assert!(!meets(&triangle, [5, 5]) && !meets(&triangle, [8, 8]));
         }
         let needle = [corner(0.2, 0.2), corner(8.8, 8.8), corner(8.8, 8.8)];
-        assert!(meets(&needle, [3, 3]), "a degenerate triangle counts as meeting, which is the safe side");
+        assert!(
+            meets(&needle, [3, 3]),
+            "a degenerate triangle counts as meeting, which is the safe side"
+        );
     }
 
     #[test]
@@ -359,7 +452,10 @@ mod tests {
             ([40.0, 0.0, 0.0], [50.0, 10.0, 40.0]),
             ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
         ]);
-        let hollowed = Hollowed { outer, voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])] };
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])],
+        };
         let (cut, left) = cut_at_15(&hollowed);
         assert_eq!((cut, left.len()), (3, 3));
     }

@@ -67,18 +67,32 @@ impl PinSite {
     /// The dowel as a round bar in its place; none for a printed pin.
     pub fn dowel_bar(&self) -> Option<RoundBar> {
         let half = self.dowel.as_ref()?.length_mm / 2.0;
-        let (middle, along) = (Point::from(self.center_mm), Vector::from(self.direction).normalize());
-        Some(RoundBar::plain(middle - along * half, middle + along * half, self.diameter_mm / 2.0))
+        let (middle, along) = (
+            Point::from(self.center_mm),
+            Vector::from(self.direction).normalize(),
+        );
+        Some(RoundBar::plain(
+            middle - along * half,
+            middle + along * half,
+            self.diameter_mm / 2.0,
+        ))
     }
 
     /// The same seen from the other side of the cut: where a dowel's second socket is.
     pub(crate) fn mirrored(&self) -> Self {
-        Self { direction: self.direction.map(|x| -x), ..self.clone() }
+        Self {
+            direction: self.direction.map(|x| -x),
+            ..self.clone()
+        }
     }
 
     /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's second socket.
     pub(crate) fn back_mm(&self) -> f64 {
-        if self.dowel.is_some() { self.socket_depth_mm } else { Self::root_mm(self.diameter_mm) }
+        if self.dowel.is_some() {
+            self.socket_depth_mm
+        } else {
+            Self::root_mm(self.diameter_mm)
+        }
     }
 }
 
@@ -89,11 +103,18 @@ mod tests {
     #[test]
     fn every_rod_has_sources_and_they_grow() {
         let rods = rods().unwrap();
-        assert!(rods.windows(2).all(|pair| pair[0].diameter_mm < pair[1].diameter_mm));
-        assert!(rods.iter().all(|rod| (0.3..9.0).contains(&rod.density_g_cm3)));
+        assert!(
+            rods.windows(2)
+                .all(|pair| pair[0].diameter_mm < pair[1].diameter_mm)
+        );
         assert!(
             rods.iter()
-                .all(|rod| !rod.size_source.source.is_empty() && !rod.density_source.source.is_empty())
+                .all(|rod| (0.3..9.0).contains(&rod.density_g_cm3))
+        );
+        assert!(
+            rods.iter()
+                .all(|rod| !rod.size_source.source.is_empty()
+                    && !rod.density_source.source.is_empty())
         );
     }
 }

@@ -9,10 +9,28 @@ use crate::{
 
 /// A solid box.
 pub(crate) fn cuboid(min: [f64; 3], max: [f64; 3]) -> Solid {
-    let pick = |i: usize, axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
-    let vertices = (0..8).map(|i| Point::new(pick(i, 0), pick(i, 1), pick(i, 2))).collect();
-    let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-    let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let pick = |i: usize, axis: usize| {
+        if i >> axis & 1 == 0 {
+            min[axis]
+        } else {
+            max[axis]
+        }
+    };
+    let vertices = (0..8)
+        .map(|i| Point::new(pick(i, 0), pick(i, 1), pick(i, 2)))
+        .collect();
+    let quads = [
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+    ];
+    let triangles = quads
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
@@ -25,7 +43,12 @@ pub(crate) fn ball(center: [f64; 3], radius: f64) -> Solid {
             std::f64::consts::PI * f64::from(row) / f64::from(rows),
             2.0 * std::f64::consts::PI * (f64::from(side) + 0.25) / f64::from(around),
         );
-        center + Vector::new(polar.sin() * turn.cos(), polar.sin() * turn.sin(), polar.cos()) * radius
+        center
+            + Vector::new(
+                polar.sin() * turn.cos(),
+                polar.sin() * turn.sin(),
+                polar.cos(),
+            ) * radius
     };
     let rings = (1..rows).flat_map(|row| (0..around).map(move |side| (row, side)));
     let mut vertices: Vec<Point> = rings.map(|(row, side)| point(row, side)).collect();
@@ -48,7 +71,10 @@ pub(crate) fn ball(center: [f64; 3], radius: f64) -> Solid {
 
 /// A body with balls of air in it, each (x, y, z, radius).
 pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
-    let voids = balls.iter().map(|&[x, y, z, radius]| ball([x, y, z], radius)).collect();
+    let voids = balls
+        .iter()
+        .map(|&[x, y, z, radius]| ball([x, y, z], radius))
+        .collect();
     Hollowed { outer, voids }
 }
 
@@ -68,7 +94,10 @@ pub(crate) fn request() -> PlanRequest {
             chamfer_mm: 0.3,
             bottom_relief_mm: 0.5,
         },
-        axis: GoalAxis { point: Point::new(0.0, 0.0, -100.0), direction: Vector::z() },
+        axis: GoalAxis {
+            point: Point::new(0.0, 0.0, -100.0),
+            direction: Vector::z(),
+        },
         pixel_mm: 0.042,
         hole_step_mm: 0.042,
         layer_mm: 0.03,

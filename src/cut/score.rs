@@ -54,7 +54,15 @@ impl<'a> Scene<'a> {
         let volume_mm3 = moments_of_mesh(&material).volume();
         let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
         let (body, chambers) = (body?, chambers?);
-        Ok(Self { hollowed, request, material, body, chambers, volume_mm3, diagonal_mm })
+        Ok(Self {
+            hollowed,
+            request,
+            material,
+            body,
+            chambers,
+            volume_mm3,
+            diagonal_mm,
+        })
     }
 
     /// The pieces of the body between the cuts.
@@ -63,9 +71,19 @@ impl<'a> Scene<'a> {
     }
 
     /// How the plane opens each void of `met`; `None` for those it misses.
-    pub(crate) fn openings(&self, plane: &Plane, met: super::cover::VoidSet) -> Vec<Option<Opening>> {
+    pub(crate) fn openings(
+        &self,
+        plane: &Plane,
+        met: super::cover::VoidSet,
+    ) -> Vec<Option<Opening>> {
         let voids = self.hollowed.voids.iter().enumerate();
-        voids.map(|(i, void)| (met >> i & 1 == 1).then(|| opening(void.mesh(), plane)).flatten()).collect()
+        voids
+            .map(|(i, void)| {
+                (met >> i & 1 == 1)
+                    .then(|| opening(void.mesh(), plane))
+                    .flatten()
+            })
+            .collect()
     }
 }
 
@@ -133,13 +151,25 @@ pub(crate) struct Burden {
 /// What the plane does to the body, pieces left out that stay joined to another because nothing opens between them.
 /// Costs two passes over the triangles.
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
-    let sides = Sides::new(&scene.material, *plane, Section::of_mesh(&scene.material, plane));
+    let sides = Sides::new(
+        &scene.material,
+        *plane,
+        Section::of_mesh(&scene.material, plane),
+    );
     let outside = scene.hollowed.outer.mesh().vertices().len();
     let joints = joints(&sides, outside);
-    let cut: Vec<&Joint> = joints.iter().filter(|joint| !is_needless(joint, &joints)).collect();
+    let cut: Vec<&Joint> = joints
+        .iter()
+        .filter(|joint| !is_needless(joint, &joints))
+        .collect();
     let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
-    let volumes = sides.piece_volumes_mm3().into_iter().filter(|&(piece, _)| is_part(piece));
-    let volumes: Vec<f64> = volumes.map(|(_, volume)| volume / scene.volume_mm3).collect();
+    let volumes = sides
+        .piece_volumes_mm3()
+        .into_iter()
+        .filter(|&(piece, _)| is_part(piece));
+    let volumes: Vec<f64> = volumes
+        .map(|(_, volume)| volume / scene.volume_mm3)
+        .collect();
     let groups = || cut.iter().flat_map(|joint| &joint.groups);
     let needed_mm = needed_room_mm(scene.request);
     let disc_mm = |&group: &usize| {
@@ -152,7 +182,9 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     };
     let room_mm = |joint: &&Joint| joint.groups.iter().map(disc_mm).fold(0.0, f64::max);
     Burden {
-        seam_mm: groups().map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm()).sum(),
+        seam_mm: groups()
+            .map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm())
+            .sum(),
         extra_parts: volumes.len().saturating_sub(2),
         room_mm: cut.iter().map(room_mm).fold(needed_mm, f64::min),
         smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
@@ -160,23 +192,42 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
         detail_rad: groups()
             .map(|&group| excess_turn_rad(&sides.section.rings[sides.polygons[group][0]]))
             .sum(),
-        glue_mm2: cut.iter().map(|joint| glue_mm2(&sides, joint)).fold(f64::INFINITY, f64::min),
-        oversize: scene.request.build_volume_mm.map_or(0, |room_mm| oversize(scene, plane, room_mm)),
+        glue_mm2: cut
+            .iter()
+            .map(|joint| glue_mm2(&sides, joint))
+            .fold(f64::INFINITY, f64::min),
+        oversize: scene
+            .request
+            .build_volume_mm
+            .map_or(0, |room_mm| oversize(scene, plane, room_mm)),
         overhang_ratio: overhang_ratio(scene, plane),
     }
 }
 
 /// The area of material in a joint, mm².
 fn glue_mm2(sides: &Sides, joint: &Joint) -> f64 {
-    let rings = joint.groups.iter().flat_map(|&group| &sides.polygons[group]);
-    rings.map(|&ring| sides.section.rings[ring].area_mm2()).sum()
+    let rings = joint
+        .groups
+        .iter()
+        .flat_map(|&group| &sides.polygons[group]);
+    rings
+        .map(|&ring| sides.section.rings[ring].area_mm2())
+        .sum()
 }
 
 /// How much more a ring turns than a convex one, rad; 0 for a convex ring, however finely it is divided.
 fn excess_turn_rad(ring: &Ring) -> f64 {
-    let sides: Vec<_> = ring.segments().map(|[a, b]| b - a).filter(|side| side.norm() > 0.0).collect();
+    let sides: Vec<_> = ring
+        .segments()
+        .map(|[a, b]| b - a)
+        .filter(|side| side.norm() > 0.0)
+        .collect();
     let next = sides.iter().cycle().skip(1);
-    let turn: f64 = sides.iter().zip(next).map(|(a, b)| a.perp(b).atan2(a.dot(b)).abs()).sum();
+    let turn: f64 = sides
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.perp(b).atan2(a.dot(b)).abs())
+        .sum();
     (turn - std::f64::consts::TAU).max(0.0)
 }
 
@@ -190,7 +241,11 @@ fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
     }
     room_mm.sort_by(f64::total_cmp);
     let is_over = |half: &Aabb| {
-        let mut size: [f64; 3] = if half.is_empty() { [0.0; 3] } else { half.size().into() };
+        let mut size: [f64; 3] = if half.is_empty() {
+            [0.0; 3]
+        } else {
+            half.size().into()
+        };
         size.sort_by(f64::total_cmp);
         size.iter().zip(room_mm).any(|(size, room)| *size > room)
     };
@@ -223,7 +278,11 @@ fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
         let is_above = plane.distance(&a) + plane.distance(&b) + plane.distance(&c) >= 0.0;
         let toward_plate = plane.normal.dot(&normal) * if is_above { down } else { -down };
         all += normal.norm();
-        over += if toward_plate > OVERHANG_COSINE * normal.norm() { normal.norm() } else { 0.0 };
+        over += if toward_plate > OVERHANG_COSINE * normal.norm() {
+            normal.norm()
+        } else {
+            0.0
+        };
     }
     if all > 0.0 { over / all } else { 0.0 }
 }
@@ -240,14 +299,19 @@ struct Joint {
 fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     for (group, rings) in sides.polygons.iter().enumerate() {
-        let is_mouth = |&ring: &usize| sides.section.rings[ring].above as usize >= first_void_vertex;
+        let is_mouth =
+            |&ring: &usize| sides.section.rings[ring].above as usize >= first_void_vertex;
         let (pieces, is_open) = (sides.neighbours(group), rings.iter().any(is_mouth));
         match joints.iter_mut().find(|joint| joint.pieces == pieces) {
             Some(joint) => {
                 joint.groups.push(group);
                 joint.is_open |= is_open;
             }
-            None => joints.push(Joint { pieces, groups: vec![group], is_open }),
+            None => joints.push(Joint {
+                pieces,
+                groups: vec![group],
+                is_open,
+            }),
         }
     }
     joints
@@ -255,7 +319,12 @@ fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
 
 /// Whether nothing opens in the joint, and one of its pieces has no other.
 fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
-    let count = |piece: &u32| joints.iter().filter(|other| other.pieces.contains(piece)).count();
+    let count = |piece: &u32| {
+        joints
+            .iter()
+            .filter(|other| other.pieces.contains(piece))
+            .count()
+    };
     !joint.is_open && joint.pieces.iter().any(|piece| count(piece) == 1)
 }
 
@@ -271,13 +340,28 @@ impl Burden {
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
         [
-            ("room for pins", ROOM_WEIGHT * shortfall(self.room_mm, needed_mm)),
-            ("smallest part", SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO)),
+            (
+                "room for pins",
+                ROOM_WEIGHT * shortfall(self.room_mm, needed_mm),
+            ),
+            (
+                "smallest part",
+                SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO),
+            ),
             ("parts", EXTRA_PART_WEIGHT * self.extra_parts as f64),
-            ("contact", CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM)),
+            (
+                "contact",
+                CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM),
+            ),
             ("seam", SEAM_WEIGHT * self.seam_mm / circle_mm),
-            ("detail", DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0)),
-            ("glue", GLUE_WEIGHT * shortfall(self.glue_mm2, ample_glue_mm2)),
+            (
+                "detail",
+                DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0),
+            ),
+            (
+                "glue",
+                GLUE_WEIGHT * shortfall(self.glue_mm2, ample_glue_mm2),
+            ),
             ("build volume", BUILD_VOLUME_WEIGHT * self.oversize as f64),
             ("overhang", OVERHANG_WEIGHT * self.overhang_ratio),
         ]
@@ -287,7 +371,10 @@ impl Burden {
 /// The weighed term of the narrowest of the voids' openings (mm), 0 at best.
 pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
     let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
-    OPENING_WEIGHT * openings_mm.map(|mm| shortfall(mm, ample_mm)).fold(0.0, f64::max)
+    OPENING_WEIGHT
+        * openings_mm
+            .map(|mm| shortfall(mm, ample_mm))
+            .fold(0.0, f64::max)
 }
 
 /// How far `value` falls short of `ample`: 0 when it does not, 1 when it is nothing.
@@ -302,7 +389,10 @@ mod tests {
     use crate::geom::Vector;
 
     fn level(z: f64) -> Plane {
-        Plane { normal: Vector::z(), offset_mm: z }
+        Plane {
+            normal: Vector::z(),
+            offset_mm: z,
+        }
     }
 
     fn burden_of(hollowed: &Hollowed, request: &PlanRequest, z: f64) -> Burden {
@@ -313,39 +403,71 @@ mod tests {
     fn a_convex_seam_has_no_detail_and_one_over_a_notch_has() {
         let plain = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         assert!(burden_of(&plain, &request(), 0.1).detail_rad < 1e-9);
-        let corners = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [5.0, 5.0], [0.0, 10.0]];
-        let points = corners.map(|[x, y]| crate::cut::section::Point2::new(x, y)).to_vec();
+        let corners = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [5.0, 5.0],
+            [0.0, 10.0],
+        ];
+        let points = corners
+            .map(|[x, y]| crate::cut::section::Point2::new(x, y))
+            .to_vec();
         // Into the notch and out of it again: one corner turned back by a quarter, and as much more at the others.
-        let turn = excess_turn_rad(&Ring { points, above: 0, below: 0 });
+        let turn = excess_turn_rad(&Ring {
+            points,
+            above: 0,
+            below: 0,
+        });
         assert!((turn - std::f64::consts::PI).abs() < 1e-9, "{turn}");
     }
 
     #[test]
-    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not() {
+    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not()
+    {
         let usual = request();
-        let wide = PlanRequest { wants_wide_joints: true, ..request() };
+        let wide = PlanRequest {
+            wants_wide_joints: true,
+            ..request()
+        };
         let shell = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 24.0]]);
         let needed_mm = needed_room_mm(&usual);
         assert_eq!(burden_of(&shell, &usual, 0.1).room_mm, 0.0);
         assert_eq!(burden_of(&shell, &wide, 0.1).room_mm, needed_mm);
         // A slab's section is as long as you like, and no disc of more than 8 mm lies in it.
-        let slab = with_balls(cuboid([0.0; 3], [8.0, 40.0, 60.0]), &[[4.0, 20.0, 30.0, 2.0]]);
+        let slab = with_balls(
+            cuboid([0.0; 3], [8.0, 40.0, 60.0]),
+            &[[4.0, 20.0, 30.0, 2.0]],
+        );
         assert_eq!(burden_of(&slab, &usual, 30.1).room_mm, needed_mm);
         assert!((burden_of(&slab, &wide, 30.1).room_mm - 2.0).abs() < 0.05);
     }
 
     #[test]
     fn the_glue_of_a_box_is_its_section_less_the_void() {
-        let body = with_balls(cuboid([0.0; 3], [30.0, 20.0, 20.0]), &[[15.0, 10.0, 10.0, 4.0]]);
+        let body = with_balls(
+            cuboid([0.0; 3], [30.0, 20.0, 20.0]),
+            &[[15.0, 10.0, 10.0, 4.0]],
+        );
         let burden = burden_of(&body, &request(), 10.0);
         let hole = 12.0 * 16.0 * (std::f64::consts::PI / 12.0).sin();
-        assert!((burden.glue_mm2 - (600.0 - hole)).abs() < 1e-6, "{}", burden.glue_mm2);
+        assert!(
+            (burden.glue_mm2 - (600.0 - hole)).abs() < 1e-6,
+            "{}",
+            burden.glue_mm2
+        );
     }
 
     #[test]
     fn a_half_too_long_for_the_printer_counts() {
-        let body = with_balls(cuboid([0.0; 3], [30.0, 20.0, 90.0]), &[[15.0, 10.0, 45.0, 6.0]]);
-        let within = |room: f64| PlanRequest { build_volume_mm: Some([room; 3]), ..request() };
+        let body = with_balls(
+            cuboid([0.0; 3], [30.0, 20.0, 90.0]),
+            &[[15.0, 10.0, 45.0, 6.0]],
+        );
+        let within = |room: f64| PlanRequest {
+            build_volume_mm: Some([room; 3]),
+            ..request()
+        };
         assert_eq!(burden_of(&body, &within(50.0), 45.1).oversize, 0);
         assert_eq!(burden_of(&body, &within(50.0), 20.0).oversize, 1);
         assert_eq!(burden_of(&body, &within(29.0), 45.1).oversize, 2);
@@ -359,7 +481,10 @@ mod tests {
         let down = burden_of(&body, &request(), 0.1).overhang_ratio;
         // The ball has 12 rows of facets: 45° lies in the middle of the third, so that a row more or less counts.
         assert!((down - share).abs() < 0.35 * share, "{down} {share}");
-        let up = PlanRequest { pose: PosePreference::OpenHollowUp, ..request() };
+        let up = PlanRequest {
+            pose: PosePreference::OpenHollowUp,
+            ..request()
+        };
         assert!(burden_of(&body, &up, 0.1).overhang_ratio > 3.0 * share);
     }
 }

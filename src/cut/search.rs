@@ -54,10 +54,16 @@ pub(crate) struct Found {
 pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let voids = scene.hollowed.voids.len();
     if voids > MAX_VOIDS {
-        return Err(CutError::TooManyVoids { voids, limit: MAX_VOIDS });
+        return Err(CutError::TooManyVoids {
+            voids,
+            limit: MAX_VOIDS,
+        });
     }
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
-    let family = promising_first(candidates(scene.hollowed, scene.request), (all, ample_guess_mm(scene)));
+    let family = promising_first(
+        candidates(scene.hollowed, scene.request),
+        (all, ample_guess_mm(scene)),
+    );
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
     let mut exact: Vec<Exact> = Vec::new();
@@ -66,7 +72,10 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
         let fresh = &family[exact.len().min(round)..round];
         exact.par_extend(fresh.par_iter().map(|candidate| measured(scene, candidate)));
         best = smallest_cover(&exact.iter().map(|e| e.opened).collect::<Vec<_>>(), all);
-        if best.as_ref().is_some_and(|cover| cover.chosen.len() == least) {
+        if best
+            .as_ref()
+            .is_some_and(|cover| cover.chosen.len() == least)
+        {
             break;
         }
     }
@@ -86,8 +95,16 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 /// lead the family, come before skew directions that are no better.
 fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
     let classes = classes(&family, all);
-    let class_of = |c: &Candidate| classes.binary_search_by_key(&c.met, |&(met, _)| met).unwrap_or_default();
-    let least = classes.iter().map(|&(_, rest)| rest).min().unwrap_or_default();
+    let class_of = |c: &Candidate| {
+        classes
+            .binary_search_by_key(&c.met, |&(met, _)| met)
+            .unwrap_or_default()
+    };
+    let least = classes
+        .iter()
+        .map(|&(_, rest)| rest)
+        .min()
+        .unwrap_or_default();
     let mut places: Vec<(usize, Candidate)> = Vec::with_capacity(family.len());
     for row in family.chunk_by(|a, b| a.met == b.met && a.plane.normal == b.plane.normal) {
         let mut row = row.to_vec();
@@ -117,18 +134,27 @@ fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
     let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     sets.sort_unstable();
     sets.dedup();
-    let rest = |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
+    let rest =
+        |set: VoidSet| greedy_cover(&sets, all & !set).map_or(usize::MAX, |chosen| chosen.len());
     sets.par_iter().map(|&set| (set, rest(set))).collect()
 }
 
 /// What the candidate opens, measured on its sections.
 fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     let openings = scene.openings(&candidate.plane, candidate.met);
-    let enough =
-        |void: usize, o: &Option<Opening>| o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void));
-    let opened =
-        openings.iter().enumerate().filter(|(i, o)| enough(*i, o)).fold(0, |set, (i, _)| set | 1 << i);
-    Exact { plane: candidate.plane, openings, opened }
+    let enough = |void: usize, o: &Option<Opening>| {
+        o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void))
+    };
+    let opened = openings
+        .iter()
+        .enumerate()
+        .filter(|(i, o)| enough(*i, o))
+        .fold(0, |set, (i, _)| set | 1 << i);
+    Exact {
+        plane: candidate.plane,
+        openings,
+        opened,
+    }
 }
 
 /// The covers as small as `known`, the best first; `known` alone where the search for others ends empty.
@@ -146,22 +172,33 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
         opening_penalty(scene, openings_mm(exact, cover, plain))
             + CROSSED_WEIGHT * crossed(exact, cover, voids)
     };
-    let mut covers: Vec<(f64, Vec<usize>)> = covers.into_iter().map(|c| (by_opening(&c), c)).collect();
+    let mut covers: Vec<(f64, Vec<usize>)> =
+        covers.into_iter().map(|c| (by_opening(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));
     let burdens = burdens_of(scene, exact, &covers);
     let penalty = |cover: &[usize]| {
         let cuts = cover.iter().map(|&i| burdens[i].map(|b| b.penalty(scene)));
         cuts.sum::<Option<f64>>()
     };
-    let mut scored: Vec<(f64, Vec<usize>)> =
-        covers.into_iter().filter_map(|(opening, c)| Some((penalty(&c)? + opening, c))).collect();
+    let mut scored: Vec<(f64, Vec<usize>)> = covers
+        .into_iter()
+        .filter_map(|(opening, c)| Some((penalty(&c)? + opening, c)))
+        .collect();
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
-    scored.iter().map(|(_, cover)| cover.iter().map(|&i| exact[i].plane).collect()).collect()
+    scored
+        .iter()
+        .map(|(_, cover)| cover.iter().map(|&i| exact[i].plane).collect())
+        .collect()
 }
 
 /// How many voids more than one of the cover's planes meet.
 fn crossed(exact: &[Exact], cover: &[usize], voids: usize) -> f64 {
-    let meeting = |void: usize| cover.iter().filter(|&&i| exact[i].openings[void].is_some()).count();
+    let meeting = |void: usize| {
+        cover
+            .iter()
+            .filter(|&&i| exact[i].openings[void].is_some())
+            .count()
+    };
     (0..voids).filter(|&void| meeting(void) > 1).count() as f64
 }
 
@@ -169,14 +206,20 @@ fn crossed(exact: &[Exact], cover: &[usize], voids: usize) -> f64 {
 fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> Vec<Option<Burden>> {
     let mut named: Vec<usize> = Vec::new();
     for (_, cover) in covers {
-        let fresh: Vec<usize> = cover.iter().copied().filter(|i| !named.contains(i)).collect();
+        let fresh: Vec<usize> = cover
+            .iter()
+            .copied()
+            .filter(|i| !named.contains(i))
+            .collect();
         if named.len() + fresh.len() > JUDGED_PLANES && !named.is_empty() {
             break;
         }
         named.extend(fresh);
     }
-    let judged: Vec<(usize, Burden)> =
-        named.par_iter().map(|&i| (i, burden(scene, &exact[i].plane))).collect();
+    let judged: Vec<(usize, Burden)> = named
+        .par_iter()
+        .map(|&i| (i, burden(scene, &exact[i].plane)))
+        .collect();
     let mut burdens = vec![None; exact.len()];
     for (i, burden) in judged {
         burdens[i] = Some(burden);
@@ -185,13 +228,20 @@ fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> V
 }
 
 /// For each void the widest of its openings by the cover's planes, mm.
-fn openings_mm<'a>(exact: &'a [Exact], cover: &'a [usize], voids: usize) -> impl Iterator<Item = f64> + 'a {
+fn openings_mm<'a>(
+    exact: &'a [Exact],
+    cover: &'a [usize],
+    voids: usize,
+) -> impl Iterator<Item = f64> + 'a {
     (0..voids).map(move |void| widest_mm(cover.iter().map(|&i| &exact[i]), void))
 }
 
 /// The widest opening of a void by some planes, mm.
 fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
-    planes.filter_map(|e| e.openings[void]).map(|o| o.diameter_mm).fold(0.0, f64::max)
+    planes
+        .filter_map(|e| e.openings[void])
+        .map(|o| o.diameter_mm)
+        .fold(0.0, f64::max)
 }
 
 /// Which voids none of the planes opens wide enough.
@@ -199,9 +249,15 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
     let widest = |&void: &usize| widest_mm(exact.iter(), void);
     let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
-    let needed_mm = voids.first().map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
+    let needed_mm = voids
+        .first()
+        .map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
-    CutError::Unopenable { voids, widest_mm, needed_mm }
+    CutError::Unopenable {
+        voids,
+        widest_mm,
+        needed_mm,
+    }
 }
 
 /// Diameter of the disc that must pass through the opening of a void, mm.

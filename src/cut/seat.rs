@@ -38,17 +38,27 @@ impl Seat {
 
 /// Normals of planes that pass through the middles of several seats, and across the seats' axes.
 pub(crate) fn normals(seats: &[Seat]) -> Vec<Vector> {
-    let axes = seats.iter().filter_map(|seat| seat.axis.map(|(axis, _)| axis));
+    let axes = seats
+        .iter()
+        .filter_map(|seat| seat.axis.map(|(axis, _)| axis));
     let mut normals: Vec<Vector> = axes.collect();
     for (i, a) in seats.iter().enumerate() {
         for (j, b) in seats.iter().enumerate().skip(i + 1) {
             let along = b.center - a.center;
             normals.extend([0, 1, 2].map(|axis| along.cross(&Vector::ith(axis, 1.0))));
-            normals.extend(seats[j + 1..].iter().map(|c| along.cross(&(c.center - a.center))));
+            normals.extend(
+                seats[j + 1..]
+                    .iter()
+                    .map(|c| along.cross(&(c.center - a.center))),
+            );
         }
     }
     let is_direction = |normal: &Vector| normal.norm() > LEAST_NORMAL_MM;
-    normals.into_iter().filter(is_direction).map(|normal| normal.normalize()).collect()
+    normals
+        .into_iter()
+        .filter(is_direction)
+        .map(|normal| normal.normalize())
+        .collect()
 }
 
 /// A normal shorter than this is rounding: seats in one place, or on one line, mm or mm².
@@ -59,23 +69,40 @@ mod tests {
     use super::*;
 
     fn plane(normal: Vector, offset_mm: f64) -> Plane {
-        Plane { normal: normal.normalize(), offset_mm }
+        Plane {
+            normal: normal.normalize(),
+            offset_mm,
+        }
     }
 
     #[test]
     fn a_ball_goes_in_where_the_opening_is_as_wide_as_itself() {
-        let seat = Seat { center: Point::origin(), axis: None, radius_mm: 2.1, opening_mm: 4.0 };
+        let seat = Seat {
+            center: Point::origin(),
+            axis: None,
+            radius_mm: 2.1,
+            opening_mm: 4.0,
+        };
         // The opening at distance t has the radius √(2.1² − t²), which is 2 at 0.64.
         assert!(
-            seat.is_opened_by(&plane(Vector::x(), 0.63)) && !seat.is_opened_by(&plane(Vector::x(), 0.65))
+            seat.is_opened_by(&plane(Vector::x(), 0.63))
+                && !seat.is_opened_by(&plane(Vector::x(), 0.65))
         );
     }
 
     #[test]
     fn a_coin_goes_in_through_a_cut_across_its_axis_only() {
         let axis = Some((Vector::z(), 1.0));
-        let seat = Seat { center: Point::new(0.0, 0.0, 5.0), axis, radius_mm: 8.2, opening_mm: 16.0 };
-        assert!(seat.is_opened_by(&plane(Vector::z(), 5.5)) && !seat.is_opened_by(&plane(Vector::z(), 6.1)));
+        let seat = Seat {
+            center: Point::new(0.0, 0.0, 5.0),
+            axis,
+            radius_mm: 8.2,
+            opening_mm: 16.0,
+        };
+        assert!(
+            seat.is_opened_by(&plane(Vector::z(), 5.5))
+                && !seat.is_opened_by(&plane(Vector::z(), 6.1))
+        );
         assert!(!seat.is_opened_by(&plane(Vector::x(), 0.0)));
         // Leaning by 1 in 16 it rises by half a millimetre over the coin.
         assert!(seat.is_opened_by(&plane(Vector::new(1.0, 0.0, 16.0), 5.0)));
@@ -84,7 +111,12 @@ mod tests {
 
     #[test]
     fn one_plane_passes_through_any_three_seats() {
-        let at = |x, y, z| Seat { center: Point::new(x, y, z), axis: None, radius_mm: 1.1, opening_mm: 2.0 };
+        let at = |x, y, z| Seat {
+            center: Point::new(x, y, z),
+            axis: None,
+            radius_mm: 1.1,
+            opening_mm: 2.0,
+        };
         let seats = [at(1.0, 0.0, 3.0), at(-4.0, 2.0, 1.0), at(0.5, 9.0, -2.0)];
         let passes = |normal: &Vector| {
             let heights = seats.iter().map(|seat| seat.height_mm(normal));

@@ -66,17 +66,27 @@ impl Section {
     /// The section of a closed mesh; one pass over the triangles. Edges of an open mesh end a ring early.
     pub fn of_mesh(mesh: &TriMesh, plane: &Plane) -> Self {
         let heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.distance(p)).collect();
-        let mut crossings: Vec<Crossing> =
-            mesh.triangles().iter().filter_map(|t| crossing(t, &heights)).collect();
+        let mut crossings: Vec<Crossing> = mesh
+            .triangles()
+            .iter()
+            .filter_map(|t| crossing(t, &heights))
+            .collect();
         crossings.sort_unstable_by_key(|c| c.down);
         let chart = Chart::of_plane(plane);
         let corner = |&(above, below): &(u32, u32)| {
             let (a, b) = (heights[above as usize], heights[below as usize]);
-            let (p, q) = (mesh.vertices()[above as usize], mesh.vertices()[below as usize]);
+            let (p, q) = (
+                mesh.vertices()[above as usize],
+                mesh.vertices()[below as usize],
+            );
             chart.flat(&(p + (q - p) * (a / (a - b))))
         };
-        let rings = chains(&crossings).into_iter().filter(|chain| chain.len() > 2);
-        Self { rings: rings.map(|chain| Ring::new(&chain, corner)).collect() }
+        let rings = chains(&crossings)
+            .into_iter()
+            .filter(|chain| chain.len() > 2);
+        Self {
+            rings: rings.map(|chain| Ring::new(&chain, corner)).collect(),
+        }
     }
 
     /// The rings grouped into polygons: the index of an outer ring, then those of its holes.
@@ -99,21 +109,38 @@ impl Section {
 
     /// The section as polygons with holes.
     pub fn polygons(&self) -> MultiPolygon<f64> {
-        let line = |&i: &usize| self.rings[i].points.iter().map(|p| (p.x, p.y)).collect::<LineString<f64>>();
-        let polygon =
-            |group: &Vec<usize>| Polygon::new(line(&group[0]), group[1..].iter().map(line).collect());
+        let line = |&i: &usize| {
+            self.rings[i]
+                .points
+                .iter()
+                .map(|p| (p.x, p.y))
+                .collect::<LineString<f64>>()
+        };
+        let polygon = |group: &Vec<usize>| {
+            Polygon::new(line(&group[0]), group[1..].iter().map(line).collect())
+        };
         MultiPolygon(self.groups().iter().map(polygon).collect())
     }
 
     /// The outline of some of the rings.
     pub(crate) fn outline(&self, rings: &[usize]) -> Outline {
-        Outline::new(rings.iter().flat_map(|&i| self.rings[i].segments()).collect())
+        Outline::new(
+            rings
+                .iter()
+                .flat_map(|&i| self.rings[i].segments())
+                .collect(),
+        )
     }
 
     /// Centre and diameter (mm) of the largest disc in each of its polygons.
     pub fn largest_discs(&self) -> Vec<(Point2, f64)> {
-        let discs = self.groups().into_iter().filter_map(|rings| self.outline(&rings).largest_disc(0.0));
-        discs.map(|disc| (disc.center, 2.0 * disc.radius_mm)).collect()
+        let discs = self
+            .groups()
+            .into_iter()
+            .filter_map(|rings| self.outline(&rings).largest_disc(0.0));
+        discs
+            .map(|disc| (disc.center, 2.0 * disc.radius_mm))
+            .collect()
     }
 
     /// The area, mm².
@@ -125,13 +152,20 @@ impl Section {
 impl Ring {
     fn new(chain: &[(u32, u32)], corner: impl Fn(&(u32, u32)) -> Point2) -> Self {
         let (above, below) = chain[0];
-        Self { points: chain.iter().map(corner).collect(), above, below }
+        Self {
+            points: chain.iter().map(corner).collect(),
+            above,
+            below,
+        }
     }
 
     /// The enclosed area, mm²; negative for a hole.
     pub fn area_mm2(&self) -> f64 {
         let origin = self.points[0];
-        self.segments().map(|[a, b]| (a - origin).perp(&(b - origin))).sum::<f64>() / 2.0
+        self.segments()
+            .map(|[a, b]| (a - origin).perp(&(b - origin)))
+            .sum::<f64>()
+            / 2.0
     }
 
     /// The length around, mm.
@@ -154,9 +188,16 @@ impl Ring {
 fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
     let above = |v: u32| heights[v as usize] >= 0.0;
     let edges = [(a, b), (b, c), (c, a)];
-    let down = edges.into_iter().find(|&(from, to)| above(from) && !above(to))?;
-    let up = edges.into_iter().find(|&(from, to)| !above(from) && above(to))?;
-    Some(Crossing { down, up: (up.1, up.0) })
+    let down = edges
+        .into_iter()
+        .find(|&(from, to)| above(from) && !above(to))?;
+    let up = edges
+        .into_iter()
+        .find(|&(from, to)| !above(from) && above(to))?;
+    Some(Crossing {
+        down,
+        up: (up.1, up.0),
+    })
 }
 
 /// The crossed edges in the order in which the section runs through them; `crossings` are sorted by `down`.
@@ -169,7 +210,9 @@ fn chains(crossings: &[Crossing]) -> Vec<Vec<(u32, u32)>> {
         while let Some(i) = at.filter(|&i| !used[i]) {
             used[i] = true;
             chain.push(crossings[i].down);
-            at = crossings.binary_search_by_key(&crossings[i].up, |c| c.down).ok();
+            at = crossings
+                .binary_search_by_key(&crossings[i].up, |c| c.down)
+                .ok();
         }
         if !chain.is_empty() {
             chains.push(chain);

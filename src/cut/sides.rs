@@ -23,7 +23,11 @@ impl<'a> Sides<'a> {
     pub(crate) fn new(mesh: &'a TriMesh, plane: Plane, section: Section) -> Self {
         let polygons = section.groups();
         let mut sets = UnionFind::new(mesh.vertices().len());
-        let above: Vec<bool> = mesh.vertices().iter().map(|p| plane.distance(p) >= 0.0).collect();
+        let above: Vec<bool> = mesh
+            .vertices()
+            .iter()
+            .map(|p| plane.distance(p) >= 0.0)
+            .collect();
         for &[a, b, c] in mesh.triangles() {
             for (from, to) in [(a, b), (b, c), (c, a)] {
                 if above[from as usize] == above[to as usize] {
@@ -38,26 +42,46 @@ impl<'a> Sides<'a> {
                 sets.merge(outer.below, hole.below);
             }
         }
-        let piece_of = (0..mesh.vertices().len() as u32).map(|v| sets.root(v)).collect();
-        Self { mesh, plane, section, polygons, piece_of }
+        let piece_of = (0..mesh.vertices().len() as u32)
+            .map(|v| sets.root(v))
+            .collect();
+        Self {
+            mesh,
+            plane,
+            section,
+            polygons,
+            piece_of,
+        }
     }
 
     /// The pieces above and below that polygon `group` of the section joins.
     pub(crate) fn neighbours(&self, group: usize) -> [u32; 2] {
         let ring = &self.section.rings[self.polygons[group][0]];
-        [self.piece_of[ring.above as usize], self.piece_of[ring.below as usize]]
+        [
+            self.piece_of[ring.above as usize],
+            self.piece_of[ring.below as usize],
+        ]
     }
 
     /// The diameter of the largest disc in polygon `group`, mm; 0 when it is at most `floor_mm`.
     pub(crate) fn disc_diameter_mm(&self, group: usize, floor_mm: f64) -> f64 {
-        let disc = self.section.outline(&self.polygons[group]).largest_disc(floor_mm / 2.0);
+        let disc = self
+            .section
+            .outline(&self.polygons[group])
+            .largest_disc(floor_mm / 2.0);
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
     }
 
     /// The diameter of the largest disc in polygon `group` where it is filled but for the holes that `is_kept` keeps, mm.
-    pub(crate) fn filled_disc_diameter_mm(&self, group: usize, is_kept: impl Fn(&Ring) -> bool) -> f64 {
+    pub(crate) fn filled_disc_diameter_mm(
+        &self,
+        group: usize,
+        is_kept: impl Fn(&Ring) -> bool,
+    ) -> f64 {
         let (outer, holes) = self.polygons[group].split_at(1);
-        let holes = holes.iter().filter(|&&hole| is_kept(&self.section.rings[hole]));
+        let holes = holes
+            .iter()
+            .filter(|&&hole| is_kept(&self.section.rings[hole]));
         let rings: Vec<usize> = outer.iter().chain(holes).copied().collect();
         let disc = self.section.outline(&rings).largest_disc(0.0);
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
@@ -81,7 +105,10 @@ impl<'a> Sides<'a> {
         for (triangle, corners) in self.mesh.triangles().iter().zip(self.mesh.iter_corners()) {
             self.add_triangle(*triangle, corners, &mut volume_of);
         }
-        (0u32..).zip(volume_of).filter(|&(_, volume)| volume > 0.0).collect()
+        (0u32..)
+            .zip(volume_of)
+            .filter(|&(_, volume)| volume > 0.0)
+            .collect()
     }
 
     /// Adds the part of one triangle above the plane to its piece there, and the part below likewise.
@@ -98,8 +125,9 @@ impl<'a> Sides<'a> {
             return;
         };
         let (j, k) = ((i + 1) % 3, (i + 2) % 3);
-        let meet =
-            |to: usize| corners[i] + (corners[to] - corners[i]) * (heights[i] / (heights[i] - heights[to]));
+        let meet = |to: usize| {
+            corners[i] + (corners[to] - corners[i]) * (heights[i] / (heights[i] - heights[to]))
+        };
         let tip = wedge([corners[i], meet(j), meet(k)]);
         volume_of[self.piece_of[triangle[i] as usize] as usize] += tip;
         volume_of[self.piece_of[triangle[j] as usize] as usize] +=

@@ -47,26 +47,43 @@ impl<'a> Look<'a> {
     pub(crate) fn new(tree: &'a CutTree, request: &PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
         let tool_radius_mm = request.min_opening_mm / 2.0;
-        Self { tree, tool_radius_mm, reach_mm, given_up_ratio: HIDDEN_RATIO }
+        Self {
+            tree,
+            tool_radius_mm,
+            reach_mm,
+            given_up_ratio: HIDDEN_RATIO,
+        }
     }
 
     /// The same, but from many places however much is hidden: slower, and right for what is told of a plan.
     pub(crate) fn thorough(self) -> Self {
-        Self { given_up_ratio: 1.0, ..self }
+        Self {
+            given_up_ratio: 1.0,
+            ..self
+        }
     }
 
     /// The places that are looked from through mouths, each of a cut: of every mouth that lets the tool in those where it finds
     /// room; the middle of the widest mouth where none lets it in.
     fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
-        let discs = mouths.iter().filter_map(|mouth| Some((mouth, mouth.1.largest_disc(0.0)?)));
+        let discs = mouths
+            .iter()
+            .filter_map(|mouth| Some((mouth, mouth.1.largest_disc(0.0)?)));
         let mut discs: Vec<_> = discs.collect();
         discs.sort_by(|a, b| b.1.radius_mm.total_cmp(&a.1.radius_mm));
-        let middles = discs.iter().map(|(mouth, disc)| self.eye(mouth.0, &disc.center));
+        let middles = discs
+            .iter()
+            .map(|(mouth, disc)| self.eye(mouth.0, &disc.center));
         let is_wide = |radius_mm: f64| radius_mm >= self.tool_radius_mm;
-        let wide = discs.iter().filter(|(_, disc)| is_wide(disc.radius_mm)).count();
+        let wide = discs
+            .iter()
+            .filter(|(_, disc)| is_wide(disc.radius_mm))
+            .count();
         let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
         for ((cut, outline), _) in &discs[..wide] {
-            let places = across(outline, count).into_iter().filter(|at| is_wide(outline.signed_distance(at)));
+            let places = across(outline, count)
+                .into_iter()
+                .filter(|at| is_wide(outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.eye(*cut, &at)));
         }
         eyes
@@ -74,7 +91,10 @@ impl<'a> Look<'a> {
 
     fn eye(&self, cut: usize, at: &Point2) -> Eye {
         let plane = &self.tree.planes[cut];
-        Eye { cut, at: Chart::of_plane(plane).lift(plane, at) }
+        Eye {
+            cut,
+            at: Chart::of_plane(plane).lift(plane, at),
+        }
     }
 
     /// Whether the eye's cut is made where it looks from, and no other is between it and a point.
@@ -91,7 +111,9 @@ impl<'a> Look<'a> {
 
 /// Places spread over the box of a mouth, so many along each of two directions.
 fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
-    let Some((min, max)) = mouth.bounds() else { return Vec::new() };
+    let Some((min, max)) = mouth.bounds() else {
+        return Vec::new();
+    };
     let step = (max - min) / count as f64;
     let at = |i: usize| {
         let (column, row) = ((i % count) as f64, (i / count) as f64);
@@ -140,14 +162,24 @@ impl Walls {
     pub(crate) fn of(void: &Solid) -> Self {
         let wall: Vec<[Point; 3]> = void.mesh().iter_corners().collect();
         let area: f64 = wall.iter().map(area_mm2).sum();
-        let points = spread_points(&wall, SAMPLES as usize).into_iter().map(|point| point.at).collect();
-        Self { bvh: Bvh::new(wall), points, share_mm2: area / SAMPLES }
+        let points = spread_points(&wall, SAMPLES as usize)
+            .into_iter()
+            .map(|point| point.at)
+            .collect();
+        Self {
+            bvh: Bvh::new(wall),
+            points,
+            share_mm2: area / SAMPLES,
+        }
     }
 
     /// About the share of the wall that is in sight through these mouths, each of a cut, before the void is cut: what lies
     /// behind another plane is not.
     pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
-        let mouths: Vec<(usize, &Outline)> = mouths.iter().map(|(cut, outline)| (*cut, outline)).collect();
+        let mouths: Vec<(usize, &Outline)> = mouths
+            .iter()
+            .map(|(cut, outline)| (*cut, outline))
+            .collect();
         let (_, visible) = self.looked_at(self.points.clone(), &mouths, look);
         visible.len() as f64 / self.points.len().max(1) as f64
     }
@@ -155,14 +187,24 @@ impl Walls {
     /// Every point of the sample with the places in these mouths, each of a cut, that see it before the void is cut: from many
     /// places only where few do not.
     pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
-        let mouths: Vec<(usize, &Outline)> = mouths.iter().map(|(cut, outline)| (*cut, outline)).collect();
+        let mouths: Vec<(usize, &Outline)> = mouths
+            .iter()
+            .map(|(cut, outline)| (*cut, outline))
+            .collect();
         let [few, many] = [EYES_ACROSS, CLOSER_EYES_ACROSS].map(|count| look.eyes(&mouths, count));
         let seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
-            eyes.iter().filter(|eye| self.sees(eye, at, look)).map(|eye| eye.at).collect()
+            eyes.iter()
+                .filter(|eye| self.sees(eye, at, look))
+                .map(|eye| eye.at)
+                .collect()
         };
         let lines = |at: &Point| {
             let eyes = seeing(at, &few);
-            let eyes = if eyes.is_empty() { seeing(at, &many) } else { eyes };
+            let eyes = if eyes.is_empty() {
+                seeing(at, &many)
+            } else {
+                eyes
+            };
             Sightlines { at: *at, eyes }
         };
         self.points.par_iter().map(lines).collect()
@@ -181,9 +223,19 @@ impl Walls {
         let points = spread_points(&wall, count.max(LEAST_SAMPLES));
         let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
         let share_mm2 = wall_mm2 / points.len().max(1) as f64;
-        let mouths: Vec<(usize, &Outline)> = piece.caps.iter().map(|cap| (cap.cut, &cap.outline)).collect();
+        let mouths: Vec<(usize, &Outline)> = piece
+            .caps
+            .iter()
+            .map(|cap| (cap.cut, &cap.outline))
+            .collect();
         let (hidden, visible) = self.looked_at(points, &mouths, look);
-        Seen { wall_mm2, seen_mm2: share_mm2 * visible.len() as f64, hidden, visible, share_mm2 }
+        Seen {
+            wall_mm2,
+            seen_mm2: share_mm2 * visible.len() as f64,
+            hidden,
+            visible,
+            share_mm2,
+        }
     }
 
     /// The points that are hidden and those that are not: from few places first, and from many where little is hidden.
@@ -205,7 +257,9 @@ impl Walls {
 
     /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
     fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
-        points.into_par_iter().partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
+        points
+            .into_par_iter()
+            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
     }
 
     /// Whether a point is in sight of an eye and within reach.
@@ -213,7 +267,9 @@ impl Walls {
         let line = at - eye.at;
         line.norm() <= look.reach_mm
             && look.is_before(eye, at)
-            && !self.bvh.is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
+            && !self
+                .bvh
+                .is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
     }
 }
 
@@ -235,13 +291,25 @@ impl Seen {
     pub(crate) fn and(mut self, other: Self) -> Self {
         self.hidden.extend(other.hidden);
         self.visible.extend(other.visible);
-        let (wall_mm2, seen_mm2) = (self.wall_mm2 + other.wall_mm2, self.seen_mm2 + other.seen_mm2);
-        Self { wall_mm2, seen_mm2, share_mm2: self.share_mm2.max(other.share_mm2), ..self }
+        let (wall_mm2, seen_mm2) = (
+            self.wall_mm2 + other.wall_mm2,
+            self.seen_mm2 + other.seen_mm2,
+        );
+        Self {
+            wall_mm2,
+            seen_mm2,
+            share_mm2: self.share_mm2.max(other.share_mm2),
+            ..self
+        }
     }
 
     /// The share that is seen; 0 of nothing.
     pub(crate) fn ratio(&self) -> f64 {
-        if self.wall_mm2 > 0.0 { self.seen_mm2 / self.wall_mm2 } else { 0.0 }
+        if self.wall_mm2 > 0.0 {
+            self.seen_mm2 / self.wall_mm2
+        } else {
+            0.0
+        }
     }
 }
 
@@ -255,9 +323,16 @@ mod tests {
     fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
         let tree = CutTree::everywhere(planes);
-        let look = Look { reach_mm, ..Look::new(&tree, &request()) };
+        let look = Look {
+            reach_mm,
+            ..Look::new(&tree, &request())
+        };
         let pieces = split(void.mesh(), &tree).unwrap();
-        pieces.iter().map(|piece| walls.seen(piece, &look)).fold(Seen::default(), Seen::and).ratio()
+        pieces
+            .iter()
+            .map(|piece| walls.seen(piece, &look))
+            .fold(Seen::default(), Seen::and)
+            .ratio()
     }
 
     fn seen_ratio(void: &Solid, planes: &[Plane]) -> f64 {
@@ -265,14 +340,25 @@ mod tests {
     }
 
     fn level(z: f64) -> Plane {
-        Plane { normal: Vector::z(), offset_mm: z }
+        Plane {
+            normal: Vector::z(),
+            offset_mm: z,
+        }
     }
 
     /// A shaft of 4 × 4 mm from z = 2 down to −20 with an arm of 20 mm at its foot.
     fn bend() -> Solid {
         let shaft = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(2.0, 2.0, 2.0));
-        let arm = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(18.0, 2.0, -16.0));
-        Csg::of_mesh(&shaft).unwrap().union(&Csg::of_mesh(&arm).unwrap()).unwrap().to_solid().unwrap()
+        let arm = primitives::cuboid(
+            &Point::new(-2.0, -2.0, -20.0),
+            &Point::new(18.0, 2.0, -16.0),
+        );
+        Csg::of_mesh(&shaft)
+            .unwrap()
+            .union(&Csg::of_mesh(&arm).unwrap())
+            .unwrap()
+            .to_solid()
+            .unwrap()
     }
 
     #[test]
@@ -288,7 +374,10 @@ mod tests {
         let ratio = seen_ratio(&bend(), &[level(0.0)]);
         assert!(ratio > 0.5 && ratio < 0.75, "{ratio}");
         assert_eq!(seen_ratio(&bend(), &[]), 0.0);
-        let lengthwise = Plane { normal: Vector::y(), offset_mm: 0.01 };
+        let lengthwise = Plane {
+            normal: Vector::y(),
+            offset_mm: 0.01,
+        };
         assert_eq!(seen_ratio(&bend(), &[lengthwise]), 1.0);
     }
 

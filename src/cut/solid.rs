@@ -18,12 +18,19 @@ pub struct SolidEnd {
 
 impl SolidEnd {
     pub(crate) fn new(at: &Point, aabb: &Aabb) -> Self {
-        Self { at_mm: (*at).into(), low_mm: aabb.min.into(), high_mm: aabb.max.into() }
+        Self {
+            at_mm: (*at).into(),
+            low_mm: aabb.min.into(),
+            high_mm: aabb.max.into(),
+        }
     }
 
     /// The box.
     pub fn aabb(&self) -> Aabb {
-        Aabb { min: self.low_mm.into(), max: self.high_mm.into() }
+        Aabb {
+            min: self.low_mm.into(),
+            max: self.high_mm.into(),
+        }
     }
 
     /// Whether the point lies in a box that has a volume.

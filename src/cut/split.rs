@@ -68,7 +68,11 @@ impl Joint {
 
     /// The other piece of the two.
     pub(crate) fn other(&self, piece: usize) -> usize {
-        if self.below == piece { self.above } else { self.below }
+        if self.below == piece {
+            self.above
+        } else {
+            self.below
+        }
     }
 }
 
@@ -89,7 +93,11 @@ pub(crate) fn split(mesh: &TriMesh, tree: &CutTree) -> Result<Vec<Piece>, CutErr
 pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
     let mut pieces = Vec::new();
     for cell in &tree.cells(body)? {
-        pieces.extend(bodies(&cell.to_mesh()?).into_iter().map(|mesh| piece(mesh, tree)));
+        pieces.extend(
+            bodies(&cell.to_mesh()?)
+                .into_iter()
+                .map(|mesh| piece(mesh, tree)),
+        );
     }
     pieces.retain(|piece| piece.volume_mm3 > SHEET_VOLUME_MM3);
     Ok(in_order(pieces))
@@ -101,7 +109,10 @@ pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutEr
 pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
     let askew = Vector::new(0.331, 0.497, 0.802);
     let place = |piece: &Piece| askew.dot(&piece.mesh.aabb().center().coords);
-    let mut placed: Vec<(f64, Piece)> = pieces.into_iter().map(|piece| (place(&piece), piece)).collect();
+    let mut placed: Vec<(f64, Piece)> = pieces
+        .into_iter()
+        .map(|piece| (place(&piece), piece))
+        .collect();
     placed.sort_by(|a, b| b.0.total_cmp(&a.0));
     placed.into_iter().map(|(_, piece)| piece).collect()
 }
@@ -109,7 +120,10 @@ pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
 /// Refuses a piece that encloses a cavity.
 pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
     for (part, piece) in pieces.iter().enumerate() {
-        let cavities = shells(&piece.mesh).iter().filter(|shell| shell.signed_volume_mm3() < 0.0).count();
+        let cavities = shells(&piece.mesh)
+            .iter()
+            .filter(|shell| shell.signed_volume_mm3() < 0.0)
+            .count();
         if cavities > 0 {
             return Err(CutError::ClosedCavity { part, cavities });
         }
@@ -122,16 +136,26 @@ pub(crate) fn piece(mesh: TriMesh, tree: &CutTree) -> Piece {
     let of_cut = |(cut, plane): (usize, &Plane)| {
         let chart = Chart::of_plane(plane);
         let is_made = move |cap: &Cap| tree.acts_at(cut, &chart.lift(plane, &cap.inner_point()));
-        caps(&mesh, plane, cut).into_iter().filter(is_made).collect::<Vec<Cap>>()
+        caps(&mesh, plane, cut)
+            .into_iter()
+            .filter(is_made)
+            .collect::<Vec<Cap>>()
     };
     let caps = tree.planes.iter().enumerate().flat_map(of_cut).collect();
-    Piece { volume_mm3: mesh.signed_volume_mm3(), caps, mesh }
+    Piece {
+        volume_mm3: mesh.signed_volume_mm3(),
+        caps,
+        mesh,
+    }
 }
 
 /// The faces that the plane has left on a piece, in the order of their first triangles.
 fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
-    let on_plane: Vec<bool> =
-        mesh.vertices().iter().map(|p| plane.distance(p).abs() <= ON_PLANE_MM).collect();
+    let on_plane: Vec<bool> = mesh
+        .vertices()
+        .iter()
+        .map(|p| plane.distance(p).abs() <= ON_PLANE_MM)
+        .collect();
     let is_flat = |&face: &usize| mesh.triangles()[face].iter().all(|&v| on_plane[v as usize]);
     let flat: Vec<usize> = (0..mesh.triangles().len()).filter(is_flat).collect();
     let mut sets = UnionFind::new(mesh.vertices().len());
@@ -149,32 +173,61 @@ fn caps(mesh: &TriMesh, plane: &Plane, cut: usize) -> Vec<Cap> {
         }
     }
     let chart = Chart::of_plane(plane);
-    groups.into_iter().map(|(_, faces)| cap(mesh, faces, &chart, cut)).filter(Cap::has_area).collect()
+    groups
+        .into_iter()
+        .map(|(_, faces)| cap(mesh, faces, &chart, cut))
+        .filter(Cap::has_area)
+        .collect()
 }
 
 fn cap(mesh: &TriMesh, faces: Vec<usize>, chart: &Chart, cut: usize) -> Cap {
     let corners = mesh.vertices().iter().map(|p| chart.flat(p)).collect();
-    let flat = Flat { corners, triangles: faces.iter().map(|&face| mesh.triangles()[face]).collect() };
-    Cap { faces, ..cap_of(&flat, cut) }
+    let flat = Flat {
+        corners,
+        triangles: faces.iter().map(|&face| mesh.triangles()[face]).collect(),
+    };
+    Cap {
+        faces,
+        ..cap_of(&flat, cut)
+    }
 }
 
 /// The cut face of a flat region; of no triangles of a piece.
 pub(crate) fn cap_of(flat: &Flat, cut: usize) -> Cap {
     let at = |v: u32| flat.corners[v as usize];
-    let boundary = boundary_edges(&flat.triangles).into_iter().map(|(a, b)| [at(a), at(b)]).collect();
+    let boundary = boundary_edges(&flat.triangles)
+        .into_iter()
+        .map(|(a, b)| [at(a), at(b)])
+        .collect();
     let triangles = flat.shapes();
-    let signed: f64 = triangles.iter().map(|[a, b, c]| (b - a).perp(&(c - a)) / 2.0).sum();
+    let signed: f64 = triangles
+        .iter()
+        .map(|[a, b, c]| (b - a).perp(&(c - a)) / 2.0)
+        .sum();
     let (is_above, area_mm2) = (signed < 0.0, signed.abs());
-    Cap { cut, is_above, outline: Outline::new(boundary), area_mm2, faces: Vec::new(), triangles }
+    Cap {
+        cut,
+        is_above,
+        outline: Outline::new(boundary),
+        area_mm2,
+        faces: Vec::new(),
+        triangles,
+    }
 }
 
 /// The directed edges without an opposite among the triangles, sorted.
 fn boundary_edges(triangles: &[[u32; 3]]) -> Vec<(u32, u32)> {
-    let mut edges: Vec<(u32, u32)> =
-        triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+    let mut edges: Vec<(u32, u32)> = triangles
+        .iter()
+        .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+        .collect();
     edges.sort_unstable();
     let is_inner = |&(a, b): &(u32, u32)| edges.binary_search(&(b, a)).is_ok();
-    edges.iter().filter(|edge| !is_inner(edge)).copied().collect()
+    edges
+        .iter()
+        .filter(|edge| !is_inner(edge))
+        .copied()
+        .collect()
 }
 
 impl Cap {
@@ -193,15 +246,23 @@ impl Cap {
     /// The centroid of the largest triangle: a point well inside the face.
     pub(crate) fn inner_point(&self) -> Point2 {
         let area = |[a, b, c]: &[Point2; 3]| (b - a).perp(&(c - a)).abs();
-        let largest = self.triangles.iter().max_by(|s, t| area(s).total_cmp(&area(t)));
-        largest.map_or(Point2::origin(), |[a, b, c]| Point2::from((a.coords + b.coords + c.coords) / 3.0))
+        let largest = self
+            .triangles
+            .iter()
+            .max_by(|s, t| area(s).total_cmp(&area(t)));
+        largest.map_or(Point2::origin(), |[a, b, c]| {
+            Point2::from((a.coords + b.coords + c.coords) / 3.0)
+        })
     }
 }
 
 /// The piece whose face of this cut, on this side, holds the point.
 pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2) -> Option<usize> {
     pieces.iter().position(|piece| {
-        piece.caps.iter().any(|cap| cap.cut == cut && cap.is_above == is_above && cap.holds(p))
+        piece
+            .caps
+            .iter()
+            .any(|cap| cap.cut == cut && cap.is_above == is_above && cap.holds(p))
     })
 }
 
@@ -209,7 +270,10 @@ pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2)
 /// be made before first; then by cut, then by the pieces.
 pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     let caps = |is_above: bool| {
-        let all = pieces.iter().enumerate().flat_map(|(i, piece)| piece.caps.iter().map(move |cap| (i, cap)));
+        let all = pieces
+            .iter()
+            .enumerate()
+            .flat_map(|(i, piece)| piece.caps.iter().map(move |cap| (i, cap)));
         all.filter(move |(_, cap)| cap.is_above == is_above)
     };
     let mut joints: Vec<Joint> = Vec::new();
@@ -220,11 +284,23 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
             match joints.iter_mut().find(same) {
                 Some(joint) => joint.faces.extend(faces),
                 None if faces.is_empty() => {}
-                None => joints.push(Joint { cut: low.cut, below, above, faces }),
+                None => joints.push(Joint {
+                    cut: low.cut,
+                    below,
+                    above,
+                    faces,
+                }),
             }
         }
     }
-    joints.sort_by_key(|joint| (Reverse(tree.depth(joint.cut)), joint.cut, joint.below, joint.above));
+    joints.sort_by_key(|joint| {
+        (
+            Reverse(tree.depth(joint.cut)),
+            joint.cut,
+            joint.below,
+            joint.above,
+        )
+    });
     joints
 }
 
@@ -233,20 +309,37 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
 fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
     let meets = |face: &Cap| face.has_area() && high.holds(&face.inner_point());
     if tree.is_everywhere() {
-        return if meets(low) { vec![low.clone()] } else { Vec::new() };
+        return if meets(low) {
+            vec![low.clone()]
+        } else {
+            Vec::new()
+        };
     }
     let own = &tree.planes[low.cut];
     let (mut flat, other) = (Flat::of(&low.triangles), Flat::of(&high.triangles));
     let mut is_whole = true;
-    for plane in (0..tree.planes.len()).filter(|&cut| cut != low.cut).map(|cut| &tree.planes[cut]) {
-        let Some(is_above) = other.side_of(own, plane) else { continue };
+    for plane in (0..tree.planes.len())
+        .filter(|&cut| cut != low.cut)
+        .map(|cut| &tree.planes[cut])
+    {
+        let Some(is_above) = other.side_of(own, plane) else {
+            continue;
+        };
         if flat.is_crossed_by(own, plane) {
             (flat, is_whole) = (flat.on_side(own, (plane, is_above)), false);
         }
     }
     if is_whole {
-        return if meets(low) { vec![low.clone()] } else { Vec::new() };
+        return if meets(low) {
+            vec![low.clone()]
+        } else {
+            Vec::new()
+        };
     }
     let faces = flat.pieces();
-    faces.iter().map(|piece| cap_of(piece, low.cut)).filter(meets).collect()
+    faces
+        .iter()
+        .map(|piece| cap_of(piece, low.cut))
+        .filter(meets)
+        .collect()
 }

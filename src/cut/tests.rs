@@ -24,8 +24,17 @@ pub(super) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<P
         assert!(!void.opened_by.is_empty());
     }
     for part in &parts {
-        assert!(shells(part.solid.mesh()).iter().all(|shell| shell.signed_volume_mm3() > 0.0));
-        let heights = part.solid.mesh().vertices().iter().map(|p| apply(&part.pose.print_from_model, p).z);
+        assert!(
+            shells(part.solid.mesh())
+                .iter()
+                .all(|shell| shell.signed_volume_mm3() > 0.0)
+        );
+        let heights = part
+            .solid
+            .mesh()
+            .vertices()
+            .iter()
+            .map(|p| apply(&part.pose.print_from_model, p).z);
         assert_eq!(heights.fold(f64::INFINITY, f64::min), 0.0);
     }
     assert_volumes_add_up(hollowed, &parts);
@@ -34,14 +43,20 @@ pub(super) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<P
 
 /// An order of these cuts, pins to be placed.
 pub(super) fn cuts(cuts: Vec<Cut>) -> CutOrder {
-    CutOrder { cuts, ..CutOrder::default() }
+    CutOrder {
+        cuts,
+        ..CutOrder::default()
+    }
 }
 
 pub(super) fn assert_volumes_add_up(hollowed: &Hollowed, parts: &[Part]) {
     let body = moments_of_mesh(&hollowed.to_mesh()).volume();
     let written: f64 = parts.iter().map(|part| volume(&part.solid)).sum();
     let promised = body + parts.iter().map(Part::added_volume_mm3).sum::<f64>();
-    assert!((written - promised).abs() <= 1e-6 * body, "{written} against {promised}");
+    assert!(
+        (written - promised).abs() <= 1e-6 * body,
+        "{written} against {promised}"
+    );
 }
 
 #[test]
@@ -57,17 +72,26 @@ fn a_ball_with_one_void_is_cut_once_into_two_parts_with_pins_that_fit_one_way() 
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     let (plan, parts) = kit(&body, &request());
     assert_eq!((plan.cuts.len(), parts.len()), (1, 2));
-    assert!(plan.pins.len() >= 2 && plan.joints[0].one_way, "{:?}", plan.notes);
+    assert!(
+        plan.pins.len() >= 2 && plan.joints[0].one_way,
+        "{:?}",
+        plan.notes
+    );
     assert_eq!(parts[0].voids, vec![0]);
     assert_eq!(parts[0].pins.len() + parts[1].pins.len(), plan.pins.len());
-    assert_eq!(parts[0].sockets.len() + parts[1].sockets.len(), plan.pins.len());
+    assert_eq!(
+        parts[0].sockets.len() + parts[1].sockets.len(),
+        plan.pins.len()
+    );
 }
 
 #[test]
 fn pearls_on_a_skew_string_need_one_cut() {
     let direction = Vector::new(1.0, 2.0, -1.5).normalize();
-    let pearls: Vec<[f64; 4]> =
-        (-3..=3).map(|i| direction * (7.0 * f64::from(i))).map(|p| [p.x, p.y, p.z, 3.0]).collect();
+    let pearls: Vec<[f64; 4]> = (-3..=3)
+        .map(|i| direction * (7.0 * f64::from(i)))
+        .map(|p| [p.x, p.y, p.z, 3.0])
+        .collect();
     let (plan, _) = kit(&with_balls(ball([0.0; 3], 32.0), &pearls), &request());
     assert_eq!(plan.cuts.len(), 1);
 }
@@ -75,8 +99,10 @@ fn pearls_on_a_skew_string_need_one_cut() {
 #[test]
 fn two_voids_side_by_side_only_in_a_skew_direction_need_one_cut() {
     // Their extents along x, along y and along z do not overlap, so no plane normal to an axis meets both.
-    let body =
-        with_balls(cuboid([-30.0; 3], [30.0; 3]), &[[-15.0, -15.0, -15.0, 6.0], [15.0, 15.0, 15.0, 6.0]]);
+    let body = with_balls(
+        cuboid([-30.0; 3], [30.0; 3]),
+        &[[-15.0, -15.0, -15.0, 6.0], [15.0, 15.0, 15.0, 6.0]],
+    );
     let (plan, _) = kit(&body, &request());
     assert_eq!(plan.cuts.len(), 1);
 }
@@ -91,7 +117,13 @@ fn a_table_with_a_void_in_every_leg_needs_one_cut() {
     }
     let outer = body.to_solid().unwrap();
     let voids = legs.map(|[x, y]| cuboid([x - 3.0, y - 3.0, 4.0], [x + 3.0, y + 3.0, 25.0]));
-    let (plan, _) = kit(&Hollowed { outer, voids: voids.to_vec() }, &request());
+    let (plan, _) = kit(
+        &Hollowed {
+            outer,
+            voids: voids.to_vec(),
+        },
+        &request(),
+    );
     assert_eq!(plan.cuts.len(), 1);
 }
 
@@ -99,7 +131,11 @@ fn a_table_with_a_void_in_every_leg_needs_one_cut() {
 fn three_voids_in_a_triangle_need_the_one_plane_through_them_all() {
     let body = with_balls(
         ball([0.0; 3], 40.0),
-        &[[20.0, 0.0, 12.0, 4.0], [-12.0, 18.0, -4.0, 4.0], [-10.0, -18.0, 0.0, 4.0]],
+        &[
+            [20.0, 0.0, 12.0, 4.0],
+            [-12.0, 18.0, -4.0, 4.0],
+            [-10.0, -18.0, 0.0, 4.0],
+        ],
     );
     let (plan, _) = kit(&body, &request());
     assert_eq!(plan.cuts.len(), 1);
@@ -109,9 +145,16 @@ fn three_voids_in_a_triangle_need_the_one_plane_through_them_all() {
 fn four_small_voids_at_the_corners_of_a_tetrahedron_need_two_cuts() {
     // A plane within 1.5 mm of three corners misses the fourth, some 40 mm off; two planes take two corners each.
     let corner = |x: f64, y: f64, z: f64| [15.0 * x, 15.0 * y, 15.0 * z, 2.5];
-    let tetrahedron =
-        [corner(1.0, 1.0, 1.0), corner(1.0, -1.0, -1.0), corner(-1.0, 1.0, -1.0), corner(-1.0, -1.0, 1.0)];
-    let (plan, parts) = kit(&with_balls(cuboid([-25.0; 3], [25.0; 3]), &tetrahedron), &request());
+    let tetrahedron = [
+        corner(1.0, 1.0, 1.0),
+        corner(1.0, -1.0, -1.0),
+        corner(-1.0, 1.0, -1.0),
+        corner(-1.0, -1.0, 1.0),
+    ];
+    let (plan, parts) = kit(
+        &with_balls(cuboid([-25.0; 3], [25.0; 3]), &tetrahedron),
+        &request(),
+    );
     assert_eq!(plan.cuts.len(), 2);
     assert!(plan.notes[0].contains("fewer do not"), "{:?}", plan.notes);
     assert!(parts.len() >= 3);
@@ -130,7 +173,13 @@ fn no_two_joints_can_be_confused() {
         .collect();
     let plan = plan_by(&body, &request(), &cuts(planes)).unwrap();
     assert_eq!(plan.joints.len(), 2);
-    assert!(plan.joints.iter().all(|joint| joint.one_way && joint.pins.len() >= 2), "{:?}", plan.joints);
+    assert!(
+        plan.joints
+            .iter()
+            .all(|joint| joint.one_way && joint.pins.len() >= 2),
+        "{:?}",
+        plan.joints
+    );
 }
 
 #[test]
@@ -140,25 +189,46 @@ fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_arou
     let (plan, parts) = kit(&body, &request);
     for pin in &plan.pins {
         let carrier = parts.iter().find(|part| part.pins.contains(pin)).unwrap();
-        let receiver = parts.iter().find(|part| part.sockets.contains(pin)).unwrap();
+        let receiver = parts
+            .iter()
+            .find(|part| part.sockets.contains(pin))
+            .unwrap();
         let axis = Vector::from(pin.direction);
         let radii = |part: &Part, from: f64, to: f64| -> Vec<f64> {
-            let arms = part.solid.mesh().vertices().iter().map(|p| p - Point::from(pin.center_mm));
+            let arms = part
+                .solid
+                .mesh()
+                .vertices()
+                .iter()
+                .map(|p| p - Point::from(pin.center_mm));
             let near = arms.map(|arm| (axis.dot(&arm), (arm - axis * axis.dot(&arm)).norm()));
-            near.filter(|&(h, r)| from < h && h < to && r < pin.socket_diameter_mm).map(|(_, r)| r).collect()
+            near.filter(|&(h, r)| from < h && h < to && r < pin.socket_diameter_mm)
+                .map(|(_, r)| r)
+                .collect()
         };
-        let pin_radius =
-            radii(carrier, 1e-3, pin.length_mm - pin.chamfer_mm + 1e-6).into_iter().fold(0.0, f64::max);
-        let corner = radii(receiver, pin.socket_chamfer_mm - 1e-6, pin.socket_depth_mm + 1e-6)
+        let pin_radius = radii(carrier, 1e-3, pin.length_mm - pin.chamfer_mm + 1e-6)
             .into_iter()
-            .filter(|&r| r > pin_radius)
-            .fold(f64::INFINITY, f64::min);
+            .fold(0.0, f64::max);
+        let corner = radii(
+            receiver,
+            pin.socket_chamfer_mm - 1e-6,
+            pin.socket_depth_mm + 1e-6,
+        )
+        .into_iter()
+        .filter(|&r| r > pin_radius)
+        .fold(f64::INFINITY, f64::min);
         // The socket's flats lie nearer to the axis than its corners, by the cosine of half a side.
         let flat = corner * (std::f64::consts::PI / pin_shape::SIDES as f64).cos();
         let gap_mm = (pin.socket_diameter_mm - pin.diameter_mm) / 2.0;
-        assert!((flat - pin_radius - gap_mm).abs() < 1e-9, "{flat} {pin_radius}");
+        assert!(
+            (flat - pin_radius - gap_mm).abs() < 1e-9,
+            "{flat} {pin_radius}"
+        );
         let clearance_mm = request.pins.clearance_mm;
-        assert!(clearance_mm <= gap_mm && gap_mm < clearance_mm + request.hole_step_mm, "{gap_mm}");
+        assert!(
+            clearance_mm <= gap_mm && gap_mm < clearance_mm + request.hole_step_mm,
+            "{gap_mm}"
+        );
         let far = Point::from(pin.center_mm) + axis * pin.socket_depth_mm;
         let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
         let least = surface.segment_distance(&Point::from(pin.center_mm), &far, f64::INFINITY);
@@ -172,7 +242,9 @@ fn a_thin_shell_has_no_room_for_pins_and_the_plan_says_so() {
     let (plan, parts) = kit(&body, &request());
     assert!(plan.pins.is_empty());
     assert!(
-        plan.notes.iter().any(|note| note.contains("no room for pins: widest section 1.")),
+        plan.notes
+            .iter()
+            .any(|note| note.contains("no room for pins: widest section 1.")),
         "{:?}",
         plan.notes
     );
@@ -181,19 +253,35 @@ fn a_thin_shell_has_no_room_for_pins_and_the_plan_says_so() {
 
 #[test]
 fn a_void_too_narrow_to_open_is_named() {
-    let body = with_balls(cuboid([0.0; 3], [30.0; 3]), &[[10.0, 10.0, 10.0, 5.0], [22.0, 22.0, 22.0, 1.0]]);
+    let body = with_balls(
+        cuboid([0.0; 3], [30.0; 3]),
+        &[[10.0, 10.0, 10.0, 5.0], [22.0, 22.0, 22.0, 1.0]],
+    );
     let refused = plan(&body, &request()).unwrap_err();
-    assert!(matches!(&refused, CutError::Unopenable { voids, .. } if *voids == vec![1]), "{refused}");
+    assert!(
+        matches!(&refused, CutError::Unopenable { voids, .. } if *voids == vec![1]),
+        "{refused}"
+    );
 }
 
 #[test]
 fn a_long_bar_is_cut_until_its_parts_fit_the_printer() {
-    let request = PlanRequest { build_volume_mm: Some([80.0, 60.0, 50.0]), ..request() };
-    let (_, parts) = kit(&with_balls(cuboid([0.0; 3], [200.0, 20.0, 20.0]), &[]), &request);
+    let request = PlanRequest {
+        build_volume_mm: Some([80.0, 60.0, 50.0]),
+        ..request()
+    };
+    let (_, parts) = kit(
+        &with_balls(cuboid([0.0; 3], [200.0, 20.0, 20.0]), &[]),
+        &request,
+    );
     assert!(parts.len() >= 3);
     for part in &parts {
         assert!(part.pose.fits);
-        let placed = part.solid.mesh().map_vertices(|p| apply(&part.pose.print_from_model, p)).aabb();
+        let placed = part
+            .solid
+            .mesh()
+            .map_vertices(|p| apply(&part.pose.print_from_model, p))
+            .aabb();
         assert!(placed.min.x >= 0.0 && placed.max.x <= 80.0 && placed.max.z <= 50.0);
     }
 }
@@ -205,23 +293,41 @@ fn the_part_with_sockets_lies_on_its_cut_face_and_open_hollows_look_up_when_aske
         let (plan, parts) = kit(&body, request);
         let normal = Vector::from(plan.cuts[0].normal);
         let vertical = |part: &Part| {
-            let outward = if part.pins.is_empty() { -normal } else { normal };
-            (0..3).map(|i| part.pose.print_from_model[2][i] * outward[i]).sum::<f64>()
+            let outward = if part.pins.is_empty() {
+                -normal
+            } else {
+                normal
+            };
+            (0..3)
+                .map(|i| part.pose.print_from_model[2][i] * outward[i])
+                .sum::<f64>()
         };
-        let mut looks: Vec<(bool, f64)> = parts.iter().map(|p| (p.pins.is_empty(), vertical(p))).collect();
+        let mut looks: Vec<(bool, f64)> = parts
+            .iter()
+            .map(|p| (p.pins.is_empty(), vertical(p)))
+            .collect();
         looks.sort_by_key(|(flat, _)| *flat);
         looks.into_iter().map(|(_, z)| z.round()).collect()
     };
     assert_eq!(up(&request()), vec![1.0, -1.0]);
-    let open_up = PlanRequest { pose: PosePreference::OpenHollowUp, ..request() };
+    let open_up = PlanRequest {
+        pose: PosePreference::OpenHollowUp,
+        ..request()
+    };
     assert_eq!(up(&open_up), vec![1.0, 1.0]);
 }
 
 #[test]
 fn plans_and_parts_are_the_same_on_one_thread_and_on_two() {
-    let body = with_balls(cuboid([-25.0; 3], [25.0; 3]), &[[-10.0, 3.0, 0.0, 7.0], [12.0, -2.0, 5.0, 8.0]]);
+    let body = with_balls(
+        cuboid([-25.0; 3], [25.0; 3]),
+        &[[-10.0, 3.0, 0.0, 7.0], [12.0, -2.0, 5.0, 8.0]],
+    );
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| kit(&body, &request()))
     };
     let (one, two) = (on(1), on(2));
@@ -236,40 +342,78 @@ fn a_plan_survives_being_written_and_read() {
     let read: CutPlan = serde_json::from_str(&serde_json::to_string(&plan).unwrap()).unwrap();
     assert_eq!(
         read,
-        CutPlan { moves: Vec::new(), proofs: Vec::new(), ..plan.clone() },
+        CutPlan {
+            moves: Vec::new(),
+            proofs: Vec::new(),
+            ..plan.clone()
+        },
         "how its cuts were moved is not in the file"
     );
-    assert_eq!(parts(&body, &read, &request()), parts(&body, &plan, &request()));
+    assert_eq!(
+        parts(&body, &read, &request()),
+        parts(&body, &plan, &request())
+    );
 }
 
 #[test]
 fn degenerate_cuts_and_requests_are_refused_without_panic() {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
     for normal in [[0.0; 3], [f64::NAN, 0.0, 1.0], [f64::INFINITY, 0.0, 0.0]] {
-        let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal, within: Vec::new() };
+        let cut = Cut {
+            id: "C1".into(),
+            point_mm: [0.0; 3],
+            normal,
+            within: Vec::new(),
+        };
         let refused = plan_by(&body, &request(), &cuts(vec![cut])).unwrap_err();
         assert_eq!(refused, CutError::DegenerateCut { cut: "C1".into() });
     }
-    let aside =
-        Cut { id: "C1".into(), point_mm: [0.0, 0.0, 99.0], normal: [0.0, 0.0, 1.0], within: Vec::new() };
-    assert!(matches!(plan_by(&body, &request(), &cuts(vec![aside])), Err(CutError::ClosedCavity { .. })));
-    let asked = PlanRequest { wall_mm: f64::NAN, ..request() };
-    assert!(matches!(plan(&body, &asked), Err(CutError::BadRequest { name: "wall_mm", .. })));
+    let aside = Cut {
+        id: "C1".into(),
+        point_mm: [0.0, 0.0, 99.0],
+        normal: [0.0, 0.0, 1.0],
+        within: Vec::new(),
+    };
+    assert!(matches!(
+        plan_by(&body, &request(), &cuts(vec![aside])),
+        Err(CutError::ClosedCavity { .. })
+    ));
+    let asked = PlanRequest {
+        wall_mm: f64::NAN,
+        ..request()
+    };
+    assert!(matches!(
+        plan(&body, &asked),
+        Err(CutError::BadRequest {
+            name: "wall_mm",
+            ..
+        })
+    ));
 }
 
 #[test]
 fn a_cut_along_a_face_leaves_no_sheets() {
     let body = with_balls(cuboid([0.0; 3], [30.0; 3]), &[]);
-    let cut = Cut { id: "C1".into(), point_mm: [0.0; 3], normal: [0.0, 0.0, 1.0], within: Vec::new() };
+    let cut = Cut {
+        id: "C1".into(),
+        point_mm: [0.0; 3],
+        normal: [0.0, 0.0, 1.0],
+        within: Vec::new(),
+    };
     let plan = plan_by(&body, &request(), &cuts(vec![cut])).unwrap();
     assert_eq!(parts(&body, &plan, &request()).unwrap().len(), 1);
 }
 
 #[test]
 fn a_section_of_a_box_is_a_rectangle_with_the_holes_of_its_voids() {
-    let body =
-        with_balls(cuboid([0.0; 3], [30.0, 20.0, 20.0]), &[[8.0, 10.0, 10.0, 4.0], [22.0, 10.0, 10.0, 4.0]]);
-    let plane = crate::geom::Plane { normal: Vector::z(), offset_mm: 10.0 };
+    let body = with_balls(
+        cuboid([0.0; 3], [30.0, 20.0, 20.0]),
+        &[[8.0, 10.0, 10.0, 4.0], [22.0, 10.0, 10.0, 4.0]],
+    );
+    let plane = crate::geom::Plane {
+        normal: Vector::z(),
+        offset_mm: 10.0,
+    };
     let section = Section::of_mesh(&body.to_mesh(), &plane);
     let polygons = section.polygons();
     assert_eq!((polygons.0.len(), polygons.0[0].interiors().len()), (1, 2));
@@ -294,7 +438,10 @@ fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
     let plan = plan(&body(12.0), &request()).unwrap();
     let ids = |radius| -> Vec<(String, usize)> {
         let parts = parts(&body(radius), &plan, &request()).unwrap();
-        parts.iter().map(|part| (part.id.clone(), part.pins.len())).collect()
+        parts
+            .iter()
+            .map(|part| (part.id.clone(), part.pins.len()))
+            .collect()
     };
     assert_eq!(ids(12.0), ids(12.02));
 }
@@ -303,7 +450,10 @@ fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
 fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
     let voids = [
         &[[15.0, 15.0, 15.0, 9.0]][..],
-        &pockets.iter().map(|&[x, y, z]| [x, y, z, 2.7]).collect::<Vec<_>>(),
+        &pockets
+            .iter()
+            .map(|&[x, y, z]| [x, y, z, 2.7])
+            .collect::<Vec<_>>(),
     ];
     let body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &voids.concat());
     let seat = |&center: &[f64; 3]| Seat {
@@ -312,7 +462,13 @@ fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
         radius_mm: 2.7,
         opening_mm: 5.0,
     };
-    (body, PlanRequest { seats: pockets.iter().map(seat).collect(), ..request() })
+    (
+        body,
+        PlanRequest {
+            seats: pockets.iter().map(seat).collect(),
+            ..request()
+        },
+    )
 }
 
 #[test]
@@ -331,5 +487,9 @@ fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
     let (body, request) = with_pockets(&[[40.0, 6.0, 22.0], [54.0, 24.0, 7.0], [36.0, 22.0, 11.0]]);
     let (plan, _) = kit(&body, &request);
     assert!(plan.cuts.len() <= 2, "{:?}", plan.notes);
-    assert!(plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0), "{:?}", plan.voids);
+    assert!(
+        plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0),
+        "{:?}",
+        plan.voids
+    );
 }

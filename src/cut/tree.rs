@@ -48,7 +48,10 @@ struct Cell {
 impl CutTree {
     /// Planes that cut everything.
     pub(crate) fn everywhere(planes: &[Plane]) -> Self {
-        Self { planes: planes.to_vec(), limits: vec![Vec::new(); planes.len()] }
+        Self {
+            planes: planes.to_vec(),
+            limits: vec![Vec::new(); planes.len()],
+        }
     }
 
     /// Planes with their limits, and those of the cuts that they are kept to; none where a cut waits, be it through others, for itself,
@@ -60,7 +63,9 @@ impl CutTree {
             return None;
         }
         for cut in order {
-            let inherited = tree.limits[cut].iter().flat_map(|limit| tree.limits[limit.cut].clone());
+            let inherited = tree.limits[cut]
+                .iter()
+                .flat_map(|limit| tree.limits[limit.cut].clone());
             let all: Vec<Limit> = tree.limits[cut].iter().copied().chain(inherited).collect();
             let mut own: Vec<Limit> = Vec::new();
             for limit in all {
@@ -86,7 +91,10 @@ impl CutTree {
 
     /// The same with other planes in the place of its own.
     pub(crate) fn moved(&self, planes: Vec<Plane>) -> Self {
-        Self { planes, limits: self.limits.clone() }
+        Self {
+            planes,
+            limits: self.limits.clone(),
+        }
     }
 
     /// Whether every cut goes through everything.
@@ -107,7 +115,10 @@ impl CutTree {
     /// A cut as it is made.
     pub(crate) fn parting(&self, cut: usize) -> Parting {
         let side = |limit: &Limit| (self.planes[limit.cut], limit.is_above);
-        Parting { plane: self.planes[cut], within: self.limits[cut].iter().map(side).collect() }
+        Parting {
+            plane: self.planes[cut],
+            within: self.limits[cut].iter().map(side).collect(),
+        }
     }
 
     /// How many cuts are made before this one, where it is kept to sides of them: more than before any of these.
@@ -126,7 +137,10 @@ impl CutTree {
         let mut order: Vec<usize> = Vec::new();
         for _ in 0..self.planes.len() {
             let is_next = |cut: &usize| {
-                !order.contains(cut) && self.limits[*cut].iter().all(|limit| order.contains(&limit.cut))
+                !order.contains(cut)
+                    && self.limits[*cut]
+                        .iter()
+                        .all(|limit| order.contains(&limit.cut))
             };
             order.extend((0..self.planes.len()).find(is_next));
         }
@@ -135,11 +149,17 @@ impl CutTree {
 
     /// What a body is cut into: every cell may hold several pieces.
     pub(crate) fn cells(&self, body: &Csg) -> Result<Vec<Csg>, CutError> {
-        let mut cells = vec![Cell { body: body.clone(), sides: vec![None; self.planes.len()] }];
+        let mut cells = vec![Cell {
+            body: body.clone(),
+            sides: vec![None; self.planes.len()],
+        }];
         for cut in self.order() {
             let mut after = Vec::new();
             for cell in cells {
-                if self.limits[cut].iter().all(|limit| cell.sides[limit.cut] == Some(limit.is_above)) {
+                if self.limits[cut]
+                    .iter()
+                    .all(|limit| cell.sides[limit.cut] == Some(limit.is_above))
+                {
                     after.extend(self.halves(cell, cut)?);
                 } else {
                     after.push(cell);
@@ -157,7 +177,10 @@ impl CutTree {
             sides[cut] = Some(is_above);
             Cell { body, sides }
         };
-        Ok([(above, true), (below, false)].into_iter().filter(|(body, _)| !body.is_empty()).map(half))
+        Ok([(above, true), (below, false)]
+            .into_iter()
+            .filter(|(body, _)| !body.is_empty())
+            .map(half))
     }
 }
 
@@ -169,12 +192,21 @@ mod tests {
 
     /// The planes x = 0 and y = 0 through a cube of 20 mm.
     fn quartered() -> (CutTree, Csg) {
-        let across = [Vector::x(), Vector::y()].map(|normal| Plane { normal, offset_mm: 0.0 });
-        (CutTree::everywhere(&across), Csg::of_solid(&cuboid([-10.0; 3], [10.0; 3])).unwrap())
+        let across = [Vector::x(), Vector::y()].map(|normal| Plane {
+            normal,
+            offset_mm: 0.0,
+        });
+        (
+            CutTree::everywhere(&across),
+            Csg::of_solid(&cuboid([-10.0; 3], [10.0; 3])).unwrap(),
+        )
     }
 
     fn above(cut: usize) -> Limit {
-        Limit { cut, is_above: true }
+        Limit {
+            cut,
+            is_above: true,
+        }
     }
 
     #[test]
@@ -189,26 +221,66 @@ mod tests {
             .map(|cell| cell.to_mesh().unwrap().signed_volume_mm3())
             .collect();
         volumes.sort_by(f64::total_cmp);
-        assert_eq!(volumes.iter().map(|v| v.round()).collect::<Vec<_>>(), [2000.0, 2000.0, 4000.0]);
+        assert_eq!(
+            volumes.iter().map(|v| v.round()).collect::<Vec<_>>(),
+            [2000.0, 2000.0, 4000.0]
+        );
         // The first may as well be kept to a side of the second, though it stands before it.
-        assert_eq!(tree.kept_to(0, above(1)).unwrap().cells(&body).unwrap().len(), 3);
+        assert_eq!(
+            tree.kept_to(0, above(1))
+                .unwrap()
+                .cells(&body)
+                .unwrap()
+                .len(),
+            3
+        );
     }
 
     #[test]
     fn what_lies_beyond_the_first_of_several_sides_is_reached_by_nothing() {
-        let [x, y] = [Vector::x(), Vector::y()].map(|normal| Plane { normal, offset_mm: 0.0 });
-        let level = Plane { normal: Vector::z(), offset_mm: 0.0 };
-        let parting = Parting { plane: level, within: vec![(x, true), (y, true)] };
+        let [x, y] = [Vector::x(), Vector::y()].map(|normal| Plane {
+            normal,
+            offset_mm: 0.0,
+        });
+        let level = Plane {
+            normal: Vector::z(),
+            offset_mm: 0.0,
+        };
+        let parting = Parting {
+            plane: level,
+            within: vec![(x, true), (y, true)],
+        };
         let beyond = cuboid([-10.0; 3], [-5.0, 10.0, 10.0]);
-        assert!(reached(&parting, beyond.mesh()).unwrap().triangles().is_empty());
+        assert!(
+            reached(&parting, beyond.mesh())
+                .unwrap()
+                .triangles()
+                .is_empty()
+        );
     }
 
     #[test]
     fn a_cut_kept_to_both_sides_of_another_through_a_third_is_none() {
-        let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane { normal, offset_mm: 0.0 });
-        let below = Limit { cut: 0, is_above: false };
-        assert!(CutTree::new(planes.to_vec(), vec![vec![], vec![above(0)], vec![above(1), below]]).is_none());
-        let chain = CutTree::new(planes.to_vec(), vec![vec![], vec![above(0)], vec![above(1)]]).unwrap();
+        let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane {
+            normal,
+            offset_mm: 0.0,
+        });
+        let below = Limit {
+            cut: 0,
+            is_above: false,
+        };
+        assert!(
+            CutTree::new(
+                planes.to_vec(),
+                vec![vec![], vec![above(0)], vec![above(1), below]]
+            )
+            .is_none()
+        );
+        let chain = CutTree::new(
+            planes.to_vec(),
+            vec![vec![], vec![above(0)], vec![above(1)]],
+        )
+        .unwrap();
         assert_eq!(chain.limits(2), [above(1), above(0)]);
         assert_eq!([0, 1, 2].map(|cut| chain.depth(cut)), [0, 1, 2]);
     }
@@ -218,21 +290,43 @@ mod tests {
         let (tree, _) = quartered();
         let kept = tree.kept_to(1, above(0)).unwrap();
         assert!(kept.kept_to(0, above(1)).is_none() && kept.kept_to(1, above(1)).is_none());
-        assert!(kept.kept_to(1, Limit { cut: 0, is_above: false }).is_none(), "both sides are none");
+        assert!(
+            kept.kept_to(
+                1,
+                Limit {
+                    cut: 0,
+                    is_above: false
+                }
+            )
+            .is_none(),
+            "both sides are none"
+        );
         assert_eq!((kept.depth(0), kept.depth(1)), (0, 1));
     }
 
     #[test]
     fn a_cut_acts_where_those_act_that_it_is_kept_to() {
-        let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane { normal, offset_mm: 0.0 });
-        let tree = CutTree::everywhere(&planes).kept_to(1, above(0)).unwrap().kept_to(2, above(1)).unwrap();
+        let planes = [Vector::x(), Vector::y(), Vector::z()].map(|normal| Plane {
+            normal,
+            offset_mm: 0.0,
+        });
+        let tree = CutTree::everywhere(&planes)
+            .kept_to(1, above(0))
+            .unwrap()
+            .kept_to(2, above(1))
+            .unwrap();
         let acts = |x: f64, y: f64| tree.acts_at(2, &Point::new(x, y, 0.0));
         assert!(acts(1.0, 1.0) && !acts(1.0, -1.0));
-        assert!(!acts(-1.0, 1.0), "there the second does not cut, so nothing lies above it");
+        assert!(
+            !acts(-1.0, 1.0),
+            "there the second does not cut, so nothing lies above it"
+        );
         assert!(tree.acts_at(0, &Point::new(0.0, -5.0, 5.0)));
         let last = tree.partings().last().unwrap();
         assert_eq!(last.within.len(), 2);
-        assert!(last.acts_at(&Point::new(1.0, 1.0, 0.0)) && !last.acts_at(&Point::new(-1.0, 1.0, 0.0)));
+        assert!(
+            last.acts_at(&Point::new(1.0, 1.0, 0.0)) && !last.acts_at(&Point::new(-1.0, 1.0, 0.0))
+        );
         let reached = reached(&last, cuboid([-10.0; 3], [10.0; 3]).mesh()).unwrap();
         assert!((reached.signed_volume_mm3() - 2000.0).abs() < 1e-9);
     }

@@ -20,23 +20,34 @@ impl Aabb {
 
     /// The least box that holds every point.
     pub fn of_points<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
-        points.into_iter().fold(Self::EMPTY, |aabb, point| aabb.grown_over(point))
+        points
+            .into_iter()
+            .fold(Self::EMPTY, |aabb, point| aabb.grown_over(point))
     }
 
     /// This box, grown just enough to hold `point`.
     pub fn grown_over(&self, point: &Point) -> Self {
-        Self { min: self.min.inf(point), max: self.max.sup(point) }
+        Self {
+            min: self.min.inf(point),
+            max: self.max.sup(point),
+        }
     }
 
     /// The least box that holds both.
     pub fn union(&self, other: &Self) -> Self {
-        Self { min: self.min.inf(&other.min), max: self.max.sup(&other.max) }
+        Self {
+            min: self.min.inf(&other.min),
+            max: self.max.sup(&other.max),
+        }
     }
 
     /// This box with every face moved outward by `margin_mm` (inward if negative).
     pub fn inflated(&self, margin_mm: f64) -> Self {
         let margin = Vector::repeat(margin_mm);
-        Self { min: self.min - margin, max: self.max + margin }
+        Self {
+            min: self.min - margin,
+            max: self.max + margin,
+        }
     }
 
     /// The edge lengths along x, y and z, mm.

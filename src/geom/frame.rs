@@ -17,14 +17,20 @@ pub struct Frame {
 impl Frame {
     /// The model frame itself.
     pub fn identity() -> Self {
-        Self { origin: Point::origin(), axes: Matrix::identity() }
+        Self {
+            origin: Point::origin(),
+            axes: Matrix::identity(),
+        }
     }
 
     /// The frame at `origin` whose z axis is `axis` (any length but zero).
     pub fn with_axis(origin: Point, axis: &Vector) -> Self {
         let z = axis.normalize();
         let (x, y) = orthonormal_basis(&z);
-        Self { origin, axes: Matrix::from_columns(&[x, y, z]) }
+        Self {
+            origin,
+            axes: Matrix::from_columns(&[x, y, z]),
+        }
     }
 
     /// The z axis in model coordinates, a unit vector.

@@ -14,11 +14,16 @@ pub struct Parting {
 impl Parting {
     /// A plane that parts everything.
     pub fn everywhere(plane: Plane) -> Self {
-        Self { plane, within: Vec::new() }
+        Self {
+            plane,
+            within: Vec::new(),
+        }
     }
 
     /// Whether a point lies in all the half-spaces.
     pub fn acts_at(&self, at: &Point) -> bool {
-        self.within.iter().all(|(plane, is_above)| (plane.distance(at) > 0.0) == *is_above)
+        self.within
+            .iter()
+            .all(|(plane, is_above)| (plane.distance(at) > 0.0) == *is_above)
     }
 }

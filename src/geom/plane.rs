@@ -15,7 +15,10 @@ impl Plane {
     /// The plane through `point` with the direction of `normal` (any length but zero).
     pub fn through(point: &Point, normal: &Vector) -> Self {
         let normal = normal.normalize();
-        Self { normal, offset_mm: normal.dot(&point.coords) }
+        Self {
+            normal,
+            offset_mm: normal.dot(&point.coords),
+        }
     }
 
     /// The signed distance of `point`, mm: positive on the side the normal points to.
@@ -26,7 +29,9 @@ impl Plane {
     /// Whether some of the points lie above the plane and others do not.
     pub fn passes_through(&self, points: &[Point]) -> bool {
         let mut sides = points.iter().map(|p| self.distance(p) > 0.0);
-        sides.next().is_some_and(|first| sides.any(|side| side != first))
+        sides
+            .next()
+            .is_some_and(|first| sides.any(|side| side != first))
     }
 
     /// The point of the plane nearest to the origin.

@@ -57,26 +57,46 @@ pub fn closest_on_triangle(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
     }
     let sum = va + vb + vc;
     if sum > 0.0 {
-        return TrianglePoint { point: a + ab * (vb / sum) + ac * (vc / sum), feature: Feature::Face };
+        return TrianglePoint {
+            point: a + ab * (vb / sum) + ac * (vc / sum),
+            feature: Feature::Face,
+        };
     }
     closest_on_edges(p, corners)
 }
 
 fn at_vertex(corners: &[Point; 3], i: u8) -> TrianglePoint {
-    TrianglePoint { point: corners[i as usize], feature: Feature::Vertex(i) }
+    TrianglePoint {
+        point: corners[i as usize],
+        feature: Feature::Vertex(i),
+    }
 }
 
 fn at_edge(point: Point, i: u8) -> TrianglePoint {
-    TrianglePoint { point, feature: Feature::Edge(i) }
+    TrianglePoint {
+        point,
+        feature: Feature::Edge(i),
+    }
 }
 
 /// The nearest point of the three edges: the answer for a triangle that has no area.
 fn closest_on_edges(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
-    let candidate = |i: usize| at_edge(closest_on_segment(p, &corners[i], &corners[(i + 1) % 3]), i as u8);
+    let candidate = |i: usize| {
+        at_edge(
+            closest_on_segment(p, &corners[i], &corners[(i + 1) % 3]),
+            i as u8,
+        )
+    };
     let distance = |c: &TrianglePoint| (c.point - p).norm_squared();
     [candidate(1), candidate(2)]
         .into_iter()
-        .fold(candidate(0), |best, other| if distance(&other) < distance(&best) { other } else { best })
+        .fold(candidate(0), |best, other| {
+            if distance(&other) < distance(&best) {
+                other
+            } else {
+                best
+            }
+        })
 }
 
 /// The point of the segment from `a` to `b` nearest to `p`.
@@ -100,7 +120,11 @@ pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     }
     let (b, c, f) = (d1.dot(&d2), d1.dot(&r), d2.dot(&r));
     let denominator = a * e - b * b;
-    let s = if denominator > 0.0 { ((b * f - c * e) / denominator).clamp(0.0, 1.0) } else { 0.0 };
+    let s = if denominator > 0.0 {
+        ((b * f - c * e) / denominator).clamp(0.0, 1.0)
+    } else {
+        0.0
+    };
     let t = ((b * s + f) / e).clamp(0.0, 1.0);
     let s = ((b * t - c) / a).clamp(0.0, 1.0);
     (r + d1 * s - d2 * t).norm_squared()
@@ -120,7 +144,11 @@ fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
 
 /// On which side of the plane through `a`, `b` and `c` the point `d` lies: −1, 0 or 1.
 fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
-    let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D { x: p.x, y: p.y, z: p.z });
+    let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    });
     let volume = robust::orient3d(a, b, c, d);
     i32::from(volume > 0.0) - i32::from(volume < 0.0)
 }
@@ -131,8 +159,11 @@ pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point;
         return 0.0;
     }
     let to_face = |p: &Point| (closest_on_triangle(p, corners).point - p).norm_squared();
-    let to_edge = |i: usize| segment_segment_distance_squared([a, b], [&corners[i], &corners[(i + 1) % 3]]);
-    (0..3).map(to_edge).fold(to_face(a).min(to_face(b)), f64::min)
+    let to_edge =
+        |i: usize| segment_segment_distance_squared([a, b], [&corners[i], &corners[(i + 1) % 3]]);
+    (0..3)
+        .map(to_edge)
+        .fold(to_face(a).min(to_face(b)), f64::min)
 }
 
 /// The squared distance between two triangles, mm²; zero where they meet.
@@ -141,7 +172,10 @@ pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point;
 /// passes through the other.
 pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
     let edges = |k: usize| (k, (k + 1) % 3);
-    if (0..3).map(edges).any(|(i, j)| segment_pierces(&s[i], &s[j], t) || segment_pierces(&t[i], &t[j], s)) {
+    if (0..3)
+        .map(edges)
+        .any(|(i, j)| segment_pierces(&s[i], &s[j], t) || segment_pierces(&t[i], &t[j], s))
+    {
         return 0.0;
     }
     disjoint_triangles_distance_squared(s, t)
@@ -155,7 +189,10 @@ pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f6
         best = best.min((closest_on_triangle(&s[i], t).point - s[i]).norm_squared());
         best = best.min((closest_on_triangle(&t[i], s).point - t[i]).norm_squared());
         for (k, l) in (0..3).map(edges) {
-            best = best.min(segment_segment_distance_squared([&s[i], &s[j]], [&t[k], &t[l]]));
+            best = best.min(segment_segment_distance_squared(
+                [&s[i], &s[j]],
+                [&t[k], &t[l]],
+            ));
         }
     }
     best
@@ -166,7 +203,12 @@ pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f6
 /// The distance to a convex set is a convex function, so its tangent plane at `from` (value `distance_mm`,
 /// unit gradient `gradient`) lies below it everywhere; over a triangle the plane is least at a corner.
 #[inline]
-pub fn tangent_bound(from: &Point, distance_mm: f64, gradient: &Vector, corners: &[Point; 3]) -> f64 {
+pub fn tangent_bound(
+    from: &Point,
+    distance_mm: f64,
+    gradient: &Vector,
+    corners: &[Point; 3],
+) -> f64 {
     let steps = corners.map(|corner| gradient.dot(&(corner - from)));
     distance_mm + steps[0].min(steps[1]).min(steps[2])
 }
@@ -200,7 +242,9 @@ mod tests {
 
     /// The grid's points are at most this far from any point of the triangle.
     fn spacing(t: &[Point; 3]) -> f64 {
-        let longest = (0..3).map(|i| (t[(i + 1) % 3] - t[i]).norm()).fold(0.0, f64::max);
+        let longest = (0..3)
+            .map(|i| (t[(i + 1) % 3] - t[i]).norm())
+            .fold(0.0, f64::max);
         longest / STEPS as f64
     }
 
@@ -250,7 +294,11 @@ mod tests {
 
     #[test]
     fn features_are_named_by_the_region_of_the_query() {
-        let t = [Point::origin(), Point::new(1.0, 0.0, 0.0), Point::new(0.0, 1.0, 0.0)];
+        let t = [
+            Point::origin(),
+            Point::new(1.0, 0.0, 0.0),
+            Point::new(0.0, 1.0, 0.0),
+        ];
         let feature = |x, y| closest_on_triangle(&Point::new(x, y, 1.0), &t).feature;
         assert_eq!(feature(0.25, 0.25), Feature::Face);
         assert_eq!(feature(0.5, -1.0), Feature::Edge(0));
@@ -263,7 +311,11 @@ mod tests {
 
     #[test]
     fn a_triangle_without_area_counts_as_its_longest_edge() {
-        let t = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(1.0, 0.0, 0.0)];
+        let t = [
+            Point::origin(),
+            Point::new(2.0, 0.0, 0.0),
+            Point::new(1.0, 0.0, 0.0),
+        ];
         let found = closest_on_triangle(&Point::new(1.5, 1.0, 0.0), &t);
         assert!((found.point - Point::new(1.5, 0.0, 0.0)).norm() < 1e-15);
     }
@@ -271,22 +323,38 @@ mod tests {
     #[test]
     fn triangles_in_one_plane_are_apart_unless_they_overlap() {
         // A plane in which rounding leaves no volume exactly zero.
-        let at =
-            |u: f64, v: f64| Point::new(0.1 * u + 0.3 * v, 0.7 * u - 0.2 * v, 0.9 * u + 0.1 * v + 1.0 / 3.0);
+        let at = |u: f64, v: f64| {
+            Point::new(
+                0.1 * u + 0.3 * v,
+                0.7 * u - 0.2 * v,
+                0.9 * u + 0.1 * v + 1.0 / 3.0,
+            )
+        };
         let s = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
         let apart = [at(3.0, 0.0), at(4.0, 0.1), at(3.0, 1.3)];
         // The nearest corners are two units of u apart; the sides between them lean by less than a fifth.
         let expected = (at(3.0, 0.0) - at(1.0, 0.0)).norm();
         let found = triangle_triangle_distance_squared(&s, &apart).sqrt();
-        assert!(found <= expected && found > 0.8 * expected, "{found} {expected}");
+        assert!(
+            found <= expected && found > 0.8 * expected,
+            "{found} {expected}"
+        );
         let across = [at(0.2, -1.0), at(0.4, -1.0), at(0.3, 2.0)];
         assert!(triangle_triangle_distance_squared(&s, &across) < 1e-24);
     }
 
     #[test]
     fn crossing_triangles_are_at_distance_zero() {
-        let s = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
-        let t = [Point::new(0.5, 0.5, -1.0), Point::new(0.5, 0.5, 1.0), Point::new(5.0, 5.0, 0.5)];
+        let s = [
+            Point::origin(),
+            Point::new(2.0, 0.0, 0.0),
+            Point::new(0.0, 2.0, 0.0),
+        ];
+        let t = [
+            Point::new(0.5, 0.5, -1.0),
+            Point::new(0.5, 0.5, 1.0),
+            Point::new(5.0, 5.0, 0.5),
+        ];
         assert_eq!(triangle_triangle_distance_squared(&s, &t), 0.0);
     }
 }

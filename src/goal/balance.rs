@@ -29,14 +29,20 @@ pub struct Rotor {
 
 impl Default for Rotor {
     fn default() -> Self {
-        Self { speed_rpm: DEFAULT_SPEED_RPM, grade_mm_s: DEFAULT_GRADE_MM_S, bore: None }
+        Self {
+            speed_rpm: DEFAULT_SPEED_RPM,
+            grade_mm_s: DEFAULT_GRADE_MM_S,
+            bore: None,
+        }
     }
 }
 
 impl Rotor {
     /// Whether speed and grade are positive and finite.
     pub(super) fn is_sound(&self) -> bool {
-        [self.speed_rpm, self.grade_mm_s].into_iter().all(|number| number.is_finite() && number > 0.0)
+        [self.speed_rpm, self.grade_mm_s]
+            .into_iter()
+            .all(|number| number.is_finite() && number > 0.0)
     }
 
     /// The angular speed, rad/s.
@@ -79,7 +85,11 @@ pub(super) fn place(
         radius_mm: 0.5 * bore.mm() + wall_mm,
     };
     let keeps = rotor.bore.map(hub).into_iter().collect();
-    Ok(Placement { goal, keeps, warnings: Vec::new() })
+    Ok(Placement {
+        goal,
+        keeps,
+        warnings: Vec::new(),
+    })
 }
 
 #[cfg(test)]
@@ -89,7 +99,10 @@ mod tests {
 
     #[test]
     fn a_rotors_planes_are_its_ends_and_its_hub_holds_the_bore_and_a_wall() {
-        let rotor = Rotor { bore: Some("4mm".parse().unwrap()), ..Rotor::default() };
+        let rotor = Rotor {
+            bore: Some("4mm".parse().unwrap()),
+            ..Rotor::default()
+        };
         let wish = Request {
             up: Up::X,
             spin_point: Some(SpinPoint::At([3., 1., 2.])),
@@ -99,8 +112,13 @@ mod tests {
         let placed = place(&block([0., 0., 0.], [10., 4., 6.]), 1.5, &wish).unwrap();
         assert_eq!(placed.goal.frame.origin, Point::new(3., 1., 2.));
         assert_eq!(placed.goal.spindle.unwrap().ends_mm, [-3.0, 7.0]);
-        let [hub] = placed.keeps[..] else { panic!("{:?}", placed.keeps) };
-        assert_eq!((hub.from, hub.to, hub.radius_mm), (Point::new(0., 1., 2.), Point::new(10., 1., 2.), 3.5));
+        let [hub] = placed.keeps[..] else {
+            panic!("{:?}", placed.keeps)
+        };
+        assert_eq!(
+            (hub.from, hub.to, hub.radius_mm),
+            (Point::new(0., 1., 2.), Point::new(10., 1., 2.), 3.5)
+        );
     }
 
     #[test]
@@ -113,10 +131,26 @@ mod tests {
 
     #[test]
     fn a_speed_that_is_none_is_refused() {
-        for (speed_rpm, grade_mm_s) in [(0.0, 2.5), (-1.0, 2.5), (f64::NAN, 2.5), (3000.0, f64::INFINITY)] {
-            let rotor = Some(Rotor { speed_rpm, grade_mm_s, bore: None });
-            let refused = Request { rotor, ..Request::new(GoalKind::Balance) }.checked();
-            assert!(matches!(refused, Err(RequestError::Rotor { .. })), "{speed_rpm} {grade_mm_s}");
+        for (speed_rpm, grade_mm_s) in [
+            (0.0, 2.5),
+            (-1.0, 2.5),
+            (f64::NAN, 2.5),
+            (3000.0, f64::INFINITY),
+        ] {
+            let rotor = Some(Rotor {
+                speed_rpm,
+                grade_mm_s,
+                bore: None,
+            });
+            let refused = Request {
+                rotor,
+                ..Request::new(GoalKind::Balance)
+            }
+            .checked();
+            assert!(
+                matches!(refused, Err(RequestError::Rotor { .. })),
+                "{speed_rpm} {grade_mm_s}"
+            );
         }
     }
 }

@@ -37,13 +37,19 @@ pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
         off_axis_mm: if goal.kind == GoalKind::Yoyo {
             center.coords.norm()
         } else {
-            let place = goal.afloat.map_or_else(Point::origin, |afloat| afloat.buoyancy);
+            let place = goal
+                .afloat
+                .map_or_else(Point::origin, |afloat| afloat.buoyancy);
             (center.x - place.x).hypot(center.y - place.y)
         },
         center_height_mm: center.z,
         axis_tilt_rad: tilt_of_nearest_axis(&body),
         dominance_ratio: largest_across(tensor) / tensor[(2, 2)],
-        critical_speed_rpm: if is_top { critical_speed_rpm(&body) } else { None },
+        critical_speed_rpm: if is_top {
+            critical_speed_rpm(&body)
+        } else {
+            None
+        },
         spin_it: spin_it(goal, moments),
         toppling_angle_rad: (goal.kind == GoalKind::Stand)
             .then(|| toppling_angle_rad(&goal.support, moments)),
@@ -54,7 +60,9 @@ pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
 fn tilt_of_nearest_axis(body: &Body) -> f64 {
     let axes = body.principal().axes;
     let tilt = |axis: Vector| axis.x.hypot(axis.y).atan2(axis.z.abs());
-    axes.column_iter().map(|axis| tilt(axis.into())).fold(f64::INFINITY, f64::min)
+    axes.column_iter()
+        .map(|axis| tilt(axis.into()))
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// The largest moment of inertia about an axis across z, from the upper left 2 × 2 of the tensor.
@@ -88,18 +96,30 @@ fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
         GoalKind::Yoyo => 0.0,
         GoalKind::Stand | GoalKind::Float | GoalKind::Balance => return None,
     };
-    let gamma_c = if goal.kind == GoalKind::Top { gamma_c } else { 0.0 };
+    let gamma_c = if goal.kind == GoalKind::Top {
+        gamma_c
+    } else {
+        0.0
+    };
     let (i_xx, i_yy, i_zz) = (yy + zz - steiner, xx + zz - steiner, xx + yy);
     let flatness = (i_xx * i_xx + 2.0 * xy * xy + i_yy * i_yy) / (i_zz * i_zz);
-    let lowering = if gamma_c > 0.0 { gamma_c * (z / goal.solid.0[3]).powi(2) } else { 0.0 };
+    let lowering = if gamma_c > 0.0 {
+        gamma_c * (z / goal.solid.0[3]).powi(2)
+    } else {
+        0.0
+    };
     Some(lowering + gamma_i * flatness)
 }
 
 /// The least tilt that brings the centre of mass over an edge of the support, rad.
 fn toppling_angle_rad(polygon: &[[f64; 2]], moments: &Moments) -> f64 {
     let center = moments.centroid();
-    let margin = |(normal, offset): &([f64; 2], f64)| normal[0] * center.x + normal[1] * center.y - offset;
-    let least = support::edges(polygon).iter().map(margin).fold(f64::INFINITY, f64::min);
+    let margin =
+        |(normal, offset): &([f64; 2], f64)| normal[0] * center.x + normal[1] * center.y - offset;
+    let least = support::edges(polygon)
+        .iter()
+        .map(margin)
+        .fold(f64::INFINITY, f64::min);
     least.atan2(center.z)
 }
 
@@ -112,7 +132,9 @@ mod tests {
     fn a_flat_disc_of_a_block_has_its_closed_form_critical_speed() {
         // 20 × 20 × 2: I_c = M (20² + 20²)/12, I_b = M (20² + 2²)/12, ℓ = 1: ω² = 12 g/(800 − 404).
         let solid = block([-10., -10., 0.], [10., 10., 2.]);
-        let goal = place(&solid, 0.5, &Request::new(GoalKind::Top)).unwrap().goal;
+        let goal = place(&solid, 0.5, &Request::new(GoalKind::Top))
+            .unwrap()
+            .goal;
         let got = figures(&goal, &goal.solid);
         let expected = to_rpm((12.0 * STANDARD_GRAVITY_MM_S2 / 396.0).sqrt());
         assert!((got.critical_speed_rpm.unwrap() / expected - 1.0).abs() < 1e-12);
@@ -122,14 +144,25 @@ mod tests {
 
     #[test]
     fn a_tower_has_no_critical_speed() {
-        let goal = place(&block([0., 0., 0.], [2., 2., 9.]), 0.5, &Request::new(GoalKind::Top)).unwrap().goal;
+        let goal = place(
+            &block([0., 0., 0.], [2., 2., 9.]),
+            0.5,
+            &Request::new(GoalKind::Top),
+        )
+        .unwrap()
+        .goal;
         assert_eq!(figures(&goal, &goal.solid).critical_speed_rpm, None);
     }
 
     #[test]
     fn a_block_topples_when_its_center_is_over_its_edge() {
-        let goal =
-            place(&block([0., 0., 0.], [4., 6., 5.]), 0.5, &Request::new(GoalKind::Stand)).unwrap().goal;
+        let goal = place(
+            &block([0., 0., 0.], [4., 6., 5.]),
+            0.5,
+            &Request::new(GoalKind::Stand),
+        )
+        .unwrap()
+        .goal;
         let angle = figures(&goal, &goal.solid).toppling_angle_rad.unwrap();
         assert!((angle - (2.0f64 / 2.5).atan()).abs() < 1e-12);
     }
@@ -153,11 +186,20 @@ mod tests {
         // moments are equal and the functional is γ_I (1 + 1).
         let solid = block([-1., -1., -1.], [1., 1., 1.]);
         for gamma_c in [0.0, 1.0] {
-            let objective = Objective::SpinIt { gamma_c, gamma_i: 3.0 };
-            let request = Request { objective, ..Request::new(GoalKind::Yoyo) };
+            let objective = Objective::SpinIt {
+                gamma_c,
+                gamma_i: 3.0,
+            };
+            let request = Request {
+                objective,
+                ..Request::new(GoalKind::Yoyo)
+            };
             let goal = place(&solid, 0.5, &request).unwrap().goal;
             assert_eq!(goal.solid.0[3], 0.0);
-            assert!((figures(&goal, &goal.solid).spin_it.unwrap() - 6.0).abs() < 1e-12, "{gamma_c}");
+            assert!(
+                (figures(&goal, &goal.solid).spin_it.unwrap() - 6.0).abs() < 1e-12,
+                "{gamma_c}"
+            );
         }
     }
 
@@ -166,9 +208,20 @@ mod tests {
         // A cube on its face: about the centre all moments are equal, whatever the lever.
         let solid = block([-1., -1., 0.], [1., 1., 2.]);
         let spin_it = |gamma_c| {
-            let objective = Objective::SpinIt { gamma_c, gamma_i: 1.0 };
-            let goal =
-                place(&solid, 0.5, &Request { objective, ..Request::new(GoalKind::Top) }).unwrap().goal;
+            let objective = Objective::SpinIt {
+                gamma_c,
+                gamma_i: 1.0,
+            };
+            let goal = place(
+                &solid,
+                0.5,
+                &Request {
+                    objective,
+                    ..Request::new(GoalKind::Top)
+                },
+            )
+            .unwrap()
+            .goal;
             figures(&goal, &goal.solid).spin_it.unwrap()
         };
         assert!((spin_it(0.0) - 2.0).abs() < 1e-12);

@@ -53,7 +53,10 @@ pub struct Water {
 
 impl Default for Water {
     fn default() -> Self {
-        Self { liquid: Liquid::Water, waterline: Waterline::Auto }
+        Self {
+            liquid: Liquid::Water,
+            waterline: Waterline::Auto,
+        }
     }
 }
 
@@ -76,7 +79,11 @@ impl FromStr for Liquid {
             ("water", _) => Ok(Self::Water),
             ("seawater", _) => Ok(Self::Seawater),
             (_, Ok(density)) if density.is_finite() && density > 0.0 => Ok(Self::Density(density)),
-            _ => Err(ChoiceError::unknown("liquid", text, &["water", "seawater", "a density in g/cm³"])),
+            _ => Err(ChoiceError::unknown(
+                "liquid",
+                text,
+                &["water", "seawater", "a density in g/cm³"],
+            )),
         }
     }
 }
@@ -98,7 +105,11 @@ impl FromStr for Waterline {
         match text.trim() {
             "auto" => Ok(Self::Auto),
             length => length.parse().map(Self::At).map_err(|_| {
-                ChoiceError::unknown("waterline", text, &["auto", "a length above the lowest point"])
+                ChoiceError::unknown(
+                    "waterline",
+                    text,
+                    &["auto", "a length above the lowest point"],
+                )
             }),
         }
     }
@@ -143,7 +154,11 @@ impl Hydrostatics {
     pub fn new(solid: &Solid, frame: &Frame, liquid_ratio: f64) -> Self {
         let outside = solid.mesh().map_vertices(|vertex| frame.to_local(vertex));
         let height_mm = outside.aabb().max.z;
-        Self { outside, height_mm, liquid_ratio }
+        Self {
+            outside,
+            height_mm,
+            liquid_ratio,
+        }
     }
 
     /// The height of the model, mm.
@@ -175,11 +190,18 @@ pub(super) fn place(site: &Site, density_g_cm3: f64, water: Water) -> Result<Pla
         Waterline::Auto => PROVISIONAL_RATIO * height_mm,
         Waterline::At(length) if length.mm() < height_mm => length.mm(),
         Waterline::At(length) => {
-            return Err(GoalError::UnderWater { waterline_mm: length.mm(), height_mm });
+            return Err(GoalError::UnderWater {
+                waterline_mm: length.mm(),
+                height_mm,
+            });
         }
     };
     goal.afloat = Some(hydrostatics.at(waterline_mm));
-    Ok(Placement { goal, keeps: Vec::new(), warnings: Vec::new() })
+    Ok(Placement {
+        goal,
+        keeps: Vec::new(),
+        warnings: Vec::new(),
+    })
 }
 
 #[cfg(test)]
@@ -188,9 +210,22 @@ mod tests {
     use super::*;
 
     fn block_in_water(waterline: &str, density_g_cm3: f64) -> Result<Placement, GoalError> {
-        let water = Water { liquid: Liquid::Density(1.0), waterline: waterline.parse().unwrap() };
-        let wish = Request { water: Some(water), ..Request::new(GoalKind::Float) };
-        place_made_of(&block([1., 2., 3.], [7., 12., 8.]), &Stock { wall_mm: 0.5, density_g_cm3 }, &wish)
+        let water = Water {
+            liquid: Liquid::Density(1.0),
+            waterline: waterline.parse().unwrap(),
+        };
+        let wish = Request {
+            water: Some(water),
+            ..Request::new(GoalKind::Float)
+        };
+        place_made_of(
+            &block([1., 2., 3.], [7., 12., 8.]),
+            &Stock {
+                wall_mm: 0.5,
+                density_g_cm3,
+            },
+            &wish,
+        )
     }
 
     #[test]
@@ -221,6 +256,12 @@ mod tests {
         for text in ["oil", "-1", "nan", "0"] {
             assert!(text.parse::<Liquid>().is_err(), "{text}");
         }
-        assert!("deep".parse::<Waterline>().unwrap_err().to_string().contains("auto"));
+        assert!(
+            "deep"
+                .parse::<Waterline>()
+                .unwrap_err()
+                .to_string()
+                .contains("auto")
+        );
     }
 }

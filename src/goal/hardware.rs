@@ -44,7 +44,8 @@ impl Rod {
 
     /// How much of a tip or stem is inside the object, mm.
     pub fn depth_mm(&self) -> f64 {
-        self.depth.map_or(DEPTH_RATIO * self.length_mm(), Length::mm)
+        self.depth
+            .map_or(DEPTH_RATIO * self.length_mm(), Length::mm)
     }
 
     /// How much of a tip or stem stands out of it, mm.
@@ -62,7 +63,11 @@ impl FromStr for Rod {
     type Err = ChoiceError;
 
     fn from_str(text: &str) -> Result<Self, ChoiceError> {
-        let refused = |remedy: String| ChoiceError::Unknown { what: "rod", text: text.to_owned(), remedy };
+        let refused = |remedy: String| ChoiceError::Unknown {
+            what: "rod",
+            text: text.to_owned(),
+            remedy,
+        };
         let (sizes, density) = text.split_once(':').unwrap_or((text, ""));
         let sizes: Vec<Length> = sizes
             .split(['x', '×'])
@@ -74,14 +79,27 @@ impl FromStr for Rod {
             [diameter, length] => (diameter, Some(length), None),
             [diameter, length, depth] => (diameter, Some(length), Some(depth)),
             _ => {
-                return Err(refused("write DIAMETERxLENGTHxDEPTH:DENSITY, such as 4mmx12mm:7.85".to_owned()));
+                return Err(refused(
+                    "write DIAMETERxLENGTHxDEPTH:DENSITY, such as 4mmx12mm:7.85".to_owned(),
+                ));
             }
         };
-        let density_g_cm3 = if density.is_empty() { Ok(STEEL_G_CM3) } else { density.trim().parse() };
+        let density_g_cm3 = if density.is_empty() {
+            Ok(STEEL_G_CM3)
+        } else {
+            density.trim().parse()
+        };
         let is_sound = |density: &f64| density.is_finite() && *density > 0.0;
         match density_g_cm3.ok().filter(is_sound) {
-            Some(density_g_cm3) => Ok(Self { diameter, length, depth, density_g_cm3 }),
-            None => Err(refused("write its density in g/cm³ behind the colon, above zero".to_owned())),
+            Some(density_g_cm3) => Ok(Self {
+                diameter,
+                length,
+                depth,
+                density_g_cm3,
+            }),
+            None => Err(refused(
+                "write its density in g/cm³ behind the colon, above zero".to_owned(),
+            )),
         }
     }
 }
@@ -92,7 +110,11 @@ impl fmt::Display for Rod {
         for size in self.length.iter().chain(&self.depth) {
             write!(f, "x{size}")?;
         }
-        if self.density_g_cm3 == STEEL_G_CM3 { Ok(()) } else { write!(f, ":{}", self.density_g_cm3) }
+        if self.density_g_cm3 == STEEL_G_CM3 {
+            Ok(())
+        } else {
+            write!(f, ":{}", self.density_g_cm3)
+        }
     }
 }
 
@@ -132,7 +154,9 @@ pub enum HardwareError {
     #[error("a tip and a stem go with the goal top, not with {0}; remedy: leave them out")]
     NotATop(GoalKind),
     /// A gap and nothing to hold the halves, or the reverse.
-    #[error("a string gap and an axle go together; remedy: give both, such as --string-gap 3mm --axle 6mm")]
+    #[error(
+        "a string gap and an axle go together; remedy: give both, such as --string-gap 3mm --axle 6mm"
+    )]
     GapAndAxle,
     /// An axle with a depth, or no longer than the gap.
     #[error(
@@ -201,7 +225,11 @@ impl Hardware {
 
 fn check_depth(what: &'static str, rod: Rod) -> Result<(), HardwareError> {
     let is_sound = rod.length.is_some() && rod.depth_mm() < rod.length_mm();
-    if is_sound { Ok(()) } else { Err(HardwareError::Depth { what, rod }) }
+    if is_sound {
+        Ok(())
+    } else {
+        Err(HardwareError::Depth { what, rod })
+    }
 }
 
 #[cfg(test)]
@@ -214,7 +242,11 @@ mod tests {
     }
 
     fn with(kind: GoalKind, hardware: Hardware) -> Result<Request, RequestError> {
-        Request { hardware: Some(hardware), ..Request::new(kind) }.checked()
+        Request {
+            hardware: Some(hardware),
+            ..Request::new(kind)
+        }
+        .checked()
     }
 
     #[test]
@@ -224,12 +256,24 @@ mod tests {
         }
         assert_eq!(rod("4x12"), rod("0.4cm × 12mm"));
         let pin = rod("4x12");
-        assert_eq!((pin.depth_mm(), pin.out_mm(), pin.density_g_cm3), (6.0, 6.0, STEEL_G_CM3));
+        assert_eq!(
+            (pin.depth_mm(), pin.out_mm(), pin.density_g_cm3),
+            (6.0, 6.0, STEEL_G_CM3)
+        );
     }
 
     #[test]
     fn what_is_no_rod_is_refused_with_a_remedy() {
-        for text in ["", "x", "4mmx", "1x2x3x4", "-4mm", "4mm:0", "4mm:heavy", "4mm:inf"] {
+        for text in [
+            "",
+            "x",
+            "4mmx",
+            "1x2x3x4",
+            "-4mm",
+            "4mm:0",
+            "4mm:heavy",
+            "4mm:inf",
+        ] {
             let error = text.parse::<Rod>().unwrap_err().to_string();
             assert!(error.contains("is not a rod; remedy: "), "{error}");
         }
@@ -238,26 +282,70 @@ mod tests {
     #[test]
     fn hardware_goes_with_its_goal_and_its_parts_with_each_other() {
         let gap = "3mm".parse().ok();
-        let axle = Hardware { string_gap: gap, axle: Some(rod("6mm")), ..Hardware::default() };
-        let tip = Hardware { tip: Some(rod("4x12")), stem: Some(rod("5x30")), ..Hardware::default() };
+        let axle = Hardware {
+            string_gap: gap,
+            axle: Some(rod("6mm")),
+            ..Hardware::default()
+        };
+        let tip = Hardware {
+            tip: Some(rod("4x12")),
+            stem: Some(rod("5x30")),
+            ..Hardware::default()
+        };
         assert!(with(GoalKind::Yoyo, axle).is_ok() && with(GoalKind::Top, tip).is_ok());
         let refused = |kind, hardware| match with(kind, hardware) {
             Err(RequestError::Hardware(error)) => error,
             other => panic!("{other:?}"),
         };
-        assert_eq!(refused(GoalKind::Top, axle), HardwareError::NotAYoyo(GoalKind::Top));
-        assert_eq!(refused(GoalKind::Stand, tip), HardwareError::NotATop(GoalKind::Stand));
+        assert_eq!(
+            refused(GoalKind::Top, axle),
+            HardwareError::NotAYoyo(GoalKind::Top)
+        );
+        assert_eq!(
+            refused(GoalKind::Stand, tip),
+            HardwareError::NotATop(GoalKind::Stand)
+        );
         let alone = Hardware { axle: None, ..axle };
         assert_eq!(refused(GoalKind::Yoyo, alone), HardwareError::GapAndAxle);
-        let short = Hardware { axle: Some(rod("6x3")), ..axle };
-        assert!(matches!(refused(GoalKind::Yoyo, short), HardwareError::Axle(_)));
-        let weightless = Hardware { mass_g: Some(0.0), ..axle };
-        assert_eq!(refused(GoalKind::Yoyo, weightless), HardwareError::Mass(0.0));
-        let endless = Hardware { tip: Some(rod("4mm")), ..tip };
-        assert!(matches!(refused(GoalKind::Top, endless), HardwareError::Depth { what: "tip", .. }));
-        let sunk = Hardware { stem: Some(rod("4x12x12")), ..tip };
-        assert!(matches!(refused(GoalKind::Top, sunk), HardwareError::Depth { what: "stem", .. }));
-        let blunt = Hardware { tip: Some(rod("4x12x11")), ..tip };
-        assert!(matches!(refused(GoalKind::Top, blunt), HardwareError::Blunt(_)));
+        let short = Hardware {
+            axle: Some(rod("6x3")),
+            ..axle
+        };
+        assert!(matches!(
+            refused(GoalKind::Yoyo, short),
+            HardwareError::Axle(_)
+        ));
+        let weightless = Hardware {
+            mass_g: Some(0.0),
+            ..axle
+        };
+        assert_eq!(
+            refused(GoalKind::Yoyo, weightless),
+            HardwareError::Mass(0.0)
+        );
+        let endless = Hardware {
+            tip: Some(rod("4mm")),
+            ..tip
+        };
+        assert!(matches!(
+            refused(GoalKind::Top, endless),
+            HardwareError::Depth { what: "tip", .. }
+        ));
+        let sunk = Hardware {
+            stem: Some(rod("4x12x12")),
+            ..tip
+        };
+        assert!(matches!(
+            refused(GoalKind::Top, sunk),
+            HardwareError::Depth { what: "stem", .. }
+        ));
+        let blunt = Hardware {
+            tip: Some(rod("4x12x11")),
+            ..tip
+        };
+        assert!(matches!(
+            refused(GoalKind::Top, blunt),
+            HardwareError::Blunt(_)
+        ));
     }
 }

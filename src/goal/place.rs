@@ -1,8 +1,8 @@
 //! Placing a goal: the request's words and the solid's geometry become a frame.
 
 use super::{
-    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, balance, float,
-    stand, top, yoyo,
+    Contact, Goal, GoalKind, Objective, Placement, Request, RequestError, SpinPoint, Up, balance,
+    float, stand, top, yoyo,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Body, Moments, moments_of_mesh};
@@ -105,13 +105,31 @@ const PLAIN_DENSITY_G_CM3: f64 = 1.0;
 /// The moments of the goal are exact for the mesh. Costs a few passes over the triangles. What floats is of 1 g/cm³;
 /// [`place_made_of`] takes any density.
 pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement, GoalError> {
-    place_made_of(solid, &Stock { wall_mm, density_g_cm3: PLAIN_DENSITY_G_CM3 }, request)
+    place_made_of(
+        solid,
+        &Stock {
+            wall_mm,
+            density_g_cm3: PLAIN_DENSITY_G_CM3,
+        },
+        request,
+    )
 }
 
 /// The same for a solid of any material. Where the waterline is free, half the height stands for it: to find the best one
 /// takes the solver.
-pub fn place_made_of(solid: &Solid, stock: &Stock, request: &Request) -> Result<Placement, GoalError> {
-    place_weighed(&Weighed { solid, moments: moments_of_mesh(solid.mesh()) }, stock, request)
+pub fn place_made_of(
+    solid: &Solid,
+    stock: &Stock,
+    request: &Request,
+) -> Result<Placement, GoalError> {
+    place_weighed(
+        &Weighed {
+            solid,
+            moments: moments_of_mesh(solid.mesh()),
+        },
+        stock,
+        request,
+    )
 }
 
 /// A solid whose moments are known already.
@@ -124,8 +142,15 @@ pub struct Weighed<'a> {
 }
 
 /// The same for a solid that is placed many times.
-pub fn place_weighed(weighed: &Weighed, stock: &Stock, request: &Request) -> Result<Placement, GoalError> {
-    let Stock { wall_mm, density_g_cm3 } = *stock;
+pub fn place_weighed(
+    weighed: &Weighed,
+    stock: &Stock,
+    request: &Request,
+) -> Result<Placement, GoalError> {
+    let Stock {
+        wall_mm,
+        density_g_cm3,
+    } = *stock;
     if !(wall_mm > 0.0 && wall_mm.is_finite()) {
         return Err(GoalError::NoWall(wall_mm));
     }
@@ -137,7 +162,12 @@ pub fn place_weighed(weighed: &Weighed, stock: &Stock, request: &Request) -> Res
     match request.kind {
         GoalKind::Top => {
             let contact = request.contact.unwrap_or(Contact::Lowest);
-            top::place(&site, wall_mm, contact, request.hardware.and_then(|hardware| hardware.tip))
+            top::place(
+                &site,
+                wall_mm,
+                contact,
+                request.hardware.and_then(|hardware| hardware.tip),
+            )
         }
         GoalKind::Yoyo => yoyo::place(&site, request.spin_point.unwrap_or(SpinPoint::Center)),
         GoalKind::Stand => stand::place(&site),
@@ -166,7 +196,10 @@ pub(super) struct Site<'a> {
 }
 
 impl<'a> Site<'a> {
-    fn new(&Weighed { solid, moments }: &Weighed<'a>, request: &Request) -> Result<Self, GoalError> {
+    fn new(
+        &Weighed { solid, moments }: &Weighed<'a>,
+        request: &Request,
+    ) -> Result<Self, GoalError> {
         let body = Body::new(&moments, 1.0);
         let up = up_direction(request.up, solid, &body)?;
         let (lowest_mm, highest_mm) = extent_along(solid, &up);
@@ -185,7 +218,10 @@ impl<'a> Site<'a> {
 
     /// The goal whose frame has this origin, given in the upright frame.
     pub fn goal_at(&self, upright_origin: &Point, support: Vec<[f64; 2]>) -> Goal {
-        let frame = Frame { origin: self.upright.to_model(upright_origin), axes: self.upright.axes };
+        let frame = Frame {
+            origin: self.upright.to_model(upright_origin),
+            axes: self.upright.axes,
+        };
         let solid = self.moments.in_frame(&frame);
         Goal {
             kind: self.kind,
@@ -200,7 +236,11 @@ impl<'a> Site<'a> {
 
     /// The model's vertices in the upright frame.
     pub fn upright_vertices(&self) -> impl Iterator<Item = Point> + '_ {
-        self.solid.mesh().vertices().iter().map(|vertex| self.upright.to_local(vertex))
+        self.solid
+            .mesh()
+            .vertices()
+            .iter()
+            .map(|vertex| self.upright.to_local(vertex))
     }
 
     /// The solid's centre of mass in the upright frame.
@@ -245,15 +285,26 @@ fn principal_direction(solid: &Solid, body: &Body) -> Vector {
     if (below - above).abs() > TIE_RATIO * (highest - lowest) {
         return if below < above { axis } else { -axis };
     }
-    let first = [axis.z, axis.y, axis.x].into_iter().find(|component| component.abs() > TIE_RATIO);
-    if first.unwrap_or(1.0) > 0.0 { axis } else { -axis }
+    let first = [axis.z, axis.y, axis.x]
+        .into_iter()
+        .find(|component| component.abs() > TIE_RATIO);
+    if first.unwrap_or(1.0) > 0.0 {
+        axis
+    } else {
+        -axis
+    }
 }
 
 /// The least and greatest coordinate of the solid along a unit direction, mm.
 fn extent_along(solid: &Solid, direction: &Vector) -> (f64, f64) {
-    let heights = solid.mesh().vertices().iter().map(|vertex| direction.dot(&vertex.coords));
-    heights
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)))
+    let heights = solid
+        .mesh()
+        .vertices()
+        .iter()
+        .map(|vertex| direction.dot(&vertex.coords));
+    heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| {
+        (low.min(height), high.max(height))
+    })
 }
 
 #[cfg(test)]
@@ -267,7 +318,12 @@ mod tests {
 
     #[test]
     fn a_block_on_its_face_touches_at_the_faces_middle() {
-        let placed = place(&block([-1., -2., 3.], [5., 4., 9.]), 1.0, &request(GoalKind::Top)).unwrap();
+        let placed = place(
+            &block([-1., -2., 3.], [5., 4., 9.]),
+            1.0,
+            &request(GoalKind::Top),
+        )
+        .unwrap();
         assert!((placed.goal.frame.origin - Point::new(2., 1., 3.)).norm() < 1e-12);
         assert!(placed.warnings.is_empty());
         assert_eq!(placed.keeps.len(), 1);
@@ -278,7 +334,10 @@ mod tests {
     fn below_the_center_of_two_legs_is_air_and_the_height_is_named() {
         // A table: a plate from z = 6 to 8 on two legs; its centre is over the gap.
         let table = arch();
-        let wish = Request { contact: Some(Contact::Center), ..request(GoalKind::Top) };
+        let wish = Request {
+            contact: Some(Contact::Center),
+            ..request(GoalKind::Top)
+        };
         let placed = place(&table, 1.0, &wish).unwrap();
         assert_eq!(placed.goal.frame.origin.z, 0.0);
         assert!(
@@ -289,7 +348,10 @@ mod tests {
     #[test]
     fn a_flat_slab_spins_easiest_about_its_normal() {
         let slab = block([0., 0., 0.], [10., 2., 8.]);
-        let wish = Request { up: Up::Principal, ..request(GoalKind::Yoyo) };
+        let wish = Request {
+            up: Up::Principal,
+            ..request(GoalKind::Yoyo)
+        };
         let placed = place(&slab, 1.0, &wish).unwrap();
         assert!((placed.goal.frame.axis() - Vector::y()).norm() < 1e-12);
         assert!((placed.goal.frame.origin - Point::new(5., 1., 4.)).norm() < 1e-12);
@@ -298,7 +360,10 @@ mod tests {
     #[test]
     fn turned_upside_down_the_solid_keeps_its_mass_and_stands_on_its_other_end() {
         let solid = block([0., 0., 0.], [2., 3., 7.]);
-        let wish = Request { up: Up::NegZ, ..request(GoalKind::Stand) };
+        let wish = Request {
+            up: Up::NegZ,
+            ..request(GoalKind::Stand)
+        };
         let goal = place(&solid, 1.0, &wish).unwrap().goal;
         assert!((goal.solid.volume() - 42.0).abs() < 1e-12);
         assert!((goal.frame.origin - Point::new(1., 1.5, 7.)).norm() < 1e-12);
@@ -307,7 +372,10 @@ mod tests {
 
     #[test]
     fn a_top_that_hangs_from_its_contact_is_refused() {
-        let wish = Request { contact: Some(Contact::At([1., 1., 5.])), ..request(GoalKind::Top) };
+        let wish = Request {
+            contact: Some(Contact::At([1., 1., 5.])),
+            ..request(GoalKind::Top)
+        };
         let refused = place(&block([0., 0., 0.], [2., 2., 6.]), 1.0, &wish);
         assert!(
             matches!(refused, Err(GoalError::ContactAboveCenter { depth_mm }) if (depth_mm - 2.0).abs() < 1e-12)
@@ -317,17 +385,41 @@ mod tests {
     #[test]
     fn what_is_no_number_is_refused_by_name() {
         let solid = block([0., 0., 0.], [2., 2., 6.]);
-        let zero = Request { up: Up::Along([0., 0., 0.]), ..request(GoalKind::Top) };
-        assert!(matches!(place(&solid, 1.0, &zero), Err(GoalError::NoDirection(..))));
-        let nan = Request { spin_point: Some(SpinPoint::At([0., f64::NAN, 0.])), ..request(GoalKind::Yoyo) };
-        assert!(matches!(place(&solid, 1.0, &nan), Err(GoalError::NotAPoint { name: "spin-point", .. })));
-        assert!(matches!(place(&solid, 0.0, &request(GoalKind::Top)), Err(GoalError::NoWall(_))));
+        let zero = Request {
+            up: Up::Along([0., 0., 0.]),
+            ..request(GoalKind::Top)
+        };
+        assert!(matches!(
+            place(&solid, 1.0, &zero),
+            Err(GoalError::NoDirection(..))
+        ));
+        let nan = Request {
+            spin_point: Some(SpinPoint::At([0., f64::NAN, 0.])),
+            ..request(GoalKind::Yoyo)
+        };
+        assert!(matches!(
+            place(&solid, 1.0, &nan),
+            Err(GoalError::NotAPoint {
+                name: "spin-point",
+                ..
+            })
+        ));
+        assert!(matches!(
+            place(&solid, 0.0, &request(GoalKind::Top)),
+            Err(GoalError::NoWall(_))
+        ));
     }
 
     #[test]
     fn an_objective_of_another_goal_is_refused() {
-        let wish = Request { objective: Objective::CriticalSpeed, ..request(GoalKind::Stand) };
+        let wish = Request {
+            objective: Objective::CriticalSpeed,
+            ..request(GoalKind::Stand)
+        };
         let refused = place(&block([0., 0., 0.], [2., 2., 6.]), 1.0, &wish);
-        assert!(matches!(refused, Err(GoalError::Request(RequestError::Objective { .. }))));
+        assert!(matches!(
+            refused,
+            Err(GoalError::Request(RequestError::Objective { .. }))
+        ));
     }
 }

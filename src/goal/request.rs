@@ -56,7 +56,10 @@ pub enum Objective {
 
 impl Objective {
     /// Spin-It's functional with its own weights: γ_c = γ_I = 1 for a top (its eq. 7), γ_I alone for a yo-yo.
-    pub const SPIN_IT: Self = Self::SpinIt { gamma_c: 1.0, gamma_i: 1.0 };
+    pub const SPIN_IT: Self = Self::SpinIt {
+        gamma_c: 1.0,
+        gamma_i: 1.0,
+    };
 
     /// Every objective's word.
     pub const WORDS: &'static [&'static str] = &[
@@ -91,7 +94,9 @@ impl Objective {
 
     /// Whether this objective is one for goals of this kind.
     pub fn suits(&self, kind: GoalKind) -> bool {
-        kind.objectives().iter().any(|known| known.word() == self.word())
+        kind.objectives()
+            .iter()
+            .any(|known| known.word() == self.word())
     }
 
     /// Whether its weights, if it has any, are finite, not negative, and γ_I positive.
@@ -206,7 +211,9 @@ pub enum RequestError {
     #[error("a spin point goes with the goal yoyo or balance, not with {0}; remedy: leave it out")]
     SpinPoint(GoalKind),
     /// A speed, grade or bore for what is not a rotor.
-    #[error("a speed, grade or bore goes with the goal balance, not with {0}; remedy: leave it out")]
+    #[error(
+        "a speed, grade or bore goes with the goal balance, not with {0}; remedy: leave it out"
+    )]
     NoRotor(GoalKind),
     /// A liquid or waterline for what does not float.
     #[error("a liquid or waterline goes with the goal float, not with {0}; remedy: leave it out")]
@@ -244,10 +251,21 @@ impl Request {
 
     /// The same, if its parts go together.
     pub fn checked(self) -> Result<Self, RequestError> {
-        let Self { kind, objective, .. } = self;
+        let Self {
+            kind, objective, ..
+        } = self;
         if !objective.suits(kind) {
-            let known = kind.objectives().iter().map(|known| known.word()).collect::<Vec<_>>().join(" or ");
-            return Err(RequestError::Objective { objective, kind, known });
+            let known = kind
+                .objectives()
+                .iter()
+                .map(|known| known.word())
+                .collect::<Vec<_>>()
+                .join(" or ");
+            return Err(RequestError::Objective {
+                objective,
+                kind,
+                known,
+            });
         }
         if !objective.is_sound() {
             return Err(RequestError::Weights(objective));
@@ -262,7 +280,8 @@ impl Request {
         if self.water.is_some() && kind != GoalKind::Float {
             return Err(RequestError::NoWater(kind));
         }
-        self.hardware.map_or(Ok(()), |hardware| hardware.check(kind))?;
+        self.hardware
+            .map_or(Ok(()), |hardware| hardware.check(kind))?;
         Ok(self)
     }
 
@@ -270,8 +289,15 @@ impl Request {
         match self.rotor {
             Some(_) if self.kind != GoalKind::Balance => Err(RequestError::NoRotor(self.kind)),
             Some(rotor) if !rotor.is_sound() => {
-                let Rotor { speed_rpm, grade_mm_s, .. } = rotor;
-                Err(RequestError::Rotor { speed_rpm, grade_mm_s })
+                let Rotor {
+                    speed_rpm,
+                    grade_mm_s,
+                    ..
+                } = rotor;
+                Err(RequestError::Rotor {
+                    speed_rpm,
+                    grade_mm_s,
+                })
             }
             _ => Ok(()),
         }
@@ -292,20 +318,33 @@ mod tests {
             Objective::MetacentricHeight,
             Objective::LeastRemoved,
         ];
-        let found: Vec<Objective> = GoalKind::ALL.iter().copied().map(Objective::default_of).collect();
+        let found: Vec<Objective> = GoalKind::ALL
+            .iter()
+            .copied()
+            .map(Objective::default_of)
+            .collect();
         assert_eq!(found, defaults);
         for word in Objective::WORDS {
             let objective: Objective = word.parse().unwrap();
-            assert_eq!((objective.word(), objective.to_string().as_str()), (*word, *word));
-            let uses = GoalKind::ALL.iter().filter(|kind| objective.suits(**kind)).count();
+            assert_eq!(
+                (objective.word(), objective.to_string().as_str()),
+                (*word, *word)
+            );
+            let uses = GoalKind::ALL
+                .iter()
+                .filter(|kind| objective.suits(**kind))
+                .count();
             assert_eq!(uses, if *word == "spin-it" { 2 } else { 1 }, "{word}");
         }
     }
 
     #[test]
     fn an_unknown_objective_is_told_the_nearest() {
-        for (text, says) in [("spinit", "did you mean `spin-it`"), ("spin-it:1", "spin-it"), ("fast", "use ")]
-        {
+        for (text, says) in [
+            ("spinit", "did you mean `spin-it`"),
+            ("spin-it:1", "spin-it"),
+            ("fast", "use "),
+        ] {
             let error = text.parse::<Objective>().unwrap_err().to_string();
             assert!(error.contains(says), "{error}");
         }
@@ -313,13 +352,32 @@ mod tests {
 
     #[test]
     fn weights_that_weigh_nothing_are_refused() {
-        for text in ["spin-it:0,0", "spin-it:-1,1", "spin-it:1,inf", "spin-it:nan,1"] {
+        for text in [
+            "spin-it:0,0",
+            "spin-it:-1,1",
+            "spin-it:1,inf",
+            "spin-it:nan,1",
+        ] {
             let objective = text.parse().unwrap();
-            let refused = Request { objective, ..Request::new(GoalKind::Top) }.checked();
+            let refused = Request {
+                objective,
+                ..Request::new(GoalKind::Top)
+            }
+            .checked();
             assert!(matches!(refused, Err(RequestError::Weights(_))), "{text}");
         }
-        let only_flat = Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 };
-        assert!(Request { objective: only_flat, ..Request::new(GoalKind::Top) }.checked().is_ok());
+        let only_flat = Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        };
+        assert!(
+            Request {
+                objective: only_flat,
+                ..Request::new(GoalKind::Top)
+            }
+            .checked()
+            .is_ok()
+        );
     }
 
     #[test]

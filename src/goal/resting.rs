@@ -37,16 +37,31 @@ pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
     let center_height_mm = center.z - floor_mm;
     // A point that touches after a tilt t is no higher than its distance from the axis times tan t.
     let slope = MOST_RAD.tan();
-    let near: Vec<Point> =
-        points.iter().filter(|p| p.z - floor_mm <= 2.0 * slope * p.x.hypot(p.y)).copied().collect();
-    let foot: Vec<Point> = points.iter().filter(|p| p.z <= floor_mm).copied().chain(near).collect();
+    let near: Vec<Point> = points
+        .iter()
+        .filter(|p| p.z - floor_mm <= 2.0 * slope * p.x.hypot(p.y))
+        .copied()
+        .collect();
+    let foot: Vec<Point> = points
+        .iter()
+        .filter(|p| p.z <= floor_mm)
+        .copied()
+        .chain(near)
+        .collect();
     let reach = |tilt_rad: f64| {
         let arms = (0..DIRECTIONS).map(|i| arm_mm(&foot, center, tilt_rad, i));
-        arms.fold([f64::INFINITY; 2], |[righting, out], [r, o]| [righting.min(r), out.min(o)])
+        arms.fold([f64::INFINITY; 2], |[righting, out], [r, o]| {
+            [righting.min(r), out.min(o)]
+        })
     };
     let [righting_mm, out_mm] = reach(TILT_RAD);
-    let tilts = (2..).map(|i| f64::from(i) * TILT_RAD).take_while(|tilt| *tilt <= MOST_RAD);
-    let rights = tilts.take_while(|tilt| reach(*tilt)[0] > 0.0).last().unwrap_or(TILT_RAD);
+    let tilts = (2..)
+        .map(|i| f64::from(i) * TILT_RAD)
+        .take_while(|tilt| *tilt <= MOST_RAD);
+    let rights = tilts
+        .take_while(|tilt| reach(*tilt)[0] > 0.0)
+        .last()
+        .unwrap_or(TILT_RAD);
     (righting_mm > 0.0).then(|| Resting {
         radius_mm: out_mm / TILT_RAD.sin(),
         center_height_mm,
@@ -62,8 +77,12 @@ fn arm_mm(foot: &[Point], center: &Point, tilt_rad: f64, direction: usize) -> [f
     let out = |p: &Point| x * p.x + y * p.y;
     let depth = |p: &Point| out(p) * sin - p.z * cos;
     let touching = foot.iter().max_by(|a, b| depth(a).total_cmp(&depth(b)));
-    touching
-        .map_or([f64::NEG_INFINITY; 2], |p| [(out(p) - out(center)) * cos + (p.z - center.z) * sin, out(p)])
+    touching.map_or([f64::NEG_INFINITY; 2], |p| {
+        [
+            (out(p) - out(center)) * cos + (p.z - center.z) * sin,
+            out(p),
+        ]
+    })
 }
 
 #[cfg(test)]
@@ -77,10 +96,14 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_stands_where_its_centre_of_mass_is_lower_than_its_radius_and_falls_where_it_is_higher() {
+    fn a_ball_stands_where_its_centre_of_mass_is_lower_than_its_radius_and_falls_where_it_is_higher()
+     {
         // Its facets are 0.7° wide, so that contacts jump by as much as half of a tilt of one degree.
         let stands = of_ball(10.0, 4.0).unwrap();
-        assert!(stands.radius_mm > 5.0 && stands.radius_mm < 15.0, "{stands:?}");
+        assert!(
+            stands.radius_mm > 5.0 && stands.radius_mm < 15.0,
+            "{stands:?}"
+        );
         assert!((stands.center_height_mm - 4.0).abs() < 1e-9);
         assert_eq!(of_ball(10.0, 16.0), None);
     }
@@ -92,7 +115,10 @@ mod tests {
         let stands = resting(disc.vertices(), &Point::new(0.0, 0.0, floor + 20.0)).unwrap();
         // atan(8/20) = 21.8°, less what a polygon of 72 sides lies inside its circle, in whole degrees.
         assert_eq!(stands.rights_to_deg.round(), 21.0);
-        assert!((stands.radius_mm / (8.0 / TILT_RAD.sin()) - 1.0).abs() < 0.01, "{stands:?}");
+        assert!(
+            (stands.radius_mm / (8.0 / TILT_RAD.sin()) - 1.0).abs() < 0.01,
+            "{stands:?}"
+        );
     }
 
     #[test]
@@ -100,7 +126,11 @@ mod tests {
         // tan 1° · 20 mm = 0.349 mm.
         let stands = |radius_mm| {
             let disc = cylinder(radius_mm, 30.0, 72);
-            resting(disc.vertices(), &Point::new(0.0, 0.0, disc.aabb().min.z + 20.0)).is_some()
+            resting(
+                disc.vertices(),
+                &Point::new(0.0, 0.0, disc.aabb().min.z + 20.0),
+            )
+            .is_some()
         };
         assert!(!stands(0.34) && stands(0.36));
     }

@@ -83,7 +83,17 @@ impl FromStr for Up {
             ChoiceError::unknown(
                 "direction",
                 text,
-                &["x", "y", "z", "-x", "-y", "-z", "X,Y,Z", "principal", "auto"],
+                &[
+                    "x",
+                    "y",
+                    "z",
+                    "-x",
+                    "-y",
+                    "-z",
+                    "X,Y,Z",
+                    "principal",
+                    "auto",
+                ],
             )
         })?;
         checked_direction(along, text)
@@ -94,7 +104,9 @@ fn checked_direction(along: [f64; 3], text: &str) -> Result<Up, ChoiceError> {
     if along.iter().any(|number| !number.is_finite()) {
         return Err(ChoiceError::NotFinite(text.to_owned()));
     }
-    unit(along).map(|_| Up::Along(along)).ok_or_else(|| ChoiceError::ZeroVector(text.to_owned()))
+    unit(along)
+        .map(|_| Up::Along(along))
+        .ok_or_else(|| ChoiceError::ZeroVector(text.to_owned()))
 }
 
 impl fmt::Display for Up {
@@ -175,14 +187,22 @@ mod tests {
             assert_eq!(up.to_string(), word);
         }
         assert_eq!("+Y".parse::<Up>().unwrap(), Up::Y);
-        assert_eq!("-0.1,-0.19, 0.98".parse::<Up>().unwrap(), Up::Along([-0.1, -0.19, 0.98]));
+        assert_eq!(
+            "-0.1,-0.19, 0.98".parse::<Up>().unwrap(),
+            Up::Along([-0.1, -0.19, 0.98])
+        );
     }
 
     #[test]
     fn a_direction_is_a_unit_vector_however_long_the_one_given() {
         for scale in [1e-300, 1.0, 1e300] {
-            let direction = Up::Along([0.0, -3.0 * scale, 4.0 * scale]).direction().unwrap();
-            assert!((direction - Vector::new(0.0, -0.6, 0.8)).norm() < 1e-15, "{scale}");
+            let direction = Up::Along([0.0, -3.0 * scale, 4.0 * scale])
+                .direction()
+                .unwrap();
+            assert!(
+                (direction - Vector::new(0.0, -0.6, 0.8)).norm() < 1e-15,
+                "{scale}"
+            );
         }
         assert_eq!(Up::NegY.direction().unwrap(), -Vector::y());
         assert_eq!(Up::Principal.direction(), None);
@@ -196,14 +216,25 @@ mod tests {
         assert!(says("0,0,-0").contains("no direction"));
         assert!(says("nan,0,1").contains("not finite"));
         assert!(says("1,2").contains("is not a direction"));
-        assert!(says("principle").contains("did you mean `principal`"), "{}", says("principle"));
-        assert!(says("--contact").contains("use x, y, z"), "{}", says("--contact"));
+        assert!(
+            says("principle").contains("did you mean `principal`"),
+            "{}",
+            says("principle")
+        );
+        assert!(
+            says("--contact").contains("use x, y, z"),
+            "{}",
+            says("--contact")
+        );
     }
 
     #[test]
     fn places_are_words_or_points() {
         assert_eq!("lowest".parse::<Contact>().unwrap(), Contact::Lowest);
-        assert_eq!("1,-2.5,3".parse::<Contact>().unwrap(), Contact::At([1.0, -2.5, 3.0]));
+        assert_eq!(
+            "1,-2.5,3".parse::<Contact>().unwrap(),
+            Contact::At([1.0, -2.5, 3.0])
+        );
         assert_eq!("center".parse::<SpinPoint>().unwrap(), SpinPoint::Center);
         let error = "centre".parse::<SpinPoint>().unwrap_err().to_string();
         assert!(error.contains("did you mean `center`"), "{error}");

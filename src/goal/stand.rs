@@ -13,17 +13,27 @@ const LEAST_AREA_RATIO: f64 = 1e-9;
 
 pub(super) fn place(site: &Site) -> Result<Placement, GoalError> {
     let reach_mm = site.lowest_mm + SUPPORT_RATIO * site.height_mm();
-    let feet: Vec<[f64; 2]> =
-        site.upright_vertices().filter(|v| v.z <= reach_mm).map(|vertex| [vertex.x, vertex.y]).collect();
+    let feet: Vec<[f64; 2]> = site
+        .upright_vertices()
+        .filter(|v| v.z <= reach_mm)
+        .map(|vertex| [vertex.x, vertex.y])
+        .collect();
     let vertices = feet.len();
     let hull = support::convex_hull(feet);
     if support::area(&hull) <= LEAST_AREA_RATIO * site.height_mm().powi(2) {
         return Err(GoalError::NoSupport { vertices });
     }
     let [x, y] = support::middle(&hull);
-    let polygon = hull.iter().map(|corner| [corner[0] - x, corner[1] - y]).collect();
+    let polygon = hull
+        .iter()
+        .map(|corner| [corner[0] - x, corner[1] - y])
+        .collect();
     let goal = site.goal_at(&Point::new(x, y, site.lowest_mm), polygon);
-    Ok(Placement { goal, keeps: Vec::new(), warnings: Vec::new() })
+    Ok(Placement {
+        goal,
+        keeps: Vec::new(),
+        warnings: Vec::new(),
+    })
 }
 
 #[cfg(test)]
@@ -33,7 +43,12 @@ mod tests {
 
     #[test]
     fn a_block_stands_on_its_lower_face() {
-        let placed = place(&block([1., 1., 5.], [5., 3., 9.]), 1.0, &Request::new(GoalKind::Stand)).unwrap();
+        let placed = place(
+            &block([1., 1., 5.], [5., 3., 9.]),
+            1.0,
+            &Request::new(GoalKind::Stand),
+        )
+        .unwrap();
         assert_eq!(placed.goal.frame.origin, Point::new(3., 2., 5.));
         assert!((support::area(&placed.goal.support) - 8.0).abs() < 1e-12);
     }

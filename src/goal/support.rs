@@ -54,14 +54,22 @@ pub(super) fn middle(polygon: &[[f64; 2]]) -> [f64; 2] {
         return [0, 1].map(|axis| polygon.iter().map(|corner| corner[axis]).sum::<f64>() / count);
     }
     let twice_area: f64 = fan(polygon).map(|(twice_area, _)| twice_area).sum();
-    [0, 1].map(|axis| fan(polygon).map(|(twice, centroid)| twice * centroid[axis]).sum::<f64>() / twice_area)
+    [0, 1].map(|axis| {
+        fan(polygon)
+            .map(|(twice, centroid)| twice * centroid[axis])
+            .sum::<f64>()
+            / twice_area
+    })
 }
 
 /// Twice the area and the centroid of each triangle of the fan from the first corner.
 fn fan(polygon: &[[f64; 2]]) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
     polygon.windows(2).skip(1).map(|pair| {
         let (a, [b, c]) = (polygon[0], [pair[0], pair[1]]);
-        (turn(a, b, c), [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0))
+        (
+            turn(a, b, c),
+            [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0),
+        )
     })
 }
 
@@ -85,7 +93,9 @@ mod tests {
 
     #[test]
     fn the_hull_of_a_grid_is_its_four_corners() {
-        let grid = (0..25).map(|i| [f64::from(i % 5), f64::from(i / 5)]).collect();
+        let grid = (0..25)
+            .map(|i| [f64::from(i % 5), f64::from(i / 5)])
+            .collect();
         assert_eq!(convex_hull(grid), [[0., 0.], [4., 0.], [4., 4.], [0., 4.]]);
     }
 
@@ -110,6 +120,10 @@ mod tests {
         let polygon = convex_hull(vec![[0., 0.], [5., -1.], [7., 3.], [2., 6.], [-1., 2.]]);
         let center = middle(&polygon);
         assert_eq!(edges(&polygon).len(), 5);
-        assert!(edges(&polygon).iter().all(|(n, d)| n[0] * center[0] + n[1] * center[1] > *d));
+        assert!(
+            edges(&polygon)
+                .iter()
+                .all(|(n, d)| n[0] * center[0] + n[1] * center[1] > *d)
+        );
     }
 }

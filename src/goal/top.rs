@@ -28,12 +28,18 @@ pub(super) fn place(
     tip: Option<Rod>,
 ) -> Result<Placement, GoalError> {
     let origin = contact_point(site, contact)?;
-    let Some(tip) = tip else { return placed(site, wall_mm, origin) };
+    let Some(tip) = tip else {
+        return placed(site, wall_mm, origin);
+    };
     let surface_mm = first_surface_above(site, &origin).ok_or(GoalError::NoSeat)?;
     let end = origin + Vector::z() * (surface_mm - tip.out_mm());
     let Placement { goal, warnings, .. } = placed(site, wall_mm, end)?;
     let is_of_body = |warning: &Warning| !matches!(warning, Warning::ContactInAir { .. });
-    Ok(Placement { goal, keeps: Vec::new(), warnings: warnings.into_iter().filter(is_of_body).collect() })
+    Ok(Placement {
+        goal,
+        keeps: Vec::new(),
+        warnings: warnings.into_iter().filter(is_of_body).collect(),
+    })
 }
 
 /// The top that touches at this point of the upright frame.
@@ -46,7 +52,11 @@ fn placed(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalErr
     let goal = site.goal_at(&origin, Vec::new());
     let touched = goal.frame.origin + goal.frame.axis() * surface_mm.unwrap_or(0.0);
     let keeps = vec![Keep::ball(touched, CONTACT_RADIUS_WALLS * wall_mm)];
-    Ok(Placement { goal, keeps, warnings: warnings(site, &origin, surface_mm) })
+    Ok(Placement {
+        goal,
+        keeps,
+        warnings: warnings(site, &origin, surface_mm),
+    })
 }
 
 fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
@@ -61,8 +71,12 @@ fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
 /// The middle of what the model would touch a floor with: a vertex, an edge's middle, or a face's centroid.
 fn lowest_feature_middle(site: &Site) -> [f64; 2] {
     let tie_mm = LOWEST_FEATURE_RATIO * site.height_mm();
-    let lowest = site.upright_vertices().filter(|vertex| vertex.z <= site.lowest_mm + tie_mm);
-    support::middle(&support::convex_hull(lowest.map(|vertex| [vertex.x, vertex.y]).collect()))
+    let lowest = site
+        .upright_vertices()
+        .filter(|vertex| vertex.z <= site.lowest_mm + tie_mm);
+    support::middle(&support::convex_hull(
+        lowest.map(|vertex| [vertex.x, vertex.y]).collect(),
+    ))
 }
 
 fn warnings(site: &Site, contact: &Point, surface_mm: Option<f64>) -> Vec<Warning> {
@@ -87,7 +101,10 @@ fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
         let local = corners.map(|corner| site.upright.to_local(&corner) - contact);
         height_over_origin(local, tolerance_mm)
     });
-    heights.filter(|&height| height >= -tolerance_mm).min_by(f64::total_cmp).map(|height| height.max(0.0))
+    heights
+        .filter(|&height| height >= -tolerance_mm)
+        .min_by(f64::total_cmp)
+        .map(|height| height.max(0.0))
 }
 
 /// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the axis.
@@ -95,10 +112,15 @@ pub(crate) fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> O
     let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
     let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];
     let area: f64 = weights.iter().sum();
-    let least = weights.iter().map(|w| w * area.signum()).fold(f64::INFINITY, f64::min);
+    let least = weights
+        .iter()
+        .map(|w| w * area.signum())
+        .fold(f64::INFINITY, f64::min);
     if area != 0.0 && least >= 0.0 {
         return Some((weights[0] * a.z + weights[1] * b.z + weights[2] * c.z) / area);
     }
-    let on_axis = [a, b, c].into_iter().filter(|corner| corner.x.hypot(corner.y) <= tolerance_mm);
+    let on_axis = [a, b, c]
+        .into_iter()
+        .filter(|corner| corner.x.hypot(corner.y) <= tolerance_mm);
     on_axis.map(|corner| corner.z).min_by(f64::total_cmp)
 }

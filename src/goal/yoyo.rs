@@ -8,5 +8,9 @@ pub(super) fn place(site: &Site, spin_point: SpinPoint) -> Result<Placement, Goa
         SpinPoint::Center => site.upright_center(),
         SpinPoint::At(point) => site.given_point("spin-point", point)?,
     };
-    Ok(Placement { goal: site.goal_at(&origin, Vec::new()), keeps: Vec::new(), warnings: Vec::new() })
+    Ok(Placement {
+        goal: site.goal_at(&origin, Vec::new()),
+        keeps: Vec::new(),
+        warnings: Vec::new(),
+    })
 }

@@ -57,7 +57,9 @@ const DEPTHS: usize = 20;
 /// What to do about a socket that breaks out.
 fn deepest(what: &str, most_mm: Option<f64>) -> String {
     match most_mm.map(|mm| (mm * 10.0).floor() / 10.0) {
-        Some(mm) if mm > 0.0 => format!("{mm:.1} mm deep it has one (--{what}=DIAMETERxLENGTHx{mm:.1})"),
+        Some(mm) if mm > 0.0 => {
+            format!("{mm:.1} mm deep it has one (--{what}=DIAMETERxLENGTHx{mm:.1})")
+        }
         _ => format!("it has one at no depth there: a thinner {what}, or another place for it"),
     }
 }
@@ -83,10 +85,25 @@ impl Bore {
     /// Whether the model has a wall around the bore and behind its bottom; where that breaks out, how deep it may be.
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
         self.seated(model, frame).map_err(|error| match error {
-            SeatError::BreaksOut { what, depth_mm, wall_mm, .. } => {
-                let shorter = |i: &usize| Self { bottom_mm: self.at_depth(self.share(*i)), ..*self };
-                let fits = (1..DEPTHS).rev().find(|i| shorter(i).seated(model, frame).is_ok());
-                SeatError::BreaksOut { what, depth_mm, wall_mm, most_mm: fits.map(|i| self.share(i)) }
+            SeatError::BreaksOut {
+                what,
+                depth_mm,
+                wall_mm,
+                ..
+            } => {
+                let shorter = |i: &usize| Self {
+                    bottom_mm: self.at_depth(self.share(*i)),
+                    ..*self
+                };
+                let fits = (1..DEPTHS)
+                    .rev()
+                    .find(|i| shorter(i).seated(model, frame).is_ok());
+                SeatError::BreaksOut {
+                    what,
+                    depth_mm,
+                    wall_mm,
+                    most_mm: fits.map(|i| self.share(i)),
+                }
             }
             held => held,
         })
@@ -98,18 +115,35 @@ impl Bore {
     }
 
     fn seated(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
-        let heights = (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
-        let around: Vec<bool> = heights.map(|z| self.walled(model, frame, z) == DIRECTIONS).collect();
+        let heights =
+            (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
+        let around: Vec<bool> = heights
+            .map(|z| self.walled(model, frame, z) == DIRECTIONS)
+            .collect();
         let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
         let Self { what, wall_mm, .. } = *self;
         let depth_mm = self.depth_mm();
         if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
-            return Err(SeatError::BreaksOut { what, depth_mm, wall_mm, most_mm: None });
+            return Err(SeatError::BreaksOut {
+                what,
+                depth_mm,
+                wall_mm,
+                most_mm: None,
+            });
         }
         let held = around.iter().filter(|&&is_walled| is_walled).count();
         let held_mm = depth_mm * held as f64 / LOOKS as f64;
         let is_held = held_mm >= HELD_RATIO * depth_mm;
-        if is_held { Ok(()) } else { Err(SeatError::HardlyHeld { what, held_mm, depth_mm, wall_mm }) }
+        if is_held {
+            Ok(())
+        } else {
+            Err(SeatError::HardlyHeld {
+                what,
+                held_mm,
+                depth_mm,
+                wall_mm,
+            })
+        }
     }
 
     /// Whether it goes right through the model: its bottom lies clear outside, and behind its mouth it has its wall.
@@ -130,17 +164,28 @@ impl Bore {
             let radius_mm = self.radius_mm + self.wall_mm;
             frame.to_model(&Point::new(radius_mm * cos, radius_mm * sin, z))
         };
-        (0..DIRECTIONS).filter(|&i| is_inside(model, &at(i))).count()
+        (0..DIRECTIONS)
+            .filter(|&i| is_inside(model, &at(i)))
+            .count()
     }
 }
 
 /// The prism that is taken away for a round rod between two heights of a frame: the rod's circle touches its sides.
-pub(super) fn prism(frame: &Frame, radius_mm: f64, [low_mm, high_mm]: [f64; 2]) -> Result<Csg, ClipError> {
+pub(super) fn prism(
+    frame: &Frame,
+    radius_mm: f64,
+    [low_mm, high_mm]: [f64; 2],
+) -> Result<Csg, ClipError> {
     let corner_mm = radius_mm / (PI / f64::from(SIDES)).cos();
     let (sin, cos) = TURN_RAD.sin_cos();
     let upright = primitives::cylinder(corner_mm, high_mm - low_mm, SIDES);
-    let place =
-        |p: &Point| frame.to_model(&Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y, p.z + low_mm));
+    let place = |p: &Point| {
+        frame.to_model(&Point::new(
+            cos * p.x - sin * p.y,
+            sin * p.x + cos * p.y,
+            p.z + low_mm,
+        ))
+    };
     Csg::of_mesh(&upright.map_vertices(place))
 }
 
@@ -155,16 +200,32 @@ mod tests {
     use crate::mesh::primitives::cuboid;
 
     fn bore(bottom_mm: f64) -> Bore {
-        Bore { what: "pin", radius_mm: 2.0, wall_mm: 1.0, mouth_mm: 0.0, bottom_mm }
+        Bore {
+            what: "pin",
+            radius_mm: 2.0,
+            wall_mm: 1.0,
+            mouth_mm: 0.0,
+            bottom_mm,
+        }
     }
 
     #[test]
     fn a_rod_fits_its_prism_and_the_prism_is_no_larger_than_it_must_be() {
-        let prism = prism(&Frame::identity(), 2.0, [1.0, 4.0]).unwrap().to_mesh().unwrap();
+        let prism = prism(&Frame::identity(), 2.0, [1.0, 4.0])
+            .unwrap()
+            .to_mesh()
+            .unwrap();
         let volume = prism.signed_volume_mm3();
         // A prism about a circle is larger by (π/n)²/3 of its area, 0.14 % for 48 sides.
-        assert!(volume > 12.0 * PI && volume < 12.0 * PI * 1.0015, "{volume}");
-        let off_axis = prism.vertices().iter().map(|p| p.x.hypot(p.y)).filter(|r| *r > 0.0);
+        assert!(
+            volume > 12.0 * PI && volume < 12.0 * PI * 1.0015,
+            "{volume}"
+        );
+        let off_axis = prism
+            .vertices()
+            .iter()
+            .map(|p| p.x.hypot(p.y))
+            .filter(|r| *r > 0.0);
         assert!(off_axis.fold(f64::INFINITY, f64::min) > 2.0);
     }
 

@@ -27,11 +27,22 @@ pub(super) fn halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves,
     let body = Csg::of_mesh(mesh)?;
     let (above, below) = body.split_by_plane(&plane)?;
     let hub_mm = bore_radius_mm + 0.5 * workshop.allowances.wall_mm;
-    let probe =
-        |side: f64| frame.to_model(&Point::new(hub_mm, 0.0, side * hub_mm.min(workshop.allowances.wall_mm)));
-    let (above, below) = (Side::of(&above, &probe(1.0))?, Side::of(&below, &probe(-1.0))?);
+    let probe = |side: f64| {
+        frame.to_model(&Point::new(
+            hub_mm,
+            0.0,
+            side * hub_mm.min(workshop.allowances.wall_mm),
+        ))
+    };
+    let (above, below) = (
+        Side::of(&above, &probe(1.0))?,
+        Side::of(&below, &probe(-1.0))?,
+    );
     if above.loose.is_empty() && below.loose.is_empty() {
-        return Ok(Halves { upper: above.hub, lower: below.hub });
+        return Ok(Halves {
+            upper: above.hub,
+            lower: below.hub,
+        });
     }
     around(&body, &plane, [&above, &below])
 }
@@ -54,7 +65,10 @@ impl Side {
             .iter()
             .position(|body| is_inside(body, on_hub))
             .ok_or(FitError::Loose { pieces: count })?;
-        Ok(Self { hub: Csg::of_mesh(&bodies.remove(hub))?, loose: bodies })
+        Ok(Self {
+            hub: Csg::of_mesh(&bodies.remove(hub))?,
+            loose: bodies,
+        })
     }
 }
 
@@ -69,25 +83,41 @@ fn around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halve
     }
     let (upper, lower) = (body.intersect(&upper_room)?, body.subtract(&upper_room)?);
     let pieces = upper.decompose()?.len() + lower.decompose()?.len();
-    if pieces == 2 { Ok(Halves { upper, lower }) } else { Err(FitError::Loose { pieces }) }
+    if pieces == 2 {
+        Ok(Halves { upper, lower })
+    } else {
+        Err(FitError::Loose { pieces })
+    }
 }
 
 /// A convex room with nothing of the body in it but the piece.
 fn hull(body: &Csg, piece: &TriMesh) -> Result<Csg, FitError> {
     let signs = [-HULL_MARGIN_MM, HULL_MARGIN_MM];
-    let corners =
-        signs.iter().flat_map(|x| signs.iter().flat_map(move |y| signs.map(|z| Vector::new(*x, *y, z))));
+    let corners = signs.iter().flat_map(|x| {
+        signs
+            .iter()
+            .flat_map(move |y| signs.map(|z| Vector::new(*x, *y, z)))
+    });
     let corners: Vec<Vector> = corners.collect();
-    let points = piece.vertices().iter().flat_map(|p| corners.iter().map(move |corner| p + corner));
+    let points = piece
+        .vertices()
+        .iter()
+        .flat_map(|p| corners.iter().map(move |corner| p + corner));
     let hull = Csg::convex_hull(&points.collect::<Vec<_>>())?;
     let held_mm3 = body.intersect(&hull)?.to_mesh()?.signed_volume_mm3();
     let own_mm3 = piece.signed_volume_mm3();
     // Of what it grows from, a skin of the margin is in the hull too.
     let skin_mm3 = 2.0 * HULL_MARGIN_MM * surface_mm2(piece);
     let is_alone = held_mm3 - own_mm3 <= FOREIGN_RATIO * own_mm3 + skin_mm3;
-    if is_alone { Ok(hull) } else { Err(FitError::Loose { pieces: 3 }) }
+    if is_alone {
+        Ok(hull)
+    } else {
+        Err(FitError::Loose { pieces: 3 })
+    }
 }
 
 fn surface_mm2(mesh: &TriMesh) -> f64 {
-    mesh.iter_corners().map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm()).sum()
+    mesh.iter_corners()
+        .map(|[a, b, c]| 0.5 * (b - a).cross(&(c - a)).norm())
+        .sum()
 }

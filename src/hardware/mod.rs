@@ -97,7 +97,10 @@ impl Fitted {
     /// The moments of the hardware, as so much of a material of this density, model frame, mm.
     pub fn moments(&self, density_g_cm3: f64) -> Moments {
         let of = |piece: &Piece| piece.bar.moments() * (piece.density_g_cm3 / density_g_cm3);
-        self.pieces.iter().map(of).fold(Moments::default(), |sum, piece| sum + piece)
+        self.pieces
+            .iter()
+            .map(of)
+            .fold(Moments::default(), |sum, piece| sum + piece)
     }
 }
 
@@ -138,7 +141,11 @@ pub fn fitted(
     hardware: &Hardware,
     allowances: &Allowances,
 ) -> Result<Option<Fitted>, FitError> {
-    let workshop = Workshop { solid, goal, allowances };
+    let workshop = Workshop {
+        solid,
+        goal,
+        allowances,
+    };
     match (hardware.axle, hardware.string_gap) {
         (Some(axle), Some(gap)) => {
             yoyo::fitted(&workshop, axle, gap.mm(), hardware.mass_g.unwrap_or(0.0)).map(Some)

@@ -21,27 +21,55 @@ fn block(size: [f64; 3]) -> Solid {
 }
 
 fn yoyo(gap: &str, axle: &str) -> Request {
-    let hardware = Hardware { string_gap: gap.parse().ok(), axle: axle.parse().ok(), ..Hardware::default() };
-    Request { hardware: Some(hardware), ..Request::new(GoalKind::Yoyo) }
+    let hardware = Hardware {
+        string_gap: gap.parse().ok(),
+        axle: axle.parse().ok(),
+        ..Hardware::default()
+    };
+    Request {
+        hardware: Some(hardware),
+        ..Request::new(GoalKind::Yoyo)
+    }
 }
 
 fn top(tip: Option<&str>, stem: Option<&str>) -> Request {
     let rod = |text: &str| text.parse().unwrap();
-    let hardware = Hardware { tip: tip.map(rod), stem: stem.map(rod), ..Hardware::default() };
-    Request { hardware: Some(hardware), contact: Some(Contact::Center), ..Request::new(GoalKind::Top) }
+    let hardware = Hardware {
+        tip: tip.map(rod),
+        stem: stem.map(rod),
+        ..Hardware::default()
+    };
+    Request {
+        hardware: Some(hardware),
+        contact: Some(Contact::Center),
+        ..Request::new(GoalKind::Top)
+    }
 }
 
 /// With sockets of no clearance and walls of 1 mm.
 fn made(solid: &Solid, request: &Request) -> (Placement, Result<Fitted, FitError>) {
     let placement = place(solid, 1.0, request).unwrap();
-    let allowances = Allowances { clearance_mm: 0.0, wall_mm: 1.0 };
-    let made = fitted(solid, &placement.goal, &request.hardware.unwrap(), &allowances);
+    let allowances = Allowances {
+        clearance_mm: 0.0,
+        wall_mm: 1.0,
+    };
+    let made = fitted(
+        solid,
+        &placement.goal,
+        &request.hardware.unwrap(),
+        &allowances,
+    );
     (placement, made.map(Option::unwrap))
 }
 
 /// The moments of a cylinder of unit density about z through the origin, from z = `low` to `high`.
 fn upright(radius_mm: f64, [low, high]: [f64; 2]) -> Moments {
-    RoundBar::plain(Point::new(0.0, 0.0, low), Point::new(0.0, 0.0, high), radius_mm).moments()
+    RoundBar::plain(
+        Point::new(0.0, 0.0, low),
+        Point::new(0.0, 0.0, high),
+        radius_mm,
+    )
+    .moments()
 }
 
 #[test]
@@ -51,15 +79,23 @@ fn a_balls_halves_moved_apart_have_the_inertia_of_the_parallel_axes() {
     let (gap, depth, bore) = (3.0, 8.0, 2.0);
     let (_, fitted) = made(&ball(), &yoyo("3mm", "4mm"));
     let fitted = fitted.unwrap();
-    let socket =
-        upright(bore, [0.5 * gap, 0.5 * gap + depth]) + upright(bore, [-0.5 * gap - depth, -0.5 * gap]);
+    let socket = upright(bore, [0.5 * gap, 0.5 * gap + depth])
+        + upright(bore, [-0.5 * gap - depth, -0.5 * gap]);
     let body = Body::new(&(moments_of_mesh(fitted.solid.mesh()) + socket), 1.0);
     let mass = 4.0 / 3.0 * PI * RADIUS.powi(3);
     let about = 0.4 * mass * RADIUS * RADIUS;
     let across = about + mass * (0.375 * RADIUS * gap + 0.25 * gap * gap);
     assert!((body.mass_g / mass - 1.0).abs() < ROUND);
-    assert!((body.inertia_g_mm2[(2, 2)] / about - 1.0).abs() < 2.0 * ROUND, "{}", body.inertia_g_mm2);
-    assert!((body.inertia_g_mm2[(0, 0)] / across - 1.0).abs() < 2.0 * ROUND, "{}", body.inertia_g_mm2);
+    assert!(
+        (body.inertia_g_mm2[(2, 2)] / about - 1.0).abs() < 2.0 * ROUND,
+        "{}",
+        body.inertia_g_mm2
+    );
+    assert!(
+        (body.inertia_g_mm2[(0, 0)] / across - 1.0).abs() < 2.0 * ROUND,
+        "{}",
+        body.inertia_g_mm2
+    );
     assert!(body.center.coords.norm() < 1e-3);
 }
 
@@ -73,13 +109,19 @@ fn the_axle_weighs_what_a_steel_cylinder_weighs_and_counts_by_its_density() {
     assert!((moments.volume() / (5.0 * 4.0 * PI * length) - 1.0).abs() < 1e-12);
     assert!((moments.0[9] / (5.0 * 4.0 * PI * length.powi(3) / 12.0) - 1.0).abs() < 1e-12);
     assert_eq!((fitted.pieces.len(), fitted.gap_mm), (1, 3.0));
-    assert_eq!((fitted.pieces[0].depth_mm, fitted.pieces[0].bore_mm), (8.0, 4.0));
+    assert_eq!(
+        (fitted.pieces[0].depth_mm, fitted.pieces[0].bore_mm),
+        (8.0, 4.0)
+    );
 }
 
 #[test]
 fn nuts_and_bearings_have_the_mass_that_was_said() {
     let mut request = yoyo("3mm", "4mm");
-    request.hardware = request.hardware.map(|hardware| Hardware { mass_g: Some(2.5), ..hardware });
+    request.hardware = request.hardware.map(|hardware| Hardware {
+        mass_g: Some(2.5),
+        ..hardware
+    });
     let fitted = made(&ball(), &request).1.unwrap();
     let ring = fitted.pieces[1];
     assert_eq!(ring.kind, Kind::Ring);
@@ -92,7 +134,10 @@ fn nuts_and_bearings_have_the_mass_that_was_said() {
 #[test]
 fn the_cut_passes_through_the_spin_point_that_was_chosen() {
     let at = [0.0, 0.0, 5.0];
-    let request = Request { spin_point: Some(SpinPoint::At(at)), ..yoyo("2mm", "3mmx10mm") };
+    let request = Request {
+        spin_point: Some(SpinPoint::At(at)),
+        ..yoyo("2mm", "3mmx10mm")
+    };
     let (placement, fitted) = made(&ball(), &request);
     let fitted = fitted.unwrap();
     let mut halves = bodies(fitted.solid.mesh());
@@ -102,7 +147,9 @@ fn the_cut_passes_through_the_spin_point_that_was_chosen() {
     assert!((halves[0].signed_volume_mm3() / cap - 1.0).abs() < 5.0 * ROUND);
     let q = placement.goal.frame.origin;
     assert_eq!(q, Point::from(at));
-    assert!((halves[0].aabb().min.z - 6.0).abs() < 1e-3 && (halves[1].aabb().max.z - 4.0).abs() < 1e-3);
+    assert!(
+        (halves[0].aabb().min.z - 6.0).abs() < 1e-3 && (halves[1].aabb().max.z - 4.0).abs() < 1e-3
+    );
 }
 
 #[test]
@@ -112,7 +159,9 @@ fn an_axle_goes_as_deep_as_both_halves_let_it_and_one_that_would_come_out_is_ref
     let fitted = made(&plate, &yoyo("2mm", "3mm")).1.unwrap();
     assert_eq!(fitted.pieces[0].depth_mm, 3.75);
     let refused = made(&plate, &yoyo("2mm", "3mmx11mm")).1;
-    assert!(matches!(refused, Err(FitError::Seat(SeatError::BreaksOut { depth_mm, .. })) if depth_mm == 4.5));
+    assert!(
+        matches!(refused, Err(FitError::Seat(SeatError::BreaksOut { depth_mm, .. })) if depth_mm == 4.5)
+    );
     // A bolt right through is no socket that comes out.
     let through = made(&plate, &yoyo("2mm", "3mmx30mm")).1.unwrap();
     let drilled = 2.0 * 5.0 * (1600.0 - PI * 2.25);
@@ -122,14 +171,26 @@ fn an_axle_goes_as_deep_as_both_halves_let_it_and_one_that_would_come_out_is_ref
 #[test]
 fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
     // A block with a hook: an arm out of its lower half that ends in a finger pointing up past the middle.
-    let csg =
-        |min: [f64; 3], max: [f64; 3]| Csg::of_mesh(&primitives::cuboid(&min.into(), &max.into())).unwrap();
-    let arm =
-        csg([10.0, -2.0, -9.0], [20.0, 2.0, -5.0]).union(&csg([16.0, -2.0, -9.0], [20.0, 2.0, 6.0])).unwrap();
-    let hooked = csg([-12.0, -12.0, -10.0], [12.0, 12.0, 10.0]).union(&arm).unwrap().to_solid().unwrap();
-    let request = Request { spin_point: Some(SpinPoint::At([0.0; 3])), ..yoyo("2mm", "4mm") };
+    let csg = |min: [f64; 3], max: [f64; 3]| {
+        Csg::of_mesh(&primitives::cuboid(&min.into(), &max.into())).unwrap()
+    };
+    let arm = csg([10.0, -2.0, -9.0], [20.0, 2.0, -5.0])
+        .union(&csg([16.0, -2.0, -9.0], [20.0, 2.0, 6.0]))
+        .unwrap();
+    let hooked = csg([-12.0, -12.0, -10.0], [12.0, 12.0, 10.0])
+        .union(&arm)
+        .unwrap()
+        .to_solid()
+        .unwrap();
+    let request = Request {
+        spin_point: Some(SpinPoint::At([0.0; 3])),
+        ..yoyo("2mm", "4mm")
+    };
     let fitted = made(&hooked, &request).1.unwrap();
-    let volumes: Vec<f64> = bodies(fitted.solid.mesh()).iter().map(TriMesh::signed_volume_mm3).collect();
+    let volumes: Vec<f64> = bodies(fitted.solid.mesh())
+        .iter()
+        .map(TriMesh::signed_volume_mm3)
+        .collect();
     let socket = PI * 4.0 * 8.0;
     let (block, finger) = (24.0 * 24.0 * 10.0, 16.0 * 6.0);
     let arm_below = 8.0 * 4.0 * 4.0 + 16.0 * 5.0;
@@ -137,7 +198,10 @@ fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
     assert_eq!(volumes.len(), 2);
     assert!((found / (block - socket) - 1.0).abs() < 1e-4, "{found}");
     let whole: f64 = volumes.iter().sum();
-    assert!((whole / (2.0 * (block - socket) + finger + arm_below) - 1.0).abs() < 1e-4, "{whole}");
+    assert!(
+        (whole / (2.0 * (block - socket) + finger + arm_below) - 1.0).abs() < 1e-4,
+        "{whole}"
+    );
 }
 
 #[test]
@@ -147,7 +211,9 @@ fn a_top_touches_with_the_end_of_its_tip_and_stands_higher_by_what_sticks_out() 
     let fitted = fitted.unwrap();
     assert!((placement.goal.frame.origin - Point::new(15.0, 15.0, -4.0)).norm() < 1e-12);
     assert!(placement.keeps.is_empty() && placement.warnings.is_empty());
-    let [tip, stem] = fitted.pieces[..] else { panic!("{fitted:?}") };
+    let [tip, stem] = fitted.pieces[..] else {
+        panic!("{fitted:?}")
+    };
     assert!((tip.bar.to - placement.goal.frame.origin).norm() < 1e-12 && tip.bar.is_round);
     assert!((tip.bar.from.z - 6.0).abs() < 1e-12);
     assert!((stem.bar.from.z - 7.0).abs() < 1e-12 && (stem.bar.to.z - 27.0).abs() < 1e-12);
@@ -164,10 +230,16 @@ fn a_heavier_tip_puts_the_centre_of_the_same_top_lower() {
         let (placement, fitted) = made(&solid, &top(Some(tip), None));
         let fitted = fitted.unwrap();
         let whole = moments_of_mesh(fitted.solid.mesh()) + fitted.moments(1.18);
-        Body::new(&whole.in_frame(&placement.goal.frame), 1.0).center.z
+        Body::new(&whole.in_frame(&placement.goal.frame), 1.0)
+            .center
+            .z
     };
-    let [light, steel, tungsten] = ["6mmx10mmx5mm:1.18", "6mmx10mmx5mm", "6mmx10mmx5mm:19.3"].map(height);
-    assert!(tungsten < steel && steel < light, "{tungsten} {steel} {light}");
+    let [light, steel, tungsten] =
+        ["6mmx10mmx5mm:1.18", "6mmx10mmx5mm", "6mmx10mmx5mm:19.3"].map(height);
+    assert!(
+        tungsten < steel && steel < light,
+        "{tungsten} {steel} {light}"
+    );
 }
 
 #[test]
@@ -182,11 +254,26 @@ fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
         corner(0., 0., 1.),
         corner(0., 0., -1.),
     ];
-    let faces = [[0, 2, 4], [2, 1, 4], [1, 3, 4], [3, 0, 4], [2, 0, 5], [1, 2, 5], [3, 1, 5], [0, 3, 5]];
+    let faces = [
+        [0, 2, 4],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
     let solid = Solid::new(TriMesh::new(vertices, faces.to_vec()).unwrap()).unwrap();
     let held = |tip: &str| made(&solid, &top(Some(tip), None)).1;
-    assert!(matches!(held("4mmx8mmx3mm"), Err(FitError::Seat(SeatError::BreaksOut { what: "tip", .. }))));
-    assert!(matches!(held("4mmx12mmx6mm"), Err(FitError::Seat(SeatError::HardlyHeld { .. }))));
+    assert!(matches!(
+        held("4mmx8mmx3mm"),
+        Err(FitError::Seat(SeatError::BreaksOut { what: "tip", .. }))
+    ));
+    assert!(matches!(
+        held("4mmx12mmx6mm"),
+        Err(FitError::Seat(SeatError::HardlyHeld { .. }))
+    ));
     assert!(held("4mmx20mmx14mm").is_ok());
 }
 
@@ -194,7 +281,13 @@ fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
 fn a_turned_axis_gives_the_same_halves() {
     let solid = block([30.0, 24.0, 36.0]);
     let along = |up: Up| {
-        let (placement, fitted) = made(&solid, &Request { up, ..yoyo("3mm", "4mm") });
+        let (placement, fitted) = made(
+            &solid,
+            &Request {
+                up,
+                ..yoyo("3mm", "4mm")
+            },
+        );
         let local = moments_of_mesh(fitted.unwrap().solid.mesh()).in_frame(&placement.goal.frame);
         Body::new(&local, 1.0).inertia_g_mm2[(2, 2)]
     };

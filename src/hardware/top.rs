@@ -24,8 +24,17 @@ struct Standing {
 }
 
 /// The model with the sockets of its tip and stem. The tip ends in the goal's origin.
-pub(super) fn fitted(workshop: &Workshop, tip: Option<Rod>, stem: Option<Rod>) -> Result<Fitted, FitError> {
-    let tip = tip.map(|rod| Standing { kind: Kind::Tip, rod, inner_mm: rod.length_mm(), outer_mm: 0.0 });
+pub(super) fn fitted(
+    workshop: &Workshop,
+    tip: Option<Rod>,
+    stem: Option<Rod>,
+) -> Result<Fitted, FitError> {
+    let tip = tip.map(|rod| Standing {
+        kind: Kind::Tip,
+        rod,
+        inner_mm: rod.length_mm(),
+        outer_mm: 0.0,
+    });
     let stem = stem.map(|rod| standing_stem(workshop, rod)).transpose()?;
     let rods: Vec<Standing> = tip.into_iter().chain(stem).collect();
     let mut body = Csg::of_solid(workshop.solid)?;
@@ -34,17 +43,28 @@ pub(super) fn fitted(workshop: &Workshop, tip: Option<Rod>, stem: Option<Rod>) -
     }
     let solid = Solid::new(body.without_slivers().to_mesh()?)?;
     let pieces = rods.iter().map(|rod| piece(workshop, rod)).collect();
-    Ok(Fitted { solid, pieces, gap_mm: 0.0 })
+    Ok(Fitted {
+        solid,
+        pieces,
+        gap_mm: 0.0,
+    })
 }
 
 /// The stem goes in where the axis leaves the model for good.
 fn standing_stem(workshop: &Workshop, rod: Rod) -> Result<Standing, FitError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
-    let heights = mesh
-        .iter_corners()
-        .filter_map(|corners| height_over_origin(corners.map(|corner| frame.to_local(&corner).coords), 0.0));
-    let top_mm = heights.max_by(f64::total_cmp).ok_or(FitError::NoAxis(Kind::Stem.word()))?;
-    Ok(Standing { kind: Kind::Stem, rod, inner_mm: top_mm - rod.depth_mm(), outer_mm: top_mm + rod.out_mm() })
+    let heights = mesh.iter_corners().filter_map(|corners| {
+        height_over_origin(corners.map(|corner| frame.to_local(&corner).coords), 0.0)
+    });
+    let top_mm = heights
+        .max_by(f64::total_cmp)
+        .ok_or(FitError::NoAxis(Kind::Stem.word()))?;
+    Ok(Standing {
+        kind: Kind::Stem,
+        rod,
+        inner_mm: top_mm - rod.depth_mm(),
+        outer_mm: top_mm + rod.out_mm(),
+    })
 }
 
 fn bored(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, FitError> {
@@ -53,7 +73,14 @@ fn bored(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, FitErro
     let inward = (rod.inner_mm - rod.outer_mm).signum();
     let mouth_mm = rod.inner_mm - inward * rod.rod.depth_mm();
     let (what, wall_mm, bottom_mm) = (rod.kind.word(), allowances.wall_mm, rod.inner_mm);
-    Bore { what, radius_mm, wall_mm, mouth_mm, bottom_mm }.check(workshop.solid.mesh(), frame)?;
+    Bore {
+        what,
+        radius_mm,
+        wall_mm,
+        mouth_mm,
+        bottom_mm,
+    }
+    .check(workshop.solid.mesh(), frame)?;
     let beyond_mm = rod.outer_mm - inward * BEYOND_MM;
     let ends_mm = [rod.inner_mm.min(beyond_mm), rod.inner_mm.max(beyond_mm)];
     Ok(body.subtract(&prism(frame, radius_mm, ends_mm)?)?)
@@ -65,7 +92,10 @@ fn piece(workshop: &Workshop, rod: &Standing) -> Piece {
     let plain = RoundBar::plain(at(rod.inner_mm), at(rod.outer_mm), rod.rod.radius_mm());
     Piece {
         kind: rod.kind,
-        bar: RoundBar { is_round: rod.kind == Kind::Tip, ..plain },
+        bar: RoundBar {
+            is_round: rod.kind == Kind::Tip,
+            ..plain
+        },
         density_g_cm3: rod.rod.density_g_cm3,
         depth_mm: rod.rod.depth_mm(),
         bore_mm: 2.0 * workshop.bore_radius_mm(&rod.rod),

@@ -15,7 +15,12 @@ const DEPTHS_DIAMETERS: [f64; 7] = [2.0, 1.75, 1.5, 1.25, 1.0, 0.75, 0.5];
 
 /// The model cut across the axis at the spin point, bored for the axle, its halves `gap_mm` apart; `ring_g` is the mass of what
 /// sits on the axle in the gap.
-pub(super) fn fitted(workshop: &Workshop, axle: Rod, gap_mm: f64, ring_g: f64) -> Result<Fitted, FitError> {
+pub(super) fn fitted(
+    workshop: &Workshop,
+    axle: Rod,
+    gap_mm: f64,
+    ring_g: f64,
+) -> Result<Fitted, FitError> {
     let frame = &workshop.goal.frame;
     let radius_mm = workshop.bore_radius_mm(&axle);
     let depth_mm = depth_mm(workshop, &axle, gap_mm)?;
@@ -23,23 +28,46 @@ pub(super) fn fitted(workshop: &Workshop, axle: Rod, gap_mm: f64, ring_g: f64) -
     let bored = prism(frame, radius_mm, [-depth_mm, depth_mm])?;
     let apart = |half: &Csg, side: f64| -> Result<_, FitError> {
         let shift = frame.axis() * (0.5 * side * gap_mm);
-        Ok(half.subtract(&bored)?.without_slivers().to_mesh()?.map_vertices(|p| p + shift))
+        Ok(half
+            .subtract(&bored)?
+            .without_slivers()
+            .to_mesh()?
+            .map_vertices(|p| p + shift))
     };
     let (upper, lower) = rayon::join(|| apart(&upper, 1.0), || apart(&lower, -1.0));
     let solid = Solid::new(upper?.joined(&lower?))?;
-    let placed = Placed { axle, length_mm: gap_mm + 2.0 * depth_mm, gap_mm };
-    Ok(Fitted { solid, pieces: pieces(workshop, &placed, ring_g), gap_mm })
+    let placed = Placed {
+        axle,
+        length_mm: gap_mm + 2.0 * depth_mm,
+        gap_mm,
+    };
+    Ok(Fitted {
+        solid,
+        pieces: pieces(workshop, &placed, ring_g),
+        gap_mm,
+    })
 }
 
 /// How deep the axle goes into each half, mm: as its length says, or else as deep as both halves have a wall about it.
 fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
-    let sockets = |depth_mm: f64| [depth_mm, -depth_mm].map(|bottom_mm| socket(workshop, axle, bottom_mm));
-    let seats = |depth_mm| sockets(depth_mm).iter().try_for_each(|socket| socket.check(mesh, frame));
+    let sockets =
+        |depth_mm: f64| [depth_mm, -depth_mm].map(|bottom_mm| socket(workshop, axle, bottom_mm));
+    let seats = |depth_mm| {
+        sockets(depth_mm)
+            .iter()
+            .try_for_each(|socket| socket.check(mesh, frame))
+    };
     if let Some(length) = axle.length {
         let depth_mm = 0.5 * (length.mm() - gap_mm);
-        let is_through = sockets(depth_mm).iter().all(|socket| socket.passes_through(mesh, frame));
-        return if is_through { Ok(depth_mm) } else { seats(depth_mm).map(|()| depth_mm) };
+        let is_through = sockets(depth_mm)
+            .iter()
+            .all(|socket| socket.passes_through(mesh, frame));
+        return if is_through {
+            Ok(depth_mm)
+        } else {
+            seats(depth_mm).map(|()| depth_mm)
+        };
     }
     let depths = DEPTHS_DIAMETERS.map(|depth| depth * axle.diameter.mm());
     let deepest = depths.into_iter().find(|&depth_mm| seats(depth_mm).is_ok());
@@ -50,7 +78,13 @@ fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatErr
 /// The axle's socket from the cut to a height above or below it.
 fn socket(workshop: &Workshop, axle: &Rod, bottom_mm: f64) -> Bore {
     let (what, wall_mm) = (Kind::Axle.word(), workshop.allowances.wall_mm);
-    Bore { what, radius_mm: workshop.bore_radius_mm(axle), wall_mm, mouth_mm: 0.0, bottom_mm }
+    Bore {
+        what,
+        radius_mm: workshop.bore_radius_mm(axle),
+        wall_mm,
+        mouth_mm: 0.0,
+        bottom_mm,
+    }
 }
 
 /// An axle in its place.
@@ -62,10 +96,15 @@ struct Placed {
 
 /// The axle through the spin point, and the ring of what sits on it.
 fn pieces(workshop: &Workshop, placed: &Placed, ring_g: f64) -> Vec<Piece> {
-    let Placed { axle, length_mm, gap_mm } = *placed;
+    let Placed {
+        axle,
+        length_mm,
+        gap_mm,
+    } = *placed;
     let at = |z: f64| workshop.goal.frame.to_model(&Point::new(0.0, 0.0, z));
-    let about_q =
-        |length_mm: f64, radius_mm| RoundBar::plain(at(-0.5 * length_mm), at(0.5 * length_mm), radius_mm);
+    let about_q = |length_mm: f64, radius_mm| {
+        RoundBar::plain(at(-0.5 * length_mm), at(0.5 * length_mm), radius_mm)
+    };
     let rod = Piece {
         kind: Kind::Axle,
         bar: about_q(length_mm, axle.radius_mm()),
@@ -73,7 +112,10 @@ fn pieces(workshop: &Workshop, placed: &Placed, ring_g: f64) -> Vec<Piece> {
         depth_mm: 0.5 * (length_mm - gap_mm),
         bore_mm: 2.0 * workshop.bore_radius_mm(&axle),
     };
-    let around = RoundBar { hole_mm: axle.radius_mm(), ..about_q(gap_mm, 0.5 * axle.fitting_diameter_mm()) };
+    let around = RoundBar {
+        hole_mm: axle.radius_mm(),
+        ..about_q(gap_mm, 0.5 * axle.fitting_diameter_mm())
+    };
     let ring = Piece {
         kind: Kind::Ring,
         bar: around,
@@ -81,5 +123,7 @@ fn pieces(workshop: &Workshop, placed: &Placed, ring_g: f64) -> Vec<Piece> {
         depth_mm: 0.0,
         bore_mm: 0.0,
     };
-    std::iter::once(rod).chain((ring_g > 0.0).then_some(ring)).collect()
+    std::iter::once(rod)
+        .chain((ring_g > 0.0).then_some(ring))
+        .collect()
 }

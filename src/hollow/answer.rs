@@ -37,11 +37,21 @@ pub(super) struct Answer {
 
 impl Answer {
     pub fn new(objective: Objective, climb: Climb) -> Self {
-        Self { objective, climb, verdict: None, height: None, lever: None, bound_over_heights: None }
+        Self {
+            objective,
+            climb,
+            verdict: None,
+            height: None,
+            lever: None,
+            bound_over_heights: None,
+        }
     }
 
     pub fn with_verdict(self, verdict: Status) -> Self {
-        Self { verdict: Some(verdict), ..self }
+        Self {
+            verdict: Some(verdict),
+            ..self
+        }
     }
 
     /// The solution in mm.
@@ -57,7 +67,11 @@ impl Answer {
             certificate,
             moments: scale.moments_to_mm(&best.extreme.s),
             passes: work.reach.passes(),
-            warm: Warm { point: best.point.clone(), height: self.height, lever: self.lever },
+            warm: Warm {
+                point: best.point.clone(),
+                height: self.height,
+                lever: self.lever,
+            },
             log: work.into_log(),
         }
     }
@@ -72,7 +86,10 @@ impl Answer {
             (None, _) if residual <= USABLE_RESIDUAL && gap_ratio.abs() <= USABLE_GAP_RATIO => {
                 Status::AlmostSolved
             }
-            (None, _) => Status::IterationLimit { gap_ratio, residual },
+            (None, _) => Status::IterationLimit {
+                gap_ratio,
+                residual,
+            },
         }
     }
 
@@ -80,7 +97,13 @@ impl Answer {
         let figure = figure_of(self.objective, self.verdict);
         let best = &self.climb.best;
         let impossible = matches!(self.climb.end, End::Infeasible(_));
-        let in_figure = |ratio| if impossible { f64::NAN } else { self.in_figure(work, figure, ratio) };
+        let in_figure = |ratio| {
+            if impossible {
+                f64::NAN
+            } else {
+                self.in_figure(work, figure, ratio)
+            }
+        };
         Certificate {
             figure,
             value: in_figure(best.value),
@@ -93,14 +116,22 @@ impl Answer {
 
     /// Its ascent, pass by pass, in a figure.
     pub fn course(&self, work: &Work, figure: Figure) -> Vec<Pass> {
-        let passes =
-            self.climb.course.iter().map(|pass| pass.map(|ratio| self.in_figure(work, figure, ratio)));
+        let passes = self
+            .climb
+            .course
+            .iter()
+            .map(|pass| pass.map(|ratio| self.in_figure(work, figure, ratio)));
         passes.filter(Pass::is_finite).collect()
     }
 
     /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
     pub fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
-        Self::figure_of_ratio(work, (self.objective, figure), &self.climb.best.extreme.s, ratio)
+        Self::figure_of_ratio(
+            work,
+            (self.objective, figure),
+            &self.climb.best.extreme.s,
+            ratio,
+        )
     }
 
     /// The same for an interior of these moments.
@@ -111,7 +142,9 @@ impl Answer {
         ratio: f64,
     ) -> f64 {
         match figure {
-            Figure::CriticalSpeedRpm => to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt()),
+            Figure::CriticalSpeedRpm => {
+                to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt())
+            }
             Figure::SpinIt => functional(work, objective, s, ratio),
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
@@ -130,7 +163,9 @@ impl Answer {
 
 /// Spin-It's functional of an interior with these moments and this inertia ratio.
 pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
-    let Objective::SpinIt { gamma_c, gamma_i } = objective else { return ratio * ratio };
+    let Objective::SpinIt { gamma_c, gamma_i } = objective else {
+        return ratio * ratio;
+    };
     if gamma_c == 0.0 || work.goal.kind != GoalKind::Top {
         return gamma_i * ratio * ratio;
     }
@@ -140,19 +175,30 @@ pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
 
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
     match verdict {
-        Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => Figure::DominanceRatio,
+        Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => {
+            Figure::DominanceRatio
+        }
         _ => figure_for(objective),
     }
 }
 
 fn infeasible(work: &Work, climb: &Climb, least_miss: f64) -> Status {
     let separator = work.reach.scale.quadric_to_mm(&climb.best.quadric);
-    Status::ConstraintsInfeasible { obstacle: obstacle(&climb.best.quadric), least_miss, separator }
+    Status::ConstraintsInfeasible {
+        obstacle: obstacle(&climb.best.quadric),
+        least_miss,
+        separator,
+    }
 }
 
 /// Which constraints the separating quadric is made of.
 fn obstacle(separator: &Vector10) -> Obstacle {
-    let squared = |moments: &[usize]| moments.iter().map(|&i| separator[i] * separator[i]).sum::<f64>();
+    let squared = |moments: &[usize]| {
+        moments
+            .iter()
+            .map(|&i| separator[i] * separator[i])
+            .sum::<f64>()
+    };
     let center = squared(&[index::X, index::Y, index::Z]);
     let axis = squared(&[index::XZ, index::YZ]);
     let share = center / (center + axis);

@@ -75,7 +75,10 @@ impl Visit {
 
     /// Its ratio and its bound.
     pub fn pass(&self) -> Pass {
-        Pass { value: self.value, bound: self.bound }
+        Pass {
+            value: self.value,
+            bound: self.bound,
+        }
     }
 
     /// How far the rows are from met, in the solver's units.
@@ -145,7 +148,11 @@ pub(super) struct Climb {
 impl Climb {
     /// No ascent, only a visit.
     pub fn of(visit: Visit) -> Self {
-        Self { course: vec![visit.pass()], best: visit, end: End::Stalled }
+        Self {
+            course: vec![visit.pass()],
+            best: visit,
+            end: End::Stalled,
+        }
     }
 
     /// The same ascent with what it began after.
@@ -187,7 +194,11 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
     let mut stride = Stride::first(programme, budget);
     let mut course = vec![here.pass()];
     loop {
-        let done = |end| Climb { best: here.clone(), end, course: course.clone() };
+        let done = |end| Climb {
+            best: here.clone(),
+            end,
+            course: course.clone(),
+        };
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
@@ -206,7 +217,10 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
             stride = Stride::first(programme, budget);
             step = Step::from(&here, programme, &stride);
         }
-        if budget.slack.is_some_and(|slack| here.suffices(step.gain(), slack)) {
+        if budget
+            .slack
+            .is_some_and(|slack| here.suffices(step.gain(), slack))
+        {
             return done(End::Converged);
         }
         let there = Visit::new(reach, programme, step.to.clone());
@@ -232,7 +246,10 @@ struct Stride {
 
 impl Stride {
     fn first(programme: &Programme, budget: Budget) -> Self {
-        Self { damping: budget.first_damping, moves_ratio: programme.is_ratio() }
+        Self {
+            damping: budget.first_damping,
+            moves_ratio: programme.is_ratio(),
+        }
     }
 
     /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says of it.
@@ -283,19 +300,37 @@ impl Step {
     fn from(here: &Visit, programme: &Programme, stride: &Stride) -> Self {
         let turning = programme.turning();
         let w = &here.extreme.w;
-        let ratio_step = if stride.moves_ratio { here.dual / here.denominator } else { 0.0 };
+        let ratio_step = if stride.moves_ratio {
+            here.dual / here.denominator
+        } else {
+            0.0
+        };
         let eased = w * programme.denominator * ratio_step;
         let mut slope = &turning * here.extreme.s;
-        slope.rows_mut(programme.directions.nrows(), programme.rhs.len()).copy_from(&here.misses);
-        let model = Model { slope: slope + &turning * eased, curvature: &turning * w * turning.transpose() };
+        slope
+            .rows_mut(programme.directions.nrows(), programme.rhs.len())
+            .copy_from(&here.misses);
+        let model = Model {
+            slope: slope + &turning * eased,
+            curvature: &turning * w * turning.transpose(),
+        };
         let (y, lambda) = model.maximiser(&here.point, programme, stride.damping);
 
         let (dy, dl) = (&y - &here.point.y, &lambda - &here.point.lambda);
         let step = DVector::from_iterator(dy.len() + dl.len(), dy.iter().chain(dl.iter()).copied());
-        let fall = ratio_step * here.denominator + 0.5 * ratio_step * programme.denominator.dot(&eased);
+        let fall =
+            ratio_step * here.denominator + 0.5 * ratio_step * programme.denominator.dot(&eased);
         let standing = here.dual - fall;
         let promised = standing + model.gain(&step);
-        Self { to: DualPoint { y, lambda, tau: here.point.tau + ratio_step }, promised, standing }
+        Self {
+            to: DualPoint {
+                y,
+                lambda,
+                tau: here.point.tau + ratio_step,
+            },
+            promised,
+            standing,
+        }
     }
 }
 
@@ -322,15 +357,20 @@ impl Model {
         let n = k + m;
         let mean = (self.curvature.trace() / n as f64).max(LEAST_CURVATURE);
         let damped = &self.curvature + DMatrix::identity(n, n) * (mean * damping);
-        let (yy, yl, ll) =
-            (damped.view((0, 0), (k, k)), damped.view((0, k), (k, m)), damped.view((k, k), (m, m)));
+        let (yy, yl, ll) = (
+            damped.view((0, 0), (k, k)),
+            damped.view((0, k), (k, m)),
+            damped.view((k, k), (m, m)),
+        );
         let (slope_y, slope_l) = (self.slope.rows(0, k), self.slope.rows(k, m).into_owned());
         let Some(inner) = ll.into_owned().cholesky() else {
             return (from.y.clone(), &from.lambda + slope_l / mean);
         };
         let schur = yy - yl * inner.solve(&yl.transpose());
         let reduced = slope_y - yl * inner.solve(&slope_l);
-        let y = programme.set.minimise(&schur, &(reduced + &schur * &from.y), &from.y);
+        let y = programme
+            .set
+            .minimise(&schur, &(reduced + &schur * &from.y), &from.y);
         let follows = inner.solve(&(slope_l - yl.tr_mul(&(&y - &from.y))));
         (y, &from.lambda + follows)
     }
@@ -338,15 +378,29 @@ impl Model {
 
 fn is_suspicious(visit: &Visit, programme: &Programme) -> bool {
     let multipliers = visit.point.lambda.norm();
-    programme.is_homogeneous() && multipliers > SUSPICIOUS_MULTIPLIER * (1.0 + visit.point.tau.abs())
+    programme.is_homogeneous()
+        && multipliers > SUSPICIOUS_MULTIPLIER * (1.0 + visit.point.tau.abs())
 }
 
 /// The proof that no interior meets the rows, if the multipliers point to one: D > 0 along them alone.
-fn separation(reach: &Reach, programme: &Programme, visit: &Visit, budget: Budget) -> Option<Climb> {
+fn separation(
+    reach: &Reach,
+    programme: &Programme,
+    visit: &Visit,
+    budget: Budget,
+) -> Option<Climb> {
     let direction = visit.point.lambda.normalize();
     let feasibility = programme.feasibility();
-    let start = DualPoint { y: direction, lambda: DVector::zeros(0), tau: 0.0 };
-    if feasibility.quadric(&start).dot(&reach.least(&feasibility.quadric(&start))) <= 0.0 {
+    let start = DualPoint {
+        y: direction,
+        lambda: DVector::zeros(0),
+        tau: 0.0,
+    };
+    if feasibility
+        .quadric(&start)
+        .dot(&reach.least(&feasibility.quadric(&start)))
+        <= 0.0
+    {
         return None;
     }
     refusal(reach, programme, start, budget)
@@ -361,8 +415,16 @@ pub(super) fn refusal(
 ) -> Option<Climb> {
     let feasibility = programme.feasibility();
     let start = Visit::new(reach, &feasibility, start);
-    let proof =
-        climb(reach, &feasibility, start, Budget { tolerance: PROOF_TOLERANCE, slack: None, ..budget });
+    let proof = climb(
+        reach,
+        &feasibility,
+        start,
+        Budget {
+            tolerance: PROOF_TOLERANCE,
+            slack: None,
+            ..budget
+        },
+    );
     let end = End::Infeasible(proof.best.bound);
     (proof.best.bound > 0.0).then_some(Climb { end, ..proof })
 }
@@ -401,7 +463,11 @@ mod tests {
             };
             let (more, less) = (at(step), at(-step));
             let slope = (more.dual - less.dual) / (2.0 * step);
-            assert!((slope - here.misses[row]).abs() < 1e-6, "{row}: {slope} {}", here.misses[row]);
+            assert!(
+                (slope - here.misses[row]).abs() < 1e-6,
+                "{row}: {slope} {}",
+                here.misses[row]
+            );
             // The curvature is a sum over 2 000 columns, of which a few cross their ends within the step.
             let bend = (&more.misses - &less.misses) / (-2.0 * step);
             let error = (bend - curvature.column(row)).amax();
@@ -429,7 +495,10 @@ mod tests {
             let mut other = point.clone();
             other.lambda *= f64::from(i) * 0.05;
             other.tau = 0.4 + 0.02 * f64::from(i);
-            assert!(Visit::new(&reach, &programme, other).bound <= best.best.value + 1e-8, "{i}");
+            assert!(
+                Visit::new(&reach, &programme, other).bound <= best.best.value + 1e-8,
+                "{i}"
+            );
         }
     }
 }

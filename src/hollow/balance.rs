@@ -21,8 +21,14 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     if is_balanced && !matches!(climb.end, End::Infeasible(_)) {
         return Answer::new(Objective::LeastRemoved, climb);
     }
-    let Some(spindle) = &work.goal.spindle else { return least_unbalanced(work, [-1.0, 1.0], start) };
-    let answer = least_unbalanced(work, spindle.ends_mm.map(|end| end / work.to_mm(1.0)), start);
+    let Some(spindle) = &work.goal.spindle else {
+        return least_unbalanced(work, [-1.0, 1.0], start);
+    };
+    let answer = least_unbalanced(
+        work,
+        spindle.ends_mm.map(|end| end / work.to_mm(1.0)),
+        start,
+    );
     match cannot_balance(work, spindle, &answer.climb) {
         Some(proof) => answer.with_verdict(proof),
         None => answer,
@@ -52,7 +58,10 @@ fn cannot_balance(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Statu
     quadric[0] += climb.best.point.tau - allowed;
     let least = quadric.dot(&work.reach.least(&quadric));
     let separator = work.reach.scale.quadric_to_mm(&quadric);
-    (least > 0.0).then_some(Status::CannotBalance { least_grade_mm_s, separator })
+    (least > 0.0).then_some(Status::CannotBalance {
+        least_grade_mm_s,
+        separator,
+    })
 }
 
 #[cfg(test)]
@@ -83,7 +92,10 @@ mod tests {
         let removed = 8.0 * (edge - k - k * (edge / k).ln());
         let world = worlds::coupled_rotor(couple);
         let got = solution(&world);
-        assert_eq!((got.status, got.certificate.figure), (Status::Solved, Figure::VolumeMm3));
+        assert_eq!(
+            (got.status, got.certificate.figure),
+            (Status::Solved, Figure::VolumeMm3)
+        );
         assert!(got.certificate.gap_ratio.abs() <= 1e-6 && got.certificate.residual <= 1e-7);
         let found = world.fixed.volume() - got.certificate.value;
         assert!((found / removed - 1.0).abs() < 2e-3, "{found} {removed}");
@@ -95,7 +107,10 @@ mod tests {
         let mut world = worlds::coupled_rotor(60.0);
         world.goal.objective = Objective::LeastUnbalance;
         let got = solution(&world);
-        assert_eq!((got.status, got.objective), (Status::Solved, Objective::LeastRemoved));
+        assert_eq!(
+            (got.status, got.objective),
+            (Status::Solved, Objective::LeastRemoved)
+        );
         assert!(unbalance_mm(&got.moments, [-3.0, 3.0]) < 1e-6);
     }
 
@@ -127,7 +142,11 @@ mod tests {
         let mut world = worlds::egg(Objective::Dominance).turning(6.0);
         let shift = crate::geom::Vector::new(-aside_mm, 0.0, 0.0);
         world.fixed = world.fixed.translated(&shift);
-        world.columns.centers.iter_mut().for_each(|center| center[0] += shift.x);
+        world
+            .columns
+            .centers
+            .iter_mut()
+            .for_each(|center| center[0] += shift.x);
         world.goal = crate::goal::Goal {
             kind: crate::goal::GoalKind::Balance,
             objective: Objective::LeastRemoved,
@@ -141,7 +160,11 @@ mod tests {
     fn an_axis_out_of_reach_is_refused_with_a_quadric_that_separates() {
         let world = egg_aside(6.0);
         let got = solution(&world);
-        let Status::CannotBalance { least_grade_mm_s, separator } = got.status else {
+        let Status::CannotBalance {
+            least_grade_mm_s,
+            separator,
+        } = got.status
+        else {
             panic!("{:?}", got.status)
         };
         assert!(least_grade_mm_s > 2.5 && got.status.is_impossible());
@@ -150,10 +173,15 @@ mod tests {
         assert!(least > 0.0, "{least}");
         let spindle = world.goal.spindle.unwrap();
         for seed in 0..200 {
-            let emptied =
-                crate::interior::moments_where_positive(&world.columns, &worlds::some_quadric(seed, 12.0));
+            let emptied = crate::interior::moments_where_positive(
+                &world.columns,
+                &worlds::some_quadric(seed, 12.0),
+            );
             let reached_mm = unbalance_mm(&(world.fixed - emptied), spindle.ends_mm);
-            assert!(grade_mm_s(&spindle, reached_mm) >= least_grade_mm_s * (1.0 - 1e-9), "{seed}");
+            assert!(
+                grade_mm_s(&spindle, reached_mm) >= least_grade_mm_s * (1.0 - 1e-9),
+                "{seed}"
+            );
         }
     }
 
@@ -162,10 +190,22 @@ mod tests {
         let mut world = egg_aside(0.5);
         let known = solution(&world);
         assert_eq!(known.status, Status::Solved);
-        assert!(unbalance_mm(&world.fixed, [-6.0, 6.0]) > 0.3, "it has something to lose");
+        assert!(
+            unbalance_mm(&world.fixed, [-6.0, 6.0]) > 0.3,
+            "it has something to lose"
+        );
         assert!(unbalance_mm(&known.moments, [-6.0, 6.0]) < 1e-6);
         world.fixed += Moments(Moments::monomials(5.0, 4.0, 3.0)) * (1e-4 * world.fixed.volume());
-        let again = refine(&world.problem(), &Settings::default(), &known, &Progress::silent());
-        assert!(again.status == Status::Solved && again.passes <= 8, "{}", again.passes);
+        let again = refine(
+            &world.problem(),
+            &Settings::default(),
+            &known,
+            &Progress::silent(),
+        );
+        assert!(
+            again.status == Status::Solved && again.passes <= 8,
+            "{}",
+            again.passes
+        );
     }
 }

@@ -70,17 +70,29 @@ pub fn least_ballast(
     settings: &Settings,
     progress: &Progress,
 ) -> Option<Ballast> {
-    let bench = |price| Work::new(problem, settings, progress).with(Heavy { density_ratio, price });
-    let shop = Shop { free: bench(0.0), priced: bench(PRICE) };
+    let bench = |price| {
+        Work::new(problem, settings, progress).with(Heavy {
+            density_ratio,
+            price,
+        })
+    };
+    let shop = Shop {
+        free: bench(0.0),
+        priced: bench(PRICE),
+    };
     let bought = match (problem.goal.kind, problem.goal.objective) {
         (GoalKind::Top, _) => shop.least_of_heights(),
-        (GoalKind::Yoyo, _) => shop.least(&|work| Programme::yoyo_dominance(&work.reach), STABLE_RATIO),
-        (GoalKind::Stand, Objective::LowestCenter) => {
-            shop.least(&|work| Programme::stand_lowest_center(&work.reach), f64::INFINITY)
+        (GoalKind::Yoyo, _) => {
+            shop.least(&|work| Programme::yoyo_dominance(&work.reach), STABLE_RATIO)
         }
-        (GoalKind::Stand, _) => {
-            shop.least(&|work| Programme::stand_toppling(&work.reach, problem.goal), -STANDING_RAD.tan())
-        }
+        (GoalKind::Stand, Objective::LowestCenter) => shop.least(
+            &|work| Programme::stand_lowest_center(&work.reach),
+            f64::INFINITY,
+        ),
+        (GoalKind::Stand, _) => shop.least(
+            &|work| Programme::stand_toppling(&work.reach, problem.goal),
+            -STANDING_RAD.tan(),
+        ),
         (GoalKind::Float, _) => shop.least_to_float(problem.goal.afloat?),
         (GoalKind::Balance, _) => shop.least_to_balance(&problem.goal.spindle?),
     }?;
@@ -97,9 +109,9 @@ pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
         }
         (_, Figure::TopplingAngleRad) => value >= STANDING_RAD,
         (_, Figure::MetacentricHeightMm) => value >= RIGHTING_MM,
-        (_, Figure::BalanceGradeMmS) => {
-            goal.spindle.is_none_or(|spindle| value <= GRADE_SHARE * spindle.rotor.grade_mm_s)
-        }
+        (_, Figure::BalanceGradeMmS) => goal
+            .spindle
+            .is_none_or(|spindle| value <= GRADE_SHARE * spindle.rotor.grade_mm_s),
         _ => true,
     };
     solution.is_usable() && is_enough
@@ -122,7 +134,11 @@ struct Look {
 
 impl Look {
     fn by_cost(&self, other: &Self) -> std::cmp::Ordering {
-        let cost = |look: &Self| look.bought.as_ref().map_or(f64::INFINITY, |bought| bought.cost);
+        let cost = |look: &Self| {
+            look.bought
+                .as_ref()
+                .map_or(f64::INFINITY, |bought| bought.cost)
+        };
         cost(self).total_cmp(&cost(other))
     }
 }
@@ -149,7 +165,10 @@ impl Shop<'_> {
     fn least_of_heights(&self) -> Option<Bought> {
         let [low, high] = Heights::range(&self.free).ok()?;
         let at = |height: f64| {
-            let bought = self.least(&|work| Programme::top_dominance(&work.reach, height), STABLE_RATIO);
+            let bought = self.least(
+                &|work| Programme::top_dominance(&work.reach, height),
+                STABLE_RATIO,
+            );
             Look { height, bought }
         };
         let width = (high - low) / HEIGHTS as f64;
@@ -157,22 +176,37 @@ impl Shop<'_> {
         let best = looks.min_by(Look::by_cost)?;
         let range = [best.height - width, best.height + width];
         let is_better = |left: &Look, right: &Look| Look::by_cost(left, right).is_lt();
-        let [left, right] = golden_section(range, GOLDEN_ROUNDS, at, (|look: &Look| look.height, is_better));
-        [best, left, right].into_iter().min_by(Look::by_cost)?.bought
+        let [left, right] = golden_section(
+            range,
+            GOLDEN_ROUNDS,
+            at,
+            (|look: &Look| look.height, is_better),
+        );
+        [best, left, right]
+            .into_iter()
+            .min_by(Look::by_cost)?
+            .bought
     }
 
     /// The least with which it has the right mass and its centre under the metacentre.
     fn least_to_float(&self, afloat: Afloat) -> Option<Bought> {
         let limit = (afloat.metacenter_mm - RIGHTING_MM) / self.free.to_mm(1.0);
-        self.least(&|work| Programme::float_lowest_center(&work.reach, &afloat), limit)
+        self.least(
+            &|work| Programme::float_lowest_center(&work.reach, &afloat),
+            limit,
+        )
     }
 
     /// The least with which a rotor reaches its grade.
     fn least_to_balance(&self, spindle: &Spindle) -> Option<Bought> {
         let length_mm = self.free.to_mm(1.0);
         let ends = spindle.ends_mm.map(|end| end / length_mm);
-        let limit = GRADE_SHARE * spindle.rotor.permissible_mm() / (std::f64::consts::SQRT_2 * length_mm);
-        self.least(&|work| Programme::balance_unbalance(&work.reach, ends), limit)
+        let limit =
+            GRADE_SHARE * spindle.rotor.permissible_mm() / (std::f64::consts::SQRT_2 * length_mm);
+        self.least(
+            &|work| Programme::balance_unbalance(&work.reach, ends),
+            limit,
+        )
     }
 
     /// The least ballast with which the rows of a programme are met and its ratio is at most `limit`.
@@ -196,18 +230,26 @@ impl Shop<'_> {
             bought.map(|bought| (is_kept(wish, limit, &bought.climb), bought))
         };
         let weights = std::iter::successors(Some(PRICE), |weight| Some(weight * WEIGHT_GROWTH));
-        let first = weights.take(MOST_GROWTHS).find_map(|weight| match keeping(weight)? {
-            (true, bought) => Some((weight, bought)),
-            (false, _) => None,
-        });
+        let first = weights
+            .take(MOST_GROWTHS)
+            .find_map(|weight| match keeping(weight)? {
+                (true, bought) => Some((weight, bought)),
+                (false, _) => None,
+            });
         let (mut heavy, mut kept) = first?;
-        let mut light = if heavy > PRICE { heavy / WEIGHT_GROWTH } else { 0.0 };
+        let mut light = if heavy > PRICE {
+            heavy / WEIGHT_GROWTH
+        } else {
+            0.0
+        };
         for _ in 0..MOST_BISECTIONS {
             if kept.cost - kept.bound <= PRECISION_RATIO * kept.cost {
                 break;
             }
             let middle = 0.5 * (light + heavy);
-            let Some((is_kept, bought)) = keeping(middle) else { break };
+            let Some((is_kept, bought)) = keeping(middle) else {
+                break;
+            };
             let bound = kept.bound.max(bought.bound);
             if is_kept {
                 (heavy, kept) = (middle, bought);
@@ -223,10 +265,16 @@ impl Shop<'_> {
     fn bought(&self, wish: &Programme, weight: f64, limit: f64) -> Option<Bought> {
         let programme = priced(wish, weight, limit);
         let start = programme.cold_start(&self.priced.reach);
-        let climb = self.priced.climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
+        let climb = self
+            .priced
+            .climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
         let is_met = climb.best.residual() <= ACCEPTED_RESIDUAL;
         // Without a ratio the limit is a constant, which the ascent knows nothing of.
-        let constant = if wish.is_ratio() || weight == 0.0 { 0.0 } else { weight * limit };
+        let constant = if wish.is_ratio() || weight == 0.0 {
+            0.0
+        } else {
+            weight * limit
+        };
         let (cost, bound) = (climb.best.extreme.cost, climb.best.bound - constant);
         (is_met && climb.end != End::Cancelled).then_some(Bought { climb, cost, bound })
     }
@@ -235,11 +283,21 @@ impl Shop<'_> {
 /// Minimise the cost plus the weighted excess n·s + max yᵀJs − limit·e·s, subject to the rows.
 fn priced(wish: &Programme, weight: f64, limit: f64) -> Programme {
     let has_limit = weight > 0.0;
-    let numerator =
-        if has_limit { (wish.numerator - wish.denominator * limit) * weight } else { Vector10::zeros() };
-    let directions =
-        if has_limit { &wish.directions * weight } else { DMatrix::zeros(0, Vector10::zeros().len()) };
-    let set = if has_limit { wish.set } else { super::set::DualSet::Ball };
+    let numerator = if has_limit {
+        (wish.numerator - wish.denominator * limit) * weight
+    } else {
+        Vector10::zeros()
+    };
+    let directions = if has_limit {
+        &wish.directions * weight
+    } else {
+        DMatrix::zeros(0, Vector10::zeros().len())
+    };
+    let set = if has_limit {
+        wish.set
+    } else {
+        super::set::DualSet::Ball
+    };
     Programme {
         numerator,
         directions,
@@ -264,7 +322,12 @@ mod tests {
     use crate::interior::moments_where_positive;
 
     fn ballast(world: &worlds::World, density_ratio: f64) -> Option<Ballast> {
-        least_ballast(&world.problem(), density_ratio, &Settings::default(), &Progress::silent())
+        least_ballast(
+            &world.problem(),
+            density_ratio,
+            &Settings::default(),
+            &Progress::silent(),
+        )
     }
 
     #[test]
@@ -273,12 +336,19 @@ mod tests {
         // x > 0 it gives A a²/2 towards −x, and steel from −a to −t a further (κ − 1) A (a² − t²)/2.
         let (half, area, first, density_ratio) = (8.0, 4.0, 700.0, 6.0);
         let world = worlds::beam(first);
-        let t2 = half * half - (first - area * half * half / 2.0) / ((density_ratio - 1.0) * area / 2.0);
+        let t2 =
+            half * half - (first - area * half * half / 2.0) / ((density_ratio - 1.0) * area / 2.0);
         let volume = area * (half - f64::sqrt(t2));
         let found = ballast(&world, density_ratio).unwrap();
         // Columns are a quarter of a millimetre wide; steel fills whole slabs of them, 1 mm³ each.
-        assert!((found.volume_mm3 - volume).abs() < 1.0, "{} {volume}", found.volume_mm3);
-        assert!(found.bound_mm3 <= found.volume_mm3 + 1e-9 && found.bound_mm3 > found.volume_mm3 - 1.0);
+        assert!(
+            (found.volume_mm3 - volume).abs() < 1.0,
+            "{} {volume}",
+            found.volume_mm3
+        );
+        assert!(
+            found.bound_mm3 <= found.volume_mm3 + 1e-9 && found.bound_mm3 > found.volume_mm3 - 1.0
+        );
         let filled = moments_where_positive(&world.columns, &found.filled);
         assert!(filled.centroid().x < -0.5 * half);
     }
@@ -298,25 +368,41 @@ mod tests {
         let mut least = f64::INFINITY;
         worlds::each_mixture(&world, density_ratio, |moments, blocks| {
             let figures = figures(&world.goal, moments);
-            if figures.toppling_angle_rad.is_some_and(|angle| angle >= STANDING_RAD) {
+            if figures
+                .toppling_angle_rad
+                .is_some_and(|angle| angle >= STANDING_RAD)
+            {
                 least = least.min(f64::from(blocks) * block_mm3);
             }
         });
         assert!(least.is_finite() && found.bound_mm3 > 0.0);
-        assert!(found.bound_mm3 <= least + 1e-9, "{} {least}", found.bound_mm3);
-        assert!(least <= found.volume_mm3 + block_mm3, "{} {least}", found.volume_mm3);
+        assert!(
+            found.bound_mm3 <= least + 1e-9,
+            "{} {least}",
+            found.bound_mm3
+        );
+        assert!(
+            least <= found.volume_mm3 + block_mm3,
+            "{} {least}",
+            found.volume_mm3
+        );
     }
 
     #[test]
     fn a_stump_is_made_a_top_by_steel_around_its_middle() {
         let world = worlds::stump(14.0);
-        let hollowed = super::super::solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let hollowed =
+            super::super::solve(&world.problem(), &Settings::default(), &Progress::silent());
         assert!(hollowed.status.is_impossible());
         let found = ballast(&world, 7.0).unwrap();
         let filled = moments_where_positive(&world.columns, &found.filled);
         let rest = world.columns.outside(&found.filled);
         let fixed = world.fixed + filled * 6.0;
-        let problem = Problem { goal: &world.goal, fixed, columns: &rest };
+        let problem = Problem {
+            goal: &world.goal,
+            fixed,
+            columns: &rest,
+        };
         let solution = super::super::solve(&problem, &Settings::default(), &Progress::silent());
         assert!(solution.is_usable(), "{:?}", solution.status);
         assert!(found.bound_mm3 > 0.98 * found.volume_mm3);

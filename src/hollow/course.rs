@@ -28,16 +28,23 @@ pub struct TopCourse {
 /// ascents, so coarse columns do.
 pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> TopCourse {
     let is_of_speed = known.certificate.figure == Figure::CriticalSpeedRpm;
-    let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height) else {
+    let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height)
+    else {
         return TopCourse::default();
     };
     let progress = Progress::silent();
     let work = Work::new(problem, settings, &progress);
-    let Ok(heights) = Heights::new(&work, Objective::CriticalSpeed) else { return TopCourse::default() };
+    let Ok(heights) = Heights::new(&work, Objective::CriticalSpeed) else {
+        return TopCourse::default();
+    };
     let programme = heights.programme(best.at);
     let climb = work.climb(&programme, programme.cold_start(&work.reach), 0.0);
-    let passes = Answer::new(Objective::CriticalSpeed, climb).course(&work, Figure::CriticalSpeedRpm);
-    TopCourse { passes, speeds: speeds(&heights) }
+    let passes =
+        Answer::new(Objective::CriticalSpeed, climb).course(&work, Figure::CriticalSpeedRpm);
+    TopCourse {
+        passes,
+        speeds: speeds(&heights),
+    }
 }
 
 /// The least speed at heights evenly apart over the range that can be had.
@@ -47,7 +54,9 @@ fn speeds(heights: &Heights) -> Vec<[f64; 2]> {
     let mut near = None;
     for index in 0..HEIGHTS {
         let height = low + (high - low) * (index as f64 + 0.5) / HEIGHTS as f64;
-        let Some(sample) = heights.sample(height, near.as_ref().map(|point| (point, None)), TOLERANCE) else {
+        let Some(sample) =
+            heights.sample(height, near.as_ref().map(|point| (point, None)), TOLERANCE)
+        else {
             continue;
         };
         near = Some(sample.climb.best.point.clone());
@@ -72,23 +81,50 @@ mod tests {
         let known = solve(&problem, &settings, &Progress::silent());
         let course = top_course(&problem, &settings, &known);
         let (value, bound) = (known.certificate.value, known.certificate.bound);
-        assert!(course.speeds.len() > HEIGHTS / 2 && course.speeds.is_sorted_by(|a, b| a[0] < b[0]));
-        let least = course.speeds.iter().map(|speed| speed[1]).fold(f64::INFINITY, f64::min);
+        assert!(
+            course.speeds.len() > HEIGHTS / 2 && course.speeds.is_sorted_by(|a, b| a[0] < b[0])
+        );
+        let least = course
+            .speeds
+            .iter()
+            .map(|speed| speed[1])
+            .fold(f64::INFINITY, f64::min);
         // No height is better than the bound; one of 33 is within half a step of the best, where the curve is flat.
-        assert!(least >= bound * (1.0 - TOLERANCE) && least < 1.05 * value, "{least} {value}");
+        assert!(
+            least >= bound * (1.0 - TOLERANCE) && least < 1.05 * value,
+            "{least} {value}"
+        );
         let last = course.passes.last().unwrap();
-        assert!((last.value / value - 1.0).abs() < 1e-6 && course.passes.len() > 2, "{:?}", course.passes);
+        assert!(
+            (last.value / value - 1.0).abs() < 1e-6 && course.passes.len() > 2,
+            "{:?}",
+            course.passes
+        );
     }
 
     #[test]
     fn what_is_no_top_has_no_heights_but_its_passes_end_at_its_certificate() {
-        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let world = worlds::egg(Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        });
         let (problem, settings) = (world.problem(), Settings::default());
         let known = solve(&problem, &settings, &Progress::silent());
-        assert_eq!(top_course(&problem, &settings, &known), TopCourse::default());
+        assert_eq!(
+            top_course(&problem, &settings, &known),
+            TopCourse::default()
+        );
         let last = known.course.last().unwrap();
-        assert_eq!((last.value, last.bound), (known.certificate.value, known.certificate.bound));
+        assert_eq!(
+            (last.value, last.bound),
+            (known.certificate.value, known.certificate.bound)
+        );
         // Every bound is one: none lies above the optimum by more than rounding.
-        assert!(known.course.iter().all(|pass| pass.bound <= known.certificate.value * (1.0 + 1e-9)));
+        assert!(
+            known
+                .course
+                .iter()
+                .all(|pass| pass.bound <= known.certificate.value * (1.0 + 1e-9))
+        );
     }
 }

@@ -78,21 +78,32 @@ pub(super) struct Stake {
 impl Stake {
     /// That no interior has a ratio below τ, by the dual point with this τ: D ≥ 0.
     fn of(programme: &Programme, point: &DualPoint) -> Self {
-        Self { direction: programme.quadric(point), least: programme.rhs.dot(&point.lambda) }
+        Self {
+            direction: programme.quadric(point),
+            least: programme.rhs.dot(&point.lambda),
+        }
     }
 }
 
 impl<'a> Cover<'a> {
     /// The claim about interiors of any lever.
     pub fn of_all(heights: &'a Heights<'a>, target: f64) -> Self {
-        Self { heights, target, lever: None, level_ratio: 0.0 }
+        Self {
+            heights,
+            target,
+            lever: None,
+            level_ratio: 0.0,
+        }
     }
 
     /// The posts that prove the claim at every height of the range, from the bottom of a valley up and down.
     pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let best = &bottom.sample.climb.best;
         let margin = (best.bound - self.target) * best.denominator / best.mass();
-        let start = DualPoint { tau: margin, ..best.point.clone() };
+        let start = DualPoint {
+            tau: margin,
+            ..best.point.clone()
+        };
         self.posts(bottom.sample.at, start)
     }
 
@@ -136,28 +147,53 @@ impl<'a> Cover<'a> {
             programme = programme.with_lever(&work.reach, lever);
         }
         let mut programme = programme.margin(&work.reach, self.target);
-        programme.stage = Stage::Cover { height_mm: work.to_mm(at) };
-        let enough = if start.tau > 0.0 { CONTENT_RATIO * start.tau } else { f64::INFINITY };
-        let slack = Slack { share: MARGIN_SLACK, enough };
+        programme.stage = Stage::Cover {
+            height_mm: work.to_mm(at),
+        };
+        let enough = if start.tau > 0.0 {
+            CONTENT_RATIO * start.tau
+        } else {
+            f64::INFINITY
+        };
+        let slack = Slack {
+            share: MARGIN_SLACK,
+            enough,
+        };
         let climb = work.climb_to_bound(&programme, start, slack);
         if matches!(climb.end, End::Infeasible(_) | End::Cancelled) {
             return Err(Doubt::Open);
         }
-        let margin = work.prudence.map_or(climb.best.bound, |prudence| prudence.claim(climb.best.bound));
+        let margin = work.prudence.map_or(climb.best.bound, |prudence| {
+            prudence.claim(climb.best.bound)
+        });
         if margin <= 0.0 {
             return Err(self.refutation(&climb.best));
         }
         let weight = self.heights.weight(&climb.best.point).max(0.0);
         let reach = ((1.0 - self.level_ratio) * margin / weight).sqrt();
-        let point = DualPoint { tau: margin, ..climb.best.point };
+        let point = DualPoint {
+            tau: margin,
+            ..climb.best.point
+        };
         let stake = Stake::of(&programme, &point);
-        Ok(Post { at, margin, reach, point, stake })
+        Ok(Post {
+            at,
+            margin,
+            reach,
+            point,
+            stake,
+        })
     }
 
     /// Whether an interior that all but meets the constraints is below the target.
     fn refutation(&self, best: &Visit) -> Doubt {
-        let is_one = best.value < 0.0 && best.residual() <= self.heights.work.settings.accepted_residual;
-        if is_one { Doubt::Refuted(best.center_height()) } else { Doubt::Open }
+        let is_one =
+            best.value < 0.0 && best.residual() <= self.heights.work.settings.accepted_residual;
+        if is_one {
+            Doubt::Refuted(best.center_height())
+        } else {
+            Doubt::Open
+        }
     }
 }
 
@@ -172,7 +208,10 @@ fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
 
 /// The dual point on the line through the last two, which the multipliers follow as the height changes.
 fn aimed(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint {
-    let mut point = DualPoint { tau: margin, ..last.point.clone() };
+    let mut point = DualPoint {
+        tau: margin,
+        ..last.point.clone()
+    };
     if let Some(before) = before {
         let ahead = ((at - last.at) / (last.at - before.at)).clamp(-FARTHEST_AHEAD, FARTHEST_AHEAD);
         point.y += (&last.point.y - &before.point.y) * ahead;
@@ -195,18 +234,28 @@ mod tests {
 
     #[test]
     fn a_true_claim_is_proved_and_a_false_one_is_refuted() {
-        for objective in
-            [Objective::CriticalSpeed, Objective::Dominance, Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }]
-        {
+        for objective in [
+            Objective::CriticalSpeed,
+            Objective::Dominance,
+            Objective::SpinIt {
+                gamma_c: 0.0,
+                gamma_i: 1.0,
+            },
+        ] {
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+            let (settings, progress, problem) =
+                (Settings::default(), Progress::silent(), world.problem());
             let work = Work::new(&problem, &settings, &progress);
             let heights = Heights::new(&work, objective).unwrap();
             let bottom = heights.bottom_from(heights.range[1]).unwrap();
             let best = bottom.sample.climb.best.value;
-            for (worse, expected) in
-                [(-1e-1, true), (-1e-3, true), (-1e-6, true), (1e-3, false), (1e-1, false)]
-            {
+            for (worse, expected) in [
+                (-1e-1, true),
+                (-1e-3, true),
+                (-1e-6, true),
+                (1e-3, false),
+                (1e-1, false),
+            ] {
                 let cover = Cover::of_all(&heights, best + worse * best.abs());
                 let proof = cover.proof(&bottom);
                 assert_eq!(proof.is_ok(), expected, "{objective:?} {worse}: {proof:?}");

@@ -32,7 +32,8 @@ impl Fill {
     /// of the print's own density.
     pub fn new(density_ratio: f64) -> Option<Self> {
         let is_filling = density_ratio.is_finite() && density_ratio >= 0.0;
-        (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF).then_some(Self { density_ratio })
+        (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF)
+            .then_some(Self { density_ratio })
     }
 
     /// Its density over the print's.
@@ -57,12 +58,25 @@ impl Fill {
 
     /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution is in the print's own
     /// moments and its void is where the quadric is positive, like one with air; the certificate is for this filling.
-    pub fn solve(&self, problem: &Problem, known: Option<&Solution>, progress: &Progress) -> Solution {
+    pub fn solve(
+        &self,
+        problem: &Problem,
+        known: Option<&Solution>,
+        progress: &Progress,
+    ) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);
-        let whole = if self.is_heavier() { problem.columns.moments() * weight } else { Moments::default() };
+        let whole = if self.is_heavier() {
+            problem.columns.moments() * weight
+        } else {
+            Moments::default()
+        };
         let fixed = (problem.fixed + whole) * (1.0 / weight);
-        let problem = Problem { goal: &goal, fixed, columns: problem.columns };
+        let problem = Problem {
+            goal: &goal,
+            fixed,
+            columns: problem.columns,
+        };
         let settings = Settings::default();
         let solution = match known.filter(|known| known.is_usable()) {
             Some(known) => refine(&problem, &settings, known, progress),
@@ -95,22 +109,36 @@ mod tests {
 
     #[test]
     fn a_filling_of_nothing_is_a_void() {
-        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let world = worlds::egg(Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        });
         let air = solve(&world.problem(), &Settings::default(), &Progress::silent());
         assert_eq!(filled(&world, 0.0), air);
-        assert_eq!(Fill::AIR.solve(&world.problem(), Some(&air), &Progress::silent()).status, air.status);
+        assert_eq!(
+            Fill::AIR
+                .solve(&world.problem(), Some(&air), &Progress::silent())
+                .status,
+            air.status
+        );
     }
 
     #[test]
     fn the_moments_of_a_filled_body_are_those_of_its_void_and_its_filling() {
         for density_ratio in [0.4, 3.0] {
-            let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+            let world = worlds::egg(Objective::SpinIt {
+                gamma_c: 0.0,
+                gamma_i: 1.0,
+            });
             let solution = filled(&world, density_ratio);
             assert!(solution.is_usable(), "{:?}", solution.status);
             let fill = Fill::new(density_ratio).unwrap();
             let moments = fill.filled(world.fixed, &world.columns, &solution.quadric);
             for (got, want) in solution.moments.0.iter().zip(moments.0) {
-                assert!((got - want).abs() <= 1e-9 * world.fixed.0[0], "{density_ratio}: {got} {want}");
+                assert!(
+                    (got - want).abs() <= 1e-9 * world.fixed.0[0],
+                    "{density_ratio}: {got} {want}"
+                );
             }
         }
     }
@@ -129,15 +157,29 @@ mod tests {
                 let angle = figures(&world.goal, &moments).toppling_angle_rad.unwrap();
                 (best, least) = (f64::max(best, angle), f64::min(least, angle));
             });
-            assert!(best <= solution.certificate.bound + 1e-12, "{density_ratio}");
+            assert!(
+                best <= solution.certificate.bound + 1e-12,
+                "{density_ratio}"
+            );
             // Whole blocks come close to the one plane that is free to cut them.
-            assert!(best > least + 0.8 * (solution.certificate.value - least), "{best} {least}");
+            assert!(
+                best > least + 0.8 * (solution.certificate.value - least),
+                "{best} {least}"
+            );
         }
     }
 
     #[test]
     fn a_filling_like_the_print_is_none() {
-        assert!([1.0, 1.01, -0.1, f64::NAN, f64::INFINITY].iter().all(|&ratio| Fill::new(ratio).is_none()));
-        assert!([0.0, 0.5, 1.5, 7.0].iter().all(|&ratio| Fill::new(ratio).is_some()));
+        assert!(
+            [1.0, 1.01, -0.1, f64::NAN, f64::INFINITY]
+                .iter()
+                .all(|&ratio| Fill::new(ratio).is_none())
+        );
+        assert!(
+            [0.0, 0.5, 1.5, 7.0]
+                .iter()
+                .all(|&ratio| Fill::new(ratio).is_some())
+        );
     }
 }

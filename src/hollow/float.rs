@@ -28,7 +28,11 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     }
     let greatest_gm_mm = afloat.metacenter_mm - work.to_mm(climb.best.bound);
     let answer = Answer::new(objective, climb);
-    if greatest_gm_mm <= 0.0 { answer.with_verdict(Status::Capsizes { greatest_gm_mm }) } else { answer }
+    if greatest_gm_mm <= 0.0 {
+        answer.with_verdict(Status::Capsizes { greatest_gm_mm })
+    } else {
+        answer
+    }
 }
 
 /// The proof that the lightest interior is too heavy for the water it displaces, or the solid too light.
@@ -36,8 +40,18 @@ fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<An
     let mass = afloat.material_mm3 / work.reach.scale.volume_mm3;
     let [lightest, heaviest] = [work.reach.shell, work.reach.fullest].map(|s| s[index::ONE]);
     let (sense, verdict) = match mass {
-        mass if mass < lightest => (1.0, Status::Sinks { least_ratio: lightest / mass }),
-        mass if mass > heaviest => (-1.0, Status::RidesHigh { greatest_ratio: heaviest / mass }),
+        mass if mass < lightest => (
+            1.0,
+            Status::Sinks {
+                least_ratio: lightest / mass,
+            },
+        ),
+        mass if mass > heaviest => (
+            -1.0,
+            Status::RidesHigh {
+                greatest_ratio: heaviest / mass,
+            },
+        ),
         _ => return None,
     };
     let programme = Programme::extreme_mass(sense);
@@ -78,10 +92,17 @@ mod tests {
         // and the centre lies at (40·9 + 80·2.5)/120.
         let world = worlds::tank(120.0, [0.0; 2]);
         let got = solution(&world);
-        assert_eq!((got.status, got.certificate.figure), (Status::Solved, Figure::MetacentricHeightMm));
+        assert_eq!(
+            (got.status, got.certificate.figure),
+            (Status::Solved, Figure::MetacentricHeightMm)
+        );
         assert!(got.certificate.gap_ratio.abs() <= 1e-6 && got.certificate.residual <= 1e-7);
         let gm = world.goal.afloat.unwrap().metacenter_mm - 560.0 / 120.0;
-        assert!((got.certificate.value / gm - 1.0).abs() < 1e-7, "{:?} {gm}", got.certificate);
+        assert!(
+            (got.certificate.value / gm - 1.0).abs() < 1e-7,
+            "{:?} {gm}",
+            got.certificate
+        );
         assert!((got.moments.volume() - 120.0).abs() < 1e-5);
     }
 
@@ -94,8 +115,17 @@ mod tests {
         assert!((center.x - 0.3).abs() < 1e-6 && (center.y + 0.2).abs() < 1e-6);
         // No random choice of the same mass and place is lower: every quadric's interior obeys the bound's inequality.
         world.fixed.0[1] += 0.5;
-        let again = refine(&world.problem(), &Settings::default(), &got, &Progress::silent());
-        assert!(again.status == Status::Solved && again.passes <= 10, "{}", again.passes);
+        let again = refine(
+            &world.problem(),
+            &Settings::default(),
+            &got,
+            &Progress::silent(),
+        );
+        assert!(
+            again.status == Status::Solved && again.passes <= 10,
+            "{}",
+            again.passes
+        );
     }
 
     #[test]
@@ -109,21 +139,41 @@ mod tests {
             matches!(of(250.0, [0.0; 2]), Status::RidesHigh { greatest_ratio } if (greatest_ratio - 0.8).abs() < 1e-12)
         );
         // With 80 of 120 movable and no further than 2 mm out, the centre moves less than 4/3 mm.
-        let Status::CannotTrim { least_offset_mm, .. } = of(120.0, [1.5, 0.0]) else { panic!() };
+        let Status::CannotTrim {
+            least_offset_mm, ..
+        } = of(120.0, [1.5, 0.0])
+        else {
+            panic!()
+        };
         // Of the 16 × 10 the 80 on one side: their centre at 1, the whole at 80/120: 0.8333 short.
-        assert!((least_offset_mm - (1.5 - 80.0 / 120.0)).abs() < 1e-4, "{least_offset_mm}");
+        assert!(
+            (least_offset_mm - (1.5 - 80.0 / 120.0)).abs() < 1e-4,
+            "{least_offset_mm}"
+        );
     }
 
     #[test]
     fn the_quadric_that_proves_a_centre_out_of_reach_separates() {
         let world = worlds::tank(120.0, [1.5, 0.4]);
-        let Status::CannotTrim { separator, level_mm3, .. } = solution(&world).status else { panic!() };
+        let Status::CannotTrim {
+            separator,
+            level_mm3,
+            ..
+        } = solution(&world).status
+        else {
+            panic!()
+        };
         // Midpoint sums of a kinked function: 400 steps of a column leave 1e-5 of it.
         let least = worlds::least_integral(&world, &separator, 400);
         assert!(least > level_mm3, "{least} {level_mm3}");
         for seed in 0..200 {
             let emptied = moments_where_positive(&world.columns, &worlds::some_quadric(seed, 4.0));
-            let integral: f64 = (world.fixed - emptied).0.iter().zip(separator.0).map(|(s, g)| s * g).sum();
+            let integral: f64 = (world.fixed - emptied)
+                .0
+                .iter()
+                .zip(separator.0)
+                .map(|(s, g)| s * g)
+                .sum();
             assert!(integral >= least - 1e-3 * least.abs(), "{seed}");
         }
     }
@@ -131,7 +181,10 @@ mod tests {
     #[test]
     fn what_is_too_high_at_best_is_proved_to_capsize() {
         let mut world = worlds::tank(120.0, [0.0; 2]);
-        world.goal.afloat = world.goal.afloat.map(|afloat| Afloat { metacenter_mm: 4.0, ..afloat });
+        world.goal.afloat = world.goal.afloat.map(|afloat| Afloat {
+            metacenter_mm: 4.0,
+            ..afloat
+        });
         let got = solution(&world).status;
         let want = 4.0 - 560.0 / 120.0;
         assert!(
@@ -139,6 +192,9 @@ mod tests {
             "{got:?}"
         );
         assert!(got.is_impossible() && !got.remedies(&world.goal).is_empty());
-        assert_eq!(world.goal.afloat.unwrap().buoyancy, Point::new(0.0, 0.0, 3.0));
+        assert_eq!(
+            world.goal.afloat.unwrap().buoyancy,
+            Point::new(0.0, 0.0, 3.0)
+        );
     }
 }

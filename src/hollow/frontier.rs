@@ -72,16 +72,42 @@ impl Frontier<'_> {
         let best = &sample.climb.best;
         let touch = (lever / self.greatest()).min(1.0).acos();
         let mut half = FIRST_ANGLE_RATIO * (1.0 - self.target / sample.value).max(0.0).sqrt();
-        let stake = Stake { direction: best.quadric, least: 0.0 };
-        let point = DualPoint { tau: 0.0, ..best.point.clone() };
-        let start = Post { at: sample.at, margin: 0.0, reach: 0.0, point, stake };
+        let stake = Stake {
+            direction: best.quadric,
+            least: 0.0,
+        };
+        let point = DualPoint {
+            tau: 0.0,
+            ..best.point.clone()
+        };
+        let start = Post {
+            at: sample.at,
+            margin: 0.0,
+            reach: 0.0,
+            point,
+            stake,
+        };
         for _ in 0..MOST_SIDES {
             let ends = [1.0, -1.0].map(|side| self.corner(self.at(touch, side * half), &start));
             let [low, high] = ends;
             let (low, high) = (low?, high?);
             if self.is_above(&low, &high) {
-                let left = self.walk(Walk { side: 1.0, touch, offset: half }, (&high, &low))?;
-                let right = self.walk(Walk { side: -1.0, touch, offset: half }, (&low, &high))?;
+                let left = self.walk(
+                    Walk {
+                        side: 1.0,
+                        touch,
+                        offset: half,
+                    },
+                    (&high, &low),
+                )?;
+                let right = self.walk(
+                    Walk {
+                        side: -1.0,
+                        touch,
+                        offset: half,
+                    },
+                    (&low, &high),
+                )?;
                 return Ok([low.posts, high.posts, left, right].concat());
             }
             half *= SHRINKAGE;
@@ -92,7 +118,11 @@ impl Frontier<'_> {
     /// Corner after corner along tangents of the ellipse, from the second of two to an end of what interiors can have; the
     /// posts of the new ones.
     fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<Vec<Post>, Doubt> {
-        let Walk { side, mut touch, mut offset } = walk;
+        let Walk {
+            side,
+            mut touch,
+            mut offset,
+        } = walk;
         let (mut before, mut last, mut posts) = (before.clone(), last.clone(), Vec::new());
         for _ in 0..MOST_SIDES {
             if self.is_end(&last, side) {
@@ -104,7 +134,15 @@ impl Frontier<'_> {
                 offset = -offset;
             }
             let distance = (touch + side * offset - walk.touch).abs();
-            let (next, stepped) = self.step(Walk { side, touch, offset }, (&before, &last), distance)?;
+            let (next, stepped) = self.step(
+                Walk {
+                    side,
+                    touch,
+                    offset,
+                },
+                (&before, &last),
+                distance,
+            )?;
             posts.extend_from_slice(&next.posts);
             before = std::mem::replace(&mut last, next);
             offset += stepped;
@@ -119,13 +157,21 @@ impl Frontier<'_> {
         (before, last): (&Corner, &Corner),
         distance: f64,
     ) -> Result<(Corner, f64), Doubt> {
-        let Walk { side, touch, offset } = walk;
+        let Walk {
+            side,
+            touch,
+            offset,
+        } = walk;
         let mut step = self.foreseen((before, last), distance);
         let mut failed = Doubt::Open;
         while step > NARROWEST {
             let at = self.at(touch, side * (offset + step));
             let fits = |next: &Corner| {
-                if side > 0.0 { self.is_above(next, last) } else { self.is_above(last, next) }
+                if side > 0.0 {
+                    self.is_above(next, last)
+                } else {
+                    self.is_above(last, next)
+                }
             };
             match self.corner(at, &aimed(before, last, at[0])) {
                 Ok(next) if fits(&next) => return Ok((next, step)),
@@ -148,10 +194,14 @@ impl Frontier<'_> {
 
     /// Whether every interior beyond this corner is as the claim says.
     fn is_end(&self, last: &Corner, side: f64) -> bool {
-        let Weighed { lever: k, inertia: gamma } = self.weighed;
+        let Weighed {
+            lever: k,
+            inertia: gamma,
+        } = self.weighed;
         let fall = k * last.lever / (gamma * last.target);
         let reach = &self.heights.work.reach;
-        let [least, greatest] = [&reach.shell, &reach.fullest].map(|s| fall * (s[index::XX] + s[index::YY]));
+        let [least, greatest] =
+            [&reach.shell, &reach.fullest].map(|s| fall * (s[index::XX] + s[index::YY]));
         let speaks = |post: &Post| match side {
             1.0 => multiplier(post) >= greatest,
             _ => multiplier(post) <= least + level(post) / self.heights.range[1],
@@ -168,12 +218,24 @@ impl Frontier<'_> {
     fn at(&self, touch: f64, half: f64) -> [f64; 2] {
         let angle = touch + half;
         let radius = self.target.sqrt() / half.cos();
-        [radius * angle.cos() / self.weighed.lever.sqrt(), radius * angle.sin() / self.weighed.inertia.sqrt()]
+        [
+            radius * angle.cos() / self.weighed.lever.sqrt(),
+            radius * angle.sin() / self.weighed.inertia.sqrt(),
+        ]
     }
 
     fn corner(&self, [lever, target]: [f64; 2], start: &Post) -> Result<Corner, Doubt> {
-        let cover = Cover { heights: self.heights, target, lever: Some(lever), level_ratio: LEVEL_RATIO };
-        Ok(Corner { lever, target, posts: cover.posts(start.at, start.point.clone())? })
+        let cover = Cover {
+            heights: self.heights,
+            target,
+            lever: Some(lever),
+            level_ratio: LEVEL_RATIO,
+        };
+        Ok(Corner {
+            lever,
+            target,
+            posts: cover.posts(start.at, start.point.clone())?,
+        })
     }
 
     /// Whether every interior with a lever between those of two corners is above the side between them.
@@ -189,7 +251,9 @@ impl Frontier<'_> {
 
     /// The same for the heights within the reach of two posts.
     fn is_above_at(&self, (low, one): (f64, &Post), (high, other): (f64, &Post)) -> bool {
-        let height = (one.at + one.reach).min(other.at + other.reach).min(self.heights.range[1]);
+        let height = (one.at + one.reach)
+            .min(other.at + other.reach)
+            .min(self.heights.range[1]);
         let loss = (high - low) * (multiplier(one) - multiplier(other)) * height / low;
         (level(one).sqrt() + level(other).sqrt()).powi(2) >= loss
     }
@@ -230,7 +294,11 @@ fn aimed(before: &Corner, last: &Corner, lever: f64) -> Post {
     // The square root of the margin grows with the distance from the best lever, evenly.
     let root = other.margin.sqrt() + (other.margin.sqrt() - one.margin.sqrt()) * ahead;
     point.tau = root * root;
-    Post { at: other.at + (other.at - one.at) * ahead, point, ..other.clone() }
+    Post {
+        at: other.at + (other.at - one.at) * ahead,
+        point,
+        ..other.clone()
+    }
 }
 
 #[cfg(test)]
@@ -246,14 +314,25 @@ mod tests {
         for (gamma_c, gamma_i) in [(1.0, 1.0), (0.3, 1.2)] {
             let objective = Objective::SpinIt { gamma_c, gamma_i };
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+            let (settings, progress, problem) =
+                (Settings::default(), Progress::silent(), world.problem());
             let work = Work::new(&problem, &settings, &progress);
             let heights = Heights::new(&work, objective).unwrap();
             let bottom = heights.bottom_from(heights.range[1]).unwrap();
-            for (share, expected) in [(0.9, true), (1.0 - 1e-6, true), (1.0 + 1e-6, false), (1.1, false)] {
+            for (share, expected) in [
+                (0.9, true),
+                (1.0 - 1e-6, true),
+                (1.0 + 1e-6, false),
+                (1.1, false),
+            ] {
                 let target = share * bottom.sample.value;
                 let weighed = Weighed::of(objective, &work).unwrap();
-                let proof = Frontier { heights: &heights, weighed, target }.proof(&bottom);
+                let proof = Frontier {
+                    heights: &heights,
+                    weighed,
+                    target,
+                }
+                .proof(&bottom);
                 assert_eq!(proof.is_ok(), expected, "{gamma_c} {share}: {proof:?}");
             }
         }
@@ -261,15 +340,28 @@ mod tests {
 
     #[test]
     fn the_corners_of_a_side_lie_on_the_tangent_of_the_ellipse() {
-        let objective = Objective::SpinIt { gamma_c: 0.7, gamma_i: 1.3 };
+        let objective = Objective::SpinIt {
+            gamma_c: 0.7,
+            gamma_i: 1.3,
+        };
         let world = worlds::rings(objective);
-        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let (settings, progress, problem) =
+            (Settings::default(), Progress::silent(), world.problem());
         let work = Work::new(&problem, &settings, &progress);
-        let heights = Heights { work: &work, objective, range: [0.1, 1.0] };
+        let heights = Heights {
+            work: &work,
+            objective,
+            range: [0.1, 1.0],
+        };
         let weighed = Weighed::of(objective, &work).unwrap();
-        let frontier = Frontier { heights: &heights, weighed, target: 0.9 };
-        let value =
-            |[lever, ratio]: [f64; 2]| weighed.lever * lever * lever + weighed.inertia * ratio * ratio;
+        let frontier = Frontier {
+            heights: &heights,
+            weighed,
+            target: 0.9,
+        };
+        let value = |[lever, ratio]: [f64; 2]| {
+            weighed.lever * lever * lever + weighed.inertia * ratio * ratio
+        };
         let [low, high] = [0.05, -0.08].map(|half| frontier.at(1.1, half));
         let along = |x: f64| [0, 1].map(|i| low[i] + x * (high[i] - low[i]));
         // Least where it touches, which divides the side as the tangents of the two angles.

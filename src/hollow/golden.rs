@@ -14,7 +14,10 @@ pub fn golden_section<T>(
     look: impl Fn(f64) -> T,
     (at, is_better): (impl Fn(&T) -> f64, impl Fn(&T, &T) -> bool),
 ) -> [T; 2] {
-    let (mut left, mut right) = (look(high - SHARE * (high - low)), look(low + SHARE * (high - low)));
+    let (mut left, mut right) = (
+        look(high - SHARE * (high - low)),
+        look(low + SHARE * (high - low)),
+    );
     for _ in 0..rounds {
         if is_better(&left, &right) {
             high = at(&right);
@@ -37,9 +40,17 @@ mod tests {
     fn the_top_of_a_parabola_is_found_to_the_share_that_the_rounds_leave() {
         for peak in [-0.9, 0.0, 0.3, 0.99] {
             let look = |x: f64| (x, -(x - peak) * (x - peak));
-            let found = golden_section([-1.0, 1.0], 20, look, (|l: &(f64, f64)| l.0, |a, b| a.1 > b.1));
+            let found = golden_section(
+                [-1.0, 1.0],
+                20,
+                look,
+                (|l: &(f64, f64)| l.0, |a, b| a.1 > b.1),
+            );
             let left = 2.0 * SHARE.powi(20);
-            assert!(found.iter().all(|(x, _)| (x - peak).abs() <= left), "{peak}: {found:?}");
+            assert!(
+                found.iter().all(|(x, _)| (x - peak).abs() <= left),
+                "{peak}: {found:?}"
+            );
         }
     }
 }

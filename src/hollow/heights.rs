@@ -11,7 +11,10 @@ use crate::goal::Objective;
 
 /// By which part of themselves the ends of the range of heights may be too far out. Less costs passes, and saves the proof
 /// none, which steps over what is out of reach in one or two.
-const RANGE_SLACK: Slack = Slack { share: 0.2, enough: f64::INFINITY };
+const RANGE_SLACK: Slack = Slack {
+    share: 0.2,
+    enough: f64::INFINITY,
+};
 /// The least height of a centre, as a part of the greatest, that counts as above the contact. A top whose centre lies in
 /// its contact needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
@@ -35,7 +38,11 @@ pub(super) struct Heights<'a> {
 impl<'a> Heights<'a> {
     /// The objective over the heights that can be had. Fails with the ascent that proves that there is none.
     pub fn new(work: &'a Work<'a>, objective: Objective) -> Result<Self, Box<Climb>> {
-        Ok(Self { work, objective, range: Self::range(work)? })
+        Ok(Self {
+            work,
+            objective,
+            range: Self::range(work)?,
+        })
     }
 
     /// The heights the centre of an interior that meets the constraints can have: outer bounds, so that none is
@@ -43,7 +50,8 @@ impl<'a> Heights<'a> {
     pub fn range(work: &Work) -> Result<[f64; 2], Box<Climb>> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
-            let climb = work.climb_to_bound(&programme, programme.cold_start(&work.reach), RANGE_SLACK);
+            let climb =
+                work.climb_to_bound(&programme, programme.cold_start(&work.reach), RANGE_SLACK);
             match climb.end {
                 End::Infeasible(_) | End::Cancelled => Err(Box::new(climb)),
                 _ => Ok(sense * climb.best.bound),
@@ -70,15 +78,25 @@ impl<'a> Heights<'a> {
 
     /// A visit as the bottom of a valley whose place and curvature are known.
     pub fn bottom_of(&self, (height, lever): (Tangent, Option<Tangent>), climb: Climb) -> Bottom {
-        Bottom { sample: self.sample_of(height.at, lever, climb), curvature: height.curvature }
+        Bottom {
+            sample: self.sample_of(height.at, lever, climb),
+            curvature: height.curvature,
+        }
     }
 
     /// Whether no other height, and no other lever where that is weighed, promises anything worth the while.
     pub fn is_level(&self, bottom: &Bottom) -> bool {
-        let Sample { slope, lever, climb, .. } = &bottom.sample;
-        let of_lever = Weighed::of(self.objective, self.work).zip(*lever).is_none_or(|(weighed, lever)| {
-            bottom.is_level(weighed.slope(lever.at, &climb.best), lever.curvature)
-        });
+        let Sample {
+            slope,
+            lever,
+            climb,
+            ..
+        } = &bottom.sample;
+        let of_lever = Weighed::of(self.objective, self.work)
+            .zip(*lever)
+            .is_none_or(|(weighed, lever)| {
+                bottom.is_level(weighed.slope(lever.at, &climb.best), lever.curvature)
+            });
         of_lever && bottom.is_level(*slope, bottom.curvature)
     }
 
@@ -89,17 +107,30 @@ impl<'a> Heights<'a> {
 
     /// The bottom of a valley, from an answer nearby.
     pub fn bottom(&self, valley: Valley, known: Start) -> Option<Bottom> {
-        valley.within(self.work.tolerance).bottom(|Place { at, near, tolerance }| {
-            self.sample(at, near.map(Sample::start).or(known), tolerance)
-        })
+        valley.within(self.work.tolerance).bottom(
+            |Place {
+                 at,
+                 near,
+                 tolerance,
+             }| { self.sample(at, near.map(Sample::start).or(known), tolerance) },
+        )
     }
 
     /// The objective and its slope; none where the run was stopped or no interior meets the constraints.
     pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
         if let Some(weighed) = Weighed::of(self.objective, self.work) {
-            return Levers { heights: self, weighed, height }.best(near, tolerance);
+            return Levers {
+                heights: self,
+                weighed,
+                height,
+            }
+            .best(near, tolerance);
         }
-        let climb = self.work.climb_near(&self.programme(height), near.map(|(point, _)| point), tolerance)?;
+        let climb = self.work.climb_near(
+            &self.programme(height),
+            near.map(|(point, _)| point),
+            tolerance,
+        )?;
         Some(self.sample_of(height, None, climb))
     }
 
@@ -112,7 +143,14 @@ impl<'a> Heights<'a> {
         };
         let weighed = Weighed::of(self.objective, self.work).zip(lever);
         let of_lever = weighed.map_or(0.0, |(weighed, lever)| weighed.lever * lever.at * lever.at);
-        Sample { at: height, value: value + of_lever, slope: chain * slope, bend: chain * bend, climb, lever }
+        Sample {
+            at: height,
+            value: value + of_lever,
+            slope: chain * slope,
+            bend: chain * bend,
+            climb,
+            lever,
+        }
     }
 
     /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what it grows with ℓ at
@@ -143,7 +181,9 @@ impl<'a> Heights<'a> {
     /// The same for interiors of a lever, where there is one.
     pub fn programme_at(&self, height: f64, lever: Option<Tangent>) -> Programme {
         let programme = self.programme(height);
-        lever.map_or(programme.clone(), |lever| programme.with_lever(&self.work.reach, lever.at))
+        lever.map_or(programme.clone(), |lever| {
+            programme.with_lever(&self.work.reach, lever.at)
+        })
     }
 
     /// What a run that found nothing shows: how far it came at the middle height.
@@ -162,10 +202,14 @@ mod tests {
 
     #[test]
     fn the_slope_by_the_height_is_that_of_finite_differences() {
-        let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.2 };
+        let spin_it = |gamma_c| Objective::SpinIt {
+            gamma_c,
+            gamma_i: 1.2,
+        };
         for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.8)] {
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+            let (settings, progress, problem) =
+                (Settings::default(), Progress::silent(), world.problem());
             let work = Work::new(&problem, &settings, &progress);
             let heights = Heights::new(&work, objective).unwrap();
             let [low, high] = heights.range;
@@ -174,16 +218,22 @@ mod tests {
             let difference = (at(height + step).value - at(height - step).value) / (2.0 * step);
             // The bend of the slope costs about 5e-4 at this step (it is quadratic in it), and values exact to 1e-8 as much.
             let slope = at(height).slope;
-            assert!((slope / difference - 1.0).abs() < 2e-3, "{objective:?}: {slope} {difference}");
+            assert!(
+                (slope / difference - 1.0).abs() < 2e-3,
+                "{objective:?}: {slope} {difference}"
+            );
         }
     }
 
     #[test]
     fn no_interior_that_is_balanced_has_its_centre_outside_the_range() {
         let world = worlds::rings(Objective::CriticalSpeed);
-        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let (settings, progress, problem) =
+            (Settings::default(), Progress::silent(), world.problem());
         let work = Work::new(&problem, &settings, &progress);
-        let [low, high] = Heights::range(&work).unwrap().map(|height| work.to_mm(height));
+        let [low, high] = Heights::range(&work)
+            .unwrap()
+            .map(|height| work.to_mm(height));
         worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
             let height = moments.centroid().z;
             assert!(low <= height && height <= high);

@@ -28,9 +28,10 @@ impl Weighed {
     pub fn of(objective: Objective, work: &Work) -> Option<Self> {
         let solid = work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
         match objective {
-            Objective::SpinIt { gamma_c, gamma_i } if gamma_c > 0.0 => {
-                Some(Self { lever: gamma_c / (solid * solid), inertia: gamma_i })
-            }
+            Objective::SpinIt { gamma_c, gamma_i } if gamma_c > 0.0 => Some(Self {
+                lever: gamma_c / (solid * solid),
+                inertia: gamma_i,
+            }),
             _ => None,
         }
     }
@@ -40,7 +41,8 @@ impl Weighed {
     /// The derivative by the lever of the least that it can be: by the envelope theorem the least ratio falls by the row's
     /// multiplier.
     pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
-        let falling = 2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
+        let falling =
+            2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
         2.0 * self.lever * lever - falling
     }
 }
@@ -61,20 +63,33 @@ impl Levers<'_> {
             Some((point, Some(hint))) => (Some(point.clone()), hint),
             _ => (None, self.unweighed()?),
         };
-        let valley =
-            Valley::from_tangent(hint, [0.0, self.greatest()]).in_steps_of(STEP_RATIO).within(tolerance);
+        let valley = Valley::from_tangent(hint, [0.0, self.greatest()])
+            .in_steps_of(STEP_RATIO)
+            .within(tolerance);
         let bottom = valley.bottom(|place: Place| {
-            let near = place.near.map(|sample| &sample.climb.best.point).or(start.as_ref());
+            let near = place
+                .near
+                .map(|sample| &sample.climb.best.point)
+                .or(start.as_ref());
             self.sample(place.at, near, tolerance.max(place.tolerance))
         })?;
-        Some(self.heights.sample_of(self.height, Some(bottom.tangent()), bottom.sample.climb))
+        Some(
+            self.heights
+                .sample_of(self.height, Some(bottom.tangent()), bottom.sample.climb),
+        )
     }
 
     /// The lever of the interior whose inertia alone is best: the best one is less.
     fn unweighed(&self) -> Option<Tangent> {
-        let free =
-            self.heights.work.climb_near(&self.heights.programme(self.height), None, ROUGH_TOLERANCE)?;
-        Some(Tangent { at: free.best.extreme.s[index::Z], curvature: 0.0 })
+        let free = self.heights.work.climb_near(
+            &self.heights.programme(self.height),
+            None,
+            ROUGH_TOLERANCE,
+        )?;
+        Some(Tangent {
+            at: free.best.extreme.s[index::Z],
+            curvature: 0.0,
+        })
     }
 
     /// No interior has a greater lever.
@@ -84,11 +99,27 @@ impl Levers<'_> {
 
     fn sample(&self, lever: f64, near: Option<&DualPoint>, tolerance: f64) -> Option<Sample> {
         let work = self.heights.work;
-        let programme = self.heights.programme(self.height).with_lever(&work.reach, lever);
+        let programme = self
+            .heights
+            .programme(self.height)
+            .with_lever(&work.reach, lever);
         let climb = work.climb_near(&programme, near, tolerance)?;
-        let (Weighed { lever: k, inertia: gamma }, best) = (self.weighed, &climb.best);
+        let (
+            Weighed {
+                lever: k,
+                inertia: gamma,
+            },
+            best,
+        ) = (self.weighed, &climb.best);
         let value = k * lever * lever + gamma * best.value * best.value;
         let slope = self.weighed.slope(lever, best);
-        Some(Sample { at: lever, value, slope, bend: 2.0 * k, climb, lever: None })
+        Some(Sample {
+            at: lever,
+            value,
+            slope,
+            bend: 2.0 * k,
+            climb,
+            lever: None,
+        })
     }
 }

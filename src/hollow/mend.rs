@@ -34,7 +34,10 @@ impl Mend {
     /// The map that gives the set with the extreme points `few` the extreme point and the derivative `all` along g.
     pub fn new(g: &Vector10, all: &Extreme, few: impl Fn(&Vector10) -> Extreme) -> Self {
         let stretch = transport(&across(g, &few(g).w), &across(g, &all.w));
-        Self { stretch, shift: all.s - stretch * few(&(stretch * g)).s }
+        Self {
+            stretch,
+            shift: all.s - stretch * few(&(stretch * g)).s,
+        }
     }
 
     /// The direction in the set that is mapped, for one in the image.
@@ -50,7 +53,11 @@ impl Mend {
     /// The image of an extreme point.
     pub fn extreme(&self, extreme: &Extreme) -> Extreme {
         let w = self.stretch * extreme.w * self.stretch;
-        Extreme { s: self.point(&extreme.s), w, cost: extreme.cost }
+        Extreme {
+            s: self.point(&extreme.s),
+            w,
+            cost: extreme.cost,
+        }
     }
 }
 
@@ -64,7 +71,10 @@ fn across(g: &Vector10, w: &Matrix10) -> Matrix10 {
 fn transport(few: &Matrix10, all: &Matrix10) -> Matrix10 {
     let noise = Matrix10::identity() * (NOISE_RATIO * 0.1 * all.trace()).max(f64::MIN_POSITIVE);
     let eigen = (few + noise).symmetric_eigen();
-    let (root, inverse) = (of_eigen(&eigen, f64::sqrt), of_eigen(&eigen, |value| value.sqrt().recip()));
+    let (root, inverse) = (
+        of_eigen(&eigen, f64::sqrt),
+        of_eigen(&eigen, |value| value.sqrt().recip()),
+    );
     let middle = of_eigen(&(root * (all + noise) * root).symmetric_eigen(), f64::sqrt);
     inverse * middle * inverse
 }
@@ -90,14 +100,18 @@ mod tests {
         let along = |seed| Vector10::from(worlds::some_quadric(seed, 1.0).0);
         let cuts = |g: &Vector10| all.extreme(g).w.trace() > 1e-3;
         let directions: Vec<Vector10> = (0..16).map(along).filter(cuts).collect();
-        assert!(directions.len() >= 4, "only these cut the egg: {directions:?}");
+        assert!(
+            directions.len() >= 4,
+            "only these cut the egg: {directions:?}"
+        );
         for g in directions {
             let there = all.extreme(&g);
             let (few, mended) = (all.thinned(3), all.thinned(3).mended(&g, &there));
             let [plain, image] = [few.extreme(&g), mended.extreme(&g)];
             assert!((image.s - there.s).amax() < 1e-12);
             // What is left is the noise, 1e-5 of the mean, times how far T is from the identity.
-            let error = |w: &Matrix10| (across(&g, w) - across(&g, &there.w)).norm() / there.w.norm();
+            let error =
+                |w: &Matrix10| (across(&g, w) - across(&g, &there.w)).norm() / there.w.norm();
             assert!(
                 error(&image.w) < 1e-4 && error(&plain.w) > 1e-2,
                 "{} {}",
@@ -106,7 +120,10 @@ mod tests {
             );
             // No extreme point of a convex set is lower along g than the one along g.
             let least = g.dot(&image.s);
-            assert!((20..60).all(|other| g.dot(&mended.extreme(&along(other)).s) >= least - 1e-9), "{g}");
+            assert!(
+                (20..60).all(|other| g.dot(&mended.extreme(&along(other)).s) >= least - 1e-9),
+                "{g}"
+            );
         }
     }
 }

@@ -93,7 +93,9 @@ pub enum MethodError {
         method: &'static str,
     },
     /// The method was not made for the goal.
-    #[error("{method} knows tops, yo-yos and what stands, but not the goal `{kind}`; use the quadric solver")]
+    #[error(
+        "{method} knows tops, yo-yos and what stands, but not the goal `{kind}`; use the quadric solver"
+    )]
     NotItsGoal {
         /// The method's word.
         method: &'static str,

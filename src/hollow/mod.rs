@@ -193,8 +193,17 @@ pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Sol
 
 /// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
 /// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
-pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
-    rayon::scope(|_| answer_of(problem, Work::new(problem, settings, progress).on_model_columns()))
+pub fn solve_on_model_columns(
+    problem: &Problem,
+    settings: &Settings,
+    progress: &Progress,
+) -> Solution {
+    rayon::scope(|_| {
+        answer_of(
+            problem,
+            Work::new(problem, settings, progress).on_model_columns(),
+        )
+    })
 }
 
 fn answer_of(problem: &Problem, work: Work) -> Solution {
@@ -213,7 +222,12 @@ fn answer_of(problem: &Problem, work: Work) -> Solution {
 ///
 /// Takes three to seven passes. Its certificate is for these columns and moments; a top's bound over all heights is not
 /// proved anew ([`bound_over_heights`] does that). Where `known` is of no use it solves from nothing.
-pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, progress: &Progress) -> Solution {
+pub fn refine(
+    problem: &Problem,
+    settings: &Settings,
+    known: &Solution,
+    progress: &Progress,
+) -> Solution {
     rayon::scope(|_| refined(problem, settings, known, progress))
 }
 
@@ -236,11 +250,21 @@ pub fn bound_over_heights(
         let work = Work::new(problem, settings, progress);
         let ratio = top::bound_near(&work, known.objective, &known.warm)?;
         let moments = work.reach.scale.moments_to_units(&known.moments);
-        Some(Answer::figure_of_ratio(&work, (known.objective, known.certificate.figure), &moments, ratio))
+        Some(Answer::figure_of_ratio(
+            &work,
+            (known.objective, known.certificate.figure),
+            &moments,
+            ratio,
+        ))
     })
 }
 
-fn refined(problem: &Problem, settings: &Settings, known: &Solution, progress: &Progress) -> Solution {
+fn refined(
+    problem: &Problem,
+    settings: &Settings,
+    known: &Solution,
+    progress: &Progress,
+) -> Solution {
     if !known.is_usable() {
         return solve(problem, settings, progress);
     }
@@ -254,7 +278,10 @@ fn refined(problem: &Problem, settings: &Settings, known: &Solution, progress: &
         // What could not be balanced on coarser columns may be on these.
         GoalKind::Balance => Some(balance::solve(&work, problem.goal.objective, start)),
     };
-    answer.map_or_else(|| solve(problem, settings, progress), |answer| answer.into_solution(work))
+    answer.map_or_else(
+        || solve(problem, settings, progress),
+        |answer| answer.into_solution(work),
+    )
 }
 
 #[cfg(test)]
@@ -269,17 +296,25 @@ mod tests {
     fn solved(world: &World) -> Solution {
         let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
         assert_eq!(solution.status, Status::Solved, "{:?}", solution.log);
-        assert!(solution.certificate.gap_ratio.abs() <= 1e-6 && solution.certificate.residual <= 1e-7);
+        assert!(
+            solution.certificate.gap_ratio.abs() <= 1e-6 && solution.certificate.residual <= 1e-7
+        );
         solution
     }
 
     #[test]
     fn the_moments_of_a_solution_are_those_of_its_quadric() {
-        let world = worlds::egg(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let world = worlds::egg(Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        });
         let solution = solved(&world);
         let emptied = moments_where_positive(&world.columns, &solution.quadric);
         for (got, want) in solution.moments.0.iter().zip((world.fixed - emptied).0) {
-            assert!((got - want).abs() <= 1e-9 * world.fixed.0[0], "{got} {want}");
+            assert!(
+                (got - want).abs() <= 1e-9 * world.fixed.0[0],
+                "{got} {want}"
+            );
         }
     }
 
@@ -306,13 +341,24 @@ mod tests {
         });
         assert!(best <= solution.certificate.bound + 1e-12);
         // Sixteen whole blocks come close to the one plane that is free to cut them; the solid is far off.
-        let solid = figures(&world.goal, &world.fixed).toppling_angle_rad.unwrap();
-        assert!(best > solid + 0.8 * (solution.certificate.value - solid), "{best} {solid}");
+        let solid = figures(&world.goal, &world.fixed)
+            .toppling_angle_rad
+            .unwrap();
+        assert!(
+            best > solid + 0.8 * (solution.certificate.value - solid),
+            "{best} {solid}"
+        );
     }
 
     #[test]
     fn of_all_balanced_ways_to_empty_mirrored_blocks_none_beats_a_yoyo() {
-        for objective in [Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 }, Objective::Dominance] {
+        for objective in [
+            Objective::SpinIt {
+                gamma_c: 0.0,
+                gamma_i: 1.0,
+            },
+            Objective::Dominance,
+        ] {
             let world = worlds::mirrored_blocks(objective);
             let solution = solved(&world);
             let mut best = f64::INFINITY;
@@ -325,13 +371,20 @@ mod tests {
                 };
                 best = best.min(value.unwrap());
             });
-            assert!(best >= solution.certificate.bound - 1e-12, "{best} {:?}", solution.certificate);
+            assert!(
+                best >= solution.certificate.bound - 1e-12,
+                "{best} {:?}",
+                solution.certificate
+            );
         }
     }
 
     #[test]
     fn of_all_round_ways_to_empty_a_disc_none_is_a_better_top_whatever_its_height() {
-        let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.3 };
+        let spin_it = |gamma_c| Objective::SpinIt {
+            gamma_c,
+            gamma_i: 1.3,
+        };
         for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.9)] {
             let world = worlds::rings(objective);
             let solution = solved(&world);
@@ -344,10 +397,18 @@ mod tests {
                 };
                 best = best.min(value.unwrap_or(f64::INFINITY));
             });
-            let (value, bound) =
-                (solution.certificate.value, solution.certificate.bound_over_heights.unwrap());
-            assert!(bound <= value && bound >= (1.0 - 1e-6) * value - 1e-12, "{objective:?} {bound} {value}");
-            assert!(best >= bound && best < 1.2 * bound, "{objective:?} {best} {bound}");
+            let (value, bound) = (
+                solution.certificate.value,
+                solution.certificate.bound_over_heights.unwrap(),
+            );
+            assert!(
+                bound <= value && bound >= (1.0 - 1e-6) * value - 1e-12,
+                "{objective:?} {bound} {value}"
+            );
+            assert!(
+                best >= bound && best < 1.2 * bound,
+                "{objective:?} {best} {bound}"
+            );
         }
     }
 
@@ -355,24 +416,36 @@ mod tests {
     fn a_solution_keeps_what_its_rows_promise() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let figures = figures(&world.goal, &solved(&world).moments);
-        assert!(figures.off_axis_mm < 1e-6 && figures.axis_tilt_rad < 1e-6, "{figures:?}");
+        assert!(
+            figures.off_axis_mm < 1e-6 && figures.axis_tilt_rad < 1e-6,
+            "{figures:?}"
+        );
         assert!(figures.critical_speed_rpm.is_some());
     }
 
     #[test]
     fn the_figures_of_a_solution_are_its_certificates_value() {
         for gamma_c in [0.0, 0.7] {
-            let world = worlds::rings(Objective::SpinIt { gamma_c, gamma_i: 1.3 });
+            let world = worlds::rings(Objective::SpinIt {
+                gamma_c,
+                gamma_i: 1.3,
+            });
             let solution = solved(&world);
             let value = figures(&world.goal, &solution.moments).spin_it.unwrap();
-            assert!((value / solution.certificate.value - 1.0).abs() < 1e-7, "{gamma_c}");
+            assert!(
+                (value / solution.certificate.value - 1.0).abs() < 1e-7,
+                "{gamma_c}"
+            );
         }
     }
 
     #[test]
     fn weighing_the_lever_gives_a_lower_lighter_top() {
         let of = |gamma_c| {
-            let world = worlds::rings(Objective::SpinIt { gamma_c, gamma_i: 1.0 });
+            let world = worlds::rings(Objective::SpinIt {
+                gamma_c,
+                gamma_i: 1.0,
+            });
             solved(&world).moments
         };
         let (free, weighed) = (of(0.0), of(1.0));
@@ -382,7 +455,12 @@ mod tests {
     /// The passes that were not made for the proof over all heights.
     fn passes_of_search(solution: &Solution) -> usize {
         let is_of_search = |row: &&LogRow| !matches!(row.stage, Stage::Cover { .. });
-        solution.log.iter().filter(is_of_search).map(|row| row.passes).sum()
+        solution
+            .log
+            .iter()
+            .filter(is_of_search)
+            .map(|row| row.passes)
+            .sum()
     }
 
     #[test]
@@ -390,7 +468,12 @@ mod tests {
         let coarse = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let fine = worlds::egg_on_its_side_at(Objective::CriticalSpeed, 0.25);
         let known = solved(&coarse);
-        let refined = refine(&fine.problem(), &Settings::default(), &known, &Progress::silent());
+        let refined = refine(
+            &fine.problem(),
+            &Settings::default(),
+            &known,
+            &Progress::silent(),
+        );
         assert_eq!(refined.status, Status::Solved);
         assert!(passes_of_search(&refined) <= 8, "{:?}", refined.log);
         let fresh = solved(&fine);
@@ -399,15 +482,25 @@ mod tests {
 
     #[test]
     fn a_refined_top_is_proved_best_over_all_heights_on_its_own_columns() {
-        for objective in [Objective::CriticalSpeed, Objective::SpinIt { gamma_c: 0.7, gamma_i: 1.0 }] {
+        for objective in [
+            Objective::CriticalSpeed,
+            Objective::SpinIt {
+                gamma_c: 0.7,
+                gamma_i: 1.0,
+            },
+        ] {
             let coarse = worlds::egg_on_its_side(objective);
             let fine = worlds::egg_on_its_side_at(objective, 0.25);
             let (problem, settings) = (fine.problem(), Settings::default());
             let refined = refine(&problem, &settings, &solved(&coarse), &Progress::silent());
             assert_eq!(refined.certificate.bound_over_heights, None);
-            let bound = bound_over_heights(&problem, &settings, &refined, &Progress::silent()).unwrap();
+            let bound =
+                bound_over_heights(&problem, &settings, &refined, &Progress::silent()).unwrap();
             let value = refined.certificate.value;
-            assert!(bound <= value && bound >= (1.0 - 1.1e-6) * value, "{objective:?}: {bound} {value}");
+            assert!(
+                bound <= value && bound >= (1.0 - 1.1e-6) * value,
+                "{objective:?}: {bound} {value}"
+            );
         }
     }
 
@@ -417,7 +510,12 @@ mod tests {
         let known = solved(&world);
         let pin = Moments(Moments::monomials(9.0, 4.0, 6.0)) * (2e-4 * world.fixed.0[0]);
         world.fixed += pin;
-        let corrected = refine(&world.problem(), &Settings::default(), &known, &Progress::silent());
+        let corrected = refine(
+            &world.problem(),
+            &Settings::default(),
+            &known,
+            &Progress::silent(),
+        );
         assert!(
             corrected.status == Status::Solved && passes_of_search(&corrected) <= 6,
             "{:?}",
@@ -431,11 +529,18 @@ mod tests {
         let mut world = worlds::egg(Objective::Dominance);
         let shift = crate::geom::Vector::new(-6.0, 0.0, 0.0);
         world.fixed = world.fixed.translated(&shift);
-        world.columns.centers.iter_mut().for_each(|center| center[0] += shift.x);
+        world
+            .columns
+            .centers
+            .iter_mut()
+            .for_each(|center| center[0] += shift.x);
         world.goal.solid = world.fixed;
         let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
-        let Status::ConstraintsInfeasible { obstacle: Obstacle::Center, least_miss, separator } =
-            solution.status
+        let Status::ConstraintsInfeasible {
+            obstacle: Obstacle::Center,
+            least_miss,
+            separator,
+        } = solution.status
         else {
             panic!("{:?}", solution.status)
         };
@@ -444,15 +549,26 @@ mod tests {
             let quadric = worlds::some_quadric(seed, 12.0);
             let moments = world.fixed - moments_where_positive(&world.columns, &quadric);
             let integral: f64 = moments.0.iter().zip(separator.0).map(|(s, g)| s * g).sum();
-            assert!(integral >= least_miss * (1.0 - 1e-9), "{seed}: {integral} < {least_miss}");
+            assert!(
+                integral >= least_miss * (1.0 - 1e-9),
+                "{seed}: {integral} < {least_miss}"
+            );
         }
         assert!(solution.status.explain(&world.goal).contains("spin point"));
     }
 
     #[test]
     fn a_tower_is_proved_unstable_at_every_height() {
-        let solution = solve(&worlds::tower().problem(), &Settings::default(), &Progress::silent());
-        let Status::UnstableForEveryInterior { least_ratio, proved: true } = solution.status else {
+        let solution = solve(
+            &worlds::tower().problem(),
+            &Settings::default(),
+            &Progress::silent(),
+        );
+        let Status::UnstableForEveryInterior {
+            least_ratio,
+            proved: true,
+        } = solution.status
+        else {
             panic!("{:?}", solution.status)
         };
         assert!(least_ratio > 1.0);
@@ -462,14 +578,20 @@ mod tests {
     fn a_long_yoyo_is_proved_not_dominant() {
         let world = worlds::long_egg();
         let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
-        assert!(matches!(solution.status, Status::NotDominant { least_ratio } if least_ratio > 1.0));
+        assert!(
+            matches!(solution.status, Status::NotDominant { least_ratio } if least_ratio > 1.0)
+        );
         assert!(!solution.status.remedies(&world.goal).is_empty());
     }
 
     #[test]
     fn blocks_far_beside_their_support_cannot_stand() {
         let mut world = worlds::blocks_on_a_slope();
-        world.goal.support.iter_mut().for_each(|corner| corner[0] -= 20.0);
+        world
+            .goal
+            .support
+            .iter_mut()
+            .for_each(|corner| corner[0] -= 20.0);
         let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
         assert!(
             matches!(solution.status, Status::CannotStand { greatest_angle_rad } if greatest_angle_rad < 0.0)
@@ -479,9 +601,14 @@ mod tests {
     #[test]
     fn with_nothing_to_empty_a_balanced_solid_is_its_own_answer() {
         let mut world = worlds::rings(Objective::CriticalSpeed);
-        world.columns = crate::interior::Columns { starts: vec![0], ..Default::default() };
+        world.columns = crate::interior::Columns {
+            starts: vec![0],
+            ..Default::default()
+        };
         let solution = solved(&world);
-        let solid = figures(&world.goal, &world.fixed).critical_speed_rpm.unwrap();
+        let solid = figures(&world.goal, &world.fixed)
+            .critical_speed_rpm
+            .unwrap();
         assert!((solution.certificate.value / solid - 1.0).abs() < 1e-9);
     }
 
@@ -490,7 +617,10 @@ mod tests {
         // The same points seen from a frame that is moved and turned by a quarter, so that cells stay cells.
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let quarter = crate::geom::Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-        let frame = crate::geom::Frame { origin: crate::geom::Point::new(3.0, -7.0, 11.0), axes: quarter };
+        let frame = crate::geom::Frame {
+            origin: crate::geom::Point::new(3.0, -7.0, 11.0),
+            axes: quarter,
+        };
         let mut goal = world.goal.clone();
         goal.frame = frame;
         let mut columns = world.columns.clone();
@@ -498,8 +628,16 @@ mod tests {
             let placed = frame.to_model(&crate::geom::Point::new(center[0], center[1], 0.0));
             *center = [placed.x, placed.y];
         }
-        columns.intervals.iter_mut().flatten().for_each(|end| *end += frame.origin.z);
-        let problem = Problem { goal: &goal, columns: &columns, ..world.problem() };
+        columns
+            .intervals
+            .iter_mut()
+            .flatten()
+            .for_each(|end| *end += frame.origin.z);
+        let problem = Problem {
+            goal: &goal,
+            columns: &columns,
+            ..world.problem()
+        };
         let turned = solve_on_model_columns(&problem, &Settings::default(), &Progress::silent());
         let straight = solved(&world);
         assert_eq!(turned.status, Status::Solved);
@@ -518,10 +656,15 @@ mod tests {
     fn a_cancelled_run_says_so() {
         let progress = Progress::silent();
         progress.cancel();
-        for world in
-            [worlds::rings(Objective::CriticalSpeed), worlds::egg(Objective::Dominance), worlds::bottle()]
-        {
-            assert_eq!(solve(&world.problem(), &Settings::default(), &progress).status, Status::Cancelled);
+        for world in [
+            worlds::rings(Objective::CriticalSpeed),
+            worlds::egg(Objective::Dominance),
+            worlds::bottle(),
+        ] {
+            assert_eq!(
+                solve(&world.problem(), &Settings::default(), &progress).status,
+                Status::Cancelled
+            );
         }
     }
 
@@ -529,24 +672,36 @@ mod tests {
     fn one_thread_and_three_give_the_same_bits() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| solve(&world.problem(), &Settings::default(), &Progress::silent()))
         };
         let (one, three): (Solution, Solution) = (with(1), with(3));
-        assert_eq!(one.quadric.0.map(f64::to_bits), three.quadric.0.map(f64::to_bits));
+        assert_eq!(
+            one.quadric.0.map(f64::to_bits),
+            three.quadric.0.map(f64::to_bits)
+        );
         assert_eq!(one.log, three.log);
     }
 
     #[test]
     fn no_random_quadric_that_is_balanced_beats_the_yoyo() {
         // Mirrored copies of any quadric's void are balanced; their union is one more choice of what to empty.
-        let world = worlds::mirrored_blocks(Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 });
+        let world = worlds::mirrored_blocks(Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        });
         let bound = solved(&world).certificate.bound;
         for seed in 0..300 {
             let Quadric([c, _, _, _, _, _, _, xx, yy, zz]) = worlds::some_quadric(seed, 6.0);
             let even = Quadric([c, 0., 0., 0., 0., 0., 0., xx, yy, zz]);
             let moments = world.fixed - moments_where_positive(&world.columns, &even);
-            assert!(figures(&world.goal, &moments).spin_it.unwrap() >= bound - 1e-12, "{seed}");
+            assert!(
+                figures(&world.goal, &moments).spin_it.unwrap() >= bound - 1e-12,
+                "{seed}"
+            );
         }
     }
 }

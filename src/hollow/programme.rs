@@ -102,7 +102,12 @@ fn axis_rows() -> DMatrix<f64> {
 
 impl Programme {
     /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not yet bounded.
-    fn new(numerator: Vector10, directions: DMatrix<f64>, denominator: Vector10, rows: DMatrix<f64>) -> Self {
+    fn new(
+        numerator: Vector10,
+        directions: DMatrix<f64>,
+        denominator: Vector10,
+        rows: DMatrix<f64>,
+    ) -> Self {
         let stage = Stage::Goal;
         let rhs = DVector::zeros(rows.nrows());
         let (denominator_floor, denominator_ceiling) = (0.0, 0.0);
@@ -128,7 +133,9 @@ impl Programme {
     }
 
     fn at_height(mut self, reach: &Reach, height: f64) -> Self {
-        self.stage = Stage::AtHeight { height_mm: height * reach.scale.length_mm };
+        self.stage = Stage::AtHeight {
+            height_mm: height * reach.scale.length_mm,
+        };
         self
     }
 
@@ -138,7 +145,13 @@ impl Programme {
 
     /// Yo-yo, Spin-It eq. 2, 5, 6: ‖(I_xx, √2 I_xy, I_yy)‖/I_zz, the square root of the functional.
     pub fn yoyo_functional(reach: &Reach) -> Self {
-        Self::new(Vector10::zeros(), functional_rows(0.0), row(&I_ZZ), yoyo_rows()).bounded(reach)
+        Self::new(
+            Vector10::zeros(),
+            functional_rows(0.0),
+            row(&I_ZZ),
+            yoyo_rows(),
+        )
+        .bounded(reach)
     }
 
     /// Yo-yo: λ_max of the tensor across the axis over I_zz.
@@ -168,9 +181,14 @@ impl Programme {
 
     /// Top by the tensor that is linear at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
     pub fn top_functional(reach: &Reach, height: f64) -> Self {
-        Self::new(Vector10::zeros(), functional_rows(height), row(&I_ZZ), axis_rows())
-            .bounded(reach)
-            .at_height(reach, height)
+        Self::new(
+            Vector10::zeros(),
+            functional_rows(height),
+            row(&I_ZZ),
+            axis_rows(),
+        )
+        .bounded(reach)
+        .at_height(reach, height)
     }
 
     /// The same programme for interiors of this lever s_z only.
@@ -181,7 +199,10 @@ impl Programme {
         self.rhs = self.rhs.insert_row(last, lever);
         if let Stage::AtHeight { height_mm } = self.stage {
             let lever_mm4 = lever * reach.scale.volume_mm3 * reach.scale.length_mm;
-            self.stage = Stage::AtLever { height_mm, lever_mm4 };
+            self.stage = Stage::AtLever {
+                height_mm,
+                lever_mm4,
+            };
         }
         self
     }
@@ -236,8 +257,12 @@ impl Programme {
     pub fn float_offset(reach: &Reach, afloat: &Afloat) -> Self {
         let mass = afloat.material_mm3 / reach.scale.volume_mm3;
         let offset = stack(&over_buoyancy(reach, afloat)) / mass;
-        let mut programme =
-            Self::new(Vector10::zeros(), offset, Vector10::zeros(), stack(&[row(&[(ONE, 1.0)])]));
+        let mut programme = Self::new(
+            Vector10::zeros(),
+            offset,
+            Vector10::zeros(),
+            stack(&[row(&[(ONE, 1.0)])]),
+        );
         programme.rhs[0] = mass;
         programme
     }
@@ -268,7 +293,12 @@ impl Programme {
     /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that none meets them.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);
-        Self::new(Vector10::zeros(), self.rows.clone(), Vector10::zeros(), rows)
+        Self::new(
+            Vector10::zeros(),
+            self.rows.clone(),
+            Vector10::zeros(),
+            rows,
+        )
     }
 
     /// The convex numerator at s.
@@ -279,12 +309,17 @@ impl Programme {
     /// The quadric g = n + Jᵀy − τe + Aᵀλ whose extreme interior the dual point names.
     pub fn quadric(&self, point: &DualPoint) -> Vector10 {
         let turning = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
-        self.numerator - self.denominator * point.tau + Vector10::from_column_slice(turning.as_slice())
+        self.numerator - self.denominator * point.tau
+            + Vector10::from_column_slice(turning.as_slice())
     }
 
     /// The denominator at s, kept from below its floor; one where there is none.
     pub fn denominator_at(&self, s: &Vector10) -> f64 {
-        if self.is_ratio() { self.denominator.dot(s).max(self.denominator_floor) } else { 1.0 }
+        if self.is_ratio() {
+            self.denominator.dot(s).max(self.denominator_floor)
+        } else {
+            1.0
+        }
     }
 
     /// Whether there is a denominator; without one the value is the numerator alone.
@@ -301,7 +336,11 @@ impl Programme {
     pub fn turning(&self) -> DMatrix<f64> {
         let k = self.directions.nrows();
         DMatrix::from_fn(k + self.rows.nrows(), 10, |i, j| {
-            if i < k { self.directions[(i, j)] } else { self.rows[(i - k, j)] }
+            if i < k {
+                self.directions[(i, j)]
+            } else {
+                self.rows[(i - k, j)]
+            }
         })
     }
 
@@ -311,7 +350,12 @@ impl Programme {
         if !self.is_ratio() {
             return dual;
         }
-        tau + dual / if dual < 0.0 { self.denominator_floor } else { self.denominator_ceiling }
+        tau + dual
+            / if dual < 0.0 {
+                self.denominator_floor
+            } else {
+                self.denominator_ceiling
+            }
     }
 
     /// A dual point to start from cold: the weights and the ratio of the solid, no multipliers.
@@ -327,17 +371,25 @@ impl Programme {
     /// A known dual point, fitted to this programme's rows, or a cold start.
     pub fn start_near(&self, reach: &Reach, near: Option<&DualPoint>) -> DualPoint {
         let fitting = near.filter(|point| point.y.len() == self.directions.nrows());
-        let Some(point) = fitting else { return self.cold_start(reach) };
+        let Some(point) = fitting else {
+            return self.cold_start(reach);
+        };
         let multiplier = |i: usize| point.lambda.get(i).copied().unwrap_or(0.0);
         let lambda = DVector::from_fn(self.rhs.len(), |i, _| multiplier(i));
-        DualPoint { lambda, ..point.clone() }
+        DualPoint {
+            lambda,
+            ..point.clone()
+        }
     }
 }
 
 /// Mass times the offset of the centre from above that of buoyancy, along x and y.
 fn over_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
     let place = afloat.buoyancy / reach.scale.length_mm;
-    [row(&[(X, 1.0), (ONE, -place.x)]), row(&[(Y, 1.0), (ONE, -place.y)])]
+    [
+        row(&[(X, 1.0), (ONE, -place.x)]),
+        row(&[(Y, 1.0), (ONE, -place.y)]),
+    ]
 }
 
 fn yoyo_rows() -> DMatrix<f64> {

@@ -49,7 +49,9 @@ impl Default for Prudence {
 impl Prudence {
     /// The prudence after claims have failed.
     pub fn doubled(self) -> Self {
-        Self { near_ratio: 2.0 * self.near_ratio - 1.0 }
+        Self {
+            near_ratio: 2.0 * self.near_ratio - 1.0,
+        }
     }
 
     /// What to claim of a margin. It grows with the square of the distance from where the columns are mended, and what
@@ -76,7 +78,9 @@ impl<'a> Work<'a> {
     pub fn ascend(&self, programme: &Programme, known: Option<&DualPoint>) -> Climb {
         let start = programme.start_near(&self.reach, known);
         let straight = || self.climb(programme, start.clone(), 0.0);
-        let Some(scout) = self.scout_from(WORTH_A_CLIMB) else { return straight() };
+        let Some(scout) = self.scout_from(WORTH_A_CLIMB) else {
+            return straight();
+        };
         if known.is_some() {
             return self.ascend_with(scout, programme, start);
         }
@@ -91,9 +95,14 @@ impl<'a> Work<'a> {
     /// Climbs from near the answer: one look, an ascent on what is mended by it, and Newton's method to the end.
     fn ascend_with(&self, scout: Self, programme: &Programme, near: DualPoint) -> Climb {
         let here = self.look(programme, near);
-        let ahead = scout.mended(&here).climb_near(programme, Some(&here.point), 0.0);
-        let Some(ahead) = ahead else { return self.climb_from(programme, here) };
-        self.climb_from(programme, self.look(programme, ahead.best.point)).after(&[here.pass()])
+        let ahead = scout
+            .mended(&here)
+            .climb_near(programme, Some(&here.point), 0.0);
+        let Some(ahead) = ahead else {
+            return self.climb_from(programme, here);
+        };
+        self.climb_from(programme, self.look(programme, ahead.best.point))
+            .after(&[here.pass()])
     }
 
     /// Whether posts that a scout found stand on all columns; one cheaper pass each.
@@ -102,7 +111,10 @@ impl<'a> Work<'a> {
         let extremes = self.reach.least_of_each(&directions);
         let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
         let spares: Vec<f64> = posts.iter().zip(&extremes).map(spare).collect();
-        posts.iter().zip(&spares).for_each(|(post, spare)| self.note_post(post, *spare));
+        posts
+            .iter()
+            .zip(&spares)
+            .for_each(|(post, spare)| self.note_post(post, *spare));
         spares.iter().all(|&spare| spare >= 0.0)
     }
 }

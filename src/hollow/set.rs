@@ -64,7 +64,9 @@ fn minimise_over_ball(s: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
         if norm <= 1.0 + SECULAR_TOLERANCE {
             break;
         }
-        let slope: f64 = y.zip_fold(&eigen.eigenvalues, 0.0, |sum, y, lambda| sum + y * y / (lambda + shift));
+        let slope: f64 = y.zip_fold(&eigen.eigenvalues, 0.0, |sum, y, lambda| {
+            sum + y * y / (lambda + shift)
+        });
         shift += (norm - 1.0) * norm * norm / slope;
         y = at(shift);
     }
@@ -95,8 +97,15 @@ fn minimise_over_simplex(s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>
 
 /// Moves y to the least over the active weights, or up to the first that reaches zero and drops it; says whether the
 /// least was reached.
-fn step_within(s: &DMatrix<f64>, c: &DVector<f64>, y: &mut DVector<f64>, active: &mut Vec<usize>) -> bool {
-    let Some(target) = least_with_sum_one(s, c, active) else { return true };
+fn step_within(
+    s: &DMatrix<f64>,
+    c: &DVector<f64>,
+    y: &mut DVector<f64>,
+    active: &mut Vec<usize>,
+) -> bool {
+    let Some(target) = least_with_sum_one(s, c, active) else {
+        return true;
+    };
     let mut part = 1.0;
     let mut blocking = None;
     for (slot, &i) in active.iter().enumerate() {
@@ -115,7 +124,11 @@ fn step_within(s: &DMatrix<f64>, c: &DVector<f64>, y: &mut DVector<f64>, active:
 }
 
 /// The least of the quadratic over the active weights with sum one, of any sign.
-fn least_with_sum_one(s: &DMatrix<f64>, c: &DVector<f64>, active: &[usize]) -> Option<DVector<f64>> {
+fn least_with_sum_one(
+    s: &DMatrix<f64>,
+    c: &DVector<f64>,
+    active: &[usize],
+) -> Option<DVector<f64>> {
     let n = active.len();
     let factor = DMatrix::from_fn(n, n, |i, j| s[(active[i], active[j])]).cholesky()?;
     let free = factor.solve(&DVector::from_fn(n, |i, _| c[active[i]]));
@@ -157,7 +170,10 @@ mod tests {
 
     #[test]
     fn the_least_inside_the_ball_is_the_free_one() {
-        let (s, c) = (DMatrix::identity(2, 2) * 4.0, DVector::from_vec(vec![1.0, -2.0]));
+        let (s, c) = (
+            DMatrix::identity(2, 2) * 4.0,
+            DVector::from_vec(vec![1.0, -2.0]),
+        );
         let y = DualSet::Ball.minimise(&s, &c, &DVector::zeros(2));
         assert!((y - DVector::from_vec(vec![0.25, -0.5])).norm() < 1e-15);
     }
@@ -170,8 +186,13 @@ mod tests {
             assert!((y.sum() - 1.0).abs() < 1e-12 && y.min() >= 0.0);
             // First order: no vertex descends, which for a convex function means no point does.
             let slope = &s * &y - &c;
-            assert!(slope.min() >= slope.dot(&y) - 1e-10 * slope.amax(), "{n} {seed}");
-            assert!(value(&s, &c, &y) <= value(&s, &c, &DVector::repeat(n, 1.0 / n as f64)) + 1e-12);
+            assert!(
+                slope.min() >= slope.dot(&y) - 1e-10 * slope.amax(),
+                "{n} {seed}"
+            );
+            assert!(
+                value(&s, &c, &y) <= value(&s, &c, &DVector::repeat(n, 1.0 / n as f64)) + 1e-12
+            );
         }
     }
 }

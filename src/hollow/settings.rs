@@ -16,6 +16,11 @@ pub struct Settings {
 
 impl Default for Settings {
     fn default() -> Self {
-        Self { tolerance: 1e-9, accepted_gap_ratio: 1e-6, accepted_residual: 1e-7, passes_per_ascent: 60 }
+        Self {
+            tolerance: 1e-9,
+            accepted_gap_ratio: 1e-6,
+            accepted_residual: 1e-7,
+            passes_per_ascent: 60,
+        }
     }
 }

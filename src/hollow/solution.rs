@@ -120,7 +120,10 @@ pub struct Pass {
 impl Pass {
     /// The pass with both numbers changed.
     pub(super) fn map(self, change: impl Fn(f64) -> f64) -> Self {
-        Self { value: change(self.value), bound: change(self.bound) }
+        Self {
+            value: change(self.value),
+            bound: change(self.bound),
+        }
     }
 
     /// Whether it is of use to look at.
@@ -161,14 +164,31 @@ impl Solution {
     /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`, its void is where the
     /// quadric was negative.
     pub(super) fn stretched(self, factor: f64, is_turned: bool) -> Self {
-        let Certificate { figure, value, bound, .. } = self.certificate;
-        let stretch = if figure == Figure::VolumeMm3 { factor } else { 1.0 };
+        let Certificate {
+            figure,
+            value,
+            bound,
+            ..
+        } = self.certificate;
+        let stretch = if figure == Figure::VolumeMm3 {
+            factor
+        } else {
+            1.0
+        };
         let turned = Quadric(self.quadric.0.map(|coefficient| -coefficient));
         Self {
             moments: self.moments * factor,
             quadric: if is_turned { turned } else { self.quadric },
-            certificate: Certificate { value: value * stretch, bound: bound * stretch, ..self.certificate },
-            course: self.course.iter().map(|pass| pass.map(|number| number * stretch)).collect(),
+            certificate: Certificate {
+                value: value * stretch,
+                bound: bound * stretch,
+                ..self.certificate
+            },
+            course: self
+                .course
+                .iter()
+                .map(|pass| pass.map(|number| number * stretch))
+                .collect(),
             ..self
         }
     }

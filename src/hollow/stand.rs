@@ -16,7 +16,9 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     let least = climb.best.bound;
     let answer = Answer::new(objective, climb);
     if objective == Objective::TopplingAngle && least >= 0.0 {
-        return answer.with_verdict(Status::CannotStand { greatest_angle_rad: -least.atan() });
+        return answer.with_verdict(Status::CannotStand {
+            greatest_angle_rad: -least.atan(),
+        });
     }
     answer
 }

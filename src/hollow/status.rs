@@ -98,7 +98,11 @@ impl Status {
         match *self {
             Self::Solved => "Solved: no other interior is better.".into(),
             Self::AlmostSolved => "Solved, though the proof of the last digits is missing.".into(),
-            Self::ConstraintsInfeasible { obstacle, least_miss, .. } => format!(
+            Self::ConstraintsInfeasible {
+                obstacle,
+                least_miss,
+                ..
+            } => format!(
                 "Impossible: no hollowing with this wall can {}; every interior misses it by at least {:.2} % of the \
                  solid's own size in these moments.",
                 obstacle.task(goal.kind),
@@ -108,7 +112,10 @@ impl Status {
                 "Impossible: whatever is hollowed out, the moment of inertia across the axis is at least \
                  {least_ratio:.3} times the one about it, so the spin about this axis is not stable."
             ),
-            Self::UnstableForEveryInterior { least_ratio, proved } => format!(
+            Self::UnstableForEveryInterior {
+                least_ratio,
+                proved,
+            } => format!(
                 "Impossible: upright it is too tall. Whatever is hollowed out, the moment of inertia across the axis is \
                  at least {least_ratio:.3} times the one about it, so no speed makes it stable ({}).",
                 if proved {
@@ -128,7 +135,9 @@ impl Status {
             Self::RidesHigh { greatest_ratio } => format!(
                 "Impossible: even solid it weighs only {greatest_ratio:.3} of the water it displaces at this waterline."
             ),
-            Self::CannotTrim { least_offset_mm, .. } => format!(
+            Self::CannotTrim {
+                least_offset_mm, ..
+            } => format!(
                 "Impossible: at this waterline the centre of mass stays at least {least_offset_mm:.3} mm beside the centre of \
                  buoyancy, whatever is hollowed out, so it would not float upright."
             ),
@@ -137,11 +146,16 @@ impl Status {
                  hollowed out, so it would turn over.",
                 -greatest_gm_mm
             ),
-            Self::CannotBalance { least_grade_mm_s, .. } => format!(
+            Self::CannotBalance {
+                least_grade_mm_s, ..
+            } => format!(
                 "Impossible: whatever is hollowed out, at its speed the rotor's balance grade stays at G {least_grade_mm_s:.1} \
                  or above."
             ),
-            Self::IterationLimit { gap_ratio, residual } => format!(
+            Self::IterationLimit {
+                gap_ratio,
+                residual,
+            } => format!(
                 "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
                  {residual:.1e}. Allow more passes."
             ),
@@ -238,10 +252,16 @@ impl Obstacle {
                 "bring the centre of mass onto the spin axis"
             }
             (Self::Center, GoalKind::Yoyo) => "bring the centre of mass to the spin point",
-            (Self::Center, GoalKind::Float) => "bring the centre of mass over the centre of buoyancy",
-            (Self::Center, GoalKind::Stand) => "bring the centre of mass over the middle of the support",
+            (Self::Center, GoalKind::Float) => {
+                "bring the centre of mass over the centre of buoyancy"
+            }
+            (Self::Center, GoalKind::Stand) => {
+                "bring the centre of mass over the middle of the support"
+            }
             (Self::PrincipalAxis, _) => "turn a principal axis of inertia onto the spin axis",
-            (Self::Both, _) => "balance the centre of mass and the principal axis on the spin axis together",
+            (Self::Both, _) => {
+                "balance the centre of mass and the principal axis on the spin axis together"
+            }
         }
     }
 }
@@ -258,17 +278,58 @@ mod tests {
     fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
         let goal = worlds::egg(Objective::Dominance).goal;
         let proofs = [
-            (Status::NotDominant { least_ratio: 1.0637 }, "1.064"),
-            (Status::UnstableForEveryInterior { least_ratio: 1.389, proved: true }, "1.389"),
-            (Status::CannotStand { greatest_angle_rad: -0.0239 }, "1.369°"),
-            (Status::Sinks { least_ratio: 1.0637 }, "1.064"),
-            (Status::RidesHigh { greatest_ratio: 0.6372 }, "0.637"),
             (
-                Status::CannotTrim { least_offset_mm: 0.6372, separator: Quadric([0.0; 10]), level_mm3: 1.0 },
+                Status::NotDominant {
+                    least_ratio: 1.0637,
+                },
+                "1.064",
+            ),
+            (
+                Status::UnstableForEveryInterior {
+                    least_ratio: 1.389,
+                    proved: true,
+                },
+                "1.389",
+            ),
+            (
+                Status::CannotStand {
+                    greatest_angle_rad: -0.0239,
+                },
+                "1.369°",
+            ),
+            (
+                Status::Sinks {
+                    least_ratio: 1.0637,
+                },
+                "1.064",
+            ),
+            (
+                Status::RidesHigh {
+                    greatest_ratio: 0.6372,
+                },
+                "0.637",
+            ),
+            (
+                Status::CannotTrim {
+                    least_offset_mm: 0.6372,
+                    separator: Quadric([0.0; 10]),
+                    level_mm3: 1.0,
+                },
                 "0.637 mm",
             ),
-            (Status::Capsizes { greatest_gm_mm: -1.5 }, "1.500 mm"),
-            (Status::CannotBalance { least_grade_mm_s: 17.08, separator: Quadric([0.0; 10]) }, "G 17.1"),
+            (
+                Status::Capsizes {
+                    greatest_gm_mm: -1.5,
+                },
+                "1.500 mm",
+            ),
+            (
+                Status::CannotBalance {
+                    least_grade_mm_s: 17.08,
+                    separator: Quadric([0.0; 10]),
+                },
+                "G 17.1",
+            ),
             (
                 Status::ConstraintsInfeasible {
                     obstacle: Obstacle::Center,
@@ -280,7 +341,11 @@ mod tests {
         ];
         for (status, number) in proofs {
             assert!(status.is_impossible());
-            assert!(status.explain(&goal).contains(number), "{}", status.explain(&goal));
+            assert!(
+                status.explain(&goal).contains(number),
+                "{}",
+                status.explain(&goal)
+            );
             assert!(!status.remedies(&goal).is_empty());
         }
         assert!(!Status::Solved.is_impossible() && Status::Solved.remedies(&goal).is_empty());
@@ -288,14 +353,26 @@ mod tests {
 
     #[test]
     fn every_impossibility_of_a_small_world_holds_for_many_interiors_of_it() {
-        let worlds = [worlds::long_egg(), worlds::tower(), far_from_support(), worlds::tank(120.0, [0.0; 2])];
+        let worlds = [
+            worlds::long_egg(),
+            worlds::tower(),
+            far_from_support(),
+            worlds::tank(120.0, [0.0; 2]),
+        ];
         let statuses = worlds.map(|mut world| {
-            world.goal.afloat = world.goal.afloat.map(|afloat| Afloat { metacenter_mm: 4.0, ..afloat });
+            world.goal.afloat = world.goal.afloat.map(|afloat| Afloat {
+                metacenter_mm: 4.0,
+                ..afloat
+            });
             let status = solve(&world.problem(), &Settings::default(), &Progress::silent()).status;
             // Even in x and y, so that the rows hold where the world itself is.
             for seed in 0..400 {
                 let Quadric([c, _, _, z, _, _, _, xx, _, zz]) = worlds::some_quadric(seed, 8.0);
-                let z = if world.goal.kind == GoalKind::Yoyo { 0.0 } else { z };
+                let z = if world.goal.kind == GoalKind::Yoyo {
+                    0.0
+                } else {
+                    z
+                };
                 let even = Quadric([c, 0., 0., z, 0., 0., 0., xx, xx, zz]);
                 let moments = world.fixed - moments_where_positive(&world.columns, &even);
                 let figures = figures(&world.goal, &moments);
@@ -308,24 +385,37 @@ mod tests {
                         (-figures.toppling_angle_rad.unwrap(), -greatest_angle_rad)
                     }
                     // Of other masses than the water carries, it may be lower: those are not spoken of.
-                    Status::Capsizes { greatest_gm_mm } if (moments.volume() - 120.0).abs() < 0.5 => {
+                    Status::Capsizes { greatest_gm_mm }
+                        if (moments.volume() - 120.0).abs() < 0.5 =>
+                    {
                         (figures.center_height_mm, 4.0 - greatest_gm_mm)
                     }
                     Status::Capsizes { .. } => continue,
                     _ => panic!("{status:?}"),
                 };
                 // Half a unit of mass at the tank's far end, 5 from its centre, moves the centre by 0.5·5/120.
-                let slack = if matches!(status, Status::Capsizes { .. }) { 0.021 } else { 1e-9 };
+                let slack = if matches!(status, Status::Capsizes { .. }) {
+                    0.021
+                } else {
+                    1e-9
+                };
                 assert!(reached >= limit - slack, "{status:?}: {reached}");
             }
             std::mem::discriminant(&status)
         });
-        assert!((0..4).all(|i| !statuses[..i].contains(&statuses[i])), "four different impossibilities");
+        assert!(
+            (0..4).all(|i| !statuses[..i].contains(&statuses[i])),
+            "four different impossibilities"
+        );
     }
 
     fn far_from_support() -> worlds::World {
         let mut world = worlds::blocks_on_a_slope();
-        world.goal.support.iter_mut().for_each(|corner| corner[0] -= 20.0);
+        world
+            .goal
+            .support
+            .iter_mut()
+            .for_each(|corner| corner[0] -= 20.0);
         world
     }
 
@@ -333,7 +423,10 @@ mod tests {
     fn too_few_passes_end_as_almost_solved_or_unsolved_and_never_as_solved() {
         let world = worlds::egg(Objective::Dominance);
         let with = |passes| {
-            let settings = Settings { passes_per_ascent: passes, ..Settings::default() };
+            let settings = Settings {
+                passes_per_ascent: passes,
+                ..Settings::default()
+            };
             solve(&world.problem(), &settings, &Progress::silent())
         };
         let ends: Vec<Solution> = (1..12).map(with).collect();
@@ -341,10 +434,19 @@ mod tests {
         assert!(count(|status| matches!(status, Status::IterationLimit { .. })) > 0);
         assert!(count(|status| *status == Status::AlmostSolved) > 0);
         assert!(count(|status| *status == Status::Solved) > 0);
-        for Solution { status, certificate, .. } in &ends {
+        for Solution {
+            status,
+            certificate,
+            ..
+        } in &ends
+        {
             let met = certificate.residual <= 1e-7 && certificate.gap_ratio.abs() <= 1e-6;
             assert_eq!(*status == Status::Solved, met, "{status:?} {certificate:?}");
-            if let Status::IterationLimit { gap_ratio, residual } = *status {
+            if let Status::IterationLimit {
+                gap_ratio,
+                residual,
+            } = *status
+            {
                 assert!(residual > 1e-3 || gap_ratio.abs() > 1e-2);
                 assert!(status.explain(&world.goal).contains("Allow more passes"));
             }

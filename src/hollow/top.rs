@@ -32,18 +32,37 @@ pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
 /// columns.
 fn scouted(work: &Work, objective: Objective) -> Option<Answer> {
     let scout = work.scout()?;
-    let heights = Heights { work, objective, range: Heights::scouted_range(work, &scout)? };
-    let rough = Heights { work: &scout, ..heights };
+    let heights = Heights {
+        work,
+        objective,
+        range: Heights::scouted_range(work, &scout)?,
+    };
+    let rough = Heights {
+        work: &scout,
+        ..heights
+    };
     let solid = &work.reach.solid;
-    let seen = rough.bottom_from(solid[index::Z] / solid[index::ONE])?.warm();
+    let seen = rough
+        .bottom_from(solid[index::Z] / solid[index::ONE])?
+        .warm();
     let (bottom, scout) = looked_up(&heights, scout, seen)?;
     let bound_over_heights = Some(planned(&heights, scout, &bottom)?);
-    Some(Found { bottom, bound_over_heights }.answer(objective))
+    Some(
+        Found {
+            bottom,
+            bound_over_heights,
+        }
+        .answer(objective),
+    )
 }
 
 /// The bottom of the valley near what a scout has seen: each look at all columns mends the scout's for the next, until there is
 /// nothing to be gained by another height and Newton's method ends it. With the scout as mended there.
-fn looked_up<'a>(heights: &Heights, mut scout: Work<'a>, mut seen: Warm) -> Option<(Bottom, Work<'a>)> {
+fn looked_up<'a>(
+    heights: &Heights,
+    mut scout: Work<'a>,
+    mut seen: Warm,
+) -> Option<(Bottom, Work<'a>)> {
     let mut course = Vec::new();
     for _ in 0..MOST_LOOKS {
         let (height, lever) = (seen.height?, seen.lever);
@@ -52,15 +71,23 @@ fn looked_up<'a>(heights: &Heights, mut scout: Work<'a>, mut seen: Warm) -> Opti
         scout = scout.mended(&here);
         let at = |climb: Climb| heights.bottom_of((height, lever), climb);
         if heights.is_level(&at(Climb::of(here.clone()))) {
-            let bottom = at(heights.work.climb_from(&programme, here.clone()).after(&course));
+            let bottom = at(heights
+                .work
+                .climb_from(&programme, here.clone())
+                .after(&course));
             if heights.work.accepts(&bottom.sample.climb) && heights.is_level(&bottom) {
                 let scout = scout.mended(&bottom.sample.climb.best);
                 return is_stable(heights.work, &bottom.sample).then_some((bottom, scout));
             }
         }
         course.push(here.pass());
-        let mended = Heights { work: &scout, ..*heights };
-        seen = mended.bottom(Valley::near(height), Some((&here.point, lever)))?.warm();
+        let mended = Heights {
+            work: &scout,
+            ..*heights
+        };
+        seen = mended
+            .bottom(Valley::near(height), Some((&here.point, lever)))?
+            .warm();
     }
     None
 }
@@ -68,7 +95,13 @@ fn looked_up<'a>(heights: &Heights, mut scout: Work<'a>, mut seen: Warm) -> Opti
 /// A bound just below the bottom of a valley that holds at every height, by posts that a scout finds and all columns bear.
 fn planned(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Option<f64> {
     for _ in 0..MOST_PLANS {
-        let (bound, proof) = proof(&Heights { work: &scout, ..*heights }, bottom);
+        let (bound, proof) = proof(
+            &Heights {
+                work: &scout,
+                ..*heights
+            },
+            bottom,
+        );
         if heights.work.hold(&proof.ok()?) {
             return Some(bound);
         }
@@ -98,25 +131,48 @@ fn from_nothing(work: &Work, objective: Objective) -> Answer {
 /// the ground has changed too much for that.
 pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
     let hint = warm.height?;
-    let heights = Heights { work, objective, range: [0.5 * hint.at, 2.0 * hint.at] };
-    let looked = work.scout().and_then(|scout| looked_up(&heights, scout, warm.clone()));
+    let heights = Heights {
+        work,
+        objective,
+        range: [0.5 * hint.at, 2.0 * hint.at],
+    };
+    let looked = work
+        .scout()
+        .and_then(|scout| looked_up(&heights, scout, warm.clone()));
     let bottom = match looked {
         Some((bottom, _)) => bottom,
         None => heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?,
     };
     let usable = is_stable(work, &bottom.sample) && work.accepts(&bottom.sample.climb);
-    usable.then(|| Found { bottom, bound_over_heights: None }.answer(objective))
+    usable.then(|| {
+        Found {
+            bottom,
+            bound_over_heights: None,
+        }
+        .answer(objective)
+    })
 }
 
 /// A lower bound of the ratio over all heights and levers, proved on all columns near a known answer; none where that
 /// does not succeed.
 pub(super) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
     let scout = work.scout()?;
-    let heights = Heights { work, objective, range: Heights::scouted_range(work, &scout)? };
+    let heights = Heights {
+        work,
+        objective,
+        range: Heights::scouted_range(work, &scout)?,
+    };
     let height = warm.height?;
-    let here = work.look(&heights.programme_at(height.at, warm.lever), warm.point.clone());
+    let here = work.look(
+        &heights.programme_at(height.at, warm.lever),
+        warm.point.clone(),
+    );
     let scout = scout.mended(&here);
-    planned(&heights, scout, &heights.bottom_of((height, warm.lever), Climb::of(here)))
+    planned(
+        &heights,
+        scout,
+        &heights.bottom_of((height, warm.lever), Climb::of(here)),
+    )
 }
 
 /// The lowest valley, and what is proved of all the others.
@@ -143,7 +199,12 @@ fn lowest(heights: &Heights) -> Option<Found> {
     for _ in 0..MOST_VALLEYS {
         let (bound, proof) = proof(heights, &bottom);
         match proof {
-            Ok(_) => return Some(Found { bottom, bound_over_heights: Some(bound) }),
+            Ok(_) => {
+                return Some(Found {
+                    bottom,
+                    bound_over_heights: Some(bound),
+                });
+            }
             Err(Doubt::Open) => break,
             Err(Doubt::Refuted(height)) => match heights.bottom_from(height) {
                 Some(lower) if lower.sample.value < bottom.sample.value => bottom = lower,
@@ -151,7 +212,10 @@ fn lowest(heights: &Heights) -> Option<Found> {
             },
         }
     }
-    Some(Found { bottom, bound_over_heights: None })
+    Some(Found {
+        bottom,
+        bound_over_heights: None,
+    })
 }
 
 /// A bound just below the bottom of a valley, and the posts that prove it at every height.
@@ -163,8 +227,18 @@ fn proof(heights: &Heights, bottom: &Bottom) -> (f64, Result<Vec<Post>, Doubt>) 
     };
     let target = bottom.sample.value * (1.0 - COVER_RATIO);
     // As the ratio with which the interior at hand would have this value.
-    let bound = ((target - weighed.lever * best.lever().powi(2)) / weighed.inertia).max(0.0).sqrt();
-    (bound, Frontier { heights, weighed, target }.proof(bottom))
+    let bound = ((target - weighed.lever * best.lever().powi(2)) / weighed.inertia)
+        .max(0.0)
+        .sqrt();
+    (
+        bound,
+        Frontier {
+            heights,
+            weighed,
+            target,
+        }
+        .proof(bottom),
+    )
 }
 
 /// What is claimed of all heights where the bottom of one valley is this low.
@@ -179,16 +253,25 @@ fn target_below(objective: Objective, best: f64) -> f64 {
 fn is_stable(work: &Work, sample: &Sample) -> bool {
     let best = &sample.climb.best;
     let height = best.center_height();
-    Programme::top_critical_speed(&work.reach, height, [height; 2]).numerator_at(&best.extreme.s) < 0.0
+    Programme::top_critical_speed(&work.reach, height, [height; 2]).numerator_at(&best.extreme.s)
+        < 0.0
 }
 
 /// No height has a stable interior: the least I_b/I_c over all of them is the number that says so.
 fn unstable(heights: Heights, tried: Found) -> Answer {
-    let heights = Heights { objective: Objective::Dominance, ..heights };
-    let answer = lowest(&heights).unwrap_or(tried).answer(Objective::Dominance);
+    let heights = Heights {
+        objective: Objective::Dominance,
+        ..heights
+    };
+    let answer = lowest(&heights)
+        .unwrap_or(tried)
+        .answer(Objective::Dominance);
     let proved = answer.bound_over_heights.filter(|&bound| bound >= 1.0);
     let least_ratio = proved.unwrap_or(answer.climb.best.bound);
-    answer.with_verdict(Status::UnstableForEveryInterior { least_ratio, proved: proved.is_some() })
+    answer.with_verdict(Status::UnstableForEveryInterior {
+        least_ratio,
+        proved: proved.is_some(),
+    })
 }
 
 #[cfg(test)]
@@ -201,13 +284,20 @@ mod tests {
 
     const OBJECTIVES: [Objective; 3] = [
         Objective::CriticalSpeed,
-        Objective::SpinIt { gamma_c: 0.0, gamma_i: 1.0 },
-        Objective::SpinIt { gamma_c: 0.8, gamma_i: 1.2 },
+        Objective::SpinIt {
+            gamma_c: 0.0,
+            gamma_i: 1.0,
+        },
+        Objective::SpinIt {
+            gamma_c: 0.8,
+            gamma_i: 1.2,
+        },
     ];
 
     fn with_work(objective: Objective, check: impl Fn(&worlds::World, &Work)) {
         let world = worlds::egg_on_its_side(objective);
-        let (settings, progress, problem) = (Settings::default(), Progress::silent(), world.problem());
+        let (settings, progress, problem) =
+            (Settings::default(), Progress::silent(), world.problem());
         check(&world, &Work::new(&problem, &settings, &progress));
     }
 
@@ -219,7 +309,10 @@ mod tests {
                 let alone = from_nothing(work, objective);
                 let [one, other] = [&by_scout, &alone].map(|answer| answer.climb.best.value);
                 // Two heights within the bottom's precision of 1e-8 of the value differ by so much in it.
-                assert!((one - other).abs() < 1e-6 * other.abs(), "{objective:?}: {one} {other}");
+                assert!(
+                    (one - other).abs() < 1e-6 * other.abs(),
+                    "{objective:?}: {one} {other}"
+                );
             });
         }
     }
@@ -229,15 +322,27 @@ mod tests {
         for objective in OBJECTIVES {
             with_work(objective, |world, work| {
                 let (heights, bottom, scout) = ready(work, objective);
-                let posts =
-                    proof(&Heights { work: &scout, ..heights }, &bottom).1.expect("the claim is true");
+                let posts = proof(
+                    &Heights {
+                        work: &scout,
+                        ..heights
+                    },
+                    &bottom,
+                )
+                .1
+                .expect("the claim is true");
                 assert!(work.hold(&posts));
                 for seed in 0..40 {
                     let Quadric(random) = worlds::some_quadric(seed, 12.0);
                     let emptied = moments_where_positive(&world.columns, &Quadric(random));
                     let s = work.reach.scale.moments_to_units(&(world.fixed - emptied));
-                    let spare = posts.iter().map(|post| post.stake.direction.dot(&s) - post.stake.least);
-                    assert!(spare.fold(f64::INFINITY, f64::min) >= 0.0, "{objective:?} {seed}");
+                    let spare = posts
+                        .iter()
+                        .map(|post| post.stake.direction.dot(&s) - post.stake.least);
+                    assert!(
+                        spare.fold(f64::INFINITY, f64::min) >= 0.0,
+                        "{objective:?} {seed}"
+                    );
                 }
             });
         }
@@ -247,8 +352,15 @@ mod tests {
     fn posts_that_claim_more_than_there_is_do_not_stand() {
         with_work(Objective::CriticalSpeed, |_, work| {
             let (heights, bottom, scout) = ready(work, Objective::CriticalSpeed);
-            let mut posts =
-                proof(&Heights { work: &scout, ..heights }, &bottom).1.expect("the claim is true");
+            let mut posts = proof(
+                &Heights {
+                    work: &scout,
+                    ..heights
+                },
+                &bottom,
+            )
+            .1
+            .expect("the claim is true");
             let last = posts.last_mut().expect("there is a post");
             last.stake.direction[index::ONE] -= 0.5 * last.margin;
             assert!(!work.hold(&posts));
@@ -259,8 +371,17 @@ mod tests {
     fn ready<'a>(work: &'a Work<'a>, objective: Objective) -> (Heights<'a>, Bottom, Work<'a>) {
         let scout = work.scout().expect("the egg has columns enough");
         let range = Heights::scouted_range(work, &scout).expect("the egg can be balanced");
-        let heights = Heights { work, objective, range };
-        let seen = Heights { work: &scout, ..heights }.bottom_from(range[1]).expect("there is a valley");
+        let heights = Heights {
+            work,
+            objective,
+            range,
+        };
+        let seen = Heights {
+            work: &scout,
+            ..heights
+        }
+        .bottom_from(range[1])
+        .expect("there is a valley");
         let (bottom, scout) = looked_up(&heights, scout, seen.warm()).expect("it is stable");
         (heights, bottom, scout)
     }

@@ -61,13 +61,20 @@ pub(super) struct Bottom {
 impl Bottom {
     /// What a later search of a similar function starts from.
     pub fn tangent(&self) -> Tangent {
-        Tangent { at: self.sample.at, curvature: self.curvature }
+        Tangent {
+            at: self.sample.at,
+            curvature: self.curvature,
+        }
     }
 
     /// The same with the dual point.
     pub fn warm(&self) -> Warm {
         let Sample { climb, lever, .. } = &self.sample;
-        Warm { point: climb.best.point.clone(), height: Some(self.tangent()), lever: *lever }
+        Warm {
+            point: climb.best.point.clone(),
+            height: Some(self.tangent()),
+            lever: *lever,
+        }
     }
 
     /// Whether a slope of this curvature promises nothing worth the while, of a value as large as this one's.
@@ -96,24 +103,47 @@ pub(super) struct Valley {
 impl Valley {
     /// A search from a place in a range of which nothing else is known.
     pub fn from(place: f64, [low, high]: [f64; 2]) -> Self {
-        Self::from_tangent(Tangent { at: place, curvature: 0.0 }, [low, high])
+        Self::from_tangent(
+            Tangent {
+                at: place,
+                curvature: 0.0,
+            },
+            [low, high],
+        )
     }
 
     /// The same from where the bottom of a similar function was.
     pub fn from_tangent(hint: Tangent, [low, high]: [f64; 2]) -> Self {
-        let start = Tangent { at: hint.at.max(low).min(high), ..hint };
+        let start = Tangent {
+            at: hint.at.max(low).min(high),
+            ..hint
+        };
         let promise_ratio = PROMISE_RATIO;
-        Self { low, high, longest_step: high - low, start, promise_ratio, before: None, last: None }
+        Self {
+            low,
+            high,
+            longest_step: high - low,
+            start,
+            promise_ratio,
+            before: None,
+            last: None,
+        }
     }
 
     /// The same with steps of no more than this part of the place it begins at.
     pub fn in_steps_of(self, part: f64) -> Self {
-        Self { longest_step: part * self.start.at, ..self }
+        Self {
+            longest_step: part * self.start.at,
+            ..self
+        }
     }
 
     /// The same for samples of this tolerance: the bottom need not be known better than they are.
     pub fn within(self, tolerance: f64) -> Self {
-        Self { promise_ratio: PROMISE_RATIO.max(tolerance * tolerance), ..self }
+        Self {
+            promise_ratio: PROMISE_RATIO.max(tolerance * tolerance),
+            ..self
+        }
     }
 
     /// A search near the bottom of a similar function.
@@ -127,7 +157,11 @@ impl Valley {
         for _ in 0..ROUNDS {
             let at = self.next_place();
             let tolerance = self.tolerance_at(at);
-            let sample = sample_at(Place { at, tolerance, near: self.last.as_ref() })?;
+            let sample = sample_at(Place {
+                at,
+                tolerance,
+                near: self.last.as_ref(),
+            })?;
             self.narrow(&sample, tolerance);
             self.before = self.last.replace(sample);
             if tolerance == 0.0 && self.is_bottom(self.next_place()) {
@@ -141,13 +175,32 @@ impl Valley {
     /// Where the line through the last two slopes vanishes, if that is downhill; never further than the longest step,
     /// nor more than half way to an end of what is left.
     fn next_place(&self) -> f64 {
-        let Some(last) = &self.last else { return self.start.at };
+        let Some(last) = &self.last else {
+            return self.start.at;
+        };
         let curvature = self.curvature();
         let longest = self.longest_step.copysign(-last.slope);
-        let newton = if curvature > 0.0 { -last.slope / curvature } else { longest };
-        let place = last.at + if newton.abs() < longest.abs() { newton } else { longest };
-        let end = if last.slope < 0.0 { self.high } else { self.low };
-        if self.low < place && place < self.high { place } else { 0.5 * (last.at + end) }
+        let newton = if curvature > 0.0 {
+            -last.slope / curvature
+        } else {
+            longest
+        };
+        let place = last.at
+            + if newton.abs() < longest.abs() {
+                newton
+            } else {
+                longest
+            };
+        let end = if last.slope < 0.0 {
+            self.high
+        } else {
+            self.low
+        };
+        if self.low < place && place < self.high {
+            place
+        } else {
+            0.5 * (last.at + end)
+        }
     }
 
     /// How exact a sample has to be: fully where it is the last.
@@ -179,10 +232,22 @@ impl Valley {
 
     /// The growth of the slope between the last two samples, where there are two and it is one; else what is known of it.
     fn curvature(&self) -> f64 {
-        let Some(last) = &self.last else { return self.start.curvature };
-        let known = if self.start.curvature > 0.0 { self.start.curvature } else { last.bend };
-        let Some(before) = self.before.as_ref().filter(|before| before.at != last.at) else { return known };
+        let Some(last) = &self.last else {
+            return self.start.curvature;
+        };
+        let known = if self.start.curvature > 0.0 {
+            self.start.curvature
+        } else {
+            last.bend
+        };
+        let Some(before) = self.before.as_ref().filter(|before| before.at != last.at) else {
+            return known;
+        };
         let secant = (last.slope - before.slope) / (last.at - before.at);
-        if secant > 0.0 || last.bend == 0.0 { secant } else { last.bend }
+        if secant > 0.0 || last.bend == 0.0 {
+            secant
+        } else {
+            last.bend
+        }
     }
 }

@@ -43,14 +43,41 @@ impl<'a> Work<'a> {
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
         let first_damping = COLD_DAMPING;
         let (tolerance, prudence, log) = (settings.tolerance, None, RefCell::default());
-        Self { goal: problem.goal, reach, settings, progress, first_damping, tolerance, prudence, log }
+        Self {
+            goal: problem.goal,
+            reach,
+            settings,
+            progress,
+            first_damping,
+            tolerance,
+            prudence,
+            log,
+        }
     }
 
     /// A bench like this with thinned columns.
     pub fn thinned(&self, reach: Reach<'a>) -> Self {
-        let Self { goal, settings, progress, first_damping, .. } = *self;
-        let (tolerance, prudence) = (self.tolerance.max(ROUGH_TOLERANCE), Some(Prudence::default()));
-        Self { goal, reach, settings, progress, first_damping, tolerance, prudence, log: RefCell::default() }
+        let Self {
+            goal,
+            settings,
+            progress,
+            first_damping,
+            ..
+        } = *self;
+        let (tolerance, prudence) = (
+            self.tolerance.max(ROUGH_TOLERANCE),
+            Some(Prudence::default()),
+        );
+        Self {
+            goal,
+            reach,
+            settings,
+            progress,
+            first_damping,
+            tolerance,
+            prudence,
+            log: RefCell::default(),
+        }
     }
 
     /// The same bench, its columns given in model coordinates.
@@ -68,7 +95,11 @@ impl<'a> Work<'a> {
     /// The same bench, its thinned columns mended by what all of them have at the point of a visit.
     pub fn mended(self, visit: &Visit) -> Self {
         let reach = self.reach.mended(&visit.quadric, &visit.extreme);
-        Self { reach, tolerance: self.settings.tolerance.max(MENDED_TOLERANCE), ..self }
+        Self {
+            reach,
+            tolerance: self.settings.tolerance.max(MENDED_TOLERANCE),
+            ..self
+        }
     }
 
     /// The same bench claiming less of what it sees.
@@ -79,22 +110,45 @@ impl<'a> Work<'a> {
 
     /// The same bench for a search that starts near its answer.
     pub fn warmed(self) -> Self {
-        Self { first_damping: WARM_DAMPING, ..self }
+        Self {
+            first_damping: WARM_DAMPING,
+            ..self
+        }
     }
 
     /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
     pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
-        self.climb_within(programme, start, Aim { tolerance, slack: None, damping: self.first_damping })
+        self.climb_within(
+            programme,
+            start,
+            Aim {
+                tolerance,
+                slack: None,
+                damping: self.first_damping,
+            },
+        )
     }
 
     /// The same from a visit to where a scout has been.
     pub fn climb_from(&self, programme: &Programme, visit: Visit) -> Climb {
-        self.climb_on(programme, visit, Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING })
+        self.climb_on(
+            programme,
+            visit,
+            Aim {
+                tolerance: 0.0,
+                slack: None,
+                damping: SCOUTED_DAMPING,
+            },
+        )
     }
 
     /// The same until the bound is good enough, whatever the constraints are missed by.
     pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: Slack) -> Climb {
-        let aim = Aim { tolerance: 0.0, slack: Some(slack), damping: self.first_damping };
+        let aim = Aim {
+            tolerance: 0.0,
+            slack: Some(slack),
+            damping: self.first_damping,
+        };
         self.climb_within(programme, start, aim)
     }
 
@@ -108,7 +162,11 @@ impl<'a> Work<'a> {
         let before = self.reach.passes();
         let climb = climb(&self.reach, programme, visit, self.budget(aim));
         self.log.borrow_mut().pop();
-        self.note(programme.stage, 1 + self.reach.passes() - before, &climb.best);
+        self.note(
+            programme.stage,
+            1 + self.reach.passes() - before,
+            &climb.best,
+        );
         climb
     }
 
@@ -132,7 +190,11 @@ impl<'a> Work<'a> {
     /// The proof that no interior meets the rows, if there is one near the multipliers with which a scout found its own.
     pub fn refusal(&self, programme: &Programme, seen: DualPoint) -> Option<Climb> {
         let before = self.reach.passes();
-        let aim = Aim { tolerance: 0.0, slack: None, damping: SCOUTED_DAMPING };
+        let aim = Aim {
+            tolerance: 0.0,
+            slack: None,
+            damping: SCOUTED_DAMPING,
+        };
         let proof = refusal(&self.reach, programme, seen, self.budget(aim))?;
         self.note(programme.stage, self.reach.passes() - before, &proof.best);
         Some(proof)
@@ -147,14 +209,28 @@ impl<'a> Work<'a> {
 
     /// Logs a post that was held against all columns, and what was to spare.
     pub fn note_post(&self, post: &Post, spare: f64) {
-        let stage = Stage::Cover { height_mm: self.to_mm(post.at) };
+        let stage = Stage::Cover {
+            height_mm: self.to_mm(post.at),
+        };
         let (value, bound) = (post.margin + spare, post.margin);
-        self.log.borrow_mut().push(LogRow { stage, passes: 1, value, bound, residual: 0.0 });
+        self.log.borrow_mut().push(LogRow {
+            stage,
+            passes: 1,
+            value,
+            bound,
+            residual: 0.0,
+        });
     }
 
     fn note(&self, stage: Stage, passes: usize, best: &Visit) {
         let (value, bound, residual) = (best.value, best.bound, best.residual());
-        self.log.borrow_mut().push(LogRow { stage, passes, value, bound, residual });
+        self.log.borrow_mut().push(LogRow {
+            stage,
+            passes,
+            value,
+            bound,
+            residual,
+        });
     }
 
     /// The same from a near dual point; none where it was stopped or the rows cannot be met.
@@ -164,7 +240,11 @@ impl<'a> Work<'a> {
         near: Option<&DualPoint>,
         tolerance: f64,
     ) -> Option<Climb> {
-        let climb = self.climb(programme, programme.start_near(&self.reach, near), tolerance);
+        let climb = self.climb(
+            programme,
+            programme.start_near(&self.reach, near),
+            tolerance,
+        );
         (!matches!(climb.end, End::Infeasible(_) | End::Cancelled)).then_some(climb)
     }
 

@@ -26,7 +26,11 @@ fn dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
     let climb = work.ascend(&programme, start);
     let least_ratio = climb.best.bound;
     let answer = Answer::new(Objective::Dominance, climb);
-    if least_ratio >= 1.0 { answer.with_verdict(Status::NotDominant { least_ratio }) } else { answer }
+    if least_ratio >= 1.0 {
+        answer.with_verdict(Status::NotDominant { least_ratio })
+    } else {
+        answer
+    }
 }
 
 fn is_dominant(work: &Work, climb: &Climb) -> bool {

@@ -40,7 +40,11 @@ pub enum BuildError {
 
 /// A pitch for people, however small.
 fn shown(mm: f64) -> String {
-    if mm < 1e-3 { format!("{mm:.1e} mm") } else { show_mm(mm) }
+    if mm < 1e-3 {
+        format!("{mm:.1e} mm")
+    } else {
+        show_mm(mm)
+    }
 }
 
 impl Columns {
@@ -49,11 +53,20 @@ impl Columns {
     /// The ends of every interval are exact up to rounding (about 1e-12 mm): points inside the solid, at least
     /// the wall from every triangle and outside every keep-solid region, on the vertical line through the
     /// column's centre. Columns with nothing to empty are left out. The same bits for any number of threads.
-    pub fn of_shell(shell: &Shell, pitch_mm: [f64; 2], progress: &Progress) -> Result<Self, BuildError> {
+    pub fn of_shell(
+        shell: &Shell,
+        pitch_mm: [f64; 2],
+        progress: &Progress,
+    ) -> Result<Self, BuildError> {
         let grid = Grid::over(shell, pitch_mm)?;
         let triangles = shell.bin_triangles(&grid.ys, ROWS_PER_BLOCK);
         let pieces = shell.bin_pieces(&grid.ys, ROWS_PER_BLOCK);
-        let sweep = Sweep { shell, grid, triangles, pieces };
+        let sweep = Sweep {
+            shell,
+            grid,
+            triangles,
+            pieces,
+        };
         let blocks = sweep.run(progress)?;
         Ok(sweep.grid.assemble(blocks))
     }
@@ -71,7 +84,8 @@ impl Grid {
     fn over(shell: &Shell, pitch_mm: [f64; 2]) -> Result<Self, BuildError> {
         let bounds = shell.interior_bounds();
         let is_sound = |pitch: f64| pitch > 0.0 && pitch.is_finite();
-        let columns = (bounds.size().x / pitch_mm[0]).max(1.0) * (bounds.size().y / pitch_mm[1]).max(1.0);
+        let columns =
+            (bounds.size().x / pitch_mm[0]).max(1.0) * (bounds.size().y / pitch_mm[1]).max(1.0);
         if !(is_sound(pitch_mm[0]) && is_sound(pitch_mm[1]) && columns < MAX_GRID_COLUMNS) {
             return Err(BuildError::Pitch { pitch_mm });
         }
@@ -84,7 +98,10 @@ impl Grid {
     fn assemble(&self, blocks: Vec<Block>) -> Columns {
         let total = |size: fn(&Block) -> usize| blocks.iter().map(size).sum::<usize>();
         let (occupied, intervals) = (total(|b| b.columns.len()), total(|b| b.intervals.len()));
-        let mut columns = Columns { pitch_mm: self.pitch_mm, ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: self.pitch_mm,
+            ..Columns::default()
+        };
         columns.centers.reserve_exact(occupied);
         columns.starts.reserve_exact(occupied + 1);
         columns.intervals.reserve_exact(intervals);
@@ -92,7 +109,9 @@ impl Grid {
         let mut start = 0;
         for block in blocks {
             for column in &block.columns {
-                columns.centers.push([self.xs.at(column.x as usize), self.ys.at(column.y as usize)]);
+                columns
+                    .centers
+                    .push([self.xs.at(column.x as usize), self.ys.at(column.y as usize)]);
                 start += column.intervals;
                 columns.starts.push(start);
             }
@@ -135,22 +154,35 @@ impl Sweep<'_> {
                 return Err(BuildError::Cancelled);
             }
             let swept = self.block(row, block);
-            progress.report(PHASE, (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64);
+            progress.report(
+                PHASE,
+                (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64,
+            );
             Ok(swept)
         };
-        (0..blocks).into_par_iter().map_init(Row::default, sweep).collect()
+        (0..blocks)
+            .into_par_iter()
+            .map_init(Row::default, sweep)
+            .collect()
     }
 
     /// One block of rows.
     fn block(&self, row: &mut Row, block: usize) -> Block {
-        let reaching = Reaching { triangles: self.triangles.of(block), pieces: self.pieces.of(block) };
+        let reaching = Reaching {
+            triangles: self.triangles.of(block),
+            pieces: self.pieces.of(block),
+        };
         let first = block * ROWS_PER_BLOCK;
         let mut swept = Block::default();
         for y in first..(first + ROWS_PER_BLOCK).min(self.grid.ys.len()) {
             row.carve(self.shell, reaching, self.grid.ys.at(y), &self.grid.xs);
             for (x, intervals) in row.occupied() {
                 let intervals_count = intervals.len() as u32;
-                swept.columns.push(BlockColumn { x: x as u32, y: y as u32, intervals: intervals_count });
+                swept.columns.push(BlockColumn {
+                    x: x as u32,
+                    y: y as u32,
+                    intervals: intervals_count,
+                });
                 swept.intervals.extend_from_slice(intervals);
             }
         }
@@ -182,14 +214,17 @@ mod tests {
     }
 
     fn volume(solid: &Solid, frame: &Frame, wall_mm: f64, pitch_mm: f64) -> f64 {
-        columns_of(&shell_of(solid, frame, wall_mm), pitch_mm).moments().volume()
+        columns_of(&shell_of(solid, frame, wall_mm), pitch_mm)
+            .moments()
+            .volume()
     }
 
     /// The distance from a point to a triangle, by the definition: to the plane if the foot is inside, else to
     /// the nearest edge.
     fn distance_to_triangle(point: &Point, [a, b, c]: &[Point; 3]) -> f64 {
         let normal = (b - a).cross(&(c - a)).normalize();
-        let is_inside = |from: &Point, to: &Point| (to - from).cross(&(point - from)).dot(&normal) >= 0.0;
+        let is_inside =
+            |from: &Point, to: &Point| (to - from).cross(&(point - from)).dot(&normal) >= 0.0;
         if is_inside(a, b) && is_inside(b, c) && is_inside(c, a) {
             return (point - a).dot(&normal).abs();
         }
@@ -238,11 +273,15 @@ mod tests {
             let here = columns.centers.iter().position(is_here);
             let intervals = here.map_or(&[][..], |column| columns.intervals_of(column));
             let point = Point::new(x, y, z);
-            let distances =
-                shell.surface().iter_corners().map(|corners| distance_to_triangle(&point, &corners));
+            let distances = shell
+                .surface()
+                .iter_corners()
+                .map(|corners| distance_to_triangle(&point, &corners));
             let distance = distances.fold(f64::INFINITY, f64::min);
             let may_be_emptied = distance >= wall_mm && winding(&point, shell.surface()) > 0.5;
-            let found = intervals.iter().any(|[bottom, top]| (*bottom..=*top).contains(&z));
+            let found = intervals
+                .iter()
+                .any(|[bottom, top]| (*bottom..=*top).contains(&z));
             // Within 1e-9 mm of the wall's surface rounding decides.
             if (distance - wall_mm).abs() > 1e-9 {
                 assert_eq!(
@@ -261,7 +300,12 @@ mod tests {
         // A stretch of a whole number of pitches holds that many lattice points: no error from the columns either.
         assert!((volume(&solid, &Frame::identity(), 1.0, 0.5) - 512.0).abs() < 1e-9);
         let columns = columns_of(&shell_of(&solid, &Frame::identity(), 1.0), 0.5);
-        assert!(columns.intervals.iter().all(|interval| *interval == [1.0, 9.0]));
+        assert!(
+            columns
+                .intervals
+                .iter()
+                .all(|interval| *interval == [1.0, 9.0])
+        );
     }
 
     #[test]
@@ -275,7 +319,17 @@ mod tests {
 
     #[test]
     fn a_plate_no_thicker_than_two_walls_has_nothing_to_empty() {
-        let plate = fixtures::cells(&[[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0]], 2.0);
+        let plate = fixtures::cells(
+            &[
+                [0, 0, 0],
+                [1, 0, 0],
+                [2, 0, 0],
+                [0, 1, 0],
+                [1, 1, 0],
+                [2, 1, 0],
+            ],
+            2.0,
+        );
         assert!(columns_of(&shell_of(&plate, &Frame::identity(), 1.0), 0.1).is_empty());
         assert!(columns_of(&shell_of(&plate, &turned(), 1.0 + 1e-6), 0.1).is_empty());
         assert!(columns_of(&shell_of(&plate, &turned(), 50.0), 0.1).is_empty());
@@ -302,15 +356,28 @@ mod tests {
         let arms = (2.0 * side - 2.0 * wall) * (side - 2.0 * wall) + (side - 2.0 * wall) * side;
         let section = arms + wall * wall * (1.0 - PI / 4.0);
         let exact = section * (side - 2.0 * wall);
-        let axes = [Vector::x(), Vector::y(), Vector::z(), Vector::new(0.3, -0.5, 0.8)];
+        let axes = [
+            Vector::x(),
+            Vector::y(),
+            Vector::z(),
+            Vector::new(0.3, -0.5, 0.8),
+        ];
         for axis in axes {
             let frame = Frame::with_axis(Point::new(0.1, 0.2, 0.3), &axis);
             let found = volume(&solid, &frame, wall, 0.05);
             // The rim of the shadow (≤ 80 mm) is off by less than half a pitch where it is straight along the lattice.
-            assert!((found - exact).abs() < 80.0 * 0.025 * 7.0, "{found} instead of {exact} along {axis}");
+            assert!(
+                (found - exact).abs() < 80.0 * 0.025 * 7.0,
+                "{found} instead of {exact} along {axis}"
+            );
         }
         // Across the edge the section is a smooth function of one coordinate but for three corners: O(pitch²).
-        let across = volume(&solid, &Frame::with_axis(Point::origin(), &Vector::y()), wall, 0.01);
+        let across = volume(
+            &solid,
+            &Frame::with_axis(Point::origin(), &Vector::y()),
+            wall,
+            0.01,
+        );
         assert!((across - exact).abs() < 2.0, "{across} instead of {exact}");
     }
 
@@ -319,14 +386,24 @@ mod tests {
         let slotted = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 0, 1], [2, 0, 1]];
         let solid = fixtures::cells(&slotted, 5.0);
         let columns = columns_of(&shell_of(&solid, &Frame::identity(), 1.0), 0.25);
-        let under_slot = columns.centers.iter().position(|c| c[0] > 6.0 && c[0] < 9.0).unwrap();
+        let under_slot = columns
+            .centers
+            .iter()
+            .position(|c| c[0] > 6.0 && c[0] < 9.0)
+            .unwrap();
         assert_eq!(columns.intervals_of(under_slot), [[1.0, 4.0]]);
         let under_post = columns.centers.iter().position(|c| c[0] < 4.0).unwrap();
         assert_eq!(columns.intervals_of(under_post), [[1.0, 9.0]]);
         // Between, over the reflex edge at (5, 5): up to the circle about it.
-        let beside = columns.centers.iter().position(|c| c[0] > 4.0 && c[0] < 5.0).unwrap();
+        let beside = columns
+            .centers
+            .iter()
+            .position(|c| c[0] > 4.0 && c[0] < 5.0)
+            .unwrap();
         let top = 5.0 - (1.0 - (5.0 - columns.centers[beside][0]).powi(2)).sqrt();
-        let [[bottom, found]] = columns.intervals_of(beside) else { panic!("one interval") };
+        let [[bottom, found]] = columns.intervals_of(beside) else {
+            panic!("one interval")
+        };
         assert!(*bottom == 1.0 && (found - top).abs() < 1e-12);
     }
 
@@ -336,7 +413,9 @@ mod tests {
         let rough = fixtures::bumpy_ball(10.0, 3, |_| 1.5 * random.unit());
         assert!(check_by_definition(&rough, 1.0, 3000) > 600);
         assert!(check_by_definition(&rough, 4.0, 3000) > 600);
-        let wavy = fixtures::bumpy_ball(10.0, 3, |d| 2.0 * (4.0 * d.x).sin() * (5.0 * d.y + d.z).cos());
+        let wavy = fixtures::bumpy_ball(10.0, 3, |d| {
+            2.0 * (4.0 * d.x).sin() * (5.0 * d.y + d.z).cos()
+        });
         assert!(check_by_definition(&wavy, 1.0, 3000) > 600);
         let spiky = fixtures::bumpy_ball(10.0, 2, |_| if random.unit() < 0.3 { 8.0 } else { -3.0 });
         assert!(check_by_definition(&spiky, 0.8, 3000) > 600);
@@ -346,7 +425,10 @@ mod tests {
     fn solids_of_cubes_agree_with_the_distance_to_every_triangle() {
         let corner = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]];
         assert!(check_by_definition(&fixtures::cells(&corner, 5.0), 1.0, 3000) > 600);
-        let ring: Vec<[i32; 3]> = (0..9).filter(|i| *i != 4).map(|i| [i % 3, i / 3, 0]).collect();
+        let ring: Vec<[i32; 3]> = (0..9)
+            .filter(|i| *i != 4)
+            .map(|i| [i % 3, i / 3, 0])
+            .collect();
         assert!(check_by_definition(&fixtures::cells(&ring, 5.0), 1.2, 3000) > 600);
     }
 
@@ -362,11 +444,16 @@ mod tests {
     #[test]
     fn a_triangle_without_area_does_not_open_the_wall() {
         let cube = fixtures::cells(&[[0, 0, 0]], 10.0);
-        let (mut vertices, mut triangles) =
-            (cube.mesh().vertices().to_vec(), cube.mesh().triangles().to_vec());
+        let (mut vertices, mut triangles) = (
+            cube.mesh().vertices().to_vec(),
+            cube.mesh().triangles().to_vec(),
+        );
         let [a, b, c] = triangles[0];
         let middle = vertices.len() as u32;
-        vertices.push(nalgebra::center(&vertices[b as usize], &vertices[c as usize]));
+        vertices.push(nalgebra::center(
+            &vertices[b as usize],
+            &vertices[c as usize],
+        ));
         triangles[0] = [a, b, middle];
         triangles.extend([[a, middle, c], [b, c, middle]]);
         let solid = Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap();
@@ -374,7 +461,11 @@ mod tests {
             let (with, without) = (shell_of(&solid, &frame, 1.0), shell_of(&cube, &frame, 1.0));
             let (with, without) = (columns_of(&with, 0.3), columns_of(&without, 0.3));
             assert_eq!(with.centers, without.centers);
-            let ends = with.intervals.iter().flatten().zip(without.intervals.iter().flatten());
+            let ends = with
+                .intervals
+                .iter()
+                .flatten()
+                .zip(without.intervals.iter().flatten());
             assert!(ends.into_iter().all(|(a, b)| (a - b).abs() < 1e-9));
         }
     }
@@ -382,18 +473,34 @@ mod tests {
     #[test]
     fn keep_solid_regions_stay_solid_wherever_the_frame_puts_them() {
         let solid = fixtures::cells(&[[0, 0, 0]], 20.0);
-        let (ball, from, to) =
-            (Point::new(6.0, 6.0, 6.0), Point::new(13.0, 8.0, 5.0), Point::new(14.0, 15.0, 14.0));
-        let keeps = [Keep::ball(ball, 2.0), Keep { from, to, radius_mm: 1.5 }];
+        let (ball, from, to) = (
+            Point::new(6.0, 6.0, 6.0),
+            Point::new(13.0, 8.0, 5.0),
+            Point::new(14.0, 15.0, 14.0),
+        );
+        let keeps = [
+            Keep::ball(ball, 2.0),
+            Keep {
+                from,
+                to,
+                radius_mm: 1.5,
+            },
+        ];
         for frame in [Frame::identity(), turned()] {
             let shell = Shell::new(&solid, &frame, 1.0, &keeps).unwrap();
             let kept = 18.0f64.powi(3) - columns_of(&shell, 0.1).moments().volume();
             let length = (to - from).norm();
             let exact = 4.0 / 3.0 * PI * (8.0 + 1.5f64.powi(3)) + PI * 2.25 * length;
             // The rim of the box's shadow as in the test of the box alone (identity: none); the regions' own by pitch^1.5.
-            let deviation =
-                if frame == Frame::identity() { 0.3 } else { 1.0 * (100.0f64 / 0.1).sqrt() * 0.01 * 18.0 };
-            assert!((kept - exact).abs() < deviation, "{kept} instead of {exact}");
+            let deviation = if frame == Frame::identity() {
+                0.3
+            } else {
+                1.0 * (100.0f64 / 0.1).sqrt() * 0.01 * 18.0
+            };
+            assert!(
+                (kept - exact).abs() < deviation,
+                "{kept} instead of {exact}"
+            );
         }
     }
 
@@ -402,7 +509,10 @@ mod tests {
         let mut random = Random::new(2);
         let solid = fixtures::bumpy_ball(10.0, 3, |_| random.unit());
         let on_threads = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| {
                 let columns = columns_of(&shell_of(&solid, &turned(), 1.0), 0.1);
                 let moments = columns.moments();
@@ -414,13 +524,20 @@ mod tests {
 
     #[test]
     fn a_pitch_that_makes_no_grid_is_refused_and_a_stopped_run_says_so() {
-        let shell = shell_of(&fixtures::cells(&[[0, 0, 0]], 10.0), &Frame::identity(), 1.0);
+        let shell = shell_of(
+            &fixtures::cells(&[[0, 0, 0]], 10.0),
+            &Frame::identity(),
+            1.0,
+        );
         for pitch in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9] {
             let found = Columns::of_shell(&shell, [0.5, pitch], &Progress::silent());
             assert!(matches!(found, Err(BuildError::Pitch { .. })), "{pitch}");
         }
         let stopped = Progress::silent();
         stopped.cancel();
-        assert_eq!(Columns::of_shell(&shell, [0.5; 2], &stopped), Err(BuildError::Cancelled));
+        assert_eq!(
+            Columns::of_shell(&shell, [0.5; 2], &stopped),
+            Err(BuildError::Cancelled)
+        );
     }
 }

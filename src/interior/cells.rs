@@ -19,7 +19,11 @@ impl Cells {
     pub fn new(moments: Vec<Moments>) -> Self {
         let volume: f64 = moments.iter().map(Moments::volume).sum();
         let weights: Vec<f64> = moments.iter().map(|cell| cell.volume() / volume).collect();
-        let means = moments.iter().zip(&weights).map(|(cell, weight)| *cell * weight.recip()).collect();
+        let means = moments
+            .iter()
+            .zip(&weights)
+            .map(|(cell, weight)| *cell * weight.recip())
+            .collect();
         Self { means, weights }
     }
 

@@ -45,7 +45,11 @@ pub(super) mod testing {
 
     /// Columns of 1 mm with one or two intervals of uneven ends.
     pub fn uneven_columns() -> Columns {
-        let mut columns = Columns { pitch_mm: [1.0, 1.0], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [1.0, 1.0],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for cell in 0..35 {
             let (x, y) = (f64::from(cell % 7) - 3.0, f64::from(cell / 7) - 2.0);
             columns.centers.push([x, y]);
@@ -65,7 +69,9 @@ pub(super) mod testing {
 
     /// Numbers between 0.1 and 0.9 without order.
     pub fn some_numbers(count: usize) -> Vec<f64> {
-        (0..count).map(|i| 0.5 + 0.4 * ((7 * i + 3) as f64).sin()).collect()
+        (0..count)
+            .map(|i| 0.5 + 0.4 * ((7 * i + 3) as f64).sin())
+            .collect()
     }
 
     /// Holds a choice against its own description as pieces, and its derivative against differences.
@@ -75,9 +81,21 @@ pub(super) mod testing {
         for (got, want) in moments.0.iter().zip(drawn.0) {
             assert!((got - want).abs() < 1e-11 * drawn.0.iter().map(|s| s.abs()).sum::<f64>());
         }
-        assert!(choice.moments(&choice.nothing()).0.iter().all(|s| s.abs() < 1e-9));
-        let total =
-            |x: &[f64]| some_quadric().0.iter().zip(choice.moments(x).0).map(|(q, s)| q * s).sum::<f64>();
+        assert!(
+            choice
+                .moments(&choice.nothing())
+                .0
+                .iter()
+                .all(|s| s.abs() < 1e-9)
+        );
+        let total = |x: &[f64]| {
+            some_quadric()
+                .0
+                .iter()
+                .zip(choice.moments(x).0)
+                .map(|(q, s)| q * s)
+                .sum::<f64>()
+        };
         let mut slope = vec![0.0; x.len()];
         choice.derivative(&x, &some_quadric(), &mut slope);
         let step = 1e-5;

@@ -33,12 +33,17 @@ impl Columns {
     /// Sums over them are those of a midpoint rule `step` times as coarse: near enough to guide a search, at a part of
     /// 1/step² of the cost, and no ground for any claim about these columns.
     pub fn thinned(&self, step: usize) -> Self {
-        let Some(&[x0, y0]) = self.centers.first() else { return self.clone() };
+        let Some(&[x0, y0]) = self.centers.first() else {
+            return self.clone();
+        };
         let is_taken = |offset_mm: f64, pitch_mm: f64| {
             ((offset_mm / pitch_mm).round() as i64).rem_euclid(step as i64) == step as i64 / 2
         };
         let (mut row, mut is_row_taken) = (f64::NAN, false);
-        let mut thin = Self { pitch_mm: self.pitch_mm.map(|pitch| pitch * step as f64), ..Self::default() };
+        let mut thin = Self {
+            pitch_mm: self.pitch_mm.map(|pitch| pitch * step as f64),
+            ..Self::default()
+        };
         thin.starts.push(0);
         for (index, &[x, y]) in self.centers.iter().enumerate() {
             if y != row {
@@ -65,14 +70,23 @@ mod tests {
 
     #[test]
     fn a_box_of_whole_cells_keeps_its_moments_when_every_third_column_stands_for_nine() {
-        let mut columns = Columns { pitch_mm: [0.5, 0.25], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [0.5, 0.25],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for (j, i) in (0..6).flat_map(|j| (0..9).map(move |i| (j, i))) {
-            columns.centers.push([0.5 * f64::from(i) - 7.0, 0.25 * f64::from(j) + 3.0]);
+            columns
+                .centers
+                .push([0.5 * f64::from(i) - 7.0, 0.25 * f64::from(j) + 3.0]);
             columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
             columns.starts.push(columns.intervals.len() as u32);
         }
         let thin = columns.thinned(3);
-        assert_eq!((thin.len(), thin.intervals.len(), thin.pitch_mm), (6, 12, [1.5, 0.75]));
+        assert_eq!(
+            (thin.len(), thin.intervals.len(), thin.pitch_mm),
+            (6, 12, [1.5, 0.75])
+        );
         // The middle column of each block of nine has the block's mean in x and y, and its larger cell their variance.
         let [all, few] = [columns.moments().0, thin.moments().0];
         for (all, few) in all.iter().zip(few) {
@@ -82,7 +96,10 @@ mod tests {
 
     #[test]
     fn nothing_thinned_is_nothing() {
-        let none = Columns { starts: vec![0], ..Columns::default() };
+        let none = Columns {
+            starts: vec![0],
+            ..Columns::default()
+        };
         assert_eq!(none.thinned(4), none);
     }
 }

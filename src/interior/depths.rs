@@ -51,14 +51,22 @@ impl Depths {
         };
         let ys = Ruler::covering([bounds.min.y, bounds.max.y], pitch_mm, Ruler::PHASE_Y);
         let rows = (0..ys.len()).into_par_iter();
-        let rows: Vec<Row> =
-            rows.map_init(RowCrossings::default, |crossings, y| probe.row(crossings, ys.at(y))).collect();
+        let rows: Vec<Row> = rows
+            .map_init(RowCrossings::default, |crossings, y| {
+                probe.row(crossings, ys.at(y))
+            })
+            .collect();
         Self::assembled(pitch_mm, rows)
     }
 
     fn assembled(pitch_mm: f64, rows: Vec<Row>) -> Self {
-        let mut depths =
-            Self { pitch_mm, centers: vec![], starts: vec![0], stretches: vec![0], samples: vec![] };
+        let mut depths = Self {
+            pitch_mm,
+            centers: vec![],
+            starts: vec![0],
+            stretches: vec![0],
+            samples: vec![],
+        };
         for (center, stretches) in rows.into_iter().flatten() {
             depths.centers.push(center);
             for samples in stretches {
@@ -72,7 +80,11 @@ impl Depths {
 
     /// The columns, in model coordinates, of what a wall of `wall_mm` and these regions let be emptied.
     pub fn columns(&self, wall_mm: f64, keeps: &[Keep]) -> Columns {
-        let mut columns = Columns { pitch_mm: [self.pitch_mm; 2], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [self.pitch_mm; 2],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for (column, &center) in self.centers.iter().enumerate() {
             let before = columns.intervals.len();
             for stretch in self.starts[column]..self.starts[column + 1] {
@@ -108,10 +120,15 @@ impl Probe<'_> {
         let column = |index: usize| {
             let center = [self.xs.at(index), y_mm];
             let mut stretches = Vec::new();
-            inside_stretches(crossings.of(index), |stretch| stretches.push(self.stretch(center, stretch)));
+            inside_stretches(crossings.of(index), |stretch| {
+                stretches.push(self.stretch(center, stretch))
+            });
             (center, stretches)
         };
-        (0..self.xs.len()).map(column).filter(|(_, stretches)| !stretches.is_empty()).collect()
+        (0..self.xs.len())
+            .map(column)
+            .filter(|(_, stretches)| !stretches.is_empty())
+            .collect()
     }
 
     /// Evenly spaced samples of a stretch no further apart than the pitch; its ends lie on the surface.
@@ -121,10 +138,17 @@ impl Probe<'_> {
         let sample = |step: usize| {
             let z_mm = bottom + (top - bottom) * step as f64 / steps as f64;
             let is_end = step == 0 || step == steps;
-            let nearest =
-                if is_end { None } else { self.bvh.closest(&Point::new(x, y, z_mm), f64::INFINITY, &[hint]) };
+            let nearest = if is_end {
+                None
+            } else {
+                self.bvh
+                    .closest(&Point::new(x, y, z_mm), f64::INFINITY, &[hint])
+            };
             hint = nearest.map_or(NO_HINT, |nearest| nearest.hint);
-            Sample { z_mm, depth_mm: nearest.map_or(0.0, |nearest| nearest.distance_squared.sqrt()) }
+            Sample {
+                z_mm,
+                depth_mm: nearest.map_or(0.0, |nearest| nearest.distance_squared.sqrt()),
+            }
         };
         (0..=steps).map(sample).collect()
     }
@@ -138,7 +162,11 @@ fn slack_mm([x, y]: [f64; 2], sample: &Sample, wall_mm: f64, keeps: &[Keep]) -> 
 }
 
 /// Adds the intervals in which a function that is linear between the samples is positive; at the ends it is not.
-fn positive_intervals(samples: &[Sample], value: impl Fn(&Sample) -> f64, intervals: &mut Vec<[f64; 2]>) {
+fn positive_intervals(
+    samples: &[Sample],
+    value: impl Fn(&Sample) -> f64,
+    intervals: &mut Vec<[f64; 2]>,
+) {
     let Some(first) = samples.first() else { return };
     let (mut below, mut before, mut bottom) = (first, value(first), first.z_mm);
     for sample in &samples[1..] {
@@ -171,7 +199,10 @@ mod tests {
             // The samples are 0.29 mm apart; across z nothing is interpolated over a bend, in x and y each face is off
             // by at most half a pitch, which the lattice's phase spreads over both.
             let tolerance = 6.0 * 0.15 / (10.0 - 2.0 * wall_mm);
-            assert!((volume / exact - 1.0).abs() < tolerance, "{wall_mm}: {volume} {exact}");
+            assert!(
+                (volume / exact - 1.0).abs() < tolerance,
+                "{wall_mm}: {volume} {exact}"
+            );
         }
     }
 
@@ -182,10 +213,18 @@ mod tests {
         let depths = Depths::of_solid(&solid, 60_000);
         for wall_mm in [0.3, 1.0, 3.0] {
             let shell = Shell::new(&solid, &Frame::identity(), wall_mm, &[keep]).unwrap();
-            let exact = Columns::of_shell(&shell, [0.1, 0.1], &Progress::silent()).unwrap().moments();
+            let exact = Columns::of_shell(&shell, [0.1, 0.1], &Progress::silent())
+                .unwrap()
+                .moments();
             let found = depths.columns(wall_mm, &[keep]).moments();
-            assert!((found.volume() / exact.volume() - 1.0).abs() < 5e-3, "{wall_mm}");
-            assert!((found.centroid() - exact.centroid()).norm() < 0.03, "{wall_mm}");
+            assert!(
+                (found.volume() / exact.volume() - 1.0).abs() < 5e-3,
+                "{wall_mm}"
+            );
+            assert!(
+                (found.centroid() - exact.centroid()).norm() < 0.03,
+                "{wall_mm}"
+            );
         }
     }
 
@@ -193,12 +232,22 @@ mod tests {
     fn a_thinner_wall_never_lets_less_be_emptied() {
         let solid = Solid::new(ball(&Point::origin(), 10.0, 3)).unwrap();
         let depths = Depths::of_solid(&solid, 5_000);
-        let volumes: Vec<f64> =
-            (1..40).map(|step| depths.columns(0.25 * f64::from(step), &[]).moments().volume()).collect();
+        let volumes: Vec<f64> = (1..40)
+            .map(|step| {
+                depths
+                    .columns(0.25 * f64::from(step), &[])
+                    .moments()
+                    .volume()
+            })
+            .collect();
         assert!(volumes.windows(2).all(|pair| pair[1] <= pair[0]));
         assert_eq!(
             depths.columns(10.0, &[]),
-            Columns { pitch_mm: [depths.pitch_mm; 2], starts: vec![0], ..Default::default() }
+            Columns {
+                pitch_mm: [depths.pitch_mm; 2],
+                starts: vec![0],
+                ..Default::default()
+            }
         );
     }
 }

@@ -30,14 +30,20 @@ impl Emptied {
         let of_column = |column: usize| {
             let (changes, outside) = crossing_of_column(columns, quadric, column);
             let intervals = columns.intervals_of(column).iter();
-            intervals.flat_map(move |&interval| stretches(interval, changes, outside)).map(whole).collect()
+            intervals
+                .flat_map(move |&interval| stretches(interval, changes, outside))
+                .map(whole)
+                .collect()
         };
         Self::of_columns((0..columns.len()).map(of_column))
     }
 
     /// From the pieces of every column, in any order, each column's disjoint.
     pub(super) fn of_columns(columns: impl Iterator<Item = Vec<Piece>>) -> Self {
-        let mut emptied = Self { starts: vec![0], pieces: Vec::new() };
+        let mut emptied = Self {
+            starts: vec![0],
+            pieces: Vec::new(),
+        };
         for mut pieces in columns {
             pieces.retain(|piece| piece.share > 0.0 && piece.top_mm > piece.bottom_mm);
             pieces.sort_by(|a, b| a.bottom_mm.total_cmp(&b.bottom_mm));
@@ -60,34 +66,51 @@ impl Emptied {
             };
             self.pieces_of(column).iter().fold(Moments::default(), add)
         };
-        let sum = (0..columns.len()).fold(Moments::default(), |sum, column| sum + of_column(column));
+        let sum =
+            (0..columns.len()).fold(Moments::default(), |sum, column| sum + of_column(column));
         sum * (columns.pitch_mm[0] * columns.pitch_mm[1])
     }
 
     /// The volume by which two answers on the same columns differ, ∫|β − β′|, mm³: of two voids it is the volume of
     /// their symmetric difference.
     pub fn difference_mm3(&self, other: &Self, columns: &Columns) -> f64 {
-        let lengths = (0..columns.len()).map(|i| difference_mm(self.pieces_of(i), other.pieces_of(i)));
+        let lengths =
+            (0..columns.len()).map(|i| difference_mm(self.pieces_of(i), other.pieces_of(i)));
         lengths.sum::<f64>() * columns.pitch_mm[0] * columns.pitch_mm[1]
     }
 }
 
 /// The parts of an interval between two changes, or outside of them.
-fn stretches([bottom, top]: [f64; 2], changes: [f64; 2], outside: bool) -> impl Iterator<Item = [f64; 2]> {
+fn stretches(
+    [bottom, top]: [f64; 2],
+    changes: [f64; 2],
+    outside: bool,
+) -> impl Iterator<Item = [f64; 2]> {
     let [lo, hi] = changes.map(|z| z.clamp(bottom, top));
-    let parts = if outside { [[bottom, lo], [hi, top]] } else { [[lo, hi], [hi, hi]] };
+    let parts = if outside {
+        [[bottom, lo], [hi, top]]
+    } else {
+        [[lo, hi], [hi, hi]]
+    };
     parts.into_iter().filter(|[bottom, top]| top > bottom)
 }
 
 /// A piece that is emptied wholly.
 pub(super) fn whole([bottom_mm, top_mm]: [f64; 2]) -> Piece {
-    Piece { bottom_mm, top_mm, share: 1.0 }
+    Piece {
+        bottom_mm,
+        top_mm,
+        share: 1.0,
+    }
 }
 
 /// ∫|β − β′| along one column: between two neighbouring ends of pieces both are constant.
 fn difference_mm(one: &[Piece], other: &[Piece]) -> f64 {
-    let mut ends: Vec<f64> =
-        one.iter().chain(other).flat_map(|piece| [piece.bottom_mm, piece.top_mm]).collect();
+    let mut ends: Vec<f64> = one
+        .iter()
+        .chain(other)
+        .flat_map(|piece| [piece.bottom_mm, piece.top_mm])
+        .collect();
     ends.sort_by(f64::total_cmp);
     let between = |pair: &[f64]| {
         let middle = 0.5 * (pair[0] + pair[1]);
@@ -125,7 +148,10 @@ mod tests {
     #[test]
     fn two_voids_differ_by_what_only_one_of_them_has() {
         let columns = testing::uneven_columns();
-        let all = Emptied::where_positive(&columns, &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
+        let all = Emptied::where_positive(
+            &columns,
+            &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]),
+        );
         let q = testing::some_quadric();
         let one = Emptied::where_positive(&columns, &q);
         let rest = Emptied::where_positive(&columns, &Quadric(q.0.map(|q| -q)));
@@ -137,7 +163,11 @@ mod tests {
 
     #[test]
     fn a_share_counts_as_that_much_of_a_difference() {
-        let half = [Piece { bottom_mm: 0.0, top_mm: 2.0, share: 0.5 }];
+        let half = [Piece {
+            bottom_mm: 0.0,
+            top_mm: 2.0,
+            share: 0.5,
+        }];
         assert_eq!(difference_mm(&half, &[whole([1.0, 4.0])]), 0.5 + 0.5 + 2.0);
     }
 }

@@ -20,18 +20,23 @@ impl<'a> Grid<'a> {
     pub fn of(columns: &'a Columns) -> Self {
         let range = |axis: usize| {
             let ends = (f64::INFINITY, f64::NEG_INFINITY);
-            columns.centers.iter().fold(ends, |(lo, hi), center| (lo.min(center[axis]), hi.max(center[axis])))
+            columns.centers.iter().fold(ends, |(lo, hi), center| {
+                (lo.min(center[axis]), hi.max(center[axis]))
+            })
         };
         let (xs, ys) = (range(0), range(1));
-        let zs =
-            columns.intervals.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), [bottom, top]| {
-                (lo.min(*bottom), hi.max(*top))
-            });
+        let zs = columns.intervals.iter().fold(
+            (f64::INFINITY, f64::NEG_INFINITY),
+            |(lo, hi), [bottom, top]| (lo.min(*bottom), hi.max(*top)),
+        );
         let height_mm = columns.pitch_mm[0].max(columns.pitch_mm[1]);
         let at = |value: f64, lowest: f64, pitch: f64| ((value - lowest) / pitch).round() as u32;
         let place = |(i, center): (usize, &[f64; 2])| {
             let [px, py] = columns.pitch_mm;
-            (interleave([at(center[0], xs.0, px), at(center[1], ys.0, py), 0]), i as u32)
+            (
+                interleave([at(center[0], xs.0, px), at(center[1], ys.0, py), 0]),
+                i as u32,
+            )
         };
         let mut places: Vec<(u64, u32)> = columns.centers.iter().enumerate().map(place).collect();
         places.sort_unstable();
@@ -39,8 +44,17 @@ impl<'a> Grid<'a> {
         let across = sides.map(|((lo, hi), pitch)| at(hi, lo, pitch) + 1);
         let up = ((zs.1 - zs.0) / height_mm).ceil() as u32;
         let longest = across[0].max(across[1]).max(up).max(1);
-        let finest_level = longest.next_power_of_two().trailing_zeros().min(MOST_LEVELS);
-        Self { columns, places, lowest_mm: zs.0, height_mm, finest_level }
+        let finest_level = longest
+            .next_power_of_two()
+            .trailing_zeros()
+            .min(MOST_LEVELS);
+        Self {
+            columns,
+            places,
+            lowest_mm: zs.0,
+            height_mm,
+            finest_level,
+        }
     }
 
     pub fn columns(&self) -> &'a Columns {
@@ -67,7 +81,9 @@ impl<'a> Grid<'a> {
         let first = interleave([x, y, 0]);
         let from = self.places.partition_point(|(code, _)| *code < first);
         let under = self.places[from..].iter();
-        for &(_, column) in under.take_while(|(code, _)| (code ^ first) >> (3 * leaf.log_width) == 0) {
+        for &(_, column) in
+            under.take_while(|(code, _)| (code ^ first) >> (3 * leaf.log_width) == 0)
+        {
             for &[bottom, top] in self.columns.intervals_of(column as usize) {
                 if bottom < high && top > low {
                     stretch(column as usize, [bottom.max(low), top.min(high)]);
@@ -86,7 +102,9 @@ impl<'a> Grid<'a> {
     /// The moments of the region in a cell.
     pub fn moments_in(&self, leaf: &Leaf) -> Moments {
         let mut sum = Moments::default();
-        self.visit(leaf, |column, ends| sum += self.columns.moments_between(column, ends));
+        self.visit(leaf, |column, ends| {
+            sum += self.columns.moments_between(column, ends)
+        });
         sum * (self.columns.pitch_mm[0] * self.columns.pitch_mm[1])
     }
 }

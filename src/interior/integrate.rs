@@ -50,7 +50,10 @@ pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
 /// the body made of their cells.
 pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
     let sums = pass::<true>(columns, quadric);
-    (sums.moments(columns.pitch_mm), sums.derivative(columns.pitch_mm))
+    (
+        sums.moments(columns.pitch_mm),
+        sums.derivative(columns.pitch_mm),
+    )
 }
 
 /// Sums every block by itself, then adds the blocks in order.
@@ -58,7 +61,11 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
     let blocks = columns.len().div_ceil(BLOCK_COLUMNS);
     let sum = |block: usize| {
         let first = block * BLOCK_COLUMNS;
-        sum_block::<DERIVATIVE>(columns, quadric, first..columns.len().min(first + BLOCK_COLUMNS))
+        sum_block::<DERIVATIVE>(
+            columns,
+            quadric,
+            first..columns.len().min(first + BLOCK_COLUMNS),
+        )
     };
     if blocks == 1 {
         return sum(0);
@@ -70,7 +77,11 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
 }
 
 /// Sums one block, row by row: columns of equal y share the powers of y and half of q's coefficients.
-fn sum_block<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric, block: Range<usize>) -> Sums {
+fn sum_block<const DERIVATIVE: bool>(
+    columns: &Columns,
+    quadric: &Quadric,
+    block: Range<usize>,
+) -> Sums {
     let mut sums = Sums::default();
     let mut pack = Pack::new();
     let rows = columns.centers[block.clone()].chunk_by(|one, next| one[1] == next[1]);
@@ -105,16 +116,23 @@ struct Sums {
 
 impl Default for Sums {
     fn default() -> Self {
-        Self { emptied: [[[0.0; 3]; 3]; 3], roots: [[[0.0; 5]; 5]; 5] }
+        Self {
+            emptied: [[[0.0; 3]; 3]; 3],
+            roots: [[[0.0; 5]; 5]; 5],
+        }
     }
 }
 
 impl Sums {
     fn add(&mut self, other: &Self) {
         let own = self.emptied.as_flattened_mut().as_flattened_mut();
-        own.iter_mut().zip(other.emptied.as_flattened().as_flattened()).for_each(|(sum, term)| *sum += term);
+        own.iter_mut()
+            .zip(other.emptied.as_flattened().as_flattened())
+            .for_each(|(sum, term)| *sum += term);
         let own = self.roots.as_flattened_mut().as_flattened_mut();
-        own.iter_mut().zip(other.roots.as_flattened().as_flattened()).for_each(|(sum, term)| *sum += term);
+        own.iter_mut()
+            .zip(other.roots.as_flattened().as_flattened())
+            .for_each(|(sum, term)| *sum += term);
     }
 
     fn add_row<const DERIVATIVE: bool>(&mut self, row: &RowSums, y: f64) {
@@ -171,10 +189,17 @@ mod tests {
 
     /// A box of whole cells with one interval a column.
     fn box_columns(pitch: [f64; 2], cells: [usize; 2], z: [f64; 2]) -> Columns {
-        let mut columns = Columns { pitch_mm: pitch, starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: pitch,
+            starts: vec![0],
+            ..Columns::default()
+        };
         for j in 0..cells[1] {
             for i in 0..cells[0] {
-                columns.centers.push([(i as f64 + 0.5) * pitch[0] - 3.0, (j as f64 + 0.5) * pitch[1] + 1.0]);
+                columns.centers.push([
+                    (i as f64 + 0.5) * pitch[0] - 3.0,
+                    (j as f64 + 0.5) * pitch[1] + 1.0,
+                ]);
                 columns.intervals.push(z);
                 columns.starts.push(columns.intervals.len() as u32);
             }
@@ -186,20 +211,36 @@ mod tests {
     const CROSSING: Quadric = Quadric([3.0, 0.2, -0.4, 0.5, 0.1, -0.2, 0.15, -0.12, 0.03, -0.3]);
 
     fn assert_close(a: f64, b: f64, tolerance: f64) {
-        assert!((a - b).abs() <= tolerance * b.abs().max(1.0), "{a} is not {b} within {tolerance}");
+        assert!(
+            (a - b).abs() <= tolerance * b.abs().max(1.0),
+            "{a} is not {b} within {tolerance}"
+        );
     }
 
     #[test]
     fn a_box_of_whole_cells_has_its_closed_form_moments() {
         let columns = box_columns([0.5, 0.25], [12, 16], [2.0, 7.0]);
-        let everything =
-            moments_where_positive(&columns, &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
+        let everything = moments_where_positive(
+            &columns,
+            &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]),
+        );
         let mean = |a: f64, b: f64| (a + b) / 2.0;
         let square = |a: f64, b: f64| (b * b * b - a * a * a) / (3.0 * (b - a));
         let (x, y, z) = (mean(-3., 3.), mean(1., 5.), mean(2., 7.));
         let volume = 6.0 * 4.0 * 5.0;
-        let expected = [1.0, x, y, z, x * y, y * z, x * z, square(-3., 3.), square(1., 5.), square(2., 7.)]
-            .map(|m| m * volume);
+        let expected = [
+            1.0,
+            x,
+            y,
+            z,
+            x * y,
+            y * z,
+            x * z,
+            square(-3., 3.),
+            square(1., 5.),
+            square(2., 7.),
+        ]
+        .map(|m| m * volume);
         for (got, want) in everything.0.iter().zip(expected) {
             assert_close(*got, want, 1e-13);
         }
@@ -209,8 +250,12 @@ mod tests {
     fn what_a_quadric_and_its_opposite_empty_makes_the_whole() {
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let opposite = Quadric(CROSSING.0.map(|c| -c));
-        let both = moments_where_positive(&columns, &CROSSING) + moments_where_positive(&columns, &opposite);
-        let whole = moments_where_positive(&columns, &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
+        let both = moments_where_positive(&columns, &CROSSING)
+            + moments_where_positive(&columns, &opposite);
+        let whole = moments_where_positive(
+            &columns,
+            &Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]),
+        );
         for (got, want) in both.0.iter().zip(whole.0) {
             assert_close(*got, want, 1e-12);
         }
@@ -226,8 +271,8 @@ mod tests {
         for &[x, y] in &columns.centers {
             for slice in 0..slices {
                 let z = -2.0 + 5.0 * (slice as f64 + 0.5) / slices as f64;
-                let mean =
-                    CROSSING.value(&Point::new(x, y, z)) + (CROSSING.0[7] + CROSSING.0[8]) * 0.3 * 0.3 / 12.0;
+                let mean = CROSSING.value(&Point::new(x, y, z))
+                    + (CROSSING.0[7] + CROSSING.0[8]) * 0.3 * 0.3 / 12.0;
                 if mean > 0.0 {
                     volume += 0.09 * 5.0 / slices as f64;
                     first += z * 0.09 * 5.0 / slices as f64;
@@ -249,9 +294,14 @@ mod tests {
             let (mut more, mut less) = (CROSSING, CROSSING);
             more.0[coefficient] += step;
             less.0[coefficient] -= step;
-            let change = moments_where_positive(&columns, &more) - moments_where_positive(&columns, &less);
+            let change =
+                moments_where_positive(&columns, &more) - moments_where_positive(&columns, &less);
             for row in 0..10 {
-                assert_close(derivative[(row, coefficient)], change.0[row] / (2.0 * step), 2e-6);
+                assert_close(
+                    derivative[(row, coefficient)],
+                    change.0[row] / (2.0 * step),
+                    2e-6,
+                );
             }
         }
     }
@@ -269,7 +319,10 @@ mod tests {
     fn one_thread_and_three_give_the_same_bits() {
         let columns = box_columns([0.05, 0.05], [120, 80], [-2.0, 3.0]);
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| moments_and_derivative(&columns, &CROSSING))
         };
         assert_eq!(with(1), with(3));
@@ -278,18 +331,28 @@ mod tests {
     #[test]
     fn a_plane_through_the_columns_empties_one_side() {
         let columns = box_columns([0.5, 0.5], [4, 4], [0.0, 2.0]);
-        for (slope, offset, emptied) in
-            [(1.0, -0.5, 1.5), (-1.0, 0.5, 0.5), (0.0, 1.0, 2.0), (0.0, -1.0, 0.0)]
-        {
+        for (slope, offset, emptied) in [
+            (1.0, -0.5, 1.5),
+            (-1.0, 0.5, 0.5),
+            (0.0, 1.0, 2.0),
+            (0.0, -1.0, 0.0),
+        ] {
             for zero in [0.0, -0.0] {
                 let plane = Quadric([offset, 0., 0., slope, 0., 0., 0., 0., 0., zero]);
-                assert_close(moments_where_positive(&columns, &plane).volume(), 4.0 * emptied, 1e-14);
+                assert_close(
+                    moments_where_positive(&columns, &plane).volume(),
+                    4.0 * emptied,
+                    1e-14,
+                );
             }
         }
     }
 
     #[test]
     fn no_columns_have_no_moments() {
-        assert_eq!(moments_where_positive(&Columns::default(), &CROSSING), Moments::default());
+        assert_eq!(
+            moments_where_positive(&Columns::default(), &CROSSING),
+            Moments::default()
+        );
     }
 }

@@ -15,7 +15,11 @@ pub(super) struct Leaf {
 
 impl Leaf {
     pub fn root(finest_level: u32) -> Self {
-        Self { code: 0, log_width: finest_level, finest_level }
+        Self {
+            code: 0,
+            log_width: finest_level,
+            finest_level,
+        }
     }
 
     /// 0 at the root, one more with each halving.
@@ -25,15 +29,27 @@ impl Leaf {
 
     /// In the order of their codes; a finest cell has none.
     pub fn children(&self) -> Vec<Self> {
-        let Some(log_width) = self.log_width.checked_sub(1) else { return Vec::new() };
-        (0..8).map(|i| Self { code: self.code + (i << (3 * log_width)), log_width, ..*self }).collect()
+        let Some(log_width) = self.log_width.checked_sub(1) else {
+            return Vec::new();
+        };
+        (0..8)
+            .map(|i| Self {
+                code: self.code + (i << (3 * log_width)),
+                log_width,
+                ..*self
+            })
+            .collect()
     }
 
     /// The cell this one is an eighth of; none of the root.
     pub fn parent(&self) -> Option<Self> {
         let log_width = self.log_width + 1;
         let code = self.code >> (3 * log_width) << (3 * log_width);
-        (log_width <= self.finest_level).then_some(Self { code, log_width, ..*self })
+        (log_width <= self.finest_level).then_some(Self {
+            code,
+            log_width,
+            ..*self
+        })
     }
 
     /// Whether the other's low corner lies in this cell.
@@ -50,15 +66,26 @@ impl Leaf {
     pub fn beside(&self, axis: usize, forward: bool) -> Option<Self> {
         let mut corner = self.corner();
         let width = 1 << self.log_width;
-        let moved = if forward { corner[axis].checked_add(width) } else { corner[axis].checked_sub(width) };
+        let moved = if forward {
+            corner[axis].checked_add(width)
+        } else {
+            corner[axis].checked_sub(width)
+        };
         corner[axis] = moved.filter(|&at| at < 1 << self.finest_level)?;
-        Some(Self { code: interleave(corner), ..*self })
+        Some(Self {
+            code: interleave(corner),
+            ..*self
+        })
     }
 }
 
 /// The code of a place in finest cells.
 pub(super) fn interleave(corner: [u32; 3]) -> u64 {
-    corner.iter().enumerate().map(|(axis, &at)| spread(at) << axis).sum()
+    corner
+        .iter()
+        .enumerate()
+        .map(|(axis, &at)| spread(at) << axis)
+        .sum()
 }
 
 /// The lowest 21 bits, each followed by two zeros.
@@ -70,7 +97,9 @@ fn spread(bits: u32) -> u64 {
         (4, 0x10c3_0c30_c30c_30c3),
         (2, 0x1249_2492_4924_9249),
     ];
-    steps.iter().fold(u64::from(bits), |bits, &(shift, mask)| (bits | bits << shift) & mask)
+    steps.iter().fold(u64::from(bits), |bits, &(shift, mask)| {
+        (bits | bits << shift) & mask
+    })
 }
 
 /// Every third bit.
@@ -83,7 +112,9 @@ fn compact(code: u64) -> u32 {
         (32, 0x0000_0000_001f_ffff),
     ];
     let first = code & 0x1249_2492_4924_9249;
-    steps.iter().fold(first, |bits, &(shift, mask)| (bits ^ bits >> shift) & mask) as u32
+    steps
+        .iter()
+        .fold(first, |bits, &(shift, mask)| (bits ^ bits >> shift) & mask) as u32
 }
 
 #[cfg(test)]
@@ -92,8 +123,17 @@ mod tests {
 
     #[test]
     fn a_place_comes_back_from_its_code() {
-        for corner in [[0, 0, 0], [1, 2, 3], [511, 0, 256], [(1 << MOST_LEVELS) - 1, 12345, 1 << 20]] {
-            let leaf = Leaf { code: interleave(corner), log_width: 0, finest_level: MOST_LEVELS };
+        for corner in [
+            [0, 0, 0],
+            [1, 2, 3],
+            [511, 0, 256],
+            [(1 << MOST_LEVELS) - 1, 12345, 1 << 20],
+        ] {
+            let leaf = Leaf {
+                code: interleave(corner),
+                log_width: 0,
+                finest_level: MOST_LEVELS,
+            };
             assert_eq!(leaf.corner(), corner);
         }
     }
@@ -102,8 +142,14 @@ mod tests {
     fn children_fill_their_parent_in_order() {
         let children = Leaf::root(5).children();
         assert!(children.windows(2).all(|pair| pair[0].code < pair[1].code));
-        assert!(children.iter().all(|child| child.parent() == Some(Leaf::root(5)) && child.level() == 1));
-        assert!(children[7].contains(&children[7].children()[3]) && !children[6].contains(&children[7]));
+        assert!(
+            children
+                .iter()
+                .all(|child| child.parent() == Some(Leaf::root(5)) && child.level() == 1)
+        );
+        assert!(
+            children[7].contains(&children[7].children()[3]) && !children[6].contains(&children[7])
+        );
     }
 
     #[test]

@@ -19,7 +19,8 @@ pub(super) fn block_sums(count: usize, term: impl Fn(usize) -> Moments + Sync) -
         })
     };
     let sums: Vec<Moments> = (0..count).into_par_iter().step_by(BLOCK).map(sum).collect();
-    sums.into_iter().fold(Moments::default(), |sum, block| sum + block)
+    sums.into_iter()
+        .fold(Moments::default(), |sum, block| sum + block)
 }
 
 impl Columns {
@@ -44,14 +45,29 @@ impl Columns {
         let xx = x * x + self.pitch_mm[0] * self.pitch_mm[0] / 12.0;
         let yy = y * y + self.pitch_mm[1] * self.pitch_mm[1] / 12.0;
         let x_y = [x * y * length, y * z, x * z];
-        Moments([length, x * length, y * length, z, x_y[0], x_y[1], x_y[2], xx * length, yy * length, zz])
+        Moments([
+            length,
+            x * length,
+            y * length,
+            z,
+            x_y[0],
+            x_y[1],
+            x_y[2],
+            xx * length,
+            yy * length,
+            zz,
+        ])
     }
 }
 
 /// The integrals of 1, z and z² over an interval, about its middle so that nothing cancels.
 fn powers_of_z(&[bottom, top]: &[f64; 2]) -> [f64; 3] {
     let (length, middle) = (top - bottom, 0.5 * (bottom + top));
-    [length, middle * length, length * (middle * middle + length * length / 12.0)]
+    [
+        length,
+        middle * length,
+        length * (middle * middle + length * length / 12.0),
+    ]
 }
 
 /// The sum of two triples.
@@ -66,16 +82,26 @@ mod tests {
     #[test]
     fn columns_that_tile_boxes_have_the_moments_of_the_boxes() {
         let (pitch, side) = (0.5, 6);
-        let mut columns = Columns { pitch_mm: [pitch, pitch], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [pitch, pitch],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for cell in 0..side * side {
-            let center =
-                [1.0 + (f64::from(cell % side) + 0.5) * pitch, (f64::from(cell / side) + 0.5) * pitch];
+            let center = [
+                1.0 + (f64::from(cell % side) + 0.5) * pitch,
+                (f64::from(cell / side) + 0.5) * pitch,
+            ];
             columns.centers.push(center);
             columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
             columns.starts.push(columns.intervals.len() as u32);
         }
         // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]), each moment a product of one-dimensional integrals.
-        let (x, y, z) = ([3.0, 7.5, 21.0], [3.0, 4.5, 9.0], [5.0, 10.5, 2.0 / 3.0 + 39.0]);
+        let (x, y, z) = (
+            [3.0, 7.5, 21.0],
+            [3.0, 4.5, 9.0],
+            [5.0, 10.5, 2.0 / 3.0 + 39.0],
+        );
         let exact = [
             x[0] * y[0] * z[0],
             x[1] * y[0] * z[0],
@@ -89,7 +115,10 @@ mod tests {
             x[0] * y[0] * z[2],
         ];
         for (moment, exact) in columns.moments().0.into_iter().zip(exact) {
-            assert!((moment - exact).abs() < 1e-12 * exact, "{moment} instead of {exact}");
+            assert!(
+                (moment - exact).abs() < 1e-12 * exact,
+                "{moment} instead of {exact}"
+            );
         }
     }
 }

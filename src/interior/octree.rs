@@ -46,8 +46,11 @@ impl<'a> Octree<'a> {
         let mut open = vec![Leaf::root(grid.finest_level())];
         while let Some(leaf) = open.pop() {
             let volume = grid.volume_in(&leaf);
-            let wanted =
-                if volume < WHOLE_RATIO * grid.box_of(&leaf) { levels.boundary } else { levels.inner };
+            let wanted = if volume < WHOLE_RATIO * grid.box_of(&leaf) {
+                levels.boundary
+            } else {
+                levels.inner
+            };
             if volume > 0.0 && leaf.level() < wanted.max(levels.inner).min(grid.finest_level()) {
                 open.extend(leaf.children().into_iter().rev());
             } else if volume > 0.0 {
@@ -60,7 +63,13 @@ impl<'a> Octree<'a> {
     fn with_leaves(grid: Grid<'a>, levels: Levels, leaves: Vec<Leaf>) -> Self {
         let cells = Cells::new(leaves.iter().map(|leaf| grid.moments_in(leaf)).collect());
         let neighbours = octree_neighbours::pairs(&leaves);
-        Self { grid, levels, leaves, cells, neighbours }
+        Self {
+            grid,
+            levels,
+            leaves,
+            cells,
+            neighbours,
+        }
     }
 
     /// The level whose leaves are one column wide.
@@ -72,8 +81,14 @@ impl<'a> Octree<'a> {
     /// where nothing is left to split. Shares within `tolerance` of 0 or 1 count as that.
     pub fn refined(&self, x: &[f64], tolerance: f64) -> Option<(Self, Vec<f64>)> {
         let is_fractional = |share: f64| share > tolerance && share < 1.0 - tolerance;
-        let splits = |leaf: &Leaf, share| is_fractional(share) && leaf.level() < self.finest_level();
-        if !self.leaves.iter().zip(x).any(|(leaf, &share)| splits(leaf, share)) {
+        let splits =
+            |leaf: &Leaf, share| is_fractional(share) && leaf.level() < self.finest_level();
+        if !self
+            .leaves
+            .iter()
+            .zip(x)
+            .any(|(leaf, &share)| splits(leaf, share))
+        {
             return None;
         }
         let mut leaves = Vec::with_capacity(self.leaves.len());
@@ -88,7 +103,10 @@ impl<'a> Octree<'a> {
             }
             let (leaf, share) = (self.leaves[first], x[first]);
             if splits(&leaf, share) {
-                let children = leaf.children().into_iter().filter(|child| self.grid.volume_in(child) > 0.0);
+                let children = leaf
+                    .children()
+                    .into_iter()
+                    .filter(|child| self.grid.volume_in(child) > 0.0);
                 leaves.extend(children.map(|child| (child, share)));
             } else {
                 leaves.push((leaf, share));
@@ -96,26 +114,43 @@ impl<'a> Octree<'a> {
             first += 1;
         }
         let (leaves, shares) = leaves.into_iter().unzip();
-        Some((Self::with_leaves(self.grid.clone(), self.levels, leaves), shares))
+        Some((
+            Self::with_leaves(self.grid.clone(), self.levels, leaves),
+            shares,
+        ))
     }
 
     /// The leaves from `first` on that fill one parent, where `first` is its first one; else only that leaf.
     fn family(&self, first: usize) -> Range<usize> {
         let leaf = &self.leaves[first];
-        let Some(parent) = leaf.parent() else { return first..first + 1 };
+        let Some(parent) = leaf.parent() else {
+            return first..first + 1;
+        };
         let begins = first == 0 || !parent.contains(&self.leaves[first - 1]);
-        let rest = self.leaves[first..].iter().take_while(|other| parent.contains(other));
-        let (count, flat) =
-            rest.fold((0, true), |(count, flat), other| (count + 1, flat && other.level() == leaf.level()));
-        if begins && flat { first..first + count } else { first..first + 1 }
+        let rest = self.leaves[first..]
+            .iter()
+            .take_while(|other| parent.contains(other));
+        let (count, flat) = rest.fold((0, true), |(count, flat), other| {
+            (count + 1, flat && other.level() == leaf.level())
+        });
+        if begins && flat {
+            first..first + count
+        } else {
+            first..first + 1
+        }
     }
 
     /// The parent of a family that agrees on 0 or on 1, and its share.
     fn merged(&self, shares: &[f64], first: usize, tolerance: f64) -> Option<(Leaf, f64)> {
         let leaf = &self.leaves[first];
-        let parent = leaf.parent().filter(|_| shares.len() > 1 && leaf.level() > self.levels.inner)?;
+        let parent = leaf
+            .parent()
+            .filter(|_| shares.len() > 1 && leaf.level() > self.levels.inner)?;
         let agree = |to: f64| shares.iter().all(|share| (share - to).abs() <= tolerance);
-        [0.0, 1.0].into_iter().find(|&to| agree(to)).map(|to| (parent, to))
+        [0.0, 1.0]
+            .into_iter()
+            .find(|&to| agree(to))
+            .map(|to| (parent, to))
     }
 }
 
@@ -140,7 +175,11 @@ impl Choice for Octree<'_> {
         let mut pieces = vec![Vec::new(); self.grid.columns().len()];
         for (leaf, &share) in self.leaves.iter().zip(x) {
             self.grid.visit(leaf, |column, [bottom_mm, top_mm]| {
-                pieces[column].push(Piece { bottom_mm, top_mm, share });
+                pieces[column].push(Piece {
+                    bottom_mm,
+                    top_mm,
+                    share,
+                });
             });
         }
         Emptied::of_columns(pieces.into_iter())
@@ -156,13 +195,22 @@ mod tests {
     use super::super::choice::testing;
     use super::*;
 
-    const COARSE: Levels = Levels { inner: 1, boundary: 2 };
+    const COARSE: Levels = Levels {
+        inner: 1,
+        boundary: 2,
+    };
 
     /// A cube of 16 mm in columns of 1 mm.
     fn cube() -> Columns {
-        let mut columns = Columns { pitch_mm: [1.0, 1.0], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [1.0, 1.0],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for cell in 0..256 {
-            columns.centers.push([f64::from(cell % 16), f64::from(cell / 16)]);
+            columns
+                .centers
+                .push([f64::from(cell % 16), f64::from(cell / 16)]);
             columns.intervals.push([2.0, 18.0]);
             columns.starts.push(columns.intervals.len() as u32);
         }
@@ -179,7 +227,9 @@ mod tests {
     fn all_leaves_together_are_the_columns_before_and_after_splitting() {
         let columns = testing::uneven_columns();
         let octree = Octree::of(&columns, COARSE);
-        let (finer, shares) = octree.refined(&testing::some_numbers(octree.count()), 1e-3).unwrap();
+        let (finer, shares) = octree
+            .refined(&testing::some_numbers(octree.count()), 1e-3)
+            .unwrap();
         assert!(finer.count() > octree.count() && shares.len() == finer.count());
         for octree in [octree, finer] {
             let all = octree.moments(&vec![1.0; octree.count()]);
@@ -195,13 +245,24 @@ mod tests {
         let octree = Octree::of(&columns, COARSE);
         let x = testing::some_numbers(octree.count());
         let (finer, shares) = octree.refined(&x, 1e-3).unwrap();
-        assert!(octree.emptied(&x).difference_mm3(&finer.emptied(&shares), &columns) < 1e-9);
+        assert!(
+            octree
+                .emptied(&x)
+                .difference_mm3(&finer.emptied(&shares), &columns)
+                < 1e-9
+        );
     }
 
     #[test]
     fn a_cube_of_whole_cells_needs_no_fine_leaves() {
         let columns = cube();
-        let octree = Octree::of(&columns, Levels { inner: 2, boundary: 4 });
+        let octree = Octree::of(
+            &columns,
+            Levels {
+                inner: 2,
+                boundary: 4,
+            },
+        );
         assert_eq!((octree.finest_level(), octree.count()), (4, 64));
         // Inside, each of three directions has 3 · 16 pairs.
         assert_eq!(octree.neighbours().len(), 144);
@@ -210,7 +271,13 @@ mod tests {
     #[test]
     fn one_fractional_leaf_is_split_to_the_finest_level_and_the_others_merge_back() {
         let columns = cube();
-        let octree = Octree::of(&columns, Levels { inner: 1, boundary: 4 });
+        let octree = Octree::of(
+            &columns,
+            Levels {
+                inner: 1,
+                boundary: 4,
+            },
+        );
         assert_eq!(octree.count(), 8);
         let mut x = vec![1.0; 8];
         x[3] = 0.4;

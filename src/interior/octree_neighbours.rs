@@ -18,7 +18,9 @@ pub(super) fn pairs(leaves: &[Leaf]) -> Vec<[u32; 2]> {
 
 /// The leaf of at least this size that a cell lies in; none where it is split further, or empty.
 fn containing(leaves: &[Leaf], cell: &Leaf) -> Option<usize> {
-    let index = leaves.partition_point(|leaf| leaf.code <= cell.code).checked_sub(1)?;
+    let index = leaves
+        .partition_point(|leaf| leaf.code <= cell.code)
+        .checked_sub(1)?;
     let leaf = &leaves[index];
     (leaf.log_width >= cell.log_width && leaf.contains(cell)).then_some(index)
 }

@@ -10,7 +10,11 @@ impl Columns {
     /// The columns where the quadric is not positive, exact in z; in x and y the quadric has its cell mean, as in
     /// [`super::moments_where_positive`], so that the two add up to the columns themselves.
     pub fn outside(&self, quadric: &Quadric) -> Self {
-        let mut left = Self { pitch_mm: self.pitch_mm, starts: vec![0], ..Self::default() };
+        let mut left = Self {
+            pitch_mm: self.pitch_mm,
+            starts: vec![0],
+            ..Self::default()
+        };
         for (index, &center) in self.centers.iter().enumerate() {
             let before = left.intervals.len();
             let coefficients = self.along_z(quadric, center);
@@ -28,16 +32,31 @@ impl Columns {
     /// The quadric as c₀ + c₁z + c₂z² over the cell of a column.
     fn along_z(&self, quadric: &Quadric, [x, y]: [f64; 2]) -> [f64; 3] {
         let [g, gx, gy, gz, gxy, gyz, gxz, gxx, gyy, gzz] = quadric.0;
-        let [xx, yy] = [x * x + self.pitch_mm[0].powi(2) / 12.0, y * y + self.pitch_mm[1].powi(2) / 12.0];
-        [g + gx * x + gy * y + gxy * x * y + gxx * xx + gyy * yy, gz + gyz * y + gxz * x, gzz]
+        let [xx, yy] = [
+            x * x + self.pitch_mm[0].powi(2) / 12.0,
+            y * y + self.pitch_mm[1].powi(2) / 12.0,
+        ];
+        [
+            g + gx * x + gy * y + gxy * x * y + gxx * xx + gyy * yy,
+            gz + gyz * y + gxz * x,
+            gzz,
+        ]
     }
 }
 
 /// Adds the parts of an interval in which a quadratic is not positive.
-fn push_not_positive(coefficients: [f64; 3], [bottom, top]: [f64; 2], intervals: &mut Vec<[f64; 2]>) {
+fn push_not_positive(
+    coefficients: [f64; 3],
+    [bottom, top]: [f64; 2],
+    intervals: &mut Vec<[f64; 2]>,
+) {
     let [c0, c1, c2] = coefficients;
     let mut ends = vec![bottom];
-    ends.extend(roots(coefficients).into_iter().filter(|root| bottom < *root && *root < top));
+    ends.extend(
+        roots(coefficients)
+            .into_iter()
+            .filter(|root| bottom < *root && *root < top),
+    );
     ends.push(top);
     for pair in ends.windows(2) {
         let middle = 0.5 * (pair[0] + pair[1]);
@@ -65,9 +84,16 @@ mod tests {
 
     #[test]
     fn what_is_inside_and_what_is_outside_add_up_to_everything() {
-        let mut columns = Columns { pitch_mm: [0.5, 1.0], starts: vec![0], ..Columns::default() };
+        let mut columns = Columns {
+            pitch_mm: [0.5, 1.0],
+            starts: vec![0],
+            ..Columns::default()
+        };
         for cell in 0..400 {
-            columns.centers.push([f64::from(cell % 20) * 0.5 - 5.0, f64::from(cell / 20) - 10.0]);
+            columns.centers.push([
+                f64::from(cell % 20) * 0.5 - 5.0,
+                f64::from(cell / 20) - 10.0,
+            ]);
             columns.intervals.extend([[-6.0, -1.0], [0.5, 7.0]]);
             columns.starts.push(columns.intervals.len() as u32);
         }
@@ -83,7 +109,10 @@ mod tests {
             let both = moments_where_positive(&columns, &quadric) + outside;
             for (sum, whole) in both.0.into_iter().zip(whole.0) {
                 // A crumb below the sliver's length is lost in some of 800 intervals, of 0.5 mm² each, at most 10 mm out.
-                assert!((sum - whole).abs() < 800.0 * 1e-6 * 0.5 * 100.0, "{sum} {whole}");
+                assert!(
+                    (sum - whole).abs() < 800.0 * 1e-6 * 0.5 * 100.0,
+                    "{sum} {whole}"
+                );
             }
         }
     }

@@ -68,7 +68,11 @@ impl Pack {
     /// One more stretch; the pack must not be full.
     #[inline]
     pub fn push(&mut self, x: f64, [bottom, top]: [f64; 2]) {
-        (self.x[self.count], self.bottom[self.count], self.top[self.count]) = (x, bottom, top);
+        (
+            self.x[self.count],
+            self.bottom[self.count],
+            self.top[self.count],
+        ) = (x, bottom, top);
         self.count += 1;
     }
 
@@ -137,12 +141,17 @@ impl Pack {
     /// Where q hardly changes along an interval but does across its cell, the surface stands upright in the cell and
     /// the column's own roots say nothing of it: there they are replaced by its density, as two Gauss points of the interval.
     fn put_walls(&mut self, filled: usize, section: &Section) {
-        let Section { c0, c1, c2, across: [ax, ay] } = *section;
+        let Section {
+            c0,
+            c1,
+            c2,
+            across: [ax, ay],
+        } = *section;
         for i in 0..filled.min(SIZE) {
             let (x, bottom, top) = (self.x[i], self.bottom[i], self.top[i]);
             let (middle, half) = (0.5 * (bottom + top), 0.5 * (top - bottom));
-            let spread =
-                (ax[0] + ax[1] * x + ax[2] * middle).abs() + (ay[0] + ay[1] * x + ay[2] * middle).abs();
+            let spread = (ax[0] + ax[1] * x + ax[2] * middle).abs()
+                + (ay[0] + ay[1] * x + ay[2] * middle).abs();
             let slope = c1[0] + x * c1[1] + 2.0 * c2 * middle;
             let is_upright = half * slope.abs() + half * half * c2.abs() < UPRIGHT_RATIO * spread;
             let value = c0[0] + x * (c0[1] + x * c0[2]) + middle * (slope - middle * c2);
@@ -194,7 +203,12 @@ fn either(condition: bool, yes: f64, no: f64) -> f64 {
 #[inline]
 fn times_powers<const T: usize>(p: &[f64], x: &[f64]) -> [f64; T] {
     let mut sums = [[0.0; LANES]; T];
-    for (p, x) in p.as_chunks::<LANES>().0.iter().zip(x.as_chunks::<LANES>().0) {
+    for (p, x) in p
+        .as_chunks::<LANES>()
+        .0
+        .iter()
+        .zip(x.as_chunks::<LANES>().0)
+    {
         let mut term = *p;
         for sum in &mut sums {
             for lane in 0..LANES {
@@ -207,7 +221,9 @@ fn times_powers<const T: usize>(p: &[f64], x: &[f64]) -> [f64; T] {
 }
 
 fn add(sums: &mut [f64], terms: &[f64]) {
-    sums.iter_mut().zip(terms).for_each(|(sum, term)| *sum += term);
+    sums.iter_mut()
+        .zip(terms)
+        .for_each(|(sum, term)| *sum += term);
 }
 
 #[inline]
@@ -221,5 +237,9 @@ fn clamped(z: f64, low: f64, high: f64) -> f64 {
 fn powers_between(low: f64, high: f64) -> [f64; 3] {
     let length = high - low;
     let sum = low + high;
-    [length, 0.5 * length * sum, length * (sum * sum - low * high) * THIRD]
+    [
+        length,
+        0.5 * length * sum,
+        length * (sum * sum - low * high) * THIRD,
+    ]
 }

@@ -56,15 +56,27 @@ impl<'a> Rays<'a> {
     /// The rays through the centres of the columns.
     pub fn of(columns: &'a Columns) -> Self {
         let of_column = |column: usize| {
-            let stretch = move |&[bottom, top]: &[f64; 2]| Stretch { column: column as u32, bottom, top };
+            let stretch = move |&[bottom, top]: &[f64; 2]| Stretch {
+                column: column as u32,
+                bottom,
+                top,
+            };
             columns.intervals_of(column).iter().map(stretch)
         };
         let stretches: Vec<Stretch> = (0..columns.len()).flat_map(of_column).collect();
         let whole = columns.moments();
         let area_mm2 = columns.pitch_mm[0] * columns.pitch_mm[1];
         let weight = |stretch: &Stretch| (stretch.top - stretch.bottom) * area_mm2 / whole.volume();
-        let weights = stretches.iter().flat_map(|stretch| [weight(stretch); 2]).collect();
-        Self { columns, stretches, whole, weights }
+        let weights = stretches
+            .iter()
+            .flat_map(|stretch| [weight(stretch); 2])
+            .collect();
+        Self {
+            columns,
+            stretches,
+            whole,
+            weights,
+        }
     }
 
     /// The numbers with every segment that has vanished where q is not least on its stretch moved there; none where
@@ -80,9 +92,17 @@ impl<'a> Rays<'a> {
             }
             let [c0, c1, c2] = mean_on_column(self.columns, stretch.column as usize, quadric);
             let q = |z: f64| c0 + z * (c1 + z * c2);
-            let places = [stretch.bottom, stretch.top - ROOM_RATIO * length, (-0.5 * c1 / c2)];
-            let inside = places.into_iter().filter(|z| *z >= stretch.bottom && *z <= places[1]);
-            let Some(best) = inside.min_by(|a, b| q(*a).total_cmp(&q(*b))) else { continue };
+            let places = [
+                stretch.bottom,
+                stretch.top - ROOM_RATIO * length,
+                (-0.5 * c1 / c2),
+            ];
+            let inside = places
+                .into_iter()
+                .filter(|z| *z >= stretch.bottom && *z <= places[1]);
+            let Some(best) = inside.min_by(|a, b| q(*a).total_cmp(&q(*b))) else {
+                continue;
+            };
             if q(best) < -WORTH_OPENING && q(best) < q(z0) {
                 t.copy_from_slice(&[(best - stretch.bottom) / length, 0.0]);
             }
@@ -99,7 +119,10 @@ impl<'a> Rays<'a> {
         let [c0, c1, c2] = mean_on_column(self.columns, stretch.column as usize, quadric);
         let [q0, q1] = stretch.segment(t).map(|z| c0 + z * (c1 + z * c2));
         let volume = self.whole.volume();
-        [(q0 - (1.0 - t[1]) * q1) * volume, -(1.0 - t[0]) * q1 * volume]
+        [
+            (q0 - (1.0 - t[1]) * q1) * volume,
+            -(1.0 - t[0]) * q1 * volume,
+        ]
     }
 }
 
@@ -115,25 +138,35 @@ impl Choice for Rays<'_> {
     fn moments(&self, x: &[f64]) -> Moments {
         let kept = block_sums(self.stretches.len(), |i| {
             let stretch = &self.stretches[i];
-            self.columns.moments_between(stretch.column as usize, stretch.segment(&x[2 * i..2 * i + 2]))
+            self.columns.moments_between(
+                stretch.column as usize,
+                stretch.segment(&x[2 * i..2 * i + 2]),
+            )
         });
         self.whole - kept * self.area_mm2()
     }
 
     fn derivative(&self, x: &[f64], quadric: &Quadric, out: &mut [f64]) {
         let blocks = out.par_chunks_mut(2 * BLOCK).zip(x.par_chunks(2 * BLOCK));
-        blocks.zip(self.stretches.par_chunks(BLOCK)).for_each(|((out, x), stretches)| {
-            for ((out, t), stretch) in out.chunks_exact_mut(2).zip(x.chunks_exact(2)).zip(stretches) {
-                out.copy_from_slice(&self.derivative_of(stretch, t, quadric));
-            }
-        });
+        blocks
+            .zip(self.stretches.par_chunks(BLOCK))
+            .for_each(|((out, x), stretches)| {
+                for ((out, t), stretch) in out
+                    .chunks_exact_mut(2)
+                    .zip(x.chunks_exact(2))
+                    .zip(stretches)
+                {
+                    out.copy_from_slice(&self.derivative_of(stretch, t, quadric));
+                }
+            });
     }
 
     fn emptied(&self, x: &[f64]) -> Emptied {
         let mut pieces = vec![Vec::new(); self.columns.len()];
         for (stretch, t) in self.stretches.iter().zip(x.chunks_exact(2)) {
             let [z0, z1] = stretch.segment(t);
-            pieces[stretch.column as usize].extend([[stretch.bottom, z0], [z1, stretch.top]].map(whole));
+            pieces[stretch.column as usize]
+                .extend([[stretch.bottom, z0], [z1, stretch.top]].map(whole));
         }
         Emptied::of_columns(pieces.into_iter())
     }
@@ -168,7 +201,11 @@ mod tests {
 
     #[test]
     fn a_segment_never_leaves_its_stretch_nor_turns_over() {
-        let stretch = Stretch { column: 0, bottom: -2.0, top: 5.0 };
+        let stretch = Stretch {
+            column: 0,
+            bottom: -2.0,
+            top: 5.0,
+        };
         for t in [[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0], [0.3, 0.8]] {
             let [z0, z1] = stretch.segment(&t);
             assert!(stretch.bottom <= z0 && z0 <= z1 && z1 <= stretch.top);

@@ -53,7 +53,9 @@ impl Row {
 
     /// Takes one piece away from every column it meets.
     fn take_away(&mut self, piece: &Piece, y_mm: f64, xs: &Ruler) {
-        let Some((x_range_mm, form)) = piece.on_row(y_mm) else { return };
+        let Some((x_range_mm, form)) = piece.on_row(y_mm) else {
+            return;
+        };
         let range = xs.range(x_range_mm);
         match form {
             RowForm::Slab(slab) => self.take_away_form(range, xs, &slab),
@@ -113,7 +115,10 @@ mod tests {
     fn subtracting_trims_splits_and_removes() {
         let two = || vec![[0.0, 2.0], [4.0, 6.0]];
         assert_eq!(left_of(two(), [1.0, 5.0]), [[0.0, 1.0], [5.0, 6.0]]);
-        assert_eq!(left_of(two(), [0.5, 1.0]), [[0.0, 0.5], [1.0, 2.0], [4.0, 6.0]]);
+        assert_eq!(
+            left_of(two(), [0.5, 1.0]),
+            [[0.0, 0.5], [1.0, 2.0], [4.0, 6.0]]
+        );
         assert_eq!(left_of(two(), [-1.0, 4.5]), [[4.5, 6.0]]);
         assert_eq!(left_of(two(), [-1.0, 9.0]), [[0.0; 2]; 0]);
         assert_eq!(left_of(two(), [2.0, 4.0]), two());
@@ -130,12 +135,15 @@ mod tests {
                 .map(|[bottom, length]| [bottom, bottom + length])
                 .collect();
             let mut left = vec![[0.1, 0.4], [0.5, 0.9]];
-            stretches.iter().for_each(|&stretch| subtract(&mut left, stretch));
+            stretches
+                .iter()
+                .for_each(|&stretch| subtract(&mut left, stretch));
             assert!(left.windows(2).all(|pair| pair[0][1] < pair[1][0]));
             assert!(left.iter().all(|interval| interval[0] < interval[1]));
             for _ in 0..50 {
                 let z = random.unit();
-                let within = |set: &[[f64; 2]]| set.iter().any(|[low, high]| (*low..*high).contains(&z));
+                let within =
+                    |set: &[[f64; 2]]| set.iter().any(|[low, high]| (*low..*high).contains(&z));
                 let expected = within(&[[0.1, 0.4], [0.5, 0.9]]) && !within(&stretches);
                 assert_eq!(within(&left), expected, "at {z}");
             }

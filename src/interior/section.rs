@@ -21,7 +21,11 @@ impl Section {
         let [g, gx, gy, gz, gxy, gyz, gxz, gxx, gyy, gzz] = quadric.0;
         let [var_x, var_y] = pitch_mm.map(cell_variance);
         Self {
-            c0: [g + gy * y + gyy * (y * y + var_y) + gxx * var_x, gx + gxy * y, gxx],
+            c0: [
+                g + gy * y + gyy * (y * y + var_y) + gxx * var_x,
+                gx + gxy * y,
+                gxx,
+            ],
             c1: [gz + gyz * y, gxz],
             c2: gzz + 0.0, // turns −0 into +0, on which the roots at infinity rely
             across: [
@@ -33,7 +37,11 @@ impl Section {
 
     /// The quadratic on the column at `x`, by powers of z.
     pub fn at(&self, x: f64) -> [f64; 3] {
-        [self.c0[0] + x * (self.c0[1] + x * self.c0[2]), self.c1[0] + x * self.c1[1], self.c2]
+        [
+            self.c0[0] + x * (self.c0[1] + x * self.c0[2]),
+            self.c1[0] + x * self.c1[1],
+            self.c2,
+        ]
     }
 }
 
@@ -51,7 +59,11 @@ pub(super) fn mean_on_column(columns: &Columns, column: usize, quadric: &Quadric
 /// Where q changes sign on a column, and whether it is positive outside of the two or between them.
 ///
 /// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one root to infinity.
-pub(super) fn crossing_of_column(columns: &Columns, quadric: &Quadric, column: usize) -> ([f64; 2], bool) {
+pub(super) fn crossing_of_column(
+    columns: &Columns,
+    quadric: &Quadric,
+    column: usize,
+) -> ([f64; 2], bool) {
     let [c0, c1, c2] = mean_on_column(columns, column, quadric);
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
     if discriminant <= 0.0 {

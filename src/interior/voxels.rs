@@ -38,7 +38,11 @@ impl<'a> Voxels<'a> {
             columns.moments_between(slice.column as usize, [slice.bottom, slice.top]) * area_mm2
         };
         let cells = Cells::new(slices.iter().map(moments).collect());
-        Self { columns, slices, cells }
+        Self {
+            columns,
+            slices,
+            cells,
+        }
     }
 }
 
@@ -48,7 +52,11 @@ fn slices(column: usize, [bottom, top]: [f64; 2], height: f64) -> impl Iterator<
     (0..(last - first) as usize).filter_map(move |i| {
         let low = (first + i as f64) * height;
         let (bottom, top) = (low.max(bottom), (low + height).min(top));
-        (top > bottom).then_some(Slice { column: column as u32, bottom, top })
+        (top > bottom).then_some(Slice {
+            column: column as u32,
+            bottom,
+            top,
+        })
     })
 }
 
@@ -72,7 +80,11 @@ impl Choice for Voxels<'_> {
     fn emptied(&self, x: &[f64]) -> Emptied {
         let mut pieces = vec![Vec::new(); self.columns.len()];
         for (slice, &share) in self.slices.iter().zip(x) {
-            let piece = Piece { bottom_mm: slice.bottom, top_mm: slice.top, share };
+            let piece = Piece {
+                bottom_mm: slice.bottom,
+                top_mm: slice.top,
+                share,
+            };
             pieces[slice.column as usize].push(piece);
         }
         Emptied::of_columns(pieces.into_iter())

@@ -15,7 +15,11 @@ impl Columns {
     /// reaches.
     pub fn without(&self, body: &TriMesh) -> Self {
         let mut carver = Carver::new(self, body);
-        let mut left = Self { pitch_mm: self.pitch_mm, starts: vec![0], ..Self::default() };
+        let mut left = Self {
+            pitch_mm: self.pitch_mm,
+            starts: vec![0],
+            ..Self::default()
+        };
         let mut intervals = Vec::new();
         for column in 0..self.len() {
             let center = self.centers[column];
@@ -67,7 +71,9 @@ impl<'a> Carver<'a> {
             self.row_mm = y;
             self.crossings.find(self.body, &self.triangles, y, &self.xs);
         }
-        inside_stretches(self.crossings.of(column), |stretch| subtract(intervals, stretch));
+        inside_stretches(self.crossings.of(column), |stretch| {
+            subtract(intervals, stretch)
+        });
         intervals.retain(|[bottom, top]| top - bottom > SLIVER_MM);
     }
 }
@@ -89,7 +95,10 @@ mod tests {
     #[test]
     fn a_box_taken_out_of_a_box_leaves_the_difference() {
         let columns = cube_columns();
-        let rest = columns.without(&cuboid(&Point::new(2.0, 3.0, 4.0), &Point::new(5.0, 7.0, 20.0)));
+        let rest = columns.without(&cuboid(
+            &Point::new(2.0, 3.0, 4.0),
+            &Point::new(5.0, 7.0, 20.0),
+        ));
         // Both boxes' sides are whole numbers of pitches, so the lattice counts them exactly.
         assert!((columns.moments().volume() - 512.0).abs() < 1e-9);
         assert!((rest.moments().volume() - (512.0 - 3.0 * 4.0 * 5.0)).abs() < 1e-9);
@@ -104,17 +113,28 @@ mod tests {
         let lost = columns.moments().volume() - hollow.moments().volume();
         // 4/3 π 2³ within a percent: facets within the ball, and a lattice of 0.02 mm².
         assert!((lost / 33.51 - 1.0).abs() < 0.01, "{lost}");
-        assert_eq!(columns.without(&ball(&Point::new(30.0, 5.0, 5.0), 2.0, 2)), columns);
+        assert_eq!(
+            columns.without(&ball(&Point::new(30.0, 5.0, 5.0), 2.0, 2)),
+            columns
+        );
     }
 
     #[test]
     fn columns_that_lose_everything_are_left_out() {
         let columns = cube_columns();
-        let rest = columns.without(&cuboid(&Point::new(-1.0, -1.0, -1.0), &Point::new(5.0, 11.0, 11.0)));
+        let rest = columns.without(&cuboid(
+            &Point::new(-1.0, -1.0, -1.0),
+            &Point::new(5.0, 11.0, 11.0),
+        ));
         assert!(rest.centers.iter().all(|center| center[0] > 5.0));
         assert_eq!(rest.starts.len(), rest.len() + 1);
         assert!(
-            columns.without(&cuboid(&Point::new(0.0, 0.0, 0.0), &Point::new(10.0, 10.0, 10.0))).is_empty()
+            columns
+                .without(&cuboid(
+                    &Point::new(0.0, 0.0, 0.0),
+                    &Point::new(10.0, 10.0, 10.0)
+                ))
+                .is_empty()
         );
     }
 }

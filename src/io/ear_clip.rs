@@ -33,11 +33,16 @@ pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
 fn flattened(vertices: &[Point], face: &[u32]) -> Vec<Coord<f64>> {
     let corner = |i: usize| vertices[face[i % face.len()] as usize];
     let first = corner(0);
-    let normal: Vector = (0..face.len()).map(|i| (corner(i) - first).cross(&(corner(i + 1) - first))).sum();
+    let normal: Vector = (0..face.len())
+        .map(|i| (corner(i) - first).cross(&(corner(i + 1) - first)))
+        .sum();
     let (u, v) = Plane::through(&first, &normal).basis();
     let flat = |i: usize| {
         let arm = corner(i) - first;
-        Coord { x: u.dot(&arm), y: v.dot(&arm) }
+        Coord {
+            x: u.dot(&arm),
+            y: v.dot(&arm),
+        }
     };
     (0..face.len()).map(flat).collect()
 }
@@ -73,7 +78,9 @@ fn blocks(p: Coord<f64>, [a, b, c]: [Coord<f64>; 3]) -> bool {
     p != a
         && p != b
         && p != c
-        && [(a, b), (b, c), (c, a)].iter().all(|&(from, to)| orient2d(from, to, p) >= 0.0)
+        && [(a, b), (b, c), (c, a)]
+            .iter()
+            .all(|&(from, to)| orient2d(from, to, p) >= 0.0)
 }
 
 #[cfg(test)]
@@ -82,7 +89,9 @@ mod tests {
 
     fn points(flat: &[(f64, f64)]) -> Vec<Point> {
         // A tilted plane, so that no coordinate can simply be dropped.
-        flat.iter().map(|&(x, y)| Point::new(x, y, 0.5 * x - 0.25 * y)).collect()
+        flat.iter()
+            .map(|&(x, y)| Point::new(x, y, 0.5 * x - 0.25 * y))
+            .collect()
     }
 
     /// The areas of the triangles, seen from above.
@@ -130,13 +139,23 @@ mod tests {
             let spike = |i: usize| 1.0 + ((i * i * 7 + i * seed * 13) % 11) as f64;
             let turn = |i: usize| std::f64::consts::TAU * i as f64 / n as f64;
             let star = points(
-                &(0..n).map(|i| (spike(i) * turn(i).cos(), spike(i) * turn(i).sin())).collect::<Vec<_>>(),
+                &(0..n)
+                    .map(|i| (spike(i) * turn(i).cos(), spike(i) * turn(i).sin()))
+                    .collect::<Vec<_>>(),
             );
             let face: Vec<u32> = (0..n as u32).collect();
             let areas = areas(&star, &ear_clip(&star, &face));
-            let whole: f64 = (0..n).map(|i| spike(i) * spike((i + 1) % n) * turn(1).sin() / 2.0).sum();
-            assert!(areas.len() == n - 2 && areas.iter().all(|&a| a >= 0.0), "{seed}");
-            assert!((areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-12, "{seed}");
+            let whole: f64 = (0..n)
+                .map(|i| spike(i) * spike((i + 1) % n) * turn(1).sin() / 2.0)
+                .sum();
+            assert!(
+                areas.len() == n - 2 && areas.iter().all(|&a| a >= 0.0),
+                "{seed}"
+            );
+            assert!(
+                (areas.iter().sum::<f64>() / whole - 1.0).abs() < 1e-12,
+                "{seed}"
+            );
         }
     }
 

@@ -8,7 +8,9 @@ use crate::mesh::TriMesh;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum ObjError {
     /// There are no faces.
-    #[error("there are no faces in it ({vertices} vertices); export the model again with its faces")]
+    #[error(
+        "there are no faces in it ({vertices} vertices); export the model again with its faces"
+    )]
     NoFaces {
         /// How many vertices there are.
         vertices: usize,
@@ -66,24 +68,41 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
     let geometry = Geometry::of(&String::from_utf8_lossy(bytes));
     geometry.check()?;
     let options = tobj::LoadOptions::default();
-    let (models, _) = tobj::load_obj_buf(&mut geometry.text.as_bytes(), &options, |_| Ok(Default::default()))
-        .map_err(|error| ObjError::Refused { reason: error.to_string() })?;
-    let whole =
-        models.iter().fold(TriMesh::default(), |whole, model| whole.joined(&triangulated(&model.mesh)));
+    let (models, _) = tobj::load_obj_buf(&mut geometry.text.as_bytes(), &options, |_| {
+        Ok(Default::default())
+    })
+    .map_err(|error| ObjError::Refused {
+        reason: error.to_string(),
+    })?;
+    let whole = models.iter().fold(TriMesh::default(), |whole, model| {
+        whole.joined(&triangulated(&model.mesh))
+    });
     if whole.triangles().is_empty() {
-        return Err(ObjError::NoFaces { vertices: geometry.vertices });
+        return Err(ObjError::NoFaces {
+            vertices: geometry.vertices,
+        });
     }
     Ok(whole)
 }
 
 /// The triangles of one parsed object.
 fn triangulated(mesh: &tobj::Mesh) -> TriMesh {
-    let vertices: Vec<Point> = mesh.positions.chunks_exact(3).map(|p| Point::new(p[0], p[1], p[2])).collect();
+    let vertices: Vec<Point> = mesh
+        .positions
+        .chunks_exact(3)
+        .map(|p| Point::new(p[0], p[1], p[2]))
+        .collect();
     let mut rest = mesh.indices.as_slice();
     let mut triangles = Vec::with_capacity(mesh.indices.len() / 3);
-    let arities = mesh.face_arities.iter().map(|&n| n as usize).chain(std::iter::repeat(3));
+    let arities = mesh
+        .face_arities
+        .iter()
+        .map(|&n| n as usize)
+        .chain(std::iter::repeat(3));
     for arity in arities {
-        let Some((face, after)) = rest.split_at_checked(arity).filter(|_| !rest.is_empty()) else { break };
+        let Some((face, after)) = rest.split_at_checked(arity).filter(|_| !rest.is_empty()) else {
+            break;
+        };
         triangles.extend(ear_clip(&vertices, face));
         rest = after;
     }
@@ -100,14 +119,25 @@ struct Geometry {
 
 impl Geometry {
     fn of(file: &str) -> Self {
-        let mut geometry = Self { text: String::with_capacity(file.len()), lines: Vec::new(), vertices: 0 };
-        let mut lines = file.trim_start_matches('\u{feff}').split(line_break(file)).zip(1..);
+        let mut geometry = Self {
+            text: String::with_capacity(file.len()),
+            lines: Vec::new(),
+            vertices: 0,
+        };
+        let mut lines = file
+            .trim_start_matches('\u{feff}')
+            .split(line_break(file))
+            .zip(1..);
         while let Some((first, number)) = lines.next() {
             let mut line = first.trim_end_matches('\r').to_owned();
             while line.ends_with('\\') {
                 line.pop();
                 line.push(' ');
-                line.push_str(lines.next().map_or("", |(next, _)| next.trim_end_matches('\r')));
+                line.push_str(
+                    lines
+                        .next()
+                        .map_or("", |(next, _)| next.trim_end_matches('\r')),
+                );
             }
             geometry.take(&line, number);
         }
@@ -158,13 +188,20 @@ fn kept_numbers(count: usize) -> usize {
     if count > 4 { 3 } else { count }
 }
 
-fn check_vertex<'a>(words: impl Iterator<Item = &'a str>, text: &str, line: usize) -> Result<(), ObjError> {
+fn check_vertex<'a>(
+    words: impl Iterator<Item = &'a str>,
+    text: &str,
+    line: usize,
+) -> Result<(), ObjError> {
     let numbers: Option<Vec<f64>> = words.map(|word| word.parse().ok()).collect();
     match numbers.as_deref() {
         Some([x, y, z]) if [x, y, z].iter().all(|x| x.is_finite()) => Ok(()),
         Some([x, y, z, w]) if [x, y, z].iter().all(|x| (*x / w).is_finite()) => Ok(()),
         Some([_, _, _] | [_, _, _, _]) => Err(ObjError::NotFinite { line }),
-        _ => Err(ObjError::Vertex { line, found: quoted(text) }),
+        _ => Err(ObjError::Vertex {
+            line,
+            found: quoted(text),
+        }),
     }
 }
 
@@ -177,14 +214,28 @@ fn check_face<'a>(
 ) -> Result<(), ObjError> {
     let mut count = 0;
     for corner in corners {
-        let index = corner_index(corner).ok_or_else(|| ObjError::Face { line, found: quoted(corner) })?;
+        let index = corner_index(corner).ok_or_else(|| ObjError::Face {
+            line,
+            found: quoted(corner),
+        })?;
         let vertices = if index < 0 { before } else { all };
         if index == 0 || index.unsigned_abs() > vertices as u64 {
-            return Err(ObjError::IndexOutOfRange { line, index, vertices });
+            return Err(ObjError::IndexOutOfRange {
+                line,
+                index,
+                vertices,
+            });
         }
         count += 1;
     }
-    if count < 3 { Err(ObjError::Face { line, found: format!("{count} corners") }) } else { Ok(()) }
+    if count < 3 {
+        Err(ObjError::Face {
+            line,
+            found: format!("{count} corners"),
+        })
+    } else {
+        Ok(())
+    }
 }
 
 /// The vertex index of a face corner, when all its parts are indices.

@@ -8,7 +8,9 @@ use crate::mesh::TriMesh;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum PlyError {
     /// A line of the header cannot be understood.
-    #[error("line {line} of the header: expected {expected}, found {found:?}; export the model again")]
+    #[error(
+        "line {line} of the header: expected {expected}, found {found:?}; export the model again"
+    )]
     Header {
         /// The line, from 1.
         line: usize,
@@ -42,7 +44,9 @@ pub enum PlyError {
         found: String,
     },
     /// There are no faces.
-    #[error("there are no faces in it ({vertices} vertices); export the model again with its faces")]
+    #[error(
+        "there are no faces in it ({vertices} vertices); export the model again with its faces"
+    )]
     NoFaces {
         /// How many vertices there are.
         vertices: usize,
@@ -129,38 +133,57 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
         triangles.extend(ear_clip(&vertices, face));
     }
     if triangles.is_empty() {
-        return Err(PlyError::NoFaces { vertices: vertices.len() });
+        return Err(PlyError::NoFaces {
+            vertices: vertices.len(),
+        });
     }
     Ok(TriMesh::from_parts(vertices, triangles))
 }
 
 fn read_vertices(body: &mut Body, element: &Element) -> Result<Vec<Point>, PlyError> {
-    let axis = |name: &str| element.properties.iter().position(|property| property.name == name);
+    let axis = |name: &str| {
+        element
+            .properties
+            .iter()
+            .position(|property| property.name == name)
+    };
     let axes = ["x", "y", "z"].map(axis);
     let mut vertices = Vec::new();
     body.items(element, |index, values| {
         let mut numbers = [f64::NAN; 3];
         for (number, axis) in numbers.iter_mut().zip(axes) {
-            *number = axis.and_then(|axis| values[axis].first().copied()).unwrap_or(f64::NAN);
+            *number = axis
+                .and_then(|axis| values[axis].first().copied())
+                .unwrap_or(f64::NAN);
         }
         vertices.push(Point::from(numbers));
         let is_finite = numbers.iter().all(|x| x.is_finite());
-        if is_finite { Ok(()) } else { Err(fault(element, index, "place", format!("{numbers:?}"))) }
+        if is_finite {
+            Ok(())
+        } else {
+            Err(fault(element, index, "place", format!("{numbers:?}")))
+        }
     })?;
     Ok(vertices)
 }
 
 /// The corners of each face.
 fn read_faces(body: &mut Body, element: &Element) -> Result<Vec<Vec<u32>>, PlyError> {
-    let is_corners =
-        |property: &Property| CORNERS.contains(&property.name.as_str()) && property.length.is_some();
-    let Some(corners) = element.properties.iter().position(is_corners) else { return Ok(Vec::new()) };
+    let is_corners = |property: &Property| {
+        CORNERS.contains(&property.name.as_str()) && property.length.is_some()
+    };
+    let Some(corners) = element.properties.iter().position(is_corners) else {
+        return Ok(Vec::new());
+    };
     let mut faces = Vec::new();
     body.items(element, |index, values| {
-        let whole =
-            |x: &f64| (x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x)).then_some(*x as u32);
+        let whole = |x: &f64| {
+            (x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x)).then_some(*x as u32)
+        };
         let face: Option<Vec<u32>> = values[corners].iter().map(whole).collect();
-        faces.push(face.ok_or_else(|| fault(element, index, "corners", format!("{:?}", values[corners])))?);
+        faces.push(
+            face.ok_or_else(|| fault(element, index, "corners", format!("{:?}", values[corners])))?,
+        );
         Ok(())
     })?;
     Ok(faces)
@@ -172,11 +195,21 @@ fn check_face(face: &[u32], index: usize, vertices: usize) -> Result<(), PlyErro
         return Ok(());
     }
     let found = format!("{face:?} of {vertices} vertices from 0 on");
-    Err(PlyError::Value { element: "face".to_owned(), index, property: "corners".to_owned(), found })
+    Err(PlyError::Value {
+        element: "face".to_owned(),
+        index,
+        property: "corners".to_owned(),
+        found,
+    })
 }
 
 fn fault(element: &Element, index: usize, property: &str, found: String) -> PlyError {
-    PlyError::Value { element: element.name.clone(), index, property: property.to_owned(), found }
+    PlyError::Value {
+        element: element.name.clone(),
+        index,
+        property: property.to_owned(),
+        found,
+    }
 }
 
 /// The form, the elements, and the bytes after the header.
@@ -184,12 +217,19 @@ fn header(bytes: &[u8]) -> Result<(Form, Vec<Element>, &[u8]), PlyError> {
     let (mut form, mut elements) = (None, Vec::<Element>::new());
     let (mut rest, mut line) = (bytes, 0);
     while !rest.is_empty() {
-        let end = rest.iter().position(|&byte| byte == b'\n' || byte == b'\r').unwrap_or(rest.len());
+        let end = rest
+            .iter()
+            .position(|&byte| byte == b'\n' || byte == b'\r')
+            .unwrap_or(rest.len());
         let is_pair = rest[end..].starts_with(b"\r\n");
         let text = String::from_utf8_lossy(&rest[..end]).into_owned();
         rest = &rest[(end + 1 + usize::from(is_pair)).min(rest.len())..];
         line += 1;
-        let wrong = |expected| PlyError::Header { line, expected, found: text.clone() };
+        let wrong = |expected| PlyError::Header {
+            line,
+            expected,
+            found: text.clone(),
+        };
         match text.split_ascii_whitespace().collect::<Vec<_>>().as_slice() {
             ["end_header"] => {
                 let form = form.ok_or_else(|| wrong("a line with the format before it"))?;
@@ -199,19 +239,34 @@ fn header(bytes: &[u8]) -> Result<(Form, Vec<Element>, &[u8]), PlyError> {
                 form = Some(form_of(name).ok_or_else(|| wrong("ascii or a binary format"))?)
             }
             ["element", name, count] => {
-                let count = count.parse().map_err(|_| wrong("how many elements there are"))?;
-                elements.push(Element { name: (*name).to_owned(), count, properties: Vec::new() });
+                let count = count
+                    .parse()
+                    .map_err(|_| wrong("how many elements there are"))?;
+                elements.push(Element {
+                    name: (*name).to_owned(),
+                    count,
+                    properties: Vec::new(),
+                });
             }
             ["property", words @ ..] => {
-                let property = property(words).ok_or_else(|| wrong("a property: its type and its name"))?;
-                elements.last_mut().ok_or_else(|| wrong("an element before it"))?.properties.push(property);
+                let property =
+                    property(words).ok_or_else(|| wrong("a property: its type and its name"))?;
+                elements
+                    .last_mut()
+                    .ok_or_else(|| wrong("an element before it"))?
+                    .properties
+                    .push(property);
             }
             ["ply"] if line == 1 => {}
             ["comment" | "obj_info", ..] => {}
             _ => return Err(wrong("a line of a PLY header")),
         }
     }
-    Err(PlyError::Header { line, expected: "end_header", found: String::new() })
+    Err(PlyError::Header {
+        line,
+        expected: "end_header",
+        found: String::new(),
+    })
 }
 
 fn form_of(name: &str) -> Option<Form> {
@@ -224,12 +279,23 @@ fn form_of(name: &str) -> Option<Form> {
 }
 
 fn property(words: &[&str]) -> Option<Property> {
-    let kind = |name: &str| KINDS.iter().find(|(known, _)| *known == name).map(|(_, kind)| *kind);
+    let kind = |name: &str| {
+        KINDS
+            .iter()
+            .find(|(known, _)| *known == name)
+            .map(|(_, kind)| *kind)
+    };
     match words {
-        ["list", length, of, name] => {
-            Some(Property { name: (*name).to_owned(), kind: kind(of)?, length: Some(kind(length)?) })
-        }
-        [of, name] => Some(Property { name: (*name).to_owned(), kind: kind(of)?, length: None }),
+        ["list", length, of, name] => Some(Property {
+            name: (*name).to_owned(),
+            kind: kind(of)?,
+            length: Some(kind(length)?),
+        }),
+        [of, name] => Some(Property {
+            name: (*name).to_owned(),
+            kind: kind(of)?,
+            length: None,
+        }),
         _ => None,
     }
 }
@@ -247,7 +313,11 @@ impl Body<'_> {
         element: &Element,
         mut take: impl FnMut(usize, &[Vec<f64>]) -> Result<(), PlyError>,
     ) -> Result<(), PlyError> {
-        let cut = |index| PlyError::Cut { element: element.name.clone(), index, count: element.count };
+        let cut = |index| PlyError::Cut {
+            element: element.name.clone(),
+            index,
+            count: element.count,
+        };
         if element.properties.is_empty() {
             return Ok(());
         }
@@ -259,7 +329,12 @@ impl Body<'_> {
                     None => 1.0,
                 };
                 if !(length >= 0.0 && length.fract() == 0.0) {
-                    return Err(fault(element, index, "number of corners", length.to_string()));
+                    return Err(fault(
+                        element,
+                        index,
+                        "number of corners",
+                        length.to_string(),
+                    ));
                 }
                 values.clear();
                 for _ in 0..length as u64 {
@@ -275,7 +350,10 @@ impl Body<'_> {
     fn number(&mut self, kind: Kind) -> Option<f64> {
         if self.form == Form::Text {
             let text = self.rest.trim_ascii_start();
-            let end = text.iter().position(u8::is_ascii_whitespace).unwrap_or(text.len());
+            let end = text
+                .iter()
+                .position(u8::is_ascii_whitespace)
+                .unwrap_or(text.len());
             let (word, rest) = text.split_at(end);
             self.rest = rest;
             let number = || std::str::from_utf8(word).ok()?.parse().ok();
@@ -323,12 +401,24 @@ mod tests {
         [1.0, 2.0, 3.0],
         [0.0, 2.0, 3.0],
     ];
-    const FACES: [[i32; 4]; 6] =
-        [[3, 2, 1, 0], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]];
+    const FACES: [[i32; 4]; 6] = [
+        [3, 2, 1, 0],
+        [4, 5, 6, 7],
+        [0, 1, 5, 4],
+        [1, 2, 6, 5],
+        [2, 3, 7, 6],
+        [3, 0, 4, 7],
+    ];
 
     fn text() -> String {
-        let places: String = PLACES.iter().map(|[x, y, z]| format!("{x} {y} {z} 255\n")).collect();
-        let faces: String = FACES.iter().map(|[a, b, c, d]| format!("4 {a} {b} {c} {d}\n")).collect();
+        let places: String = PLACES
+            .iter()
+            .map(|[x, y, z]| format!("{x} {y} {z} 255\n"))
+            .collect();
+        let faces: String = FACES
+            .iter()
+            .map(|[a, b, c, d]| format!("4 {a} {b} {c} {d}\n"))
+            .collect();
         format!("ply\nformat ascii 1.0\ncomment by hand\n{HEADER}{places}{faces}7\n")
     }
 
@@ -347,19 +437,29 @@ mod tests {
         }
         for face in FACES {
             bytes.push(4);
-            bytes.extend(face.iter().flat_map(|corner| in_order(corner.to_le_bytes())));
+            bytes.extend(
+                face.iter()
+                    .flat_map(|corner| in_order(corner.to_le_bytes())),
+            );
         }
         bytes.extend([0, 7]);
         bytes
     }
 
     fn volume(bytes: &[u8]) -> f64 {
-        Solid::new(decode(bytes).unwrap()).unwrap().mesh().signed_volume_mm3()
+        Solid::new(decode(bytes).unwrap())
+            .unwrap()
+            .mesh()
+            .signed_volume_mm3()
     }
 
     #[test]
     fn text_is_read_with_any_line_breaks() {
-        for text in [text(), text().replace('\n', "\r\n"), text().replace('\n', "\r")] {
+        for text in [
+            text(),
+            text().replace('\n', "\r\n"),
+            text().replace('\n', "\r"),
+        ] {
             assert!((volume(text.as_bytes()) - 6.0).abs() < 1e-12);
         }
     }
@@ -376,21 +476,48 @@ mod tests {
         let with = |from: &str, to: &str| text().replacen(from, to, 1).into_bytes();
         let cases: Vec<(Vec<u8>, &str)> = vec![
             (b"ply\n".to_vec(), "expected end_header"),
-            (with("format ascii 1.0\n", ""), "a line with the format before it"),
-            (with("ascii", "morse"), "line 2 of the header: expected ascii"),
-            (with("vertex 8", "vertex many"), "line 4 of the header: expected how many"),
-            (with("float x", "quad x"), "line 5 of the header: expected a property"),
-            (with("element vertex 8\n", ""), "expected an element before it"),
+            (
+                with("format ascii 1.0\n", ""),
+                "a line with the format before it",
+            ),
+            (
+                with("ascii", "morse"),
+                "line 2 of the header: expected ascii",
+            ),
+            (
+                with("vertex 8", "vertex many"),
+                "line 4 of the header: expected how many",
+            ),
+            (
+                with("float x", "quad x"),
+                "line 5 of the header: expected a property",
+            ),
+            (
+                with("element vertex 8\n", ""),
+                "expected an element before it",
+            ),
             (with("comment", "remark"), "expected a line of a PLY header"),
-            (with("vertex 8", "vertex 4294967295"), "of the 4294967295 it promises"),
+            (
+                with("vertex 8", "vertex 4294967295"),
+                "of the 4294967295 it promises",
+            ),
             (with("1 2 3 255", "1 nan 3 255"), "vertex 6: "),
             (with("1 2 3 255", "1 1e999 3 255"), "vertex 6: "),
             (with("property float z", "property float w"), "vertex 0: "),
-            (with("4 3 2 1 0", "4 3 2 1 8"), "face 0: [3, 2, 1, 8] of 8 vertices"),
+            (
+                with("4 3 2 1 0", "4 3 2 1 8"),
+                "face 0: [3, 2, 1, 8] of 8 vertices",
+            ),
             (with("4 3 2 1 0", "4 3 2 1 -1"), "face 0: "),
-            (with("4 3 2 1 0", "-4 3 2 1 0"), "face 0: -4 cannot be its number of corners"),
+            (
+                with("4 3 2 1 0", "-4 3 2 1 0"),
+                "face 0: -4 cannot be its number of corners",
+            ),
             (with("4 3 2 1 0", "2 3 2"), "face 0: "),
-            (with("vertex_indices", "colours"), "no faces in it (8 vertices)"),
+            (
+                with("vertex_indices", "colours"),
+                "no faces in it (8 vertices)",
+            ),
             (with("face 6", "face 0"), "no faces in it (8 vertices)"),
             (binary(false)[..300].to_vec(), "the file ends in "),
         ];
@@ -405,8 +532,11 @@ mod tests {
 
     #[test]
     fn an_element_without_properties_takes_no_time_however_often_it_is_there() {
-        let text =
-            text().replacen("element edge 1\nproperty short a\n", "element edge 18446744073709551615\n", 1);
+        let text = text().replacen(
+            "element edge 1\nproperty short a\n",
+            "element edge 18446744073709551615\n",
+            1,
+        );
         assert!((volume(text.as_bytes()) - 6.0).abs() < 1e-12);
     }
 

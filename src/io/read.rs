@@ -75,7 +75,10 @@ pub enum ContentError {
 /// STL file come back as a soup, three vertices each: see [`crate::mesh::weld`] and [`crate::mesh::repair`].
 pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
     let bytes = read_bytes(path)?;
-    decode_model(&bytes).map_err(|source| ReadError::Content { path: path.to_path_buf(), source })
+    decode_model(&bytes).map_err(|source| ReadError::Content {
+        path: path.to_path_buf(),
+        source,
+    })
 }
 
 /// The bytes of the model file at `path`; what is no readable file is told as such.
@@ -86,7 +89,10 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     }
     std::fs::read(path).map_err(|source| match source.kind() {
         ErrorKind::NotFound => ReadError::Missing { path: owned() },
-        _ => ReadError::Unreadable { path: owned(), source },
+        _ => ReadError::Unreadable {
+            path: owned(),
+            source,
+        },
     })
 }
 

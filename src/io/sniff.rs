@@ -43,7 +43,10 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
         Format::ThreeMf
     } else if is_ply(bytes) {
         Format::Ply
-    } else if let Some((_, name)) = SIGNATURES.iter().find(|(start, _)| bytes.starts_with(start)) {
+    } else if let Some((_, name)) = SIGNATURES
+        .iter()
+        .find(|(start, _)| bytes.starts_with(start))
+    {
         Format::Foreign(name)
     } else if looks_like_obj(bytes) {
         Format::Obj
@@ -56,7 +59,9 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
 
 /// Whether the first line is that of a PLY file.
 fn is_ply(bytes: &[u8]) -> bool {
-    bytes.strip_prefix(b"ply").is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
+    bytes
+        .strip_prefix(b"ply")
+        .is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
 /// Whether some line is a vertex or a face, and the content is text.
@@ -67,7 +72,9 @@ fn looks_like_obj(bytes: &[u8]) -> bool {
 
 /// Whether the bytes hold none of the control codes that text does not use.
 fn is_text(bytes: &[u8]) -> bool {
-    bytes.iter().all(|&b| b >= b' ' || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c))
+    bytes
+        .iter()
+        .all(|&b| b >= b' ' || matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c))
 }
 
 #[cfg(test)]

@@ -56,7 +56,13 @@ mod tests {
         assert_eq!("2.3".parse::<Filling>().unwrap().density_g_cm3(), 2.3);
         assert_eq!("2.3".parse::<Filling>().unwrap().to_string(), "2.3");
         for text in ["0", "-1", "inf", "nan", "2300", "sand"] {
-            assert!(text.parse::<Filling>().unwrap_err().to_string().contains("g/cm³"), "{text}");
+            assert!(
+                text.parse::<Filling>()
+                    .unwrap_err()
+                    .to_string()
+                    .contains("g/cm³"),
+                "{text}"
+            );
         }
     }
 }

@@ -23,7 +23,13 @@ pub struct RoundBar {
 impl RoundBar {
     /// A plain cylinder.
     pub fn plain(from: Point, to: Point, radius_mm: f64) -> Self {
-        Self { from, to, radius_mm, hole_mm: 0.0, is_round: false }
+        Self {
+            from,
+            to,
+            radius_mm,
+            hole_mm: 0.0,
+            is_round: false,
+        }
     }
 
     /// From end to end, mm.
@@ -40,9 +46,17 @@ impl RoundBar {
             return Moments::default();
         }
         let along = Frame::with_axis(self.from, &(self.to - self.from));
-        let straight_mm = if self.is_round { length_mm - self.radius_mm } else { length_mm };
+        let straight_mm = if self.is_round {
+            length_mm - self.radius_mm
+        } else {
+            length_mm
+        };
         let body = cylinder(self.radius_mm, straight_mm) - cylinder(self.hole_mm, straight_mm);
-        let cap = if self.is_round { half_ball(self.radius_mm) } else { Moments::default() };
+        let cap = if self.is_round {
+            half_ball(self.radius_mm)
+        } else {
+            Moments::default()
+        };
         (body + cap.translated(&(Vector::z() * straight_mm))).from_frame(&along)
     }
 }
@@ -60,7 +74,11 @@ fn cylinder(radius_mm: f64, height_mm: f64) -> Moments {
 fn half_ball(radius_mm: f64) -> Moments {
     let volume = 2.0 / 3.0 * PI * radius_mm.powi(3);
     let first = Vector::z() * (volume * 0.375 * radius_mm);
-    Moments::from_parts(volume, &first, &(Matrix::identity() * (0.2 * volume * radius_mm * radius_mm)))
+    Moments::from_parts(
+        volume,
+        &first,
+        &(Matrix::identity() * (0.2 * volume * radius_mm * radius_mm)),
+    )
 }
 
 #[cfg(test)]
@@ -82,24 +100,36 @@ mod tests {
     #[test]
     fn a_tube_across_has_its_textbook_inertia() {
         let (from, to) = (Point::new(1.0, 2.0, 3.0), Point::new(9.0, 2.0, 3.0));
-        let tube = RoundBar { hole_mm: 2.0, ..RoundBar::plain(from, to, 5.0) };
+        let tube = RoundBar {
+            hole_mm: 2.0,
+            ..RoundBar::plain(from, to, 5.0)
+        };
         let body = Body::new(&tube.moments(), 1.0);
         let squares = 25.0 + 4.0;
         assert!((body.center - Point::new(5.0, 2.0, 3.0)).norm() < 1e-12);
         assert!((body.inertia_g_mm2[(0, 0)] / (0.5 * body.mass_g * squares) - 1.0).abs() < 1e-12);
         assert!(
-            (body.inertia_g_mm2[(1, 1)] / (body.mass_g * (3.0 * squares + 64.0) / 12.0) - 1.0).abs() < 1e-12
+            (body.inertia_g_mm2[(1, 1)] / (body.mass_g * (3.0 * squares + 64.0) / 12.0) - 1.0)
+                .abs()
+                < 1e-12
         );
     }
 
     #[test]
     fn a_bar_as_long_as_its_radius_with_a_round_end_is_half_a_ball() {
-        let half =
-            RoundBar { is_round: true, ..RoundBar::plain(Point::origin(), Point::new(0.0, 0.0, -2.0), 2.0) };
-        let other = RoundBar { to: Point::new(0.0, 0.0, 2.0), ..half };
+        let half = RoundBar {
+            is_round: true,
+            ..RoundBar::plain(Point::origin(), Point::new(0.0, 0.0, -2.0), 2.0)
+        };
+        let other = RoundBar {
+            to: Point::new(0.0, 0.0, 2.0),
+            ..half
+        };
         let body = Body::new(&(half.moments() + other.moments()), 1.0);
         let mass = 4.0 / 3.0 * PI * 8.0;
         assert!((body.mass_g / mass - 1.0).abs() < 1e-12 && body.center.coords.norm() < 1e-12);
-        assert!((body.inertia_g_mm2 - Matrix::identity() * (0.4 * mass * 4.0)).amax() < 1e-12 * mass);
+        assert!(
+            (body.inertia_g_mm2 - Matrix::identity() * (0.4 * mass * 4.0)).amax() < 1e-12 * mass
+        );
     }
 }

@@ -22,9 +22,16 @@ impl FlatFace {
     pub fn of_triangles(triangles: impl IntoIterator<Item = ([Point; 3], f64)>) -> Self {
         let (mut area, mut first, mut second) = (0.0, Vector::zeros(), Matrix::zeros());
         for (corners, sign) in triangles {
-            let part = sign * (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).norm() / 2.0;
+            let part = sign
+                * (corners[1] - corners[0])
+                    .cross(&(corners[2] - corners[0]))
+                    .norm()
+                / 2.0;
             let sum: Vector = corners.iter().map(|p| p.coords).sum();
-            let squares: Matrix = corners.iter().map(|p| p.coords * p.coords.transpose()).sum();
+            let squares: Matrix = corners
+                .iter()
+                .map(|p| p.coords * p.coords.transpose())
+                .sum();
             area += part;
             first += sum * (part / 3.0);
             second += (squares + sum * sum.transpose()) * (part / 12.0);
@@ -34,13 +41,18 @@ impl FlatFace {
         }
         let center = first / area;
         let squares = second - center * center.transpose() * area;
-        Self { area_mm2: area, center_mm: center.into(), squares_mm4: squares.into() }
+        Self {
+            area_mm2: area,
+            center_mm: center.into(),
+            squares_mm4: squares.into(),
+        }
     }
 
     /// The moments of a film of this thickness on it, model frame: of a sheet, exact but for thickness²/12 in its squares across.
     pub fn film(&self, thickness_mm: f64) -> Moments {
         let squares = Matrix::from(self.squares_mm4) * thickness_mm;
-        let about_center = Moments::from_parts(self.area_mm2 * thickness_mm, &Vector::zeros(), &squares);
+        let about_center =
+            Moments::from_parts(self.area_mm2 * thickness_mm, &Vector::zeros(), &squares);
         about_center.translated(&Vector::from(self.center_mm))
     }
 }
@@ -58,11 +70,11 @@ mod tests {
                 .map(|[x, y]| Point::new(x, y, 3.0));
             [([a, b, c], sign), ([a, c, d], sign)]
         };
-        let face = FlatFace::of_triangles(square([1.0, 2.0], [7.0, 5.0], 1.0).into_iter().chain(square(
-            [2.0, 3.0],
-            [4.0, 4.0],
-            -1.0,
-        )));
+        let face = FlatFace::of_triangles(
+            square([1.0, 2.0], [7.0, 5.0], 1.0)
+                .into_iter()
+                .chain(square([2.0, 3.0], [4.0, 4.0], -1.0)),
+        );
         assert!((face.area_mm2 - 16.0).abs() < 1e-12);
         let t = 1e-3;
         let thin = |low: [f64; 2], high: [f64; 2]| {

@@ -39,10 +39,17 @@ impl LumpShape {
     pub fn sizes_mm(&self) -> Vec<(&'static str, f64)> {
         match *self {
             Self::Ball { diameter_mm } => vec![("diameter_mm", diameter_mm)],
-            Self::Disc { diameter_mm, thickness_mm } => {
+            Self::Disc {
+                diameter_mm,
+                thickness_mm,
+            } => {
                 vec![("diameter_mm", diameter_mm), ("thickness_mm", thickness_mm)]
             }
-            Self::HexNut { across_flats_mm, bore_mm, thickness_mm } => vec![
+            Self::HexNut {
+                across_flats_mm,
+                bore_mm,
+                thickness_mm,
+            } => vec![
                 ("across_flats_mm", across_flats_mm),
                 ("bore_mm", bore_mm),
                 ("thickness_mm", thickness_mm),
@@ -55,7 +62,9 @@ impl LumpShape {
     pub fn radius_mm(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } | Self::Disc { diameter_mm, .. } => diameter_mm / 2.0,
-            Self::HexNut { across_flats_mm, .. } => across_flats_mm / 3f64.sqrt(),
+            Self::HexNut {
+                across_flats_mm, ..
+            } => across_flats_mm / 3f64.sqrt(),
         }
     }
 
@@ -63,7 +72,9 @@ impl LumpShape {
     pub fn half_height_mm(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } => diameter_mm / 2.0,
-            Self::Disc { thickness_mm, .. } | Self::HexNut { thickness_mm, .. } => thickness_mm / 2.0,
+            Self::Disc { thickness_mm, .. } | Self::HexNut { thickness_mm, .. } => {
+                thickness_mm / 2.0
+            }
         }
     }
 
@@ -76,10 +87,15 @@ impl LumpShape {
     pub fn volume_mm3(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } => PI / 6.0 * diameter_mm.powi(3),
-            Self::Disc { diameter_mm, thickness_mm } => PI / 4.0 * diameter_mm * diameter_mm * thickness_mm,
-            Self::HexNut { across_flats_mm, bore_mm, thickness_mm } => {
-                hexagon(across_flats_mm, bore_mm)[0] * thickness_mm
-            }
+            Self::Disc {
+                diameter_mm,
+                thickness_mm,
+            } => PI / 4.0 * diameter_mm * diameter_mm * thickness_mm,
+            Self::HexNut {
+                across_flats_mm,
+                bore_mm,
+                thickness_mm,
+            } => hexagon(across_flats_mm, bore_mm)[0] * thickness_mm,
         }
     }
 
@@ -88,10 +104,18 @@ impl LumpShape {
     fn mean_squares_mm2(&self) -> [f64; 2] {
         match *self {
             Self::Ball { diameter_mm } => [diameter_mm * diameter_mm / 20.0; 2],
-            Self::Disc { diameter_mm, thickness_mm } => {
-                [diameter_mm * diameter_mm / 16.0, thickness_mm * thickness_mm / 12.0]
-            }
-            Self::HexNut { across_flats_mm, bore_mm, thickness_mm } => {
+            Self::Disc {
+                diameter_mm,
+                thickness_mm,
+            } => [
+                diameter_mm * diameter_mm / 16.0,
+                thickness_mm * thickness_mm / 12.0,
+            ],
+            Self::HexNut {
+                across_flats_mm,
+                bore_mm,
+                thickness_mm,
+            } => {
                 let [area, second] = hexagon(across_flats_mm, bore_mm);
                 [second / area, thickness_mm * thickness_mm / 12.0]
             }
@@ -103,7 +127,10 @@ impl LumpShape {
 fn hexagon(across_flats_mm: f64, bore_mm: f64) -> [f64; 2] {
     let (flats2, bore2) = (across_flats_mm * across_flats_mm, bore_mm * bore_mm);
     let (root3, eighth) = (3f64.sqrt(), PI / 4.0);
-    [root3 / 2.0 * flats2 - eighth * bore2, 5.0 * root3 / 144.0 * flats2 * flats2 - PI / 64.0 * bore2 * bore2]
+    [
+        root3 / 2.0 * flats2 - eighth * bore2,
+        5.0 * root3 / 144.0 * flats2 * flats2 - PI / 64.0 * bore2 * bore2,
+    ]
 }
 
 /// A part of declared mass at a declared place.
@@ -160,7 +187,9 @@ pub fn rims(center: &Point, axis: &Vector, [radius_mm, half_height_mm]: [f64; 2]
         (u * cos + v * sin) * radius_mm
     };
     let ends = [-half_height_mm, half_height_mm];
-    ends.iter().flat_map(|&end| (0..RIM_POINTS).map(move |i| center + axis * end + on_rim(i))).collect()
+    ends.iter()
+        .flat_map(|&end| (0..RIM_POINTS).map(move |i| center + axis * end + on_rim(i)))
+        .collect()
 }
 
 #[cfg(test)]
@@ -172,7 +201,13 @@ mod tests {
 
     /// The moments of a lump of 3 g at a place, printed at 1 g/cm³.
     fn moments(shape: LumpShape, axis: Vector) -> Moments {
-        Lump { shape, mass_g: 3.0, center_mm: [4.0, -2.0, 7.0], axis: axis.into() }.moments(1e-3)
+        Lump {
+            shape,
+            mass_g: 3.0,
+            center_mm: [4.0, -2.0, 7.0],
+            axis: axis.into(),
+        }
+        .moments(1e-3)
     }
 
     /// The same of a mesh about the origin with its axis along z.
@@ -183,7 +218,10 @@ mod tests {
     }
 
     fn close(got: &Moments, want: &Moments, ratio: f64) -> bool {
-        got.0.iter().zip(want.0).all(|(got, want)| (got - want).abs() <= ratio * want.abs().max(3000.0))
+        got.0
+            .iter()
+            .zip(want.0)
+            .all(|(got, want)| (got - want).abs() <= ratio * want.abs().max(3000.0))
     }
 
     #[test]
@@ -191,8 +229,18 @@ mod tests {
         let axis = Vector::new(1.0, 2.0, -0.5);
         let ball = moments(LumpShape::Ball { diameter_mm: 5.0 }, axis);
         // An icosphere of level 5 falls short by 3e-4 in the squares of its radius.
-        assert!(close(&ball, &of_mesh(&primitives::ball(&Point::origin(), 2.5, 5), axis), 1e-3));
-        let disc = moments(LumpShape::Disc { diameter_mm: 6.0, thickness_mm: 2.0 }, axis);
+        assert!(close(
+            &ball,
+            &of_mesh(&primitives::ball(&Point::origin(), 2.5, 5), axis),
+            1e-3
+        ));
+        let disc = moments(
+            LumpShape::Disc {
+                diameter_mm: 6.0,
+                thickness_mm: 2.0,
+            },
+            axis,
+        );
         let mesh = primitives::cylinder(3.0, 2.0, 512).map_vertices(|p| p - Vector::z());
         assert!(close(&disc, &of_mesh(&mesh, axis), 1e-4));
     }
@@ -200,12 +248,20 @@ mod tests {
     #[test]
     fn a_nut_is_a_hexagon_less_its_bore() {
         let [flats, bore, height] = [10.0, 5.35, 5.0];
-        let nut = LumpShape::HexNut { across_flats_mm: flats, bore_mm: bore, thickness_mm: height };
+        let nut = LumpShape::HexNut {
+            across_flats_mm: flats,
+            bore_mm: bore,
+            thickness_mm: height,
+        };
         let middle = |p: &Point| p - Vector::z() * (height / 2.0);
         let hexagon = primitives::cylinder(flats / 3f64.sqrt(), height, 6).map_vertices(middle);
         let hole = primitives::cylinder(bore / 2.0, height, 512).map_vertices(middle);
         let mesh = hexagon.joined(&hole.reversed());
         assert!((nut.volume_mm3() / mesh.signed_volume_mm3() - 1.0).abs() < 1e-4);
-        assert!(close(&moments(nut, Vector::y()), &of_mesh(&mesh, Vector::y()), 1e-4));
+        assert!(close(
+            &moments(nut, Vector::y()),
+            &of_mesh(&mesh, Vector::y()),
+            1e-4
+        ));
     }
 }

@@ -24,7 +24,18 @@ impl Moments {
     /// From the volume (mm³), the first moments (mm⁴) and the symmetric matrix of second moments ∫xᵢxⱼ (mm⁵).
     pub fn from_parts(volume: f64, first: &Vector, second: &Matrix) -> Self {
         let (f, s) = (first, second);
-        Self([volume, f.x, f.y, f.z, s[(0, 1)], s[(1, 2)], s[(0, 2)], s[(0, 0)], s[(1, 1)], s[(2, 2)]])
+        Self([
+            volume,
+            f.x,
+            f.y,
+            f.z,
+            s[(0, 1)],
+            s[(1, 2)],
+            s[(0, 2)],
+            s[(0, 0)],
+            s[(1, 1)],
+            s[(2, 2)],
+        ])
     }
 
     /// The volume, mm³.
@@ -68,12 +79,17 @@ impl Moments {
     /// The moments of the same region after scaling every length by `factor` about the origin.
     pub fn scaled(&self, factor: f64) -> Self {
         let (f3, f4, f5) = (factor.powi(3), factor.powi(4), factor.powi(5));
-        Self::from_parts(self.volume() * f3, &(self.first() * f4), &(self.second() * f5))
+        Self::from_parts(
+            self.volume() * f3,
+            &(self.first() * f4),
+            &(self.second() * f5),
+        )
     }
 
     /// The moments of a region given in model coordinates, seen in the coordinates of `frame`.
     pub fn in_frame(&self, frame: &Frame) -> Self {
-        self.translated(&-frame.origin.coords).rotated(&frame.axes.transpose())
+        self.translated(&-frame.origin.coords)
+            .rotated(&frame.axes.transpose())
     }
 
     /// The moments of a region given in the coordinates of `frame`, seen in model coordinates.

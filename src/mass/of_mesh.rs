@@ -44,8 +44,13 @@ impl MomentSum {
 fn tetrahedron_moments([a, b, c]: [Vector; 3]) -> Moments {
     let determinant = a.dot(&b.cross(&c));
     let sum = a + b + c;
-    let squares: Matrix = a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose();
-    Moments::from_parts(determinant / 6.0, &(sum * (determinant / 24.0)), &(squares * (determinant / 120.0)))
+    let squares: Matrix =
+        a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose();
+    Moments::from_parts(
+        determinant / 6.0,
+        &(sum * (determinant / 24.0)),
+        &(squares * (determinant / 120.0)),
+    )
 }
 
 /// A sum that carries its rounding error along (Neumaier, "Rundungsfehleranalyse einiger Verfahren zur
@@ -59,8 +64,11 @@ struct NeumaierSum {
 impl NeumaierSum {
     fn add(&mut self, term: f64) {
         let next = self.sum + term;
-        self.error +=
-            if self.sum.abs() >= term.abs() { (self.sum - next) + term } else { (term - next) + self.sum };
+        self.error += if self.sum.abs() >= term.abs() {
+            (self.sum - next) + term
+        } else {
+            (term - next) + self.sum
+        };
         self.sum = next;
     }
 

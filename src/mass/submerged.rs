@@ -33,7 +33,8 @@ impl Section {
         self.first_mm3[0] += twice * (a.x + b.x) / 6.0;
         self.first_mm3[1] += twice * (a.y + b.y) / 6.0;
         self.second_mm4[0] += twice * (a.x * a.x + a.x * b.x + b.x * b.x) / 12.0;
-        self.second_mm4[1] += twice * (a.x * b.y + 2.0 * a.x * a.y + 2.0 * b.x * b.y + b.x * a.y) / 24.0;
+        self.second_mm4[1] +=
+            twice * (a.x * b.y + 2.0 * a.x * a.y + 2.0 * b.x * b.y + b.x * a.y) / 24.0;
         self.second_mm4[2] += twice * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
     }
 
@@ -72,7 +73,10 @@ pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
             section.add_edge(&enters, &leaves);
         }
     }
-    Submerged { below: below.total().translated(&apex), section: section.moved([apex.x, apex.y]) }
+    Submerged {
+        below: below.total().translated(&apex),
+        section: section.moved([apex.x, apex.y]),
+    }
 }
 
 impl Section {
@@ -100,9 +104,15 @@ struct Clipped {
 }
 
 fn clipped_below(triangle: [Point; 3]) -> Clipped {
-    let mut clipped = Clipped { corners: [Point::origin(); 4], count: 0, crossing: None };
+    let mut clipped = Clipped {
+        corners: [Point::origin(); 4],
+        count: 0,
+        crossing: None,
+    };
     let [mut leaves, mut enters] = [None; 2];
-    for (from, to) in [(0, 1), (1, 2), (2, 0)].map(|(i, j): (usize, usize)| (triangle[i], triangle[j])) {
+    for (from, to) in
+        [(0, 1), (1, 2), (2, 0)].map(|(i, j): (usize, usize)| (triangle[i], triangle[j]))
+    {
         if from.z <= 0.0 {
             clipped.push(from);
         }
@@ -127,7 +137,11 @@ impl Clipped {
 /// Where the edge from a corner below to one above meets the level: the same bits for both triangles at the edge.
 fn level_point(below: &Point, above: &Point) -> Point {
     let share = below.z / (below.z - above.z);
-    Point::new(below.x + share * (above.x - below.x), below.y + share * (above.y - below.y), 0.0)
+    Point::new(
+        below.x + share * (above.x - below.x),
+        below.y + share * (above.y - below.y),
+        0.0,
+    )
 }
 
 #[cfg(test)]
@@ -140,14 +154,23 @@ mod tests {
     fn a_box_under_water_to_a_third_is_a_box_of_a_third() {
         let mesh = cuboid(&Point::new(1.0, -2.0, 5.0), &Point::new(4.0, 3.0, 11.0));
         let got = submerged(&mesh, 7.0);
-        let want = moments_of_mesh(&cuboid(&Point::new(1.0, -2.0, 5.0), &Point::new(4.0, 3.0, 7.0)));
+        let want = moments_of_mesh(&cuboid(
+            &Point::new(1.0, -2.0, 5.0),
+            &Point::new(4.0, 3.0, 7.0),
+        ));
         for (got, want) in got.below.0.iter().zip(want.0) {
-            assert!((got - want).abs() < 1e-12 * want.abs().max(1.0), "{got} {want}");
+            assert!(
+                (got - want).abs() < 1e-12 * want.abs().max(1.0),
+                "{got} {want}"
+            );
         }
         // 3 × 5: I = b h³/12 about its middle.
         let [least, greatest] = got.section.principal_mm4();
         assert!((got.section.area_mm2 - 15.0).abs() < 1e-12);
-        assert!((least - 5.0 * 27.0 / 12.0).abs() < 1e-11 && (greatest - 3.0 * 125.0 / 12.0).abs() < 1e-11);
+        assert!(
+            (least - 5.0 * 27.0 / 12.0).abs() < 1e-11
+                && (greatest - 3.0 * 125.0 / 12.0).abs() < 1e-11
+        );
         assert!((got.section.first_mm3[0] / 15.0 - 2.5).abs() < 1e-13);
     }
 
@@ -160,7 +183,12 @@ mod tests {
         let second = std::f64::consts::PI * (h * (2.0 * r - h)).powi(2) / 4.0;
         // An icosphere of six halvings is inscribed: 3e-4 of its volume is missing, twice that of a fourth moment.
         assert!((got.below.volume() / volume - 1.0).abs() < 1e-3);
-        assert!(got.section.principal_mm4().iter().all(|found| (found / second - 1.0).abs() < 2e-3));
+        assert!(
+            got.section
+                .principal_mm4()
+                .iter()
+                .all(|found| (found / second - 1.0).abs() < 2e-3)
+        );
     }
 
     #[test]

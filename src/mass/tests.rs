@@ -13,7 +13,9 @@ use crate::mesh::primitives::{ball, cuboid, cylinder, ellipsoid, torus};
 /// distance from the origin: V, V·L, V·L².
 fn difference(a: &Moments, b: &Moments, reach_mm: f64) -> f64 {
     let scale = |i: usize| a.volume().abs() * reach_mm.powi([0, 1, 1, 1, 2, 2, 2, 2, 2, 2][i]);
-    (0..Moments::COUNT).map(|i| (a.0[i] - b.0[i]).abs() / scale(i)).fold(0.0, f64::max)
+    (0..Moments::COUNT)
+        .map(|i| (a.0[i] - b.0[i]).abs() / scale(i))
+        .fold(0.0, f64::max)
 }
 
 /// Rounding of a few hundred compensated sums and a handful of products: some units in the 16th digit.
@@ -21,7 +23,10 @@ const ROUNDING: f64 = 1e-13;
 
 /// How far the farthest vertex is from the origin.
 fn reach_mm(mesh: &TriMesh) -> f64 {
-    mesh.vertices().iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
+    mesh.vertices()
+        .iter()
+        .map(|p| p.coords.norm())
+        .fold(0.0, f64::max)
 }
 
 /// The inertia of a body of unit density about its centre, along the axes of the model.
@@ -56,7 +61,9 @@ fn the_moments_of_a_tetrahedron_are_those_of_its_closed_form() {
     ];
     let mesh = TriMesh::new(corners, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).unwrap();
     let [v, first, product, square] = [1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 60.0];
-    let exact = Moments([v, first, first, first, product, product, product, square, square, square]);
+    let exact = Moments([
+        v, first, first, first, product, product, product, square, square, square,
+    ]);
     assert!(difference(&exact, &moments_of_mesh(&mesh), 1.0) < ROUNDING);
 }
 
@@ -70,23 +77,32 @@ fn balls_converge_with_the_square_of_the_edge() {
     assert!((order(volumes[0], volumes[1], volume) - 2.0).abs() < 0.02);
     assert!((order(inertia(&coarse)[(0, 0)], inertia(&fine)[(0, 0)], moment) - 2.0).abs() < 0.02);
     // An icosphere has the symmetry of the icosahedron, so every axis through the centre is principal.
-    assert!((inertia(&fine) - Matrix::identity() * inertia(&fine)[(2, 2)]).amax() < moment * ROUNDING);
+    assert!(
+        (inertia(&fine) - Matrix::identity() * inertia(&fine)[(2, 2)]).amax() < moment * ROUNDING
+    );
     assert!((moments_of_mesh(&fine).centroid() - center).norm() < reach_mm(&fine) * ROUNDING);
 }
 
 #[test]
 fn ellipsoids_are_stretched_balls_to_the_last_digits() {
     let axes = Vector::new(1.0, 2.0, 4.0);
-    let [round, long] =
-        [ball(&Point::origin(), 1.0, 3), ellipsoid(&Point::origin(), &axes, 3)].map(|m| moments_of_mesh(&m));
+    let [round, long] = [
+        ball(&Point::origin(), 1.0, 3),
+        ellipsoid(&Point::origin(), &axes, 3),
+    ]
+    .map(|m| moments_of_mesh(&m));
     let stretched = Moments::from_parts(
         round.volume() * axes.product(),
         &Vector::zeros(),
-        &(Matrix::from_diagonal(&axes) * round.second() * Matrix::from_diagonal(&axes) * axes.product()),
+        &(Matrix::from_diagonal(&axes)
+            * round.second()
+            * Matrix::from_diagonal(&axes)
+            * axes.product()),
     );
     assert!(difference(&stretched, &long, 4.0) < ROUNDING);
     let exact = 4.0 / 15.0 * PI * axes.product() * (axes.x * axes.x + axes.y * axes.y);
-    let [coarse, fine] = [3, 4].map(|level| inertia(&ellipsoid(&Point::origin(), &axes, level))[(2, 2)]);
+    let [coarse, fine] =
+        [3, 4].map(|level| inertia(&ellipsoid(&Point::origin(), &axes, level))[(2, 2)]);
     assert!((order(coarse, fine, exact) - 2.0).abs() < 0.02);
 }
 
@@ -125,10 +141,17 @@ fn tori_converge_with_the_square_of_the_edge() {
 fn principal_moments_come_ascending_with_their_axes() {
     let frame = Frame::with_axis(Point::new(7.0, 8.0, 9.0), &Vector::new(1.0, 2.0, 3.0));
     let mesh = cuboid(&Point::new(-1.0, -2.0, -3.0), &Point::new(1.0, 2.0, 3.0));
-    let body = Body::new(&moments_of_mesh(&mesh.map_vertices(|p| frame.to_model(p))), 1.0);
+    let body = Body::new(
+        &moments_of_mesh(&mesh.map_vertices(|p| frame.to_model(p))),
+        1.0,
+    );
     let principal = body.principal();
     // m (b² + c²)/3 for half sides: the box is longest along its z axis, which has the least moment.
-    for (found, exact) in principal.moments_g_mm2.iter().zip([5.0, 10.0, 13.0].map(|s| 48.0 * s / 3.0)) {
+    for (found, exact) in principal
+        .moments_g_mm2
+        .iter()
+        .zip([5.0, 10.0, 13.0].map(|s| 48.0 * s / 3.0))
+    {
         assert!((found / exact - 1.0).abs() < 1e-12);
     }
     assert!((principal.axes.column(0).dot(&frame.axis()).abs() - 1.0).abs() < 1e-12);
@@ -143,19 +166,25 @@ fn vector(size: f64) -> impl Strategy<Value = Vector> {
 
 /// Any proper rotation, from a quaternion that is not zero.
 fn rotation() -> impl Strategy<Value = Matrix> {
-    let quaternion = [-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0f64].prop_map(nalgebra::Vector4::from);
-    quaternion.prop_filter("not zero", |q| q.norm() > 0.1).prop_map(|q| {
-        nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::from(q))
-            .to_rotation_matrix()
-            .into_inner()
-    })
+    let quaternion =
+        [-1.0..1.0, -1.0..1.0, -1.0..1.0, -1.0..1.0f64].prop_map(nalgebra::Vector4::from);
+    quaternion
+        .prop_filter("not zero", |q| q.norm() > 0.1)
+        .prop_map(|q| {
+            nalgebra::UnitQuaternion::from_quaternion(nalgebra::Quaternion::from(q))
+                .to_rotation_matrix()
+                .into_inner()
+        })
 }
 
 /// A body without any symmetry: an ellipsoid with a box beside it, turned and moved.
 fn body() -> impl Strategy<Value = TriMesh> {
     (vector(3.0), rotation(), vector(20.0)).prop_map(|(sides, turn, shift)| {
         let sides = sides.map(|s| 0.5 + s.abs());
-        let box_beside = cuboid(&Point::new(4.0, 0.0, 0.0), &(Point::new(4.0, 0.0, 0.0) + sides.yzx()));
+        let box_beside = cuboid(
+            &Point::new(4.0, 0.0, 0.0),
+            &(Point::new(4.0, 0.0, 0.0) + sides.yzx()),
+        );
         let both = ellipsoid(&Point::origin(), &sides, 1).joined(&box_beside);
         both.map_vertices(|p| turn * p + shift)
     })

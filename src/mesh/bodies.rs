@@ -32,8 +32,10 @@ pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
 ///
 /// Costs the triangle count once for each pair of an inward and an outward shell.
 pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
-    let (outward, inward): (Vec<_>, Vec<_>) =
-        shells(mesh).into_iter().map(|s| (s.signed_volume_mm3(), s)).partition(|(volume, _)| *volume > 0.0);
+    let (outward, inward): (Vec<_>, Vec<_>) = shells(mesh)
+        .into_iter()
+        .map(|s| (s.signed_volume_mm3(), s))
+        .partition(|(volume, _)| *volume > 0.0);
     let mut bodies: Vec<TriMesh> = outward.iter().map(|(_, shell)| shell.clone()).collect();
     for (_, cavity) in &inward {
         let holder = (0..outward.len())
@@ -50,7 +52,10 @@ pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
 /// point off the surface (van Oosterom and Strackee, "The solid angle of a plane triangle", IEEE TBME 30,
 /// 1983).
 pub fn winding_number(mesh: &TriMesh, point: &Point) -> f64 {
-    let solid_angle: f64 = mesh.iter_corners().map(|corners| half_solid_angle(corners, point)).sum();
+    let solid_angle: f64 = mesh
+        .iter_corners()
+        .map(|corners| half_solid_angle(corners, point))
+        .sum();
     solid_angle / (2.0 * std::f64::consts::PI)
 }
 

@@ -23,7 +23,9 @@ pub enum ClipError {
         reason: &'static str,
     },
     /// The cutting plane has a normal or an offset that is not finite, or a normal without length.
-    #[error("the cutting plane is degenerate: its normal must have length one and its offset must be finite")]
+    #[error(
+        "the cutting plane is degenerate: its normal must have length one and its offset must be finite"
+    )]
     DegeneratePlane,
     /// The result is not a solid.
     #[error("the result of a boolean is not a solid: {0}")]
@@ -71,8 +73,17 @@ impl Csg {
     pub fn of_mesh(mesh: &TriMesh) -> Result<Self, ClipError> {
         let gl = MeshGL64 {
             num_prop: 3,
-            vert_properties: mesh.vertices().iter().flat_map(|p| [p.x, p.y, p.z]).collect(),
-            tri_verts: mesh.triangles().iter().flatten().map(|&v| u64::from(v)).collect(),
+            vert_properties: mesh
+                .vertices()
+                .iter()
+                .flat_map(|p| [p.x, p.y, p.z])
+                .collect(),
+            tri_verts: mesh
+                .triangles()
+                .iter()
+                .flatten()
+                .map(|&v| u64::from(v))
+                .collect(),
             ..MeshGL64::default()
         };
         checked(Manifold::from_mesh_gl64(&gl), "importing a mesh")
@@ -92,9 +103,16 @@ impl Csg {
     /// The triangles, in an order that depends on the geometry alone.
     pub fn to_mesh(&self) -> Result<TriMesh, ClipError> {
         let gl = self.0.get_mesh_gl64(-1);
-        let vertices = gl.vert_properties.chunks_exact(3).map(|c| [c[0], c[1], c[2]].into()).collect();
-        let mut triangles: Vec<[u32; 3]> =
-            gl.tri_verts.chunks_exact(3).map(|t| least_first([t[0], t[1], t[2]].map(|v| v as u32))).collect();
+        let vertices = gl
+            .vert_properties
+            .chunks_exact(3)
+            .map(|c| [c[0], c[1], c[2]].into())
+            .collect();
+        let mut triangles: Vec<[u32; 3]> = gl
+            .tri_verts
+            .chunks_exact(3)
+            .map(|t| least_first([t[0], t[1], t[2]].map(|v| v as u32)))
+            .collect();
         triangles.sort_unstable();
         Ok(TriMesh::new(vertices, triangles)?)
     }
@@ -131,9 +149,14 @@ impl Csg {
             return Err(ClipError::DegeneratePlane);
         }
         let above = self.half_space(plane)?;
-        let (positive, negative) =
-            rayon::join(|| self.0.intersection(&above.0), || self.0.difference(&above.0));
-        Ok((checked(positive, "cutting by a plane")?, checked(negative, "cutting by a plane")?))
+        let (positive, negative) = rayon::join(
+            || self.0.intersection(&above.0),
+            || self.0.difference(&above.0),
+        );
+        Ok((
+            checked(positive, "cutting by a plane")?,
+            checked(negative, "cutting by a plane")?,
+        ))
     }
 
     /// A box that holds what lies of this body on the positive side of a plane.
@@ -148,7 +171,9 @@ impl Csg {
         let (u, v) = orthonormal_basis(&plane.normal);
         let unit = cuboid(&Point::new(-1.0, -1.0, 0.0), &Point::new(1.0, 1.0, 1.0));
         Self::of_mesh(
-            &unit.map_vertices(|p| foot + (u * p.x + v * p.y) * reach + plane.normal * (p.z * depth)),
+            &unit.map_vertices(|p| {
+                foot + (u * p.x + v * p.y) * reach + plane.normal * (p.z * depth)
+            }),
         )
     }
 
@@ -199,27 +224,47 @@ impl Csg {
 /// Where it would leave a sheet of less than [`SHEET_MM`] on faces along it, it is moved out of the material behind them; where
 /// there is material on both sides of it, so far that the sheet left on the others stays a body in a file of single precision.
 pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
-    let mut heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.normal.dot(&p.coords)).collect();
+    let mut heights: Vec<f64> = mesh
+        .vertices()
+        .iter()
+        .map(|p| plane.normal.dot(&p.coords))
+        .collect();
     heights.sort_by(f64::total_cmp);
     let is_free = |offset_mm: f64| {
         let next = heights.partition_point(|&h| h < offset_mm - VERTEX_GAP_MM);
-        heights.get(next).is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
+        heights
+            .get(next)
+            .is_none_or(|&h| h > offset_mm + VERTEX_GAP_MM)
     };
     let (way, start_mm) = clear_of_sheets(mesh, plane);
     let steps = (0..NUDGES).map(|i| start_mm + 2.0 * VERTEX_GAP_MM * i as f64);
     let mut offsets = steps.map(|step_mm| plane.offset_mm + way * step_mm);
     let offset_mm = offsets.find(|&o| is_free(o)).unwrap_or(plane.offset_mm);
-    Plane { normal: plane.normal, offset_mm }
+    Plane {
+        normal: plane.normal,
+        offset_mm,
+    }
 }
 
 /// Which way along its normal a plane is to be moved, and how far at least, mm, so that it leaves no thin sheet.
 fn clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
-    let way = if let [None, Some(_)] = sheets(mesh, plane) { -1.0 } else { 1.0 };
+    let way = if let [None, Some(_)] = sheets(mesh, plane) {
+        -1.0
+    } else {
+        1.0
+    };
     let mut step_mm = 0.0;
     for _ in 0..FACES {
-        let moved = Plane { offset_mm: plane.offset_mm + way * step_mm, ..*plane };
+        let moved = Plane {
+            offset_mm: plane.offset_mm + way * step_mm,
+            ..*plane
+        };
         let [above, below] = sheets(mesh, &moved);
-        let (ahead, behind) = if way > 0.0 { (above, below) } else { (below, above) };
+        let (ahead, behind) = if way > 0.0 {
+            (above, below)
+        } else {
+            (below, above)
+        };
         step_mm += match (ahead, behind) {
             (None, None) => break,
             (Some(thick_mm), None) => thick_mm + 2.0 * VERTEX_GAP_MM,
@@ -231,7 +276,11 @@ fn clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
 
 /// The plane as it is unless it would leave a sheet of less than [`SHEET_MM`] on a face along it; then that of [`off_vertices`].
 pub(crate) fn off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
-    if sheets(mesh, plane) == [None, None] { *plane } else { off_vertices(mesh, plane) }
+    if sheets(mesh, plane) == [None, None] {
+        *plane
+    } else {
+        off_vertices(mesh, plane)
+    }
 }
 
 /// How thick the thickest sheets are that a plane leaves above itself and below, of those thinner than [`SHEET_MM`]: between it
@@ -245,7 +294,9 @@ fn sheets(mesh: &TriMesh, plane: &Plane) -> [Option<f64>; 2] {
         }
         let area = (b - a).cross(&(c - a));
         let facing = plane.normal.dot(&area);
-        let thick_mm = heights.iter().fold(f64::MIN, |most, h| most.max(h * facing.signum()));
+        let thick_mm = heights
+            .iter()
+            .fold(f64::MIN, |most, h| most.max(h * facing.signum()));
         if facing.abs() > ALONG_COSINE * area.norm() && thick_mm > -VERTEX_GAP_MM {
             let side = &mut thickest[usize::from(facing < 0.0)];
             *side = Some(side.unwrap_or(0.0_f64).max(thick_mm));
@@ -258,7 +309,10 @@ fn sheets(mesh: &TriMesh, plane: &Plane) -> [Option<f64>; 2] {
 fn checked(body: Manifold, operation: &'static str) -> Result<Csg, ClipError> {
     match body.status() {
         Error::NoError => Ok(Csg(body)),
-        error => Err(ClipError::Engine { operation, reason: error.to_str() }),
+        error => Err(ClipError::Engine {
+            operation,
+            reason: error.to_str(),
+        }),
     }
 }
 
@@ -280,10 +334,28 @@ mod tests {
 
     /// An axis-aligned box as twelve triangles.
     fn cuboid(min: [f64; 3], max: [f64; 3]) -> TriMesh {
-        let pick = |i: usize, axis: usize| if i >> axis & 1 == 0 { min[axis] } else { max[axis] };
-        let vertices = (0..8).map(|i| Point::new(pick(i, 0), pick(i, 1), pick(i, 2))).collect();
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles = quads.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+        let pick = |i: usize, axis: usize| {
+            if i >> axis & 1 == 0 {
+                min[axis]
+            } else {
+                max[axis]
+            }
+        };
+        let vertices = (0..8)
+            .map(|i| Point::new(pick(i, 0), pick(i, 1), pick(i, 2)))
+            .collect();
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangles = quads
+            .iter()
+            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+            .collect();
         TriMesh::new(vertices, triangles).unwrap()
     }
 
@@ -304,7 +376,10 @@ mod tests {
 
     #[test]
     fn two_half_overlapping_boxes_have_the_volumes_of_their_boolean_combinations() {
-        let (a, b) = (body(&unit_box()), body(&cuboid([0.5, 0.25, 0.25], [1.5, 0.75, 0.75])));
+        let (a, b) = (
+            body(&unit_box()),
+            body(&cuboid([0.5, 0.25, 0.25], [1.5, 0.75, 0.75])),
+        );
         assert!((volume(&a.intersect(&b).unwrap()) - 0.125).abs() < ROUNDING);
         assert!((volume(&a.subtract(&b).unwrap()) - 0.875).abs() < ROUNDING);
         assert!((volume(&a.union(&b).unwrap()) - 1.125).abs() < ROUNDING);
@@ -315,35 +390,66 @@ mod tests {
         let plane = Plane::through(&Point::new(0.4, 0.5, 0.6), &Vector::new(1.0, 2.0, 3.0));
         let (positive, negative) = body(&unit_box()).split_by_plane(&plane).unwrap();
         assert!((volume(&positive) + volume(&negative) - 1.0).abs() < ROUNDING);
-        assert!(positive.to_mesh().unwrap().vertices().iter().all(|v| plane.distance(v) > -ROUNDING));
-        assert!(negative.to_mesh().unwrap().vertices().iter().all(|v| plane.distance(v) < ROUNDING));
+        assert!(
+            positive
+                .to_mesh()
+                .unwrap()
+                .vertices()
+                .iter()
+                .all(|v| plane.distance(v) > -ROUNDING)
+        );
+        assert!(
+            negative
+                .to_mesh()
+                .unwrap()
+                .vertices()
+                .iter()
+                .all(|v| plane.distance(v) < ROUNDING)
+        );
     }
 
     #[test]
     fn a_cut_along_a_face_leaves_no_sheet_of_it() {
         // The plane z = 1 holds the top of the lower step.
-        let stair = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0])).union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
+        let stair = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0]))
+            .union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
         let stair = stair.unwrap().to_mesh().unwrap();
         for normal in [Vector::z(), -Vector::z()] {
-            let plane = Plane { normal, offset_mm: normal.z };
+            let plane = Plane {
+                normal,
+                offset_mm: normal.z,
+            };
             let moved = off_faces(&stair, &plane);
             assert_eq!(off_faces(&stair, &moved), moved);
             let (above, below) = body(&stair).split_by_plane(&moved).unwrap();
             let upper = if normal.z > 0.0 { above } else { below };
             // Only the upper box is left above the step: nothing of the step 1 mm wide.
-            assert!(upper.to_mesh().unwrap().aabb().max.x < 1.0 + ROUNDING, "{normal}");
+            assert!(
+                upper.to_mesh().unwrap().aabb().max.x < 1.0 + ROUNDING,
+                "{normal}"
+            );
         }
     }
 
     #[test]
     fn a_cut_along_faces_of_both_ways_leaves_a_sheet_that_a_file_holds() {
         // A step up on one side and a ledge over air on the other, both at z = 1.
-        let tower = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0])).union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
-        let tower = tower.unwrap().union(&body(&cuboid([-1.0, 0.0, 1.0], [0.5, 1.0, 2.0]))).unwrap();
+        let tower = body(&cuboid([0.0; 3], [2.0, 1.0, 1.0]))
+            .union(&body(&cuboid([0.0; 3], [1.0, 1.0, 3.0])));
+        let tower = tower
+            .unwrap()
+            .union(&body(&cuboid([-1.0, 0.0, 1.0], [0.5, 1.0, 2.0])))
+            .unwrap();
         let mesh = tower.to_mesh().unwrap();
-        let plane = Plane { normal: Vector::z(), offset_mm: 1.0 };
+        let plane = Plane {
+            normal: Vector::z(),
+            offset_mm: 1.0,
+        };
         let moved = off_vertices(&mesh, &plane);
-        assert!((moved.offset_mm - 1.0 - 2.0 * SHEET_MM).abs() < 1e-5, "{moved:?}");
+        assert!(
+            (moved.offset_mm - 1.0 - 2.0 * SHEET_MM).abs() < 1e-5,
+            "{moved:?}"
+        );
         assert_eq!(off_faces(&mesh, &moved), moved);
     }
 
@@ -351,7 +457,10 @@ mod tests {
     fn a_box_with_a_reversed_box_inside_is_one_body_and_its_halves_are_cups() {
         let hollow = unit_box().joined(&cuboid([0.25; 3], [0.75; 3]).reversed());
         assert_eq!(body(&hollow).decompose().unwrap().len(), 1);
-        let plane = Plane { normal: Vector::z(), offset_mm: 0.5 };
+        let plane = Plane {
+            normal: Vector::z(),
+            offset_mm: 0.5,
+        };
         let (top, bottom) = body(&hollow).split_by_plane(&plane).unwrap();
         assert!((volume(&top) - 0.4375).abs() < ROUNDING);
         assert_eq!(bottom.decompose().unwrap().len(), 1);
@@ -359,9 +468,15 @@ mod tests {
 
     #[test]
     fn a_box_nested_in_a_cavity_is_a_second_body() {
-        let onion =
-            unit_box().joined(&cuboid([0.2; 3], [0.8; 3]).reversed()).joined(&cuboid([0.4; 3], [0.6; 3]));
-        let volumes: Vec<f64> = body(&onion).decompose().unwrap().iter().map(volume).collect();
+        let onion = unit_box()
+            .joined(&cuboid([0.2; 3], [0.8; 3]).reversed())
+            .joined(&cuboid([0.4; 3], [0.6; 3]));
+        let volumes: Vec<f64> = body(&onion)
+            .decompose()
+            .unwrap()
+            .iter()
+            .map(volume)
+            .collect();
         assert_eq!(volumes.len(), 2);
         assert!(volumes.iter().any(|v| (v - 0.784).abs() < ROUNDING));
         assert!(volumes.iter().any(|v| (v - 0.008).abs() < ROUNDING));
@@ -369,7 +484,10 @@ mod tests {
 
     #[test]
     fn a_plane_beside_the_body_leaves_one_side_empty() {
-        let plane = Plane { normal: Vector::x(), offset_mm: 2.0 };
+        let plane = Plane {
+            normal: Vector::x(),
+            offset_mm: 2.0,
+        };
         let (positive, negative) = body(&unit_box()).split_by_plane(&plane).unwrap();
         assert!(positive.is_empty());
         assert_eq!(negative.triangle_count(), 12);
@@ -378,14 +496,33 @@ mod tests {
     #[test]
     fn degenerate_planes_and_open_meshes_are_refused_with_a_reason() {
         let cube = body(&unit_box());
-        for normal in [Vector::zeros(), Vector::repeat(f64::NAN), Vector::repeat(1.0)] {
-            let refused = cube.split_by_plane(&Plane { normal, offset_mm: 0.0 });
+        for normal in [
+            Vector::zeros(),
+            Vector::repeat(f64::NAN),
+            Vector::repeat(1.0),
+        ] {
+            let refused = cube.split_by_plane(&Plane {
+                normal,
+                offset_mm: 0.0,
+            });
             assert_eq!(refused.err(), Some(ClipError::DegeneratePlane));
         }
-        let nowhere = Plane { normal: Vector::x(), offset_mm: f64::INFINITY };
-        assert_eq!(cube.split_by_plane(&nowhere).err(), Some(ClipError::DegeneratePlane));
-        let open = TriMesh::new(unit_box().vertices().to_vec(), unit_box().triangles()[1..].to_vec());
-        assert!(matches!(Csg::of_mesh(&open.unwrap()).err(), Some(ClipError::Engine { .. })));
+        let nowhere = Plane {
+            normal: Vector::x(),
+            offset_mm: f64::INFINITY,
+        };
+        assert_eq!(
+            cube.split_by_plane(&nowhere).err(),
+            Some(ClipError::DegeneratePlane)
+        );
+        let open = TriMesh::new(
+            unit_box().vertices().to_vec(),
+            unit_box().triangles()[1..].to_vec(),
+        );
+        assert!(matches!(
+            Csg::of_mesh(&open.unwrap()).err(),
+            Some(ClipError::Engine { .. })
+        ));
     }
 
     #[test]
@@ -406,7 +543,13 @@ mod tests {
             let (positive, negative) = all.split_by_plane(&plane).unwrap();
             (positive.to_mesh().unwrap(), negative.to_mesh().unwrap())
         };
-        let on = |threads| rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(run);
+        let on = |threads| {
+            rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap()
+                .install(run)
+        };
         assert_eq!(on(1), on(2));
     }
 }

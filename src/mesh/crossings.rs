@@ -35,8 +35,14 @@ impl Crossings {
             .into_par_iter()
             .map(|index| crossings_after(index, &mesh.corners(index), &bvh))
             .collect();
-        let first = counts.iter().position(|&count| count > 0).map(|t| centroid(&mesh.corners(t)));
-        Self { pairs: counts.iter().sum(), first }
+        let first = counts
+            .iter()
+            .position(|&count| count > 0)
+            .map(|t| centroid(&mesh.corners(t)));
+        Self {
+            pairs: counts.iter().sum(),
+            first,
+        }
     }
 }
 
@@ -49,7 +55,11 @@ fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
     let mut count = 0;
     bvh.visit_overlapping(&Aabb::of_points(corners), |other, other_corners| {
         count += usize::from(other as usize > index && cross(corners, other_corners));
-        if count < MAX_PER_TRIANGLE { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        if count < MAX_PER_TRIANGLE {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     });
     count
 }
@@ -74,7 +84,11 @@ fn is_crossed(sides: &[i8; 3]) -> bool {
 
 /// Which side of the triangle's plane the point lies on: 1, 0 or −1.
 fn side([a, b, c]: &[Point; 3], p: &Point) -> i8 {
-    let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    let [a, b, c, p] = [a, b, c, p].map(|p| Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    });
     sign(orient3d(a, b, c, p))
 }
 
@@ -108,8 +122,14 @@ fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
 fn overlap_in_plane(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let normal = (a[1] - a[0]).cross(&(a[2] - a[0]));
     let drop = normal.iamax();
-    let flat = |p: &Point| Coord { x: p[(drop + 1) % 3], y: p[(drop + 2) % 3] };
-    let (a, b) = (counterclockwise(a.map(|p| flat(&p))), counterclockwise(b.map(|p| flat(&p))));
+    let flat = |p: &Point| Coord {
+        x: p[(drop + 1) % 3],
+        y: p[(drop + 2) % 3],
+    };
+    let (a, b) = (
+        counterclockwise(a.map(|p| flat(&p))),
+        counterclockwise(b.map(|p| flat(&p))),
+    );
     match (a, b) {
         (Some(a), Some(b)) => !separates(&a, &b) && !separates(&b, &a),
         _ => false,
@@ -147,7 +167,11 @@ mod tests {
 
     #[test]
     fn convex_bodies_and_tori_do_not_cross_themselves() {
-        for mesh in [unit_cube(), ball(&Point::origin(), 1.0, 3), torus(3.0, 1.0, 31, 17)] {
+        for mesh in [
+            unit_cube(),
+            ball(&Point::origin(), 1.0, 3),
+            torus(3.0, 1.0, 31, 17),
+        ] {
             assert_eq!(Crossings::of(&mesh), Crossings::default());
         }
     }
@@ -155,7 +179,11 @@ mod tests {
     #[test]
     fn bodies_that_overlap_cross() {
         let cube = unit_cube();
-        for by in [Vector::repeat(0.5), Vector::new(0.5, 0.25, 0.125), Vector::new(0.5, 0.0, 0.0)] {
+        for by in [
+            Vector::repeat(0.5),
+            Vector::new(0.5, 0.25, 0.125),
+            Vector::new(0.5, 0.0, 0.0),
+        ] {
             let crossings = Crossings::of(&cube.clone().joined(&shifted(&cube, by)));
             assert!(crossings.pairs > 0 && crossings.first.is_some(), "{by}");
         }
@@ -194,7 +222,9 @@ mod tests {
         let mesh = a.clone().joined(&shifted(&a, Vector::new(0.3, 0.4, 0.5)));
         let corners: Vec<[Point; 3]> = mesh.iter_corners().collect();
         let all = (0..corners.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
-        let pairs = all.filter(|&(i, j)| cross(&corners[i], &corners[j])).count();
+        let pairs = all
+            .filter(|&(i, j)| cross(&corners[i], &corners[j]))
+            .count();
         assert!(pairs > 30);
         assert_eq!(Crossings::of(&mesh).pairs, pairs);
     }

@@ -56,7 +56,9 @@ impl DefectKind {
             Self::Empty => "export the model again with its faces",
             Self::NotFinite => "export the model again; the file is damaged",
             Self::RepeatedCorner => "repair the mesh: such triangles can be dropped",
-            Self::Hole => "close the holes in a mesh editor (fill holes, make solid), then export again",
+            Self::Hole => {
+                "close the holes in a mesh editor (fill holes, make solid), then export again"
+            }
             Self::CrowdedEdge => {
                 "unite the overlapping bodies in a modelling program (boolean union), then export again"
             }
@@ -90,14 +92,22 @@ impl fmt::Display for Defect {
             let lead = if i == 0 { ", first at" } else { " and" };
             write!(f, "{lead} ({}, {}, {})", shown(p.x), shown(p.y), shown(p.z))?;
         }
-        let frame = if self.places.is_empty() { "" } else { " in the file's own coordinates" };
+        let frame = if self.places.is_empty() {
+            ""
+        } else {
+            " in the file's own coordinates"
+        };
         write!(f, "{frame}; {}", self.kind.remedy())
     }
 }
 
 /// A coordinate with as many digits as help to find the place, in models of any size.
 fn shown(x: f64) -> String {
-    if x == 0.0 || x.abs() >= 1.0 { format!("{x:.2}") } else { format!("{x:.6}") }
+    if x == 0.0 || x.abs() >= 1.0 {
+        format!("{x:.2}")
+    } else {
+        format!("{x:.6}")
+    }
 }
 
 /// Every defect of a mesh, in the order of [`DefectKind`].
@@ -117,7 +127,11 @@ impl Defects {
             }
         }
         found.retain(|defect| defect.count > 0);
-        if found.is_empty() { None } else { Some(Self(found)) }
+        if found.is_empty() {
+            None
+        } else {
+            Some(Self(found))
+        }
     }
 
     /// The defects, one for each kind that occurs.
@@ -127,7 +141,11 @@ impl Defects {
 
     /// How often `kind` occurs.
     pub fn count(&self, kind: DefectKind) -> usize {
-        self.0.iter().filter(|defect| defect.kind == kind).map(|defect| defect.count).sum()
+        self.0
+            .iter()
+            .filter(|defect| defect.kind == kind)
+            .map(|defect| defect.count)
+            .sum()
     }
 }
 
@@ -136,7 +154,9 @@ impl std::error::Error for Defects {}
 impl fmt::Display for Defects {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("the mesh does not bound a solid:")?;
-        self.0.iter().try_for_each(|defect| write!(f, "\n  {defect}"))
+        self.0
+            .iter()
+            .try_for_each(|defect| write!(f, "\n  {defect}"))
     }
 }
 
@@ -150,21 +170,36 @@ fn defect(kind: DefectKind, places: impl Iterator<Item = Point>) -> Defect {
             named.push(place);
         }
     }
-    Defect { kind, count, places: named }
+    Defect {
+        kind,
+        count,
+        places: named,
+    }
 }
 
 fn empty(mesh: &TriMesh) -> Defect {
-    Defect { kind: DefectKind::Empty, count: usize::from(mesh.triangles().is_empty()), places: Vec::new() }
+    Defect {
+        kind: DefectKind::Empty,
+        count: usize::from(mesh.triangles().is_empty()),
+        places: Vec::new(),
+    }
 }
 
 fn not_finite(mesh: &TriMesh) -> Defect {
     let finite = |p: &&Point| p.coords.iter().all(|x| x.is_finite());
-    defect(DefectKind::NotFinite, mesh.vertices().iter().filter(|p| !finite(p)).copied())
+    defect(
+        DefectKind::NotFinite,
+        mesh.vertices().iter().filter(|p| !finite(p)).copied(),
+    )
 }
 
 fn repeated_corners(mesh: &TriMesh) -> Defect {
     let repeats = |&&[a, b, c]: &&[u32; 3]| a == b || b == c || c == a;
-    let places = mesh.triangles().iter().filter(repeats).map(|t| mesh.vertices()[t[0] as usize]);
+    let places = mesh
+        .triangles()
+        .iter()
+        .filter(repeats)
+        .map(|t| mesh.vertices()[t[0] as usize]);
     defect(DefectKind::RepeatedCorner, places)
 }
 
@@ -179,19 +214,30 @@ pub(super) fn hole_places(mesh: &TriMesh, table: &EdgeTable) -> Vec<Point> {
         return Vec::new();
     }
     let mut sets = UnionFind::new(mesh.vertices().len());
-    rims.iter().for_each(|sides| _ = sets.merge(sides[0].low, sides[0].high));
+    rims.iter()
+        .for_each(|sides| _ = sets.merge(sides[0].low, sides[0].high));
     let first_of_hole = |sides: &&[Side]| sets.root(sides[0].low) == sides[0].low;
     let mut firsts: Vec<&[Side]> = rims.into_iter().filter(first_of_hole).collect();
     firsts.dedup_by_key(|sides| sides[0].low);
-    firsts.into_iter().map(|sides| middle(mesh, sides)).collect()
+    firsts
+        .into_iter()
+        .map(|sides| middle(mesh, sides))
+        .collect()
 }
 
 fn crowded(mesh: &TriMesh, table: &EdgeTable) -> Defect {
-    defect(DefectKind::CrowdedEdge, table.of_kind(EdgeKind::Crowded).map(|sides| middle(mesh, sides)))
+    defect(
+        DefectKind::CrowdedEdge,
+        table
+            .of_kind(EdgeKind::Crowded)
+            .map(|sides| middle(mesh, sides)),
+    )
 }
 
 fn misoriented(mesh: &TriMesh, table: &EdgeTable) -> Defect {
-    let places = table.of_kind(EdgeKind::Misoriented).map(|sides| middle(mesh, sides));
+    let places = table
+        .of_kind(EdgeKind::Misoriented)
+        .map(|sides| middle(mesh, sides));
     defect(DefectKind::MisorientedEdge, places)
 }
 
@@ -204,10 +250,17 @@ pub(super) fn middle(mesh: &TriMesh, sides: &[Side]) -> Point {
 fn volume_defects(mesh: &TriMesh) -> [Defect; 2] {
     let least = MIN_VOLUME_RATIO * mesh.aabb().size().norm().powi(3);
     let volume = mesh.signed_volume_mm3();
-    let flaw = |kind, is: bool| Defect { kind, count: usize::from(is), places: Vec::new() };
+    let flaw = |kind, is: bool| Defect {
+        kind,
+        count: usize::from(is),
+        places: Vec::new(),
+    };
     let inside_out = volume < -least;
     let is_sound = volume > least && volume.is_finite();
-    [flaw(DefectKind::NoVolume, !is_sound && !inside_out), flaw(DefectKind::InsideOut, inside_out)]
+    [
+        flaw(DefectKind::NoVolume, !is_sound && !inside_out),
+        flaw(DefectKind::InsideOut, inside_out),
+    ]
 }
 
 #[cfg(test)]
@@ -222,7 +275,11 @@ mod tests {
 
     fn kinds(mesh: TriMesh) -> Vec<(DefectKind, usize)> {
         let defects = Solid::new(mesh).unwrap_err();
-        defects.list().iter().map(|defect| (defect.kind, defect.count)).collect()
+        defects
+            .list()
+            .iter()
+            .map(|defect| (defect.kind, defect.count))
+            .collect()
     }
 
     fn with_triangles(triangles: Vec<[u32; 3]>) -> TriMesh {
@@ -236,11 +293,17 @@ mod tests {
         assert_eq!(kinds(TriMesh::default()), [(Empty, 1)]);
         assert_eq!(kinds(cube().map_vertices(|p| p / p.x)), [(NotFinite, 4)]);
         assert_eq!(kinds(cube().reversed()), [(InsideOut, 1)]);
-        assert_eq!(kinds(with_triangles(vec![[0, 1, 2], [0, 2, 1]])), [(NoVolume, 1)]);
+        assert_eq!(
+            kinds(with_triangles(vec![[0, 1, 2], [0, 2, 1]])),
+            [(NoVolume, 1)]
+        );
         // The first triangles of the low and the high x face do not touch: two holes.
         let two_open = [&sides[1..2], &sides[3..]].concat();
         assert_eq!(kinds(with_triangles(two_open)), [(Hole, 2)]);
-        assert_eq!(kinds(with_triangles([&sides[..], &[[0, 1, 7]]].concat())), [(Hole, 1), (CrowdedEdge, 2)]);
+        assert_eq!(
+            kinds(with_triangles([&sides[..], &[[0, 1, 7]]].concat())),
+            [(Hole, 1), (CrowdedEdge, 2)]
+        );
         let turned = [&sides[1..], &[[sides[0][0], sides[0][2], sides[0][1]]]].concat();
         assert_eq!(kinds(with_triangles(turned)), [(MisorientedEdge, 3)]);
         assert_eq!(
@@ -253,10 +316,15 @@ mod tests {
     fn all_defects_are_listed_at_once_with_places_and_remedies() {
         let mut triangles = cube().triangles()[1..].to_vec();
         triangles.push([1, 1, 2]);
-        let message = Solid::new(with_triangles(triangles)).unwrap_err().to_string();
+        let message = Solid::new(with_triangles(triangles))
+            .unwrap_err()
+            .to_string();
         let lines: Vec<&str> = message.lines().collect();
         assert_eq!(lines[0], "the mesh does not bound a solid:");
-        assert!(lines[1].contains("triangles that name one vertex twice: 1") && lines[1].contains("drop"));
+        assert!(
+            lines[1].contains("triangles that name one vertex twice: 1")
+                && lines[1].contains("drop")
+        );
         assert!(
             lines[2].contains("holes")
                 && lines[2].contains(": 1, first at")

@@ -45,7 +45,9 @@ impl MeshDistance {
     /// Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 11, 2005), right for closed meshes
     /// free of self-intersection; where a mesh overlaps itself ask [`Bvh::winding`].
     pub fn signed(&self, p: &Point) -> f64 {
-        let Some(nearest) = self.bvh.closest(p, f64::INFINITY, &[]) else { return f64::NEG_INFINITY };
+        let Some(nearest) = self.bvh.closest(p, f64::INFINITY, &[]) else {
+            return f64::NEG_INFINITY;
+        };
         let outward = self.pseudonormal(&nearest).dot(&(p - nearest.point));
         nearest.distance_squared.sqrt() * if outward > 0.0 { -1.0 } else { 1.0 }
     }
@@ -55,15 +57,23 @@ impl MeshDistance {
     /// Infinite if either is empty. Runs on all threads; the result does not depend on how many.
     pub fn min_distance_to(&self, other: &TriMesh) -> f64 {
         let to_vertex = |p: &Point| {
-            self.bvh.closest(p, f64::INFINITY, &[]).map_or(f64::INFINITY, |n| n.distance_squared.sqrt())
+            self.bvh
+                .closest(p, f64::INFINITY, &[])
+                .map_or(f64::INFINITY, |n| n.distance_squared.sqrt())
         };
-        let first_bound =
-            other.vertices().iter().step_by(VERTEX_STRIDE).map(to_vertex).fold(f64::INFINITY, f64::min);
+        let first_bound = other
+            .vertices()
+            .iter()
+            .step_by(VERTEX_STRIDE)
+            .map(to_vertex)
+            .fold(f64::INFINITY, f64::min);
         let indices: Vec<usize> = (0..other.triangles().len()).collect();
         indices
             .par_chunks(CHUNK)
             .map(|chunk| {
-                chunk.iter().fold(first_bound, |best, &i| self.bvh.triangle_distance(&other.corners(i), best))
+                chunk.iter().fold(first_bound, |best, &i| {
+                    self.bvh.triangle_distance(&other.corners(i), best)
+                })
             })
             .collect::<Vec<f64>>()
             .into_iter()
@@ -75,7 +85,9 @@ impl MeshDistance {
         match nearest.feature {
             Feature::Face => self.normals.faces[triangle],
             Feature::Edge(i) => self.normals.edges[triangle][i as usize],
-            Feature::Vertex(i) => self.normals.vertices[self.triangles[triangle][i as usize] as usize],
+            Feature::Vertex(i) => {
+                self.normals.vertices[self.triangles[triangle][i as usize] as usize]
+            }
         }
     }
 }
@@ -90,14 +102,24 @@ struct Pseudonormals {
 
 impl Pseudonormals {
     fn new(mesh: &TriMesh) -> Self {
-        let faces: Vec<Vector> = mesh.iter_corners().map(|corners| unit_normal(&corners)).collect();
-        Self { edges: edge_normals(mesh, &faces), vertices: vertex_normals(mesh, &faces), faces }
+        let faces: Vec<Vector> = mesh
+            .iter_corners()
+            .map(|corners| unit_normal(&corners))
+            .collect();
+        Self {
+            edges: edge_normals(mesh, &faces),
+            vertices: vertex_normals(mesh, &faces),
+            faces,
+        }
     }
 }
 
 /// The unit normal; zero for a triangle without area.
 fn unit_normal([a, b, c]: &[Point; 3]) -> Vector {
-    (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vector::zeros)
+    (b - a)
+        .cross(&(c - a))
+        .try_normalize(0.0)
+        .unwrap_or_else(Vector::zeros)
 }
 
 /// For each triangle's edges the sum of the normals on both sides.
@@ -111,7 +133,10 @@ fn edge_normals(mesh: &TriMesh, faces: &[Vector]) -> Vec<[Vector; 3]> {
         (0..3).for_each(|i| *sums.entry(key(t, i)).or_insert_with(Vector::zeros) += normal);
     }
     let sum = |t: &[u32; 3], i: usize| sums.get(&key(t, i)).copied().unwrap_or_else(Vector::zeros);
-    mesh.triangles().iter().map(|t| [0, 1, 2].map(|i| sum(t, i))).collect()
+    mesh.triangles()
+        .iter()
+        .map(|t| [0, 1, 2].map(|i| sum(t, i)))
+        .collect()
 }
 
 /// For each vertex the sum of the normals around it, weighted by the angles there.
@@ -119,7 +144,10 @@ fn vertex_normals(mesh: &TriMesh, faces: &[Vector]) -> Vec<Vector> {
     let mut sums = vec![Vector::zeros(); mesh.vertices().len()];
     for ((t, corners), normal) in mesh.triangles().iter().zip(mesh.iter_corners()).zip(faces) {
         for i in 0..3 {
-            let (to_next, to_last) = (corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+            let (to_next, to_last) = (
+                corners[(i + 1) % 3] - corners[i],
+                corners[(i + 2) % 3] - corners[i],
+            );
             sums[t[i] as usize] += normal * to_next.angle(&to_last);
         }
     }
@@ -133,10 +161,28 @@ mod tests {
 
     /// A box from `min` to `max`, its six faces cut along a diagonal.
     fn block(min: [f64; 3], max: [f64; 3]) -> TriMesh {
-        let pick = |bits: usize, axis: usize| if bits >> axis & 1 == 1 { max[axis] } else { min[axis] };
-        let vertices = (0..8).map(|bits| Point::new(pick(bits, 0), pick(bits, 1), pick(bits, 2))).collect();
-        let quads = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
-        let triangles = quads.iter().flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]]).collect();
+        let pick = |bits: usize, axis: usize| {
+            if bits >> axis & 1 == 1 {
+                max[axis]
+            } else {
+                min[axis]
+            }
+        };
+        let vertices = (0..8)
+            .map(|bits| Point::new(pick(bits, 0), pick(bits, 1), pick(bits, 2)))
+            .collect();
+        let quads = [
+            [0, 2, 3, 1],
+            [4, 5, 7, 6],
+            [0, 1, 5, 4],
+            [2, 6, 7, 3],
+            [0, 4, 6, 2],
+            [1, 3, 7, 5],
+        ];
+        let triangles = quads
+            .iter()
+            .flat_map(|q| [[q[0], q[1], q[2]], [q[0], q[2], q[3]]])
+            .collect();
         TriMesh::new(vertices, triangles).unwrap()
     }
 
@@ -162,9 +208,16 @@ mod tests {
         let distance = MeshDistance::new(&block([0.1, 0.2, 0.3], [4.0, 6.0, 8.0]));
         for i in 0..2000 {
             let t = f64::from(i);
-            let p =
-                Point::new((t * 0.754_877).fract(), (t * 0.569_840).fract(), (t * 0.430_159).fract()) * 9.0;
-            assert_eq!(distance.signed(&p) > 0.0, distance.bvh().winding(&p) > 0, "{p}");
+            let p = Point::new(
+                (t * 0.754_877).fract(),
+                (t * 0.569_840).fract(),
+                (t * 0.430_159).fract(),
+            ) * 9.0;
+            assert_eq!(
+                distance.signed(&p) > 0.0,
+                distance.bvh().winding(&p) > 0,
+                "{p}"
+            );
         }
     }
 
@@ -174,7 +227,10 @@ mod tests {
         let distance = MeshDistance::new(&a);
         let beside = block([7.0, 1.0, 1.0], [9.0, 2.0, 2.0]);
         assert_eq!(distance.min_distance_to(&beside), 3.0);
-        assert_eq!(distance.min_distance_to(&block([1.0; 3], [3.0, 5.0, 7.0])), 1.0);
+        assert_eq!(
+            distance.min_distance_to(&block([1.0; 3], [3.0, 5.0, 7.0])),
+            1.0
+        );
         assert_eq!(distance.min_distance_to(&block([1.0; 3], [9.0; 3])), 0.0);
         assert_eq!(distance.min_distance_to(&TriMesh::default()), f64::INFINITY);
     }
@@ -183,25 +239,43 @@ mod tests {
     fn the_distance_between_meshes_is_that_of_all_pairs_whatever_the_threads() {
         let wavy = |shift: f64| {
             let n = 24u32;
-            let height = |i: u32, j: u32| (f64::from(i) * 0.9 + shift).sin() * (f64::from(j) * 0.7).cos();
-            let vertex =
-                |k| Point::new(f64::from(k % n), f64::from(k / n), height(k % n, k / n) + 3.0 * shift);
+            let height =
+                |i: u32, j: u32| (f64::from(i) * 0.9 + shift).sin() * (f64::from(j) * 0.7).cos();
+            let vertex = |k| {
+                Point::new(
+                    f64::from(k % n),
+                    f64::from(k / n),
+                    height(k % n, k / n) + 3.0 * shift,
+                )
+            };
             let corner = |k: u32| k / (n - 1) * n + k % (n - 1);
             let quad = |k| {
-                [[corner(k), corner(k) + 1, corner(k) + n + 1], [corner(k), corner(k) + n + 1, corner(k) + n]]
+                [
+                    [corner(k), corner(k) + 1, corner(k) + n + 1],
+                    [corner(k), corner(k) + n + 1, corner(k) + n],
+                ]
             };
-            TriMesh::new((0..n * n).map(vertex).collect(), (0..(n - 1) * (n - 1)).flat_map(quad).collect())
-                .unwrap()
+            TriMesh::new(
+                (0..n * n).map(vertex).collect(),
+                (0..(n - 1) * (n - 1)).flat_map(quad).collect(),
+            )
+            .unwrap()
         };
         let (a, b) = (wavy(0.0), wavy(1.1));
         let distance = MeshDistance::new(&a);
         let brute = a
             .iter_corners()
-            .flat_map(|s| b.iter_corners().map(move |t| triangle_triangle_distance_squared(&s, &t)))
+            .flat_map(|s| {
+                b.iter_corners()
+                    .map(move |t| triangle_triangle_distance_squared(&s, &t))
+            })
             .fold(f64::INFINITY, f64::min)
             .sqrt();
         let with_threads = |n| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .unwrap();
             pool.install(|| distance.min_distance_to(&b))
         };
         assert!((with_threads(1) - brute).abs() < 1e-12);

@@ -57,7 +57,15 @@ impl EdgeTable {
     /// sort of the few sides that share it.
     pub fn of(mesh: &TriMesh) -> Self {
         let mut ends = bucket_starts(mesh);
-        let mut sides = vec![Side { low: 0, high: 0, id: 0, forward: true }; mesh.triangles().len() * 3];
+        let mut sides = vec![
+            Side {
+                low: 0,
+                high: 0,
+                id: 0,
+                forward: true
+            };
+            mesh.triangles().len() * 3
+        ];
         for side in all_sides(mesh) {
             let end = &mut ends[side.low as usize];
             sides[*end as usize] = side;
@@ -83,7 +91,9 @@ impl EdgeTable {
 
     /// How many edges are not shared by exactly two opposed triangles.
     pub fn bad_count(&self) -> usize {
-        self.edges().filter(|sides| edge_kind(sides) != EdgeKind::Paired).count()
+        self.edges()
+            .filter(|sides| edge_kind(sides) != EdgeKind::Paired)
+            .count()
     }
 }
 
@@ -113,14 +123,20 @@ fn bucket_starts(mesh: &TriMesh) -> Vec<u32> {
 
 /// Every side of every triangle, in order.
 fn all_sides(mesh: &TriMesh) -> impl Iterator<Item = Side> + '_ {
-    mesh.triangles().iter().enumerate().flat_map(|(triangle, &[a, b, c])| {
-        [(a, b), (b, c), (c, a)].into_iter().zip(3 * triangle as u32..).map(|((from, to), id)| Side {
-            low: from.min(to),
-            high: from.max(to),
-            id,
-            forward: from < to,
+    mesh.triangles()
+        .iter()
+        .enumerate()
+        .flat_map(|(triangle, &[a, b, c])| {
+            [(a, b), (b, c), (c, a)]
+                .into_iter()
+                .zip(3 * triangle as u32..)
+                .map(|((from, to), id)| Side {
+                    low: from.min(to),
+                    high: from.max(to),
+                    id,
+                    forward: from < to,
+                })
         })
-    })
 }
 
 #[cfg(test)]
@@ -141,17 +157,24 @@ mod tests {
     fn the_corners_of_a_side_are_at_the_ends_of_its_edge() {
         let mesh = ball(&Point::origin(), 1.0, 1);
         for side in EdgeTable::of(&mesh).edges().flatten() {
-            let ends = side.corners().map(|id| mesh.triangles()[id as usize / 3][id as usize % 3]);
+            let ends = side
+                .corners()
+                .map(|id| mesh.triangles()[id as usize / 3][id as usize % 3]);
             assert_eq!(ends, [side.low, side.high]);
         }
     }
 
     #[test]
     fn every_kind_of_edge_is_told_apart() {
-        let points = (0..5).map(|i| Point::new(f64::from(i), f64::from(i * i), 1.0)).collect::<Vec<_>>();
+        let points = (0..5)
+            .map(|i| Point::new(f64::from(i), f64::from(i * i), 1.0))
+            .collect::<Vec<_>>();
         let kinds = |triangles: &[[u32; 3]]| {
             let mesh = TriMesh::new(points.clone(), triangles.to_vec()).unwrap();
-            EdgeTable::of(&mesh).edges().map(edge_kind).collect::<Vec<_>>()
+            EdgeTable::of(&mesh)
+                .edges()
+                .map(edge_kind)
+                .collect::<Vec<_>>()
         };
         use EdgeKind::{Collapsed, Crowded, Misoriented, Open, Paired};
         assert_eq!(kinds(&[[0, 1, 2]]), [Open; 3]);

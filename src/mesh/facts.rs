@@ -62,11 +62,18 @@ impl MeshFacts {
         Self {
             triangles: mesh.triangles().len(),
             vertices: mesh.vertices().len(),
-            size_mm: if mesh.vertices().is_empty() { Vector::zeros() } else { mesh.aabb().size() },
+            size_mm: if mesh.vertices().is_empty() {
+                Vector::zeros()
+            } else {
+                mesh.aabb().size()
+            },
             shells,
             euler_characteristic,
             genus: is_closed.then_some(shells as i64 - euler_characteristic / 2),
-            area_mm2: mesh.iter_corners().map(|corners| twice_area_mm2(&corners) / 2.0).sum(),
+            area_mm2: mesh
+                .iter_corners()
+                .map(|corners| twice_area_mm2(&corners) / 2.0)
+                .sum(),
             volume_mm3: is_closed.then(|| mesh.signed_volume_mm3()),
             open_edges: count(EdgeKind::Open),
             holes: hole_places(mesh, &table),
@@ -81,15 +88,22 @@ impl MeshFacts {
 }
 
 fn is_finite(mesh: &TriMesh) -> bool {
-    mesh.vertices().iter().all(|p| p.coords.iter().all(|x| x.is_finite()))
+    mesh.vertices()
+        .iter()
+        .all(|p| p.coords.iter().all(|x| x.is_finite()))
 }
 
 fn pinches(mesh: &TriMesh, fans: &Fans) -> Vec<Point> {
-    fans.pinches(mesh).into_iter().map(|v| mesh.vertices()[v as usize]).collect()
+    fans.pinches(mesh)
+        .into_iter()
+        .map(|v| mesh.vertices()[v as usize])
+        .collect()
 }
 
 fn first_bad_edge(mesh: &TriMesh, table: &EdgeTable) -> Option<Point> {
-    let mut bad = table.of_kind(EdgeKind::Crowded).chain(table.of_kind(EdgeKind::Misoriented));
+    let mut bad = table
+        .of_kind(EdgeKind::Crowded)
+        .chain(table.of_kind(EdgeKind::Misoriented));
     bad.next().map(|sides| middle(mesh, sides))
 }
 
@@ -100,7 +114,10 @@ fn twice_area_mm2([a, b, c]: &[Point; 3]) -> f64 {
 /// Whether the triangle has no area to speak of.
 fn is_degenerate(corners: &[Point; 3]) -> bool {
     let [a, b, c] = corners;
-    let longest = (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared());
+    let longest = (b - a)
+        .norm_squared()
+        .max((c - b).norm_squared())
+        .max((a - c).norm_squared());
     twice_area_mm2(corners) <= DEGENERATE_RATIO * longest
 }
 
@@ -115,7 +132,10 @@ mod tests {
         assert_eq!((facts.triangles, facts.vertices, facts.shells), (12, 8, 1));
         assert_eq!(facts.size_mm, Vector::new(1.0, 2.0, 3.0));
         assert_eq!((facts.euler_characteristic, facts.genus), (2, Some(0)));
-        assert!((facts.area_mm2 - 22.0).abs() < 1e-12 && (facts.volume_mm3.unwrap() - 6.0).abs() < 1e-12);
+        assert!(
+            (facts.area_mm2 - 22.0).abs() < 1e-12
+                && (facts.volume_mm3.unwrap() - 6.0).abs() < 1e-12
+        );
         assert_eq!((facts.open_edges, facts.degenerate_triangles), (0, 0));
         assert_eq!(facts.crossings, Some(Crossings::default()));
     }
@@ -131,18 +151,29 @@ mod tests {
     fn an_open_mesh_has_holes_but_neither_genus_nor_volume() {
         let ball = ball(&Point::origin(), 1.0, 2);
         // Two triangles that do not touch.
-        let rest =
-            ball.triangles()[1..].iter().filter(|t| t.iter().all(|v| !ball.triangles()[200].contains(v)));
+        let rest = ball.triangles()[1..]
+            .iter()
+            .filter(|t| t.iter().all(|v| !ball.triangles()[200].contains(v)));
         let open = TriMesh::new(ball.vertices().to_vec(), rest.copied().collect()).unwrap();
         let facts = MeshFacts::of(&open);
-        assert_eq!((facts.holes.len(), facts.genus, facts.volume_mm3), (2, None, None));
+        assert_eq!(
+            (facts.holes.len(), facts.genus, facts.volume_mm3),
+            (2, None, None)
+        );
         assert!(facts.open_edges > 3 && facts.first_bad_edge.is_none());
     }
 
     #[test]
     fn slivers_and_nonsense_are_counted_not_feared() {
-        let points = vec![Point::origin(), Point::new(1.0, 0.0, 0.0), Point::new(0.5, 1e-9, 0.0)];
-        assert_eq!(MeshFacts::of(&TriMesh::new(points, vec![[0, 1, 2]]).unwrap()).degenerate_triangles, 1);
+        let points = vec![
+            Point::origin(),
+            Point::new(1.0, 0.0, 0.0),
+            Point::new(0.5, 1e-9, 0.0),
+        ];
+        assert_eq!(
+            MeshFacts::of(&TriMesh::new(points, vec![[0, 1, 2]]).unwrap()).degenerate_triangles,
+            1
+        );
         let nan = TriMesh::new(vec![Point::new(f64::NAN, 0.0, 0.0)], vec![[0, 0, 0]]).unwrap();
         assert_eq!(MeshFacts::of(&nan).crossings, None);
         assert_eq!(MeshFacts::of(&TriMesh::default()).shells, 0);

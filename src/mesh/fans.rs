@@ -18,8 +18,13 @@ impl Fans {
     ///
     /// Where three or more triangles meet at an edge, all of them count as neighbours.
     pub fn of(mesh: &TriMesh, table: &EdgeTable) -> Self {
-        let sound = table.edges().filter(|sides| edge_kind(sides) != EdgeKind::Collapsed);
-        Self::of_pairs(mesh, sound.flat_map(|sides| sides.windows(2).map(|pair| [pair[0], pair[1]])))
+        let sound = table
+            .edges()
+            .filter(|sides| edge_kind(sides) != EdgeKind::Collapsed);
+        Self::of_pairs(
+            mesh,
+            sound.flat_map(|sides| sides.windows(2).map(|pair| [pair[0], pair[1]])),
+        )
     }
 
     /// The fans of `mesh` when only these pairs of sides count as joined.
@@ -63,7 +68,11 @@ impl Fans {
         for (&v, &fan) in mesh.triangles().iter().flatten().zip(&self.of_corner) {
             vertices[fan as usize] = mesh.vertices()[v as usize];
         }
-        let triangles = self.of_corner.chunks_exact(3).map(|fans| [fans[0], fans[1], fans[2]]).collect();
+        let triangles = self
+            .of_corner
+            .chunks_exact(3)
+            .map(|fans| [fans[0], fans[1], fans[2]])
+            .collect();
         TriMesh::from_parts(vertices, triangles)
     }
 }
@@ -87,7 +96,10 @@ mod tests {
         assert_eq!(touching.vertices().len(), 15);
         let pinches = fans(&touching).pinches(&touching);
         assert_eq!(pinches.len(), 1);
-        assert_eq!(touching.vertices()[pinches[0] as usize], Point::new(1.0, 1.0, 1.0));
+        assert_eq!(
+            touching.vertices()[pinches[0] as usize],
+            Point::new(1.0, 1.0, 1.0)
+        );
         let split = fans(&touching).split(&touching);
         assert_eq!(split.vertices().len(), 16);
         assert!(fans(&split).pinches(&split).is_empty());

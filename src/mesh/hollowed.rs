@@ -18,6 +18,8 @@ impl Hollowed {
     /// One mesh that bounds the remaining material: the outer surface and every void turned inside out.
     pub fn to_mesh(&self) -> TriMesh {
         let outer = self.outer.mesh().clone();
-        self.voids.iter().fold(outer, |mesh, void| mesh.joined(&void.mesh().reversed()))
+        self.voids
+            .iter()
+            .fold(outer, |mesh, void| mesh.joined(&void.mesh().reversed()))
     }
 }

@@ -49,7 +49,11 @@ impl fmt::Display for ShellFact {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Point { coords: at } = self.center;
         let place = format!("({:.2}, {:.2}, {:.2}) mm", at.x, at.y, at.z);
-        write!(f, "{} of {:.3} mm³ about {place}", self.role, self.volume_mm3)
+        write!(
+            f,
+            "{} of {:.3} mm³ about {place}",
+            self.role, self.volume_mm3
+        )
     }
 }
 
@@ -69,7 +73,9 @@ pub enum NotOneBody {
 }
 
 fn first_at(crossings: &Crossings) -> String {
-    crossings.first.map_or(String::new(), |p| format!(", first at ({:.2}, {:.2}, {:.2}) mm", p.x, p.y, p.z))
+    crossings.first.map_or(String::new(), |p| {
+        format!(", first at ({:.2}, {:.2}, {:.2}) mm", p.x, p.y, p.z)
+    })
 }
 
 /// The shells and, once for each kind, the remedy.
@@ -108,7 +114,11 @@ pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
         return Err(NotOneBody::Crosses(crossings));
     }
     let shells = Shells::of(mesh, &EdgeTable::of(mesh));
-    if shells.count() == 1 { Ok(()) } else { Err(NotOneBody::SeveralShells(facts(mesh, &shells))) }
+    if shells.count() == 1 {
+        Ok(())
+    } else {
+        Err(NotOneBody::SeveralShells(facts(mesh, &shells)))
+    }
 }
 
 /// What each shell is, the largest first.
@@ -144,7 +154,10 @@ mod tests {
     use crate::mesh::primitives::{ball, cuboid};
 
     fn cube(half: f64) -> TriMesh {
-        cuboid(&Point::new(-half, -half, -half), &Point::new(half, half, half))
+        cuboid(
+            &Point::new(-half, -half, -half),
+            &Point::new(half, half, half),
+        )
     }
 
     fn refused(mesh: TriMesh) -> NotOneBody {
@@ -179,21 +192,40 @@ mod tests {
     fn the_words_hold_place_volume_and_remedy_of_each_shell() {
         let hole = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(3.0, 3.0, 3.0)).reversed();
         let said = refused(cube(4.0).joined(&hole)).to_string();
-        assert!(said.contains("a cavity of 8.000 mm³ about (2.00, 2.00, 2.00) mm"), "{said}");
-        assert!(said.contains("remove the inner surfaces") && !said.contains("separate"), "{said}");
+        assert!(
+            said.contains("a cavity of 8.000 mm³ about (2.00, 2.00, 2.00) mm"),
+            "{said}"
+        );
+        assert!(
+            said.contains("remove the inner surfaces") && !said.contains("separate"),
+            "{said}"
+        );
     }
 
     #[test]
     fn a_hundred_crumbs_are_counted_not_listed() {
-        let crumb = |i: i32| cube(0.1).map_vertices(|p| p + crate::geom::Vector::x() * f64::from(i));
-        let said = refused((0..100).map(crumb).reduce(|all, next| all.joined(&next)).unwrap()).to_string();
-        assert!(said.contains("it has 100 surfaces") && said.contains("88 more"), "{said}");
+        let crumb =
+            |i: i32| cube(0.1).map_vertices(|p| p + crate::geom::Vector::x() * f64::from(i));
+        let said = refused(
+            (0..100)
+                .map(crumb)
+                .reduce(|all, next| all.joined(&next))
+                .unwrap(),
+        )
+        .to_string();
+        assert!(
+            said.contains("it has 100 surfaces") && said.contains("88 more"),
+            "{said}"
+        );
     }
 
     #[test]
     fn bodies_that_overlap_are_to_be_united() {
         let other = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(9.0, 9.0, 9.0));
         let said = refused(cube(4.0).joined(&other)).to_string();
-        assert!(said.contains("pass through each other") && said.contains("boolean union"), "{said}");
+        assert!(
+            said.contains("pass through each other") && said.contains("boolean union"),
+            "{said}"
+        );
     }
 }

@@ -15,7 +15,9 @@ pub(super) fn agreeing(mesh: TriMesh) -> TriMesh {
     let flip_of_shell: Vec<bool> = shells
         .members()
         .iter()
-        .map(|triangles| 2 * triangles.iter().filter(|&&t| turned[t as usize]).count() > triangles.len())
+        .map(|triangles| {
+            2 * triangles.iter().filter(|&&t| turned[t as usize]).count() > triangles.len()
+        })
         .collect();
     flipped_where(mesh, |t| turned[t] != flip_of_shell[shells.shell_of(t)])
 }
@@ -67,7 +69,11 @@ pub(super) fn outward(mesh: TriMesh) -> TriMesh {
 }
 
 fn enclosing(shells: &Shells, mesh: &TriMesh) -> Vec<Vec<usize>> {
-    if shells.count() > 1 { shells.enclosing(mesh) } else { vec![Vec::new(); shells.count()] }
+    if shells.count() > 1 {
+        shells.enclosing(mesh)
+    } else {
+        vec![Vec::new(); shells.count()]
+    }
 }
 
 /// Which shells to turn, from their signed volumes and the shells that enclose each.
@@ -80,7 +86,10 @@ fn shell_flips(volumes: &[f64], enclosing: &[Vec<usize>]) -> Vec<bool> {
         let around = &enclosing[shell];
         let outermost = around.iter().find(|&&outer| enclosing[outer].is_empty());
         flips[shell] = outermost.is_some_and(|&outer| flips[outer]);
-        let winding: i32 = around.iter().map(|&outer| if faces_out(outer, &flips) { 1 } else { -1 }).sum();
+        let winding: i32 = around
+            .iter()
+            .map(|&outer| if faces_out(outer, &flips) { 1 } else { -1 })
+            .sum();
         if winding <= 0 && !faces_out(shell, &flips) {
             flips[shell] = !flips[shell];
         }
@@ -101,21 +110,38 @@ mod tests {
     use crate::mesh::primitives::{ball, cuboid};
 
     fn cube(half: f64) -> TriMesh {
-        cuboid(&Point::new(-half, -half, -half), &Point::new(half, half, half))
+        cuboid(
+            &Point::new(-half, -half, -half),
+            &Point::new(half, half, half),
+        )
     }
 
     #[test]
     fn a_few_turned_triangles_are_turned_back() {
         let sound = ball(&Point::origin(), 1.0, 2);
-        assert_eq!(agreeing(flipped_where(sound.clone(), |t| t % 5 == 0)), sound);
+        assert_eq!(
+            agreeing(flipped_where(sound.clone(), |t| t % 5 == 0)),
+            sound
+        );
     }
 
     #[test]
     fn a_moebius_strip_cannot_agree() {
-        let points = (0..6).map(|i| Point::new(f64::from(i), f64::from(i % 2), 0.0)).collect();
-        let strip = vec![[0, 1, 2], [1, 3, 2], [2, 3, 4], [3, 5, 4], [4, 5, 1], [5, 0, 1]];
+        let points = (0..6)
+            .map(|i| Point::new(f64::from(i), f64::from(i % 2), 0.0))
+            .collect();
+        let strip = vec![
+            [0, 1, 2],
+            [1, 3, 2],
+            [2, 3, 4],
+            [3, 5, 4],
+            [4, 5, 1],
+            [5, 0, 1],
+        ];
         let mended = agreeing(TriMesh::new(points, strip).unwrap());
-        let misoriented = EdgeTable::of(&mended).of_kind(crate::mesh::edges::EdgeKind::Misoriented).count();
+        let misoriented = EdgeTable::of(&mended)
+            .of_kind(crate::mesh::edges::EdgeKind::Misoriented)
+            .count();
         assert_eq!(misoriented, 1);
     }
 
@@ -124,13 +150,18 @@ mod tests {
         let onion = cube(4.0).joined(&cube(3.0).reversed()).joined(&cube(2.0));
         assert_eq!(outward(onion.clone()), onion);
         assert_eq!(outward(onion.reversed()), onion);
-        let island_turned = cube(4.0).joined(&cube(3.0).reversed()).joined(&cube(2.0).reversed());
+        let island_turned = cube(4.0)
+            .joined(&cube(3.0).reversed())
+            .joined(&cube(2.0).reversed());
         assert_eq!(outward(island_turned), onion);
     }
 
     #[test]
     fn two_solids_side_by_side_both_face_outward() {
         let apart = ball(&Point::new(9.0, 0.0, 0.0), 1.0, 0);
-        assert_eq!(outward(cube(1.0).joined(&apart.reversed())), cube(1.0).joined(&apart));
+        assert_eq!(
+            outward(cube(1.0).joined(&apart.reversed())),
+            cube(1.0).joined(&apart)
+        );
     }
 }

@@ -17,10 +17,24 @@ const MAX_LEVEL: u32 = 10;
 pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
     let pick = |bit: usize, low: f64, high: f64| if bit == 0 { low } else { high };
     let corner = |i: usize| {
-        Point::new(pick(i & 1, min.x, max.x), pick(i & 2, min.y, max.y), pick(i & 4, min.z, max.z))
+        Point::new(
+            pick(i & 1, min.x, max.x),
+            pick(i & 2, min.y, max.y),
+            pick(i & 4, min.z, max.z),
+        )
     };
-    let faces = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
-    let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
+    let faces = [
+        [0, 4, 6, 2],
+        [1, 3, 7, 5],
+        [0, 1, 5, 4],
+        [2, 6, 7, 3],
+        [0, 2, 3, 1],
+        [4, 5, 7, 6],
+    ];
+    let triangles = faces
+        .iter()
+        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
+        .collect();
     TriMesh::from_parts((0..8).map(corner).collect(), triangles)
 }
 
@@ -47,7 +61,12 @@ pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
     let (bottom, top) = (2 * n, 2 * n + 1);
     let triangles = (0..n).flat_map(|i| {
         let (a, b) = (i, (i + 1) % n);
-        [[a, b, b + n], [a, b + n, a + n], [bottom, b, a], [top, a + n, b + n]]
+        [
+            [a, b, b + n],
+            [a, b + n, a + n],
+            [bottom, b, a],
+            [top, a + n, b + n],
+        ]
     });
     TriMesh::from_parts(vertices, triangles.collect())
 }
@@ -55,7 +74,10 @@ pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
 /// A ring torus about the z axis, centred on the origin, mm: `tube_mm` < `ring_mm`; `ring_segments` around the
 /// axis and `tube_segments` around the tube, at least three of each.
 pub fn torus(ring_mm: f64, tube_mm: f64, ring_segments: u32, tube_segments: u32) -> TriMesh {
-    let (n, m) = (ring_segments.max(MIN_SEGMENTS), tube_segments.max(MIN_SEGMENTS));
+    let (n, m) = (
+        ring_segments.max(MIN_SEGMENTS),
+        tube_segments.max(MIN_SEGMENTS),
+    );
     let vertices = (0..n * m).map(|v| {
         let around_tube = on_circle(tube_mm, v % m, m, 0.0);
         on_circle(ring_mm + around_tube.x, v / m, n, around_tube.y)
@@ -133,7 +155,10 @@ mod tests {
     fn every_primitive_is_a_solid_of_the_volume_its_polyhedron_has() {
         let prism = |n: f64| (TAU / n).sin() / (TAU / n);
         let cases = [
-            (cuboid(&Point::new(-1.0, 0.0, 2.0), &Point::new(1.0, 3.0, 6.0)), 24.0),
+            (
+                cuboid(&Point::new(-1.0, 0.0, 2.0), &Point::new(1.0, 3.0, 6.0)),
+                24.0,
+            ),
             (cylinder(2.0, 5.0, 7), PI * 20.0 * prism(7.0)),
             (cylinder(2.0, 5.0, 0), PI * 20.0 * prism(3.0)),
         ];
@@ -148,8 +173,16 @@ mod tests {
         let sphere = 4.0 / 3.0 * PI;
         let cases = [
             (ball(&Point::new(5.0, 0.0, 0.0), 2.0, 0), 8.0 * sphere, 0.4),
-            (ball(&Point::new(5.0, 0.0, 0.0), 2.0, 4), 8.0 * sphere, 0.006),
-            (ellipsoid(&Point::origin(), &Vector::new(1.0, 2.0, 3.0), 4), 6.0 * sphere, 0.006),
+            (
+                ball(&Point::new(5.0, 0.0, 0.0), 2.0, 4),
+                8.0 * sphere,
+                0.006,
+            ),
+            (
+                ellipsoid(&Point::origin(), &Vector::new(1.0, 2.0, 3.0), 4),
+                6.0 * sphere,
+                0.006,
+            ),
             (torus(3.0, 1.0, 90, 60), TAU * PI * 3.0, 0.006),
         ];
         for (mesh, volume, missing) in cases {
@@ -162,6 +195,10 @@ mod tests {
     fn a_ball_has_twenty_triangles_times_four_to_the_level_on_the_sphere() {
         let mesh = ball(&Point::origin(), 3.0, 3);
         assert_eq!((mesh.triangles().len(), mesh.vertices().len()), (1280, 642));
-        assert!(mesh.vertices().iter().all(|p| (p.coords.norm() - 3.0).abs() < 1e-14));
+        assert!(
+            mesh.vertices()
+                .iter()
+                .all(|p| (p.coords.norm() - 3.0).abs() < 1e-14)
+        );
     }
 }

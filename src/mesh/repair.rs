@@ -43,19 +43,32 @@ impl Repairs {
     /// What a person should know of: without the merging of equal vertices, which every STL file needs, and the dropping
     /// of unused ones, which no one sees.
     pub fn notable(self) -> Self {
-        Self { merged_vertices: 0, dropped_vertices: 0, ..self }
+        Self {
+            merged_vertices: 0,
+            dropped_vertices: 0,
+            ..self
+        }
     }
 }
 
 impl fmt::Display for Repairs {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let done = [
-            (self.merged_vertices, "vertices merged with another at the same place"),
-            (self.merged_near_vertices, "vertices on open edges merged with one next to them"),
+            (
+                self.merged_vertices,
+                "vertices merged with another at the same place",
+            ),
+            (
+                self.merged_near_vertices,
+                "vertices on open edges merged with one next to them",
+            ),
             (self.dropped_degenerate, "triangles without area dropped"),
             (self.dropped_duplicates, "doubled triangles dropped"),
             (self.flipped_triangles, "triangles turned to face outward"),
-            (self.split_vertices, "vertices added where surfaces only touch"),
+            (
+                self.split_vertices,
+                "vertices added where surfaces only touch",
+            ),
             (self.dropped_vertices, "unused vertices dropped"),
         ];
         let said: Vec<String> = done
@@ -63,7 +76,11 @@ impl fmt::Display for Repairs {
             .filter(|(count, _)| *count > 0)
             .map(|(count, what)| format!("{what}: {count}"))
             .collect();
-        if said.is_empty() { f.write_str("nothing") } else { f.write_str(&said.join(", ")) }
+        if said.is_empty() {
+            f.write_str("nothing")
+        } else {
+            f.write_str(&said.join(", "))
+        }
     }
 }
 
@@ -81,9 +98,17 @@ pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
     let mesh = without_duplicates(mesh, &mut repairs);
     let mesh = without_unused(mesh, &mut repairs);
     let given = mesh.clone();
-    let mesh = if has_kind(&mesh, EdgeKind::Misoriented) { agreeing(mesh) } else { mesh };
+    let mesh = if has_kind(&mesh, EdgeKind::Misoriented) {
+        agreeing(mesh)
+    } else {
+        mesh
+    };
     let mesh = apart(mesh, &mut repairs);
-    let mesh = if EdgeTable::of(&mesh).bad_count() == 0 { outward(mesh) } else { mesh };
+    let mesh = if EdgeTable::of(&mesh).bad_count() == 0 {
+        outward(mesh)
+    } else {
+        mesh
+    };
     repairs.flipped_triangles = turned(&given, &mesh);
     (mesh, repairs)
 }
@@ -116,7 +141,8 @@ fn closed_along_seams(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let welded = weld_open_edges(&mesh, tolerance_mm);
     tried.merged_near_vertices = mesh.vertices().len() - welded.vertices().len();
     let welded = without_degenerate(welded, &mut tried);
-    let has_two_sides = |sides: &[_]| matches!(edge_kind(sides), EdgeKind::Paired | EdgeKind::Misoriented);
+    let has_two_sides =
+        |sides: &[_]| matches!(edge_kind(sides), EdgeKind::Paired | EdgeKind::Misoriented);
     if EdgeTable::of(&welded).edges().all(has_two_sides) {
         *repairs = tried;
         return welded;
@@ -179,7 +205,9 @@ fn apart(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
 /// turning a triangle swaps its last two.
 fn turned(given: &TriMesh, mesh: &TriMesh) -> usize {
     let last = |mesh: &TriMesh, t: usize| mesh.corners(t)[2];
-    (0..mesh.triangles().len()).filter(|&t| last(given, t) != last(mesh, t)).count()
+    (0..mesh.triangles().len())
+        .filter(|&t| last(given, t) != last(mesh, t))
+        .count()
 }
 
 #[cfg(test)]
@@ -195,8 +223,13 @@ mod tests {
 
     /// Three own corners for every triangle, moved by `shift(triangle)`.
     fn soup(mesh: &TriMesh, shift: impl Fn(usize) -> Vector) -> TriMesh {
-        let vertices = mesh.iter_corners().enumerate().flat_map(|(t, corners)| corners.map(|p| p + shift(t)));
-        let triangles = (0..mesh.triangles().len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let vertices = mesh
+            .iter_corners()
+            .enumerate()
+            .flat_map(|(t, corners)| corners.map(|p| p + shift(t)));
+        let triangles = (0..mesh.triangles().len() as u32)
+            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+            .collect();
         TriMesh::new(vertices.collect(), triangles).unwrap()
     }
 
@@ -220,7 +253,10 @@ mod tests {
     fn a_soup_turned_inside_out_becomes_a_solid() {
         let torus = torus(3.0, 1.0, 20, 10);
         let (mended, repairs) = repair(soup(&torus.reversed(), |_| Vector::zeros()));
-        assert_eq!((repairs.merged_vertices, repairs.flipped_triangles), (1200 - 200, 400));
+        assert_eq!(
+            (repairs.merged_vertices, repairs.flipped_triangles),
+            (1200 - 200, 400)
+        );
         let volume = Solid::new(mended).unwrap().mesh().signed_volume_mm3();
         assert!((volume - torus.signed_volume_mm3()).abs() < 1e-12);
     }
@@ -241,14 +277,23 @@ mod tests {
         let spoilt = with_triangles(&unit_cube(), &[[0, 4, 6], [6, 0, 4], [1, 1, 2], [5, 5, 5]]);
         let (mended, repairs) = repair(spoilt);
         assert_eq!(mended, unit_cube());
-        assert_eq!((repairs.dropped_duplicates, repairs.dropped_degenerate), (2, 2));
-        assert_eq!(repairs.to_string(), "triangles without area dropped: 2, doubled triangles dropped: 2");
+        assert_eq!(
+            (repairs.dropped_duplicates, repairs.dropped_degenerate),
+            (2, 2)
+        );
+        assert_eq!(
+            repairs.to_string(),
+            "triangles without area dropped: 2, doubled triangles dropped: 2"
+        );
     }
 
     #[test]
     fn a_hole_is_never_closed() {
-        let open =
-            TriMesh::new(unit_cube().vertices().to_vec(), unit_cube().triangles()[1..].to_vec()).unwrap();
+        let open = TriMesh::new(
+            unit_cube().vertices().to_vec(),
+            unit_cube().triangles()[1..].to_vec(),
+        )
+        .unwrap();
         let (mended, repairs) = repair(open.clone());
         assert_eq!((mended, repairs.is_empty()), (open, true));
     }
@@ -265,7 +310,11 @@ mod tests {
     fn unused_vertices_go() {
         let mut vertices = vec![Point::new(9.0, 9.0, 9.0)];
         vertices.extend(unit_cube().vertices());
-        let triangles = unit_cube().triangles().iter().map(|t| t.map(|v| v + 1)).collect();
+        let triangles = unit_cube()
+            .triangles()
+            .iter()
+            .map(|t| t.map(|v| v + 1))
+            .collect();
         let (mended, repairs) = repair(TriMesh::new(vertices, triangles).unwrap());
         assert_eq!((mended, repairs.dropped_vertices), (unit_cube(), 1));
         assert!(repairs.notable().is_empty());

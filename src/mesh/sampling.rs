@@ -26,7 +26,10 @@ pub fn spread_points(triangles: &[[Point; 3]], count: usize) -> Vec<SurfacePoint
     for (triangle, area) in areas.iter().enumerate() {
         passed += area;
         while points.len() < count && (points.len() as f64 + 0.5) * step <= passed {
-            points.push(SurfacePoint { at: inside(&triangles[triangle], points.len()), triangle });
+            points.push(SurfacePoint {
+                at: inside(&triangles[triangle], points.len()),
+                triangle,
+            });
         }
     }
     points
@@ -42,7 +45,11 @@ fn inside([a, b, c]: &[Point; 3], index: usize) -> Point {
     /// The reciprocals of the plastic number and of its square, whose multiples fill a square most evenly.
     const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
     let [u, v] = STEPS.map(|step| (0.5 + step * index as f64).fract());
-    let (u, v) = if u + v > 1.0 { (1.0 - u, 1.0 - v) } else { (u, v) };
+    let (u, v) = if u + v > 1.0 {
+        (1.0 - u, 1.0 - v)
+    } else {
+        (u, v)
+    };
     let sides: [Vector; 2] = [b - a, c - a];
     a + sides[0] * u + sides[1] * v
 }
@@ -56,7 +63,9 @@ mod tests {
     fn a_share_of_the_area_is_found_by_counting() {
         // The faces of this box hold 2·(12 + 20 + 15) = 94 mm²; the top one 12 of them.
         let corners: Vec<[Point; 3]> =
-            primitives::cuboid(&Point::origin(), &Point::new(3.0, 4.0, 5.0)).iter_corners().collect();
+            primitives::cuboid(&Point::origin(), &Point::new(3.0, 4.0, 5.0))
+                .iter_corners()
+                .collect();
         let points = spread_points(&corners, 9400);
         assert_eq!(points.len(), 9400);
         let on_top = points.iter().filter(|p| p.at.z > 4.999).count();

@@ -21,7 +21,10 @@ pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
 /// where there is nothing to divide.
 fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
-    let open: Vec<Side> = table.of_kind(EdgeKind::Open).map(|sides| sides[0]).collect();
+    let open: Vec<Side> = table
+        .of_kind(EdgeKind::Open)
+        .map(|sides| sides[0])
+        .collect();
     let mut rim: Vec<u32> = open.iter().flat_map(|side| [side.low, side.high]).collect();
     rim.sort_unstable();
     rim.dedup();
@@ -35,7 +38,12 @@ fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
         }
         triangles[side.triangle()] = [from, between[0], apex];
         let ends = between.iter().skip(1).chain([&to]);
-        triangles.extend(between.iter().zip(ends).map(|(&start, &end)| [start, end, apex]));
+        triangles.extend(
+            between
+                .iter()
+                .zip(ends)
+                .map(|(&start, &end)| [start, end, apex]),
+        );
     }
     let is_divided = triangles.len() > mesh.triangles().len();
     is_divided.then(|| TriMesh::from_parts(mesh.vertices().to_vec(), triangles))
@@ -86,13 +94,20 @@ mod tests {
         let below = without_face([0.0; 3], [2.0, 1.0, 1.0], 1.0);
         let open_wall = |mesh: TriMesh| {
             let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);
-            TriMesh::new(mesh.vertices().to_vec(), mesh.triangles().iter().filter(stays).copied().collect())
-                .unwrap()
+            TriMesh::new(
+                mesh.vertices().to_vec(),
+                mesh.triangles().iter().filter(stays).copied().collect(),
+            )
+            .unwrap()
         };
         let left = open_wall(without_face([0.0, 0.0, 1.0], [1.0, 1.0, 2.0], 1.0));
         let right = open_wall(without_face([1.0, 0.0, 1.0], [2.0, 1.0, 2.0], 1.0));
         let jitter = |p: &Point| p + crate::geom::Vector::new(1e-12, 0.0, -1e-12);
-        let sewn = Solid::new(sewn(&below.joined(&left.map_vertices(jitter)).joined(&right), 1e-9)).unwrap();
+        let sewn = Solid::new(sewn(
+            &below.joined(&left.map_vertices(jitter)).joined(&right),
+            1e-9,
+        ))
+        .unwrap();
         assert!((sewn.mesh().signed_volume_mm3() - 4.0).abs() < 1e-9);
     }
 

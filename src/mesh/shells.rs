@@ -30,7 +30,10 @@ impl Shells {
         for (triangle, &shell) in of_triangle.iter().enumerate() {
             members[shell as usize].push(triangle as u32);
         }
-        Self { of_triangle, members }
+        Self {
+            of_triangle,
+            members,
+        }
     }
 
     /// How many shells there are.
@@ -52,21 +55,40 @@ impl Shells {
     pub fn volumes_mm3(&self, mesh: &TriMesh) -> Vec<f64> {
         let volume = |triangles: &Vec<u32>| {
             let [apex, ..] = mesh.corners(triangles[0] as usize);
-            triangles.iter().map(|&t| signed_volume_mm3(&mesh.corners(t as usize), &apex)).sum()
+            triangles
+                .iter()
+                .map(|&t| signed_volume_mm3(&mesh.corners(t as usize), &apex))
+                .sum()
         };
         self.members.iter().map(volume).collect()
     }
 
     /// For each shell the shells that enclose it, ascending. The shells must be closed and must not cross.
     pub fn enclosing(&self, mesh: &TriMesh) -> Vec<Vec<usize>> {
-        let boxes: Vec<Aabb> = self.members.iter().map(|triangles| shell_box(mesh, triangles)).collect();
+        let boxes: Vec<Aabb> = self
+            .members
+            .iter()
+            .map(|triangles| shell_box(mesh, triangles))
+            .collect();
         let encloses = |outer: usize, inner: usize| {
             outer != inner
                 && holds(&boxes[outer], &boxes[inner])
-                && winds_around(mesh, &self.members[outer], &mesh.corners(self.members[inner][0] as usize)[0])
+                && winds_around(
+                    mesh,
+                    &self.members[outer],
+                    &mesh.corners(self.members[inner][0] as usize)[0],
+                )
         };
         let shells = 0..self.count();
-        shells.clone().map(|inner| shells.clone().filter(|&outer| encloses(outer, inner)).collect()).collect()
+        shells
+            .clone()
+            .map(|inner| {
+                shells
+                    .clone()
+                    .filter(|&outer| encloses(outer, inner))
+                    .collect()
+            })
+            .collect()
     }
 }
 
@@ -91,7 +113,11 @@ fn holds(outer: &Aabb, inner: &Aabb) -> bool {
 /// Exact (Shewchuk's predicates); a point straight below an edge or a vertex counts as moved by (ε, ε²), so each
 /// crossing is counted once.
 fn winds_around(mesh: &TriMesh, triangles: &[u32], point: &Point) -> bool {
-    triangles.iter().map(|&t| crossing_above(&mesh.corners(t as usize), point)).sum::<i32>() != 0
+    triangles
+        .iter()
+        .map(|&t| crossing_above(&mesh.corners(t as usize), point))
+        .sum::<i32>()
+        != 0
 }
 
 /// +1 or −1 when the triangle lies above the point and faces up or down, else 0.
@@ -104,7 +130,11 @@ fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     if !spans(|p| p.x) || !spans(|p| p.y) {
         return 0;
     }
-    let turns = [side_of_edge(a, b, point), side_of_edge(b, c, point), side_of_edge(c, a, point)];
+    let turns = [
+        side_of_edge(a, b, point),
+        side_of_edge(b, c, point),
+        side_of_edge(c, a, point),
+    ];
     let facing = if turns == [1; 3] {
         1
     } else if turns == [-1; 3] {
@@ -112,7 +142,11 @@ fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     } else {
         return 0;
     };
-    let [a, b, c, p] = [a, b, c, point].map(|p| Coord3D { x: p.x, y: p.y, z: p.z });
+    let [a, b, c, p] = [a, b, c, point].map(|p| Coord3D {
+        x: p.x,
+        y: p.y,
+        z: p.z,
+    });
     let below = f64::from(facing) * orient3d(a, b, c, p);
     if below > 0.0 { facing } else { 0 }
 }
@@ -139,7 +173,10 @@ mod tests {
     use crate::mesh::primitives::{ball, cuboid};
 
     fn cube(half: f64) -> TriMesh {
-        cuboid(&Point::new(-half, -half, -half), &Point::new(half, half, half))
+        cuboid(
+            &Point::new(-half, -half, -half),
+            &Point::new(half, half, half),
+        )
     }
 
     fn shells(mesh: &TriMesh) -> Shells {
@@ -148,11 +185,16 @@ mod tests {
 
     #[test]
     fn nested_boxes_are_found_even_straight_below_edges_and_corners() {
-        let mesh =
-            cube(1.0).joined(&cube(3.0)).joined(&cube(2.0)).joined(&ball(&Point::new(9.0, 0.0, 0.0), 1.0, 1));
+        let mesh = cube(1.0)
+            .joined(&cube(3.0))
+            .joined(&cube(2.0))
+            .joined(&ball(&Point::new(9.0, 0.0, 0.0), 1.0, 1));
         let shells = shells(&mesh);
         assert_eq!(shells.count(), 4);
-        assert_eq!(shells.enclosing(&mesh), [vec![1, 2], vec![], vec![1], vec![]]);
+        assert_eq!(
+            shells.enclosing(&mesh),
+            [vec![1, 2], vec![], vec![1], vec![]]
+        );
     }
 
     #[test]
@@ -161,7 +203,11 @@ mod tests {
         let all: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
         for (i, v) in mesh.vertices().iter().enumerate() {
             let factor = if i % 2 == 0 { 0.9 } else { 1.1 };
-            assert_eq!(winds_around(&mesh, &all, &(v * factor)), factor < 1.0, "{v}");
+            assert_eq!(
+                winds_around(&mesh, &all, &(v * factor)),
+                factor < 1.0,
+                "{v}"
+            );
         }
     }
 

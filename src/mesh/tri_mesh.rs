@@ -33,16 +33,31 @@ impl TriMesh {
         let count = vertices.len();
         for (triangle, corners) in triangles.iter().enumerate() {
             if let Some(&vertex) = corners.iter().find(|&&v| v as usize >= count) {
-                return Err(MeshError::IndexOutOfRange { triangle, vertex, vertices: count });
+                return Err(MeshError::IndexOutOfRange {
+                    triangle,
+                    vertex,
+                    vertices: count,
+                });
             }
         }
-        Ok(Self { vertices, triangles })
+        Ok(Self {
+            vertices,
+            triangles,
+        })
     }
 
     /// The mesh of parts whose indices are in range by construction.
     pub(crate) fn from_parts(vertices: Vec<Point>, triangles: Vec<[u32; 3]>) -> Self {
-        debug_assert!(triangles.iter().flatten().all(|&v| (v as usize) < vertices.len()));
-        Self { vertices, triangles }
+        debug_assert!(
+            triangles
+                .iter()
+                .flatten()
+                .all(|&v| (v as usize) < vertices.len())
+        );
+        Self {
+            vertices,
+            triangles,
+        }
     }
 
     /// The vertices, mm.
@@ -67,7 +82,9 @@ impl TriMesh {
 
     /// The corners of every triangle, in order.
     pub fn iter_corners(&self) -> impl ExactSizeIterator<Item = [Point; 3]> + '_ {
-        self.triangles.iter().map(|t| t.map(|v| self.vertices[v as usize]))
+        self.triangles
+            .iter()
+            .map(|t| t.map(|v| self.vertices[v as usize]))
     }
 
     /// The bounding box of the vertices.
@@ -77,19 +94,28 @@ impl TriMesh {
 
     /// The same triangles with each vertex moved by `f`.
     pub fn map_vertices(&self, f: impl Fn(&Point) -> Point) -> Self {
-        Self { vertices: self.vertices.iter().map(f).collect(), triangles: self.triangles.clone() }
+        Self {
+            vertices: self.vertices.iter().map(f).collect(),
+            triangles: self.triangles.clone(),
+        }
     }
 
     /// The longest side of the bounding box, mm; zero for a mesh without vertices.
     pub fn longest_side_mm(&self) -> f64 {
-        if self.vertices.is_empty() { 0.0 } else { self.aabb().size().max() }
+        if self.vertices.is_empty() {
+            0.0
+        } else {
+            self.aabb().size().max()
+        }
     }
 
     /// The volume the triangles enclose, mm³: negative when they face inward, without meaning when the mesh is
     /// open. By the divergence theorem about the middle of the bounding box, plain summation.
     pub fn signed_volume_mm3(&self) -> f64 {
         let center = self.aabb().center();
-        self.iter_corners().map(|corners| signed_volume_mm3(&corners, &center)).sum()
+        self.iter_corners()
+            .map(|corners| signed_volume_mm3(&corners, &center))
+            .sum()
     }
 
     /// The same mesh in `frame`'s own coordinates.
@@ -100,14 +126,18 @@ impl TriMesh {
     /// The same mesh with every triangle turned inside out.
     pub fn reversed(&self) -> Self {
         let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
-        Self { vertices: self.vertices.clone(), triangles }
+        Self {
+            vertices: self.vertices.clone(),
+            triangles,
+        }
     }
 
     /// Both meshes side by side, nothing shared; `other`'s vertices come after this mesh's.
     pub fn joined(mut self, other: &Self) -> Self {
         let shift = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);
-        self.triangles.extend(other.triangles.iter().map(|t| t.map(|v| v + shift)));
+        self.triangles
+            .extend(other.triangles.iter().map(|t| t.map(|v| v + shift)));
         self
     }
 }

@@ -30,7 +30,12 @@ pub fn unfolded(mesh: &TriMesh) -> TriMesh {
         if found.len() < best.0 {
             best = (found.len(), mended.clone());
         }
-        let Some(next) = (!found.is_empty()).then(|| mended_at(&mended, &found)).flatten() else { break };
+        let Some(next) = (!found.is_empty())
+            .then(|| mended_at(&mended, &found))
+            .flatten()
+        else {
+            break;
+        };
         mended = next;
     }
     best.1
@@ -74,7 +79,10 @@ fn at_slivers(mesh: &TriMesh) -> Vec<u32> {
         }
     }
     let triangles = mesh.triangles().iter().enumerate();
-    triangles.filter(|(_, t)| t.iter().any(|&v| is_thin[v as usize])).map(|(i, _)| i as u32).collect()
+    triangles
+        .filter(|(_, t)| t.iter().any(|&v| is_thin[v as usize]))
+        .map(|(i, _)| i as u32)
+        .collect()
 }
 
 /// The mesh with the thinnest triangle at each fold mended, or nothing where none can be.
@@ -88,8 +96,12 @@ fn mended_at(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
         patch.mend(pair);
     }
     let is_mended = !patch.touched.is_empty();
-    patch.triangles.retain(|[a, b, c]| a != b && b != c && c != a);
-    TriMesh::new(patch.vertices, patch.triangles).ok().filter(|_| is_mended)
+    patch
+        .triangles
+        .retain(|[a, b, c]| a != b && b != c && c != a);
+    TriMesh::new(patch.vertices, patch.triangles)
+        .ok()
+        .filter(|_| is_mended)
 }
 
 /// A surface under repair. Triangles that went have two corners in one.
@@ -103,14 +115,23 @@ struct Patch {
 impl Patch {
     /// Mends the fold of two triangles at the thinnest of them and their neighbours.
     fn mend(&mut self, pair: &[u32; 2]) {
-        let corners: Vec<u32> = pair.iter().flat_map(|&t| self.triangles[t as usize]).collect();
+        let corners: Vec<u32> = pair
+            .iter()
+            .flat_map(|&t| self.triangles[t as usize])
+            .collect();
         if corners.iter().any(|v| self.touched.contains(v)) {
             return;
         }
         let near = |t: &[u32; 3]| t.iter().filter(|v| corners.contains(v)).count() >= 2;
-        let mut at: Vec<usize> = (0..self.triangles.len()).filter(|&t| near(&self.triangles[t])).collect();
+        let mut at: Vec<usize> = (0..self.triangles.len())
+            .filter(|&t| near(&self.triangles[t]))
+            .collect();
         at.sort_by(|&s, &t| self.height(s).total_cmp(&self.height(t)));
-        for t in at.into_iter().filter(|&t| self.height(t) < THIN_MM).collect::<Vec<_>>() {
+        for t in at
+            .into_iter()
+            .filter(|&t| self.height(t) < THIN_MM)
+            .collect::<Vec<_>>()
+        {
             if self.turn(t) || self.close(t) {
                 return;
             }
@@ -129,7 +150,9 @@ impl Patch {
     /// higher than it was, none of them turned over.
     fn turn(&mut self, t: usize) -> bool {
         let [a, b, c] = longest_first(self.triangles[t], &self.corners(self.triangles[t]));
-        let Some((u, d)) = self.across(b, a) else { return false };
+        let Some((u, d)) = self.across(b, a) else {
+            return false;
+        };
         let turned = [[a, d, c], [d, b, c]];
         let facing = normal(&self.corners(self.triangles[u]));
         let low = self.height(t);
@@ -164,7 +187,9 @@ impl Patch {
     fn close(&mut self, t: usize) -> bool {
         let [a, b, c] = shortest_first(self.triangles[t], &self.corners(self.triangles[t]));
         let length = (self.vertices[a as usize] - self.vertices[b as usize]).norm();
-        let Some((_, d)) = self.across(b, a) else { return false };
+        let Some((_, d)) = self.across(b, a) else {
+            return false;
+        };
         if length > CLOSED_MM
             || self.common(a, b) != sorted([c, d])
             || !(self.moves(a, b) || self.moves(b, a))
@@ -178,7 +203,13 @@ impl Patch {
     /// The vertices joined to both, ascending.
     fn common(&self, a: u32, b: u32) -> Vec<u32> {
         let ring = |v: u32| -> Vec<u32> {
-            self.triangles.iter().filter(|t| t.contains(&v)).flatten().copied().filter(|&w| w != v).collect()
+            self.triangles
+                .iter()
+                .filter(|t| t.contains(&v))
+                .flatten()
+                .copied()
+                .filter(|&w| w != v)
+                .collect()
         };
         let near_b = ring(b);
         let mut both: Vec<u32> = ring(a).into_iter().filter(|v| near_b.contains(v)).collect();
@@ -194,7 +225,12 @@ impl Patch {
             let (before, after) = (self.corners(**t), self.corners(moved(**t)));
             height(&before) < THIN_MM || normal(&before).dot(&normal(&after)) > 0.0
         };
-        if !self.triangles.iter().filter(|t| t.contains(&from) && !t.contains(&to)).all(|t| keeps_side(&t)) {
+        if !self
+            .triangles
+            .iter()
+            .filter(|t| t.contains(&from) && !t.contains(&to))
+            .all(|t| keeps_side(&t))
+        {
             return false;
         }
         self.triangles.iter_mut().for_each(|t| *t = moved(*t));
@@ -220,19 +256,29 @@ fn sides(corners: &[Point; 3]) -> [f64; 3] {
 /// The height over the longest side, mm.
 fn height(corners: &[Point; 3]) -> f64 {
     let longest = sides(corners).into_iter().fold(0.0, f64::max);
-    if longest > 0.0 { normal(corners).norm() / longest } else { 0.0 }
+    if longest > 0.0 {
+        normal(corners).norm() / longest
+    } else {
+        0.0
+    }
 }
 
 /// The triangle's corners, beginning with the ends of its longest side.
 fn longest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
     let lengths = sides(corners);
-    turned_to(triangle, (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j])))
+    turned_to(
+        triangle,
+        (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j])),
+    )
 }
 
 /// The triangle's corners, beginning with the ends of its shortest side.
 fn shortest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
     let lengths = sides(corners);
-    turned_to(triangle, (0..3).min_by(|&i, &j| lengths[i].total_cmp(&lengths[j])))
+    turned_to(
+        triangle,
+        (0..3).min_by(|&i, &j| lengths[i].total_cmp(&lengths[j])),
+    )
 }
 
 fn turned_to(mut triangle: [u32; 3], first: Option<usize>) -> [u32; 3] {
@@ -246,8 +292,12 @@ mod tests {
     use crate::mesh::Solid;
 
     /// A skew tetrahedron far from the origin, whose coordinates are no multiples of a file's steps.
-    const CORNERS: [[f64; 3]; 4] =
-        [[71.3, 88.7, 59.1], [92.9, 97.3, 63.7], [80.1, 121.9, 61.3], [83.7, 99.1, 91.9]];
+    const CORNERS: [[f64; 3]; 4] = [
+        [71.3, 88.7, 59.1],
+        [92.9, 97.3, 63.7],
+        [80.1, 121.9, 61.3],
+        [83.7, 99.1, 91.9],
+    ];
 
     /// The tetrahedron with more vertices on its side from 0 to 1, at these shares of it, each pushed off it by `aside_mm`
     /// toward the middle of the faces there.
@@ -264,31 +314,58 @@ mod tests {
 
     /// Face 0 1 2 ends at the vertex beside the side and a cap lies between it and face 1 0 3.
     fn capped(share: f64) -> TriMesh {
-        let triangles = vec![[0, 4, 2], [4, 1, 2], [0, 1, 4], [1, 0, 3], [1, 3, 2], [2, 3, 0]];
+        let triangles = vec![
+            [0, 4, 2],
+            [4, 1, 2],
+            [0, 1, 4],
+            [1, 0, 3],
+            [1, 3, 2],
+            [2, 3, 0],
+        ];
         outward(tetrahedron(&[share], 1e-7), triangles)
     }
 
     /// Both faces at the side have two vertices in common there that are 1e-6 mm apart.
     fn needled(share: f64) -> TriMesh {
-        let triangles =
-            vec![[0, 4, 2], [4, 5, 2], [5, 1, 2], [4, 0, 3], [5, 4, 3], [1, 5, 3], [1, 3, 2], [2, 3, 0]];
+        let triangles = vec![
+            [0, 4, 2],
+            [4, 5, 2],
+            [5, 1, 2],
+            [4, 0, 3],
+            [5, 4, 3],
+            [1, 5, 3],
+            [1, 3, 2],
+            [2, 3, 0],
+        ];
         outward(tetrahedron(&[share, share + 5e-8], 0.0), triangles)
     }
 
     fn outward(vertices: Vec<Point>, triangles: Vec<[u32; 3]>) -> TriMesh {
         let mesh = TriMesh::new(vertices, triangles).unwrap();
-        if mesh.signed_volume_mm3() < 0.0 { mesh.reversed() } else { mesh }
+        if mesh.signed_volume_mm3() < 0.0 {
+            mesh.reversed()
+        } else {
+            mesh
+        }
     }
 
     /// Of many places of the extra vertices, how many are folded when written, and how many are still when unfolded.
     fn folded(surface: impl Fn(f64) -> TriMesh) -> [usize; 2] {
         let meshes: Vec<TriMesh> = (1..200).map(|i| surface(f64::from(i) / 203.0)).collect();
-        let count = |meshes: &[TriMesh]| meshes.iter().filter(|m| !folds(&as_written(m)).is_empty()).count();
+        let count = |meshes: &[TriMesh]| {
+            meshes
+                .iter()
+                .filter(|m| !folds(&as_written(m)).is_empty())
+                .count()
+        };
         let mended: Vec<TriMesh> = meshes.iter().map(unfolded).collect();
         for (mesh, mended) in meshes.iter().zip(&mended) {
             let volume = mesh.signed_volume_mm3();
             // A side of 25 mm moved by at most the height of a sliver, 1e-6 mm, over an area of 400 mm².
-            assert!((mended.signed_volume_mm3() - volume).abs() < 1e-3, "{volume}");
+            assert!(
+                (mended.signed_volume_mm3() - volume).abs() < 1e-3,
+                "{volume}"
+            );
             Solid::new(mended.clone()).unwrap();
         }
         [count(&meshes), count(&mended)]

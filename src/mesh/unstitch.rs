@@ -61,7 +61,9 @@ fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
 fn around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
     let place = |v: u32| mesh.vertices()[v as usize];
     let low = place(sides[0].low);
-    let along = (place(sides[0].high) - low).try_normalize(0.0).unwrap_or_else(Vector::z);
+    let along = (place(sides[0].high) - low)
+        .try_normalize(0.0)
+        .unwrap_or_else(Vector::z);
     let (u, v) = crate::geom::orthonormal_basis(&along);
     let angle = |side: &Side| {
         let apex = mesh.triangles()[side.triangle()][(side.id as usize + 2) % 3];
@@ -91,7 +93,13 @@ mod tests {
     #[test]
     fn two_boxes_that_share_an_edge_come_apart_and_keep_their_volume() {
         let touching = weld(&unit_cube().joined(&at(1.0, 1.0, 0.0)));
-        assert_eq!((touching.vertices().len(), EdgeTable::of(&touching).bad_count()), (14, 1));
+        assert_eq!(
+            (
+                touching.vertices().len(),
+                EdgeTable::of(&touching).bad_count()
+            ),
+            (14, 1)
+        );
         let apart = unstitched(&touching).unwrap();
         assert_eq!(apart.vertices().len(), 16);
         assert_eq!(Solid::new(apart).unwrap().mesh().signed_volume_mm3(), 2.0);
@@ -103,9 +111,17 @@ mod tests {
         for &[x, y, z] in cubes {
             let cube = at(x.into(), y.into(), z.into());
             // The faces of a box come two triangles each: low and high x, y, z.
-            let nearby =
-                [[x - 1, y, z], [x + 1, y, z], [x, y - 1, z], [x, y + 1, z], [x, y, z - 1], [x, y, z + 1]];
-            let bare = (0..12).filter(|t| !cubes.contains(&nearby[t / 2])).map(|t| cube.triangles()[t]);
+            let nearby = [
+                [x - 1, y, z],
+                [x + 1, y, z],
+                [x, y - 1, z],
+                [x, y + 1, z],
+                [x, y, z - 1],
+                [x, y, z + 1],
+            ];
+            let bare = (0..12)
+                .filter(|t| !cubes.contains(&nearby[t / 2]))
+                .map(|t| cube.triangles()[t]);
             all = all.joined(&TriMesh::new(cube.vertices().to_vec(), bare.collect()).unwrap());
         }
         weld(&all)
@@ -116,7 +132,11 @@ mod tests {
         // A storey with two cubes that share an upright edge, between two full storeys: parted around the
         // material, the surface would still be one around both ends of the edge.
         let mut cubes = vec![[0, 0, 1], [1, 1, 1]];
-        cubes.extend([[0, 0], [0, 1], [1, 0], [1, 1]].iter().flat_map(|&[x, y]| [[x, y, 0], [x, y, 2]]));
+        cubes.extend(
+            [[0, 0], [0, 1], [1, 0], [1, 1]]
+                .iter()
+                .flat_map(|&[x, y]| [[x, y, 0], [x, y, 2]]),
+        );
         let mesh = surface_of_cubes(&cubes);
         assert_eq!(EdgeTable::of(&mesh).bad_count(), 1);
         let apart = unstitched(&mesh).unwrap();
@@ -128,6 +148,9 @@ mod tests {
         let cube = unit_cube();
         let mut triangles = cube.triangles().to_vec();
         triangles.push([0, 1, 7]);
-        assert_eq!(unstitched(&TriMesh::new(cube.vertices().to_vec(), triangles).unwrap()), None);
+        assert_eq!(
+            unstitched(&TriMesh::new(cube.vertices().to_vec(), triangles).unwrap()),
+            None
+        );
     }
 }

@@ -38,14 +38,20 @@ pub(super) fn weld_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     for v in rim_vertices(mesh) {
         let place = &mesh.vertices()[v as usize];
         let cell = [place.x, place.y, place.z].map(|x| (x / tolerance_mm).floor() as i64);
-        for other in neighbour_cells(cell).iter().filter_map(|near| cells.get(near)).flatten() {
+        for other in neighbour_cells(cell)
+            .iter()
+            .filter_map(|near| cells.get(near))
+            .flatten()
+        {
             if (mesh.vertices()[*other as usize] - place).norm() <= tolerance_mm {
                 sets.merge(v, *other);
             }
         }
         cells.entry(cell).or_default().push(v);
     }
-    let same_as: Vec<u32> = (0..mesh.vertices().len() as u32).map(|v| sets.root(v)).collect();
+    let same_as: Vec<u32> = (0..mesh.vertices().len() as u32)
+        .map(|v| sets.root(v))
+        .collect();
     renumbered(mesh, &same_as)
 }
 
@@ -53,15 +59,21 @@ pub(super) fn weld_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
 fn neighbour_cells([x, y, z]: [i64; 3]) -> [[i64; 3]; 27] {
     std::array::from_fn(|i| {
         let step = |stride: usize| (i / stride % 3) as i64 - 1;
-        [x.saturating_add(step(1)), y.saturating_add(step(3)), z.saturating_add(step(9))]
+        [
+            x.saturating_add(step(1)),
+            y.saturating_add(step(3)),
+            z.saturating_add(step(9)),
+        ]
     })
 }
 
 /// The vertices on open edges, ascending.
 fn rim_vertices(mesh: &TriMesh) -> Vec<u32> {
     let table = EdgeTable::of(mesh);
-    let mut rim: Vec<u32> =
-        table.of_kind(EdgeKind::Open).flat_map(|sides| [sides[0].low, sides[0].high]).collect();
+    let mut rim: Vec<u32> = table
+        .of_kind(EdgeKind::Open)
+        .flat_map(|sides| [sides[0].low, sides[0].high])
+        .collect();
     rim.sort_unstable();
     rim.dedup();
     rim
@@ -77,15 +89,21 @@ fn renumbered(mesh: &TriMesh, same_as: &[u32]) -> TriMesh {
             vertices.push(mesh.vertices()[v]);
         }
     }
-    let triangles =
-        mesh.triangles().iter().map(|t| t.map(|v| new_index[same_as[v as usize] as usize])).collect();
+    let triangles = mesh
+        .triangles()
+        .iter()
+        .map(|t| t.map(|v| new_index[same_as[v as usize] as usize]))
+        .collect();
     TriMesh::from_parts(vertices, triangles)
 }
 
 /// The mesh without the vertices that no triangle uses; the others keep their order.
 pub(super) fn without_unused_vertices(mesh: TriMesh) -> TriMesh {
     let mut used = vec![false; mesh.vertices().len()];
-    mesh.triangles().iter().flatten().for_each(|&v| used[v as usize] = true);
+    mesh.triangles()
+        .iter()
+        .flatten()
+        .for_each(|&v| used[v as usize] = true);
     if used.iter().all(|&u| u) {
         return mesh;
     }
@@ -95,7 +113,11 @@ pub(super) fn without_unused_vertices(mesh: TriMesh) -> TriMesh {
         new_index[v] = vertices.len() as u32;
         vertices.push(mesh.vertices()[v]);
     }
-    let triangles = mesh.triangles().iter().map(|t| t.map(|v| new_index[v as usize])).collect();
+    let triangles = mesh
+        .triangles()
+        .iter()
+        .map(|t| t.map(|v| new_index[v as usize]))
+        .collect();
     TriMesh::from_parts(vertices, triangles)
 }
 
@@ -107,7 +129,9 @@ mod tests {
     /// Three own corners for every triangle, as an STL file has them.
     pub fn soup(mesh: &TriMesh) -> TriMesh {
         let vertices: Vec<Point> = mesh.iter_corners().flatten().collect();
-        let triangles = (0..mesh.triangles().len() as u32).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+        let triangles = (0..mesh.triangles().len() as u32)
+            .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+            .collect();
         TriMesh::new(vertices, triangles).unwrap()
     }
 
@@ -132,8 +156,12 @@ mod tests {
     fn only_rims_are_drawn_together() {
         let mesh = ball(&Point::origin(), 1.0, 1);
         assert_eq!(weld_open_edges(&mesh, 10.0), mesh);
-        let soup = soup(&mesh).map_vertices(|p| p + crate::geom::Vector::new(1e-9, 0.0, 0.0) * p.y.signum());
-        assert_eq!(weld_open_edges(&soup, 1e-8).vertices().len(), mesh.vertices().len());
+        let soup = soup(&mesh)
+            .map_vertices(|p| p + crate::geom::Vector::new(1e-9, 0.0, 0.0) * p.y.signum());
+        assert_eq!(
+            weld_open_edges(&soup, 1e-8).vertices().len(),
+            mesh.vertices().len()
+        );
     }
 
     #[test]
@@ -141,6 +169,9 @@ mod tests {
         let points = (0..5).map(|i| Point::new(f64::from(i), 0.0, 0.0)).collect();
         let mesh = without_unused_vertices(TriMesh::new(points, vec![[4, 1, 3]]).unwrap());
         assert_eq!(mesh.triangles(), [[2, 0, 1]]);
-        assert_eq!(mesh.vertices().iter().map(|p| p.x).collect::<Vec<_>>(), [1.0, 3.0, 4.0]);
+        assert_eq!(
+            mesh.vertices().iter().map(|p| p.x).collect::<Vec<_>>(),
+            [1.0, 3.0, 4.0]
+        );
     }
 }

@@ -9,7 +9,8 @@ use crate::report::quantity;
 use crate::verify::Check;
 
 /// What to do where hardware is in the way: the remedies are sought on models as they are.
-const BARE: &str = "leave the hardware out, to be told by how much the model as it is can or cannot";
+const BARE: &str =
+    "leave the hardware out, to be told by how much the model as it is can or cannot";
 
 /// What a case is made of besides the request.
 #[derive(Debug, Clone, Copy)]
@@ -49,7 +50,11 @@ impl<'a> Means<'a> {
             );
             return (best.request, Some(choice));
         }
-        let up = if request.kind == GoalKind::Stand { Up::Z } else { Up::Principal };
+        let up = if request.kind == GoalKind::Stand {
+            Up::Z
+        } else {
+            Up::Principal
+        };
         let choice = format!("no axis that was tried allows it; this is for --up={up}");
         (Request { up, ..*request }, Some(choice))
     }
@@ -63,35 +68,75 @@ pub fn advised(setup: &Setup, impossible: Impossible, progress: &Progress) -> Im
     }
     progress.report(phase::ADVISE, 0.0);
     if setup.fitted.is_some() {
-        let hints = impossible.hints.into_iter().chain([BARE.to_owned()]).collect();
-        return Impossible { hints, ..impossible };
+        let hints = impossible
+            .hints
+            .into_iter()
+            .chain([BARE.to_owned()])
+            .collect();
+        return Impossible {
+            hints,
+            ..impossible
+        };
     }
-    let Setup { model, printer, material, wall, .. } = setup;
-    let remedies = remedies(&Means { model, printer, material, wall }.case(setup.request));
-    let hints = if remedies.iter().any(Remedy::helps) { Vec::new() } else { impossible.hints };
-    Impossible { remedies, hints, ..impossible }
+    let Setup {
+        model,
+        printer,
+        material,
+        wall,
+        ..
+    } = setup;
+    let remedies = remedies(
+        &Means {
+            model,
+            printer,
+            material,
+            wall,
+        }
+        .case(setup.request),
+    );
+    let hints = if remedies.iter().any(Remedy::helps) {
+        Vec::new()
+    } else {
+        impossible.hints
+    };
+    Impossible {
+        remedies,
+        hints,
+        ..impossible
+    }
 }
 
 /// What is worth a try where a promise is broken, by the beginning of its check's name.
 const HINTS: [(&str, &str); 8] = [
     ("standing", "lay ballast into its foot (--ballast=auto)"),
-    ("axis", "a finer --pitch brings the written parts nearer to the optimum"),
+    (
+        "axis",
+        "a finer --pitch brings the written parts nearer to the optimum",
+    ),
     (
         "dominance",
         "spin it about the axis of its largest moment (--up=principal, or --up=auto for the best of all)",
     ),
-    ("wall", "give a thicker --wall, so that what is lost at sharp edges does not count"),
-    ("build volume", "make it smaller (--size), or choose a printer with more room"),
+    (
+        "wall",
+        "give a thicker --wall, so that what is lost at sharp edges does not count",
+    ),
+    (
+        "build volume",
+        "make it smaller (--size), or choose a printer with more room",
+    ),
     (
         "void",
         "make it larger with the same wall, or give the cuts yourself: edit cuts.toml and give it back with --cut",
     ),
-    ("socket wall", "give a thicker --wall, or align the parts by dowels (--pins=dowel)"),
+    (
+        "socket wall",
+        "give a thicker --wall, or align the parts by dowels (--pins=dowel)",
+    ),
     ("waterline", "leave the waterline free (--waterline=auto)"),
 ];
 /// What helps most goals a little.
-const MORE_ROOM: &str =
-    "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
+const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
 
 /// A kit with the reason why it fails and what helps, where it does.
 pub fn after(setup: &Setup, prepared: Prepared, progress: &Progress) -> Prepared {
@@ -102,11 +147,28 @@ pub fn after(setup: &Setup, prepared: Prepared, progress: &Progress) -> Prepared
     let checks = &prepared.checklist.checks;
     let broken: Vec<&Check> = checks.iter().filter(|check| !check.pass).collect();
     let stands = broken.iter().any(|check| check.name == "standing");
-    let hints = HINTS.iter().filter(|(name, _)| broken.iter().any(|check| check.name.starts_with(name)));
-    let hints = hints.map(|(_, hint)| *hint).chain([MORE_ROOM]).map(str::to_owned).collect();
-    let remedies = if stands { other_faces(setup) } else { Vec::new() };
-    let failure = Some(Failure { reason: reason(&prepared, &broken), remedies, hints });
-    Prepared { failure, ..prepared }
+    let hints = HINTS
+        .iter()
+        .filter(|(name, _)| broken.iter().any(|check| check.name.starts_with(name)));
+    let hints = hints
+        .map(|(_, hint)| *hint)
+        .chain([MORE_ROOM])
+        .map(str::to_owned)
+        .collect();
+    let remedies = if stands {
+        other_faces(setup)
+    } else {
+        Vec::new()
+    };
+    let failure = Some(Failure {
+        reason: reason(&prepared, &broken),
+        remedies,
+        hints,
+    });
+    Prepared {
+        failure,
+        ..prepared
+    }
 }
 
 /// What the goal could have reached, and what became of it.
@@ -129,8 +191,23 @@ fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
 
 /// The nearest other face that it surely stands on.
 fn other_faces(setup: &Setup) -> Vec<Remedy> {
-    let Setup { model, printer, material, wall, .. } = setup;
-    let found = remedies(&Means { model, printer, material, wall }.case(setup.request));
-    let is_face = |remedy: &Remedy| remedy.kind == crate::advice::Kind::NearestFace && remedy.helps();
+    let Setup {
+        model,
+        printer,
+        material,
+        wall,
+        ..
+    } = setup;
+    let found = remedies(
+        &Means {
+            model,
+            printer,
+            material,
+            wall,
+        }
+        .case(setup.request),
+    );
+    let is_face =
+        |remedy: &Remedy| remedy.kind == crate::advice::Kind::NearestFace && remedy.helps();
     found.into_iter().filter(is_face).collect()
 }

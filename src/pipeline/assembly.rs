@@ -81,12 +81,25 @@ impl Assembly {
         watch.lap("voids");
         progress.report(phase::PARTS, 0.0);
         let asked = (&plan_request(setup), lengths);
-        let Planned { voids, plan, notes, request, cleaning, bosses, lengths } =
-            planned(setup, (&mut tuner, &mut *watch), voids, asked)?;
+        let Planned {
+            voids,
+            plan,
+            notes,
+            request,
+            cleaning,
+            bosses,
+            lengths,
+        } = planned(setup, (&mut tuner, &mut *watch), voids, asked)?;
         let mut assembly = assembled(setup, &mut tuner, (voids, plan), &request)?;
         assembly.plan.notes.extend(notes);
         watch.lap("parts");
-        Ok(Self { value_before_cleaning, cleaning, bosses, lengths, ..assembly })
+        Ok(Self {
+            value_before_cleaning,
+            cleaning,
+            bosses,
+            lengths,
+            ..assembly
+        })
     }
 
     /// The moments of the written parts put together, without hardware and ballast, model frame.
@@ -137,9 +150,17 @@ fn assembled(
             best = last.clone();
         }
     }
-    let Made { voids, plan, parts, .. } = best;
+    let Made {
+        voids, plan, parts, ..
+    } = best;
     let plan = cut::plan_of(&voids.hollowed, plan, request)?;
-    let Voids { solution, hollowed, refused_mm3, rounds, .. } = voids;
+    let Voids {
+        solution,
+        hollowed,
+        refused_mm3,
+        rounds,
+        ..
+    } = voids;
     Ok(Assembly {
         value_before_cleaning: solution.certificate.value,
         solution,
@@ -168,9 +189,19 @@ fn made(
     let parts = written_parts(setup, &voids, &mut plan, request)?;
     let whole = written_moments(&parts) + joined(setup, &plan);
     let inside = inside(setup, &voids.hollowed);
-    let defect_ratio = defect_ratio(goal, &voids.solution.moments, &(whole + inside).in_frame(&goal.frame));
+    let defect_ratio = defect_ratio(
+        goal,
+        &voids.solution.moments,
+        &(whole + inside).in_frame(&goal.frame),
+    );
     let more = whole - moments_of_mesh(&voids.hollowed.to_mesh());
-    Ok(Made { voids, plan, parts, more, defect_ratio })
+    Ok(Made {
+        voids,
+        plan,
+        parts,
+        more,
+        defect_ratio,
+    })
 }
 
 /// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed so that the plan leaves
@@ -184,20 +215,28 @@ fn written_parts(
     let (parts, refaced) = match parts_and_faces(&voids.hollowed, plan, request) {
         Err(CutError::ClosedCavity { .. }) => {
             let solid = std::mem::take(&mut plan.solid);
-            *plan = CutPlan { solid, ..planned_once(setup, voids, request)? };
+            *plan = CutPlan {
+                solid,
+                ..planned_once(setup, voids, request)?
+            };
             parts_and_faces(&voids.hollowed, plan, request)?
         }
         parts => parts?,
     };
     *plan = refaced;
     let (job, count, scale_ratio) = (setup.name(), parts.len(), setup.printer.print_scale_ratio());
-    parts.into_par_iter().map(|part| WrittenPart::of(part, &job, count, scale_ratio)).collect()
+    parts
+        .into_par_iter()
+        .map(|part| WrittenPart::of(part, &job, count, scale_ratio))
+        .collect()
 }
 
 /// What cuts, pins and poses are asked for.
 pub fn plan_request(setup: &Setup) -> PlanRequest {
     let (printer, frame) = (&setup.printer, &setup.placement.goal.frame);
-    let elephant_foot_mm = printer.number(Quantity::ElephantFootMm).map_or(0.0, |foot| foot.value);
+    let elephant_foot_mm = printer
+        .number(Quantity::ElephantFootMm)
+        .map_or(0.0, |foot| foot.value);
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     PlanRequest {
         worth_ratio: WORTH_RATIO,
@@ -214,9 +253,16 @@ pub fn plan_request(setup: &Setup) -> PlanRequest {
             chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
             bottom_relief_mm: printer.socket_extra_depth_mm.value,
         },
-        axis: GoalAxis { point: frame.origin, direction: frame.axis() },
+        axis: GoalAxis {
+            point: frame.origin,
+            direction: frame.axis(),
+        },
         pixel_mm,
-        hole_step_mm: if printer.grid == Grid::Pixel { pixel_mm } else { 0.0 },
+        hole_step_mm: if printer.grid == Grid::Pixel {
+            pixel_mm
+        } else {
+            0.0
+        },
         layer_mm: printer.layer_mm.value,
         pose: match printer.print_pose {
             PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,

@@ -9,7 +9,11 @@ use crate::progress::Progress;
 pub type Answer = Result<Solved, Impossible>;
 
 /// The answer without ballast, or with that which the job orders; the setup then carries it.
-pub fn solved(setup: Setup, progress: &Progress, watch: &mut Stopwatch) -> Result<(Setup, Answer), Error> {
+pub fn solved(
+    setup: Setup,
+    progress: &Progress,
+    watch: &mut Stopwatch,
+) -> Result<(Setup, Answer), Error> {
     match setup.job.ballast {
         Order::None => without(setup, progress, watch),
         Order::Auto => match without(setup, progress, watch)? {
@@ -20,7 +24,11 @@ pub fn solved(setup: Setup, progress: &Progress, watch: &mut Stopwatch) -> Resul
     }
 }
 
-fn without(setup: Setup, progress: &Progress, watch: &mut Stopwatch) -> Result<(Setup, Answer), Error> {
+fn without(
+    setup: Setup,
+    progress: &Progress,
+    watch: &mut Stopwatch,
+) -> Result<(Setup, Answer), Error> {
     let answer = Solved::of(&setup, progress, watch)?;
     Ok((setup, answer))
 }
@@ -36,9 +44,19 @@ fn loaded(
     let found = Search::new(shop(&setup))?.of_order(&setup.job.ballast)?;
     watch.lap("ballast");
     if let Some(found) = found {
-        return without(Setup { load: found.load, ..setup }, progress, watch);
+        return without(
+            Setup {
+                load: found.load,
+                ..setup
+            },
+            progress,
+            watch,
+        );
     }
-    let refused = format!("no places were found for --ballast={} that make it possible", setup.job.ballast);
+    let refused = format!(
+        "no places were found for --ballast={} that make it possible",
+        setup.job.ballast
+    );
     let (setup, answer) = match known {
         Some(impossible) => (setup, Err(impossible)),
         None => without(setup, progress, watch)?,
@@ -48,7 +66,9 @@ fn loaded(
             impossible.warnings.push(refused);
             Ok((setup, Err(impossible)))
         }
-        Ok(_) => Err(Error::NoRoomForBallast { order: setup.job.ballast }),
+        Ok(_) => Err(Error::NoRoomForBallast {
+            order: setup.job.ballast,
+        }),
     }
 }
 

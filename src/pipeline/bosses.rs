@@ -5,7 +5,9 @@ use super::{
     settling::{self, Reached, Refusal, Settled, Terms, are_clean, settled},
     tuner::{Tuner, Voids},
 };
-use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by};
+use crate::cut::{
+    Boss, BossOrder, CutOrder, CutPlan, JointName, PinSite, PlanRequest, bosses, plan_by,
+};
 use crate::hollow::Certificate;
 use crate::mesh::TriMesh;
 
@@ -57,14 +59,29 @@ pub struct Bossed {
 
 /// Keeps bosses solid until every joint has its pins, or no more can be had at a low price. Ordered pins have theirs at any price that
 /// leaves the kit worth having.
-pub fn bossed(tuner: &mut Tuner, mut state: Bossed, request: &PlanRequest) -> Result<Bossed, Error> {
+pub fn bossed(
+    tuner: &mut Tuner,
+    mut state: Bossed,
+    request: &PlanRequest,
+) -> Result<Bossed, Error> {
     let ordered = ordered_pins(tuner);
     let mut failed = Failed::default();
     for _ in 0..MAX_ROUNDS + MAX_PATTERNS - 1 {
-        let price = (state.voids.solution.quadric, tuner.setup().placement.goal.frame);
+        let price = (
+            state.voids.solution.quadric,
+            tuner.setup().placement.goal.frame,
+        );
         let (hollowed, plan) = (&state.voids.hollowed, &state.plan);
         let (given_up, refused) = (&failed.given_up[..], &failed.places[..]);
-        let found = bosses(&BossOrder { hollowed, request, plan, ordered, given_up, refused, price })?;
+        let found = bosses(&BossOrder {
+            hollowed,
+            request,
+            plan,
+            ordered,
+            given_up,
+            refused,
+            price,
+        })?;
         if !found.iter().any(|boss| boss.is_new) {
             break;
         }
@@ -93,7 +110,10 @@ pub fn bossed(tuner: &mut Tuner, mut state: Bossed, request: &PlanRequest) -> Re
     }
     if let Some(pins) = ordered.filter(|pins| pins.len() > state.plan.pins.len()) {
         // Some pin has no place, and the error says which.
-        let order = CutOrder { pins: Some(pins.to_vec()), ..CutOrder::of(&state.plan) };
+        let order = CutOrder {
+            pins: Some(pins.to_vec()),
+            ..CutOrder::of(&state.plan)
+        };
         state.plan = plan_by(&state.voids.hollowed, request, &order)?;
     }
     Ok(state)
@@ -103,7 +123,14 @@ impl Bossed {
     /// Voids and a plan as they are without any boss.
     pub fn without(voids: Voids, plan: CutPlan) -> Self {
         let first = Reached::by(&voids);
-        Self { voids, plan, rounds: Vec::new(), held: Vec::new(), failed: Failed::default(), first }
+        Self {
+            voids,
+            plan,
+            rounds: Vec::new(),
+            held: Vec::new(),
+            failed: Failed::default(),
+            first,
+        }
     }
 
     /// Whether joints lack bosses that only cost too much.
@@ -118,11 +145,16 @@ impl Bossed {
         request: &PlanRequest,
         max_loss_ratio: f64,
     ) -> Result<Self, Error> {
-        let effort = Effort { since: Some(self.first), max_loss_ratio, ..Effort::CHEAP };
+        let effort = Effort {
+            since: Some(self.first),
+            max_loss_ratio,
+            ..Effort::CHEAP
+        };
         let all = self.failed.dear_ones();
         // Together they may cost less than one alone: a body with two arms stays balanced with both of them solid.
         if all.len() > 1 && tried(tuner, &mut self, (&all.concat(), effort), request)?.is_ok() {
-            all.iter().for_each(|bosses| self.failed.forget(&bosses[0].joint()));
+            all.iter()
+                .for_each(|bosses| self.failed.forget(&bosses[0].joint()));
         }
         for dear in self.failed.dear_ones() {
             let name = dear[0].joint();
@@ -154,8 +186,15 @@ struct Effort {
 }
 
 impl Effort {
-    const NONE: Self = Self { rounds: 0, max_loss_ratio: settling::CHEAP_LOSS_RATIO, since: None };
-    const CHEAP: Self = Self { rounds: settling::MAX_ROUNDS, ..Self::NONE };
+    const NONE: Self = Self {
+        rounds: 0,
+        max_loss_ratio: settling::CHEAP_LOSS_RATIO,
+        since: None,
+    };
+    const CHEAP: Self = Self {
+        rounds: settling::MAX_ROUNDS,
+        ..Self::NONE
+    };
 }
 
 /// Bosses that could not be had.
@@ -178,11 +217,14 @@ impl Failed {
     fn add(&mut self, bosses: &[Boss], (refusal, is_ordered): (Refusal, bool)) {
         let name = bosses[0].joint();
         self.joints.push(name.clone());
-        self.places.extend(bosses.iter().map(|boss| boss.pin.center_mm));
-        if is_ordered || self.joints.iter().filter(|joint| **joint == name).count() >= MAX_PATTERNS {
+        self.places
+            .extend(bosses.iter().map(|boss| boss.pin.center_mm));
+        if is_ordered || self.joints.iter().filter(|joint| **joint == name).count() >= MAX_PATTERNS
+        {
             self.given_up.push(name.clone());
         }
-        self.dear.extend(refusal.loss_ratio.map(|loss| (loss, bosses.to_vec())));
+        self.dear
+            .extend(refusal.loss_ratio.map(|loss| (loss, bosses.to_vec())));
         self.explain(name, refusal.why);
     }
 
@@ -201,8 +243,12 @@ impl Failed {
     /// Of every joint that has none the bosses that cost least.
     fn dear_ones(&self) -> Vec<Vec<Boss>> {
         let of_joint = |(name, _): &(JointName, String)| {
-            let own = self.dear.iter().filter(|(_, bosses)| bosses[0].joint() == *name);
-            own.min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, bosses)| bosses.clone())
+            let own = self
+                .dear
+                .iter()
+                .filter(|(_, bosses)| bosses[0].joint() == *name);
+            own.min_by(|a, b| a.0.total_cmp(&b.0))
+                .map(|(_, bosses)| bosses.clone())
         };
         self.reasons.iter().filter_map(of_joint).collect()
     }
@@ -219,7 +265,12 @@ impl Failed {
 
 /// The pins that the job orders.
 fn ordered_pins<'a>(tuner: &Tuner<'a>) -> Option<&'a [PinSite]> {
-    tuner.setup().job.plan.as_ref().and_then(|order| order.pins.as_deref())
+    tuner
+        .setup()
+        .job
+        .plan
+        .as_ref()
+        .and_then(|order| order.pins.as_deref())
 }
 
 /// One round: the state and the tuner with these bosses, or as they were, and why.
@@ -230,12 +281,23 @@ fn tried(
     request: &PlanRequest,
 ) -> Result<Result<(), Refusal>, Error> {
     let stays = |boss: &&Boss| !found.iter().any(|new| new.joint() == boss.joint());
-    let held: Vec<Boss> = state.held.iter().filter(stays).chain(found).cloned().collect();
+    let held: Vec<Boss> = state
+        .held
+        .iter()
+        .filter(stays)
+        .chain(found)
+        .cloned()
+        .collect();
     let ordered = ordered_pins(tuner);
-    let pins =
-        Some(ordered.map_or_else(|| held.iter().map(|boss| boss.pin.clone()).collect(), <[PinSite]>::to_vec));
+    let pins = Some(ordered.map_or_else(
+        || held.iter().map(|boss| boss.pin.clone()).collect(),
+        <[PinSite]>::to_vec,
+    ));
     let terms = Terms {
-        order: &CutOrder { pins, ..CutOrder::of(&state.plan) },
+        order: &CutOrder {
+            pins,
+            ..CutOrder::of(&state.plan)
+        },
         is_ordered: ordered.is_some(),
         request,
         rounds: effort.rounds,
@@ -250,11 +312,14 @@ fn tried(
         Ok(settled) => settled,
         Err(why) => return Ok(Err(why)),
     };
-    let kept = found.iter().filter(|boss| boss.is_new).map(|boss| KeptBoss {
-        pin: boss.pin.clone(),
-        parts: boss.parts.clone(),
-        volume_mm3: boss.body.signed_volume_mm3(),
-    });
+    let kept = found
+        .iter()
+        .filter(|boss| boss.is_new)
+        .map(|boss| KeptBoss {
+            pin: boss.pin.clone(),
+            parts: boss.parts.clone(),
+            volume_mm3: boss.body.signed_volume_mm3(),
+        });
     state.rounds.push(BossRound {
         bosses: kept.collect(),
         kept_mm3,
@@ -262,7 +327,12 @@ fn tried(
         after: voids.solution.certificate,
     });
     let CutPlan { proofs, moves, .. } = state.plan.clone();
-    state.plan = CutPlan { notes: [proofs.clone(), plan.notes].concat(), proofs, moves, ..plan };
+    state.plan = CutPlan {
+        notes: [proofs.clone(), plan.notes].concat(),
+        proofs,
+        moves,
+        ..plan
+    };
     (state.voids, state.held, *tuner) = (voids, held, trial);
     Ok(Ok(()))
 }
@@ -270,7 +340,12 @@ fn tried(
 /// Calls the bosses' pins as the plan does in the end.
 fn name_pins(state: &mut Bossed) {
     for boss in state.rounds.iter_mut().flat_map(|round| &mut round.bosses) {
-        if let Some(pin) = state.plan.pins.iter().find(|pin| pin.center_mm == boss.pin.center_mm) {
+        if let Some(pin) = state
+            .plan
+            .pins
+            .iter()
+            .find(|pin| pin.center_mm == boss.pin.center_mm)
+        {
             boss.pin.id.clone_from(&pin.id);
         }
     }

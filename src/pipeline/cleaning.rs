@@ -4,7 +4,9 @@ use super::{
     Error, Setup,
     tuner::{REFUSED_MARGIN_RATIO, Tuner, Voids},
 };
-use crate::cut::{self, CutError, CutOrder, CutPlan, PlanRequest, SolidEnd, Unclean, plan_by, unclean};
+use crate::cut::{
+    self, CutError, CutOrder, CutPlan, PlanRequest, SolidEnd, Unclean, plan_by, unclean,
+};
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
 
@@ -59,7 +61,11 @@ pub fn cleaned<'a>(
     loop {
         let planned = planned_once(setup, &voids, &request);
         let whole = rounds.len() >= SHRINKING_ROUNDS;
-        let ends = if whole { REFUSED_MARGIN_RATIO } else { END_MARGIN_RATIO };
+        let ends = if whole {
+            REFUSED_MARGIN_RATIO
+        } else {
+            END_MARGIN_RATIO
+        };
         let (dirty, openings) = match &planned {
             Ok(plan) if setup.job.cut != CutMode::Never => {
                 (unclean(&voids.hollowed, plan, &request, whole)?, ends)
@@ -71,10 +77,20 @@ pub fn cleaned<'a>(
         };
         let is_last = dirty.is_empty() || rounds.len() == MAX_ROUNDS;
         if is_last {
-            return Ok(Cleaned { voids, plan: planned?, rounds });
+            return Ok(Cleaned {
+                voids,
+                plan: planned?,
+                rounds,
+            });
         }
-        let bodies: Vec<TriMesh> = dirty.iter().flat_map(|unclean| unclean.lumps.clone()).collect();
-        let kept = dirty.iter().map(|unclean| (unclean.void, unclean.why.clone())).collect();
+        let bodies: Vec<TriMesh> = dirty
+            .iter()
+            .flat_map(|unclean| unclean.lumps.clone())
+            .collect();
+        let kept = dirty
+            .iter()
+            .map(|unclean| (unclean.void, unclean.why.clone()))
+            .collect();
         let (round, less) = kept_solid(tuner, &voids, (kept, &bodies, openings))?;
         match (less, planned) {
             (Some(less), _) => {
@@ -85,7 +101,11 @@ pub fn cleaned<'a>(
             (None, Ok(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
             (None, planned) => {
                 rounds.push(round);
-                return Ok(Cleaned { voids, plan: planned?, rounds });
+                return Ok(Cleaned {
+                    voids,
+                    plan: planned?,
+                    rounds,
+                });
             }
         }
     }
@@ -101,15 +121,32 @@ pub fn without_ends(
     if bodies.is_empty() {
         return Ok(None);
     }
-    let walls: Vec<MeshDistance> =
-        voids.hollowed.voids.iter().map(|void| MeshDistance::new(void.mesh())).collect();
+    let walls: Vec<MeshDistance> = voids
+        .hollowed
+        .voids
+        .iter()
+        .map(|void| MeshDistance::new(void.mesh()))
+        .collect();
     let nearest = |end: &SolidEnd| {
-        let rated = walls.iter().enumerate().map(|(void, wall)| (void, wall.signed(&end.at_mm.into())));
-        rated.max_by(|a, b| a.1.total_cmp(&b.1)).map(|(void, _)| (void, why.to_owned()))
+        let rated = walls
+            .iter()
+            .enumerate()
+            .map(|(void, wall)| (void, wall.signed(&end.at_mm.into())));
+        rated
+            .max_by(|a, b| a.1.total_cmp(&b.1))
+            .map(|(void, _)| (void, why.to_owned()))
     };
     let kept = ends.iter().filter_map(nearest).collect();
     let (round, less) = kept_solid(tuner, voids, (kept, &bodies, END_MARGIN_RATIO))?;
-    Ok(less.map(|less| (CleaningRound { by_plan: true, ..round }, less)))
+    Ok(less.map(|less| {
+        (
+            CleaningRound {
+                by_plan: true,
+                ..round
+            },
+            less,
+        )
+    }))
 }
 
 /// One round: the voids without these bodies, solved for again; none where that meets the goal no more, and the tuner is as it was.
@@ -136,7 +173,9 @@ fn kept_solid(
 
 /// Voids that no cut opens, all of which must go.
 fn unopened(voids: &Voids, closed: &[usize]) -> Vec<Unclean> {
-    let known = closed.iter().filter_map(|&void| Some((void, voids.hollowed.voids.get(void)?)));
+    let known = closed
+        .iter()
+        .filter_map(|&void| Some((void, voids.hollowed.voids.get(void)?)));
     let gone = |(void, solid): (usize, &crate::mesh::Solid)| Unclean {
         void,
         why: "no cut opens it wide enough".to_owned(),
@@ -152,13 +191,22 @@ fn are_plain(setup: &Setup, voids: &Voids, refused: &[usize]) -> bool {
 }
 
 /// The cuts and pins for the voids as they are.
-pub fn planned_once(setup: &Setup, voids: &Voids, request: &PlanRequest) -> Result<CutPlan, CutError> {
+pub fn planned_once(
+    setup: &Setup,
+    voids: &Voids,
+    request: &PlanRequest,
+) -> Result<CutPlan, CutError> {
     match (&setup.job.plan, setup.job.cut) {
         (Some(order), _) => match plan_by(&voids.hollowed, request, order) {
             // The pin may stand in a boss that is still to be kept solid.
-            Err(CutError::PinOffFace { .. }) => {
-                plan_by(&voids.hollowed, request, &CutOrder { pins: Some(Vec::new()), ..order.clone() })
-            }
+            Err(CutError::PinOffFace { .. }) => plan_by(
+                &voids.hollowed,
+                request,
+                &CutOrder {
+                    pins: Some(Vec::new()),
+                    ..order.clone()
+                },
+            ),
             plan => plan,
         },
         (None, CutMode::Auto) => cut::plan(&voids.hollowed, request),

@@ -20,8 +20,12 @@ const OFF_MM: f64 = 0.02;
 pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
     let body = assembly.hollowed.to_mesh();
     let plan = &assembly.plan;
-    let solid =
-        |written: &WrittenPart| (written.part.id.clone(), MeshDistance::new(written.part.solid.mesh()));
+    let solid = |written: &WrittenPart| {
+        (
+            written.part.id.clone(),
+            MeshDistance::new(written.part.solid.mesh()),
+        )
+    };
     let solids: Vec<(String, MeshDistance)> = assembly.parts.par_iter().map(solid).collect();
     let partings = plan.partings()?;
     let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
@@ -29,11 +33,23 @@ pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
         let section = Section::of_mesh(&reached(parting, &body)?, &plane);
         let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
         let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
-        let whole = plan.uncut.iter().filter(|face| face.cut == cut.id).map(|face| flat_point(&plane, face));
+        let whole = plan
+            .uncut
+            .iter()
+            .filter(|face| face.cut == cut.id)
+            .map(|face| flat_point(&plane, face));
         let (whole, mouths) = (whole.collect(), mouths(assembly, parting)?);
         // What ends where the cut ends is no wall.
         let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
-        Ok(CutFace { cut: cut.id.clone(), plane, rings, wall, whole, regions, mouths })
+        Ok(CutFace {
+            cut: cut.id.clone(),
+            plane,
+            rings,
+            wall,
+            whole,
+            regions,
+            mouths,
+        })
     };
     plan.cuts.iter().zip(&partings).map(face).collect()
 }
@@ -42,22 +58,43 @@ pub fn faces(assembly: &Assembly) -> Result<Vec<CutFace>, Error> {
 fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
     let (u, v) = parting.plane.basis();
     let at = parting.plane.foot() + u * x + v * y;
-    parting.within.iter().any(|(other, _)| other.distance(&at).abs() < OFF_MM)
+    parting
+        .within
+        .iter()
+        .any(|(other, _)| other.distance(&at).abs() < OFF_MM)
 }
 
 /// The sections of a body at a cut on either side of every other that ends there, or the one where none does.
-fn sections(body: &TriMesh, parting: &Parting, partings: &[Parting]) -> Result<Vec<Section>, CutError> {
-    let ends_here = |other: &&Parting| other.within.iter().any(|(plane, _)| *plane == parting.plane);
+fn sections(
+    body: &TriMesh,
+    parting: &Parting,
+    partings: &[Parting],
+) -> Result<Vec<Section>, CutError> {
+    let ends_here = |other: &&Parting| {
+        other
+            .within
+            .iter()
+            .any(|(plane, _)| *plane == parting.plane)
+    };
     let halves = |cell: &Parting, other: &Parting| {
         [true, false].map(|is_above| {
             let within = [&cell.within[..], &[(other.plane, is_above)]].concat();
-            Parting { within, ..cell.clone() }
+            Parting {
+                within,
+                ..cell.clone()
+            }
         })
     };
-    let cells = partings.iter().filter(ends_here).fold(vec![parting.clone()], |cells, other| {
-        cells.iter().flat_map(|cell| halves(cell, other)).collect()
-    });
-    cells.iter().map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane))).collect()
+    let cells = partings
+        .iter()
+        .filter(ends_here)
+        .fold(vec![parting.clone()], |cells, other| {
+            cells.iter().flat_map(|cell| halves(cell, other)).collect()
+        });
+    cells
+        .iter()
+        .map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane)))
+        .collect()
 }
 
 /// Every two parts between which the cut passes, with a place in the material: looked for beside the middle of the widest disc of each
@@ -66,7 +103,10 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
     let (u, v) = plane.basis();
     let part_at = |at: [f64; 2], off_mm: f64| {
         let point = plane.foot() + u * at[0] + v * at[1] + plane.normal * off_mm;
-        solids.iter().find(|(_, solid)| solid.signed(&point) > 0.0).map(|(id, _)| id.clone())
+        solids
+            .iter()
+            .find(|(_, solid)| solid.signed(&point) > 0.0)
+            .map(|(id, _)| id.clone())
     };
     let region = |(middle, diameter_mm): (Point2, f64)| {
         (0..LOOKS).find_map(|look| {
@@ -74,11 +114,18 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
             let reach_mm = BESIDE_RATIO * diameter_mm;
             let at = [middle.x + reach_mm * cos, middle.y + reach_mm * sin];
             let (below, above) = (part_at(at, -OFF_MM)?, part_at(at, OFF_MM)?);
-            (below != above).then_some(Region { at, parts: [below, above] })
+            (below != above).then_some(Region {
+                at,
+                parts: [below, above],
+            })
         })
     };
     let mut regions: Vec<Region> = Vec::new();
-    for found in sections.iter().flat_map(Section::largest_discs).filter_map(region) {
+    for found in sections
+        .iter()
+        .flat_map(Section::largest_discs)
+        .filter_map(region)
+    {
         // A region that no other cut ends in is found on either side of it, or of two.
         if sections.len() == 1 || regions.iter().all(|known| known.parts != found.parts) {
             regions.push(found);
@@ -90,8 +137,11 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
 /// Where the cut opens voids, each with the largest disc that passes there.
 fn mouths(assembly: &Assembly, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
     let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
-        let Some(body) = assembly.hollowed.voids.get(access.void) else { return Ok(Vec::new()) };
-        let discs = Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
+        let Some(body) = assembly.hollowed.voids.get(access.void) else {
+            return Ok(Vec::new());
+        };
+        let discs =
+            Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
         let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
             void: void_id(access.void),
             at: [at.x, at.y],
@@ -99,7 +149,12 @@ fn mouths(assembly: &Assembly, parting: &Parting) -> Result<Vec<Mouth>, CutError
         };
         Ok(discs.into_iter().map(mouth).collect())
     };
-    let of_voids = assembly.plan.voids.iter().map(of_void).collect::<Result<Vec<_>, _>>()?;
+    let of_voids = assembly
+        .plan
+        .voids
+        .iter()
+        .map(of_void)
+        .collect::<Result<Vec<_>, _>>()?;
     Ok(of_voids.concat())
 }
 
@@ -115,23 +170,34 @@ fn flat_point(plane: &Plane, face: &UncutFace) -> [f64; 2] {
 /// Where an outer ring comes nearest to a hole, between the corners of either and the sides of the other; none without holes.
 fn thinnest(rings: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     let (outer, holes): (Vec<_>, Vec<_>) = rings.iter().partition(|ring| is_outer(ring));
-    let pairs = outer.iter().flat_map(|ring| holes.iter().map(move |hole| (ring, hole)));
-    let gaps = pairs.flat_map(|(ring, hole)| [nearest(ring, hole), nearest(hole, ring)]).flatten();
+    let pairs = outer
+        .iter()
+        .flat_map(|ring| holes.iter().map(move |hole| (ring, hole)));
+    let gaps = pairs
+        .flat_map(|(ring, hole)| [nearest(ring, hole), nearest(hole, ring)])
+        .flatten();
     gaps.min_by(|a, b| length(a).total_cmp(&length(b)))
 }
 
 /// Whether a ring runs counter-clockwise, as the outlines of material do.
 fn is_outer(ring: &[[f64; 2]]) -> bool {
-    sides(ring).map(|([ax, ay], [bx, by])| ax * by - ay * bx).sum::<f64>() > 0.0
+    sides(ring)
+        .map(|([ax, ay], [bx, by])| ax * by - ay * bx)
+        .sum::<f64>()
+        > 0.0
 }
 
 fn sides(ring: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
-    ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| (*a, *b))
+    ring.iter()
+        .zip(ring.iter().cycle().skip(1))
+        .map(|(a, b)| (*a, *b))
 }
 
 /// The corner of one ring that is nearest to a side of another, and its foot there.
 fn nearest(corners: &[[f64; 2]], ring: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
-    let gaps = corners.iter().flat_map(|corner| sides(ring).map(move |side| [*corner, foot(*corner, side)]));
+    let gaps = corners
+        .iter()
+        .flat_map(|corner| sides(ring).map(move |side| [*corner, foot(*corner, side)]));
     gaps.min_by(|a, b| length(a).total_cmp(&length(b)))
 }
 
@@ -156,10 +222,19 @@ mod tests {
 
     #[test]
     fn a_cut_is_looked_at_on_either_side_of_one_that_ends_there() {
-        let body = primitives::cuboid(&Point::new(-10.0, -10.0, -10.0), &Point::new(10.0, 10.0, 10.0));
-        let across = Parting::everywhere(Plane { normal: Vector::x(), offset_mm: 0.0 });
+        let body = primitives::cuboid(
+            &Point::new(-10.0, -10.0, -10.0),
+            &Point::new(10.0, 10.0, 10.0),
+        );
+        let across = Parting::everywhere(Plane {
+            normal: Vector::x(),
+            offset_mm: 0.0,
+        });
         let ending = Parting {
-            plane: Plane { normal: Vector::y(), offset_mm: 4.0 },
+            plane: Plane {
+                normal: Vector::y(),
+                offset_mm: 4.0,
+            },
             within: vec![(across.plane, true)],
         };
         let partings = [across, ending];
@@ -169,7 +244,11 @@ mod tests {
             discs.map(|(_, diameter_mm)| diameter_mm.round()).collect()
         };
         assert_eq!(widths(0), [6.0, 14.0]);
-        assert_eq!(widths(1), [10.0], "nothing ends at the one that ends itself");
+        assert_eq!(
+            widths(1),
+            [10.0],
+            "nothing ends at the one that ends itself"
+        );
     }
 
     #[test]

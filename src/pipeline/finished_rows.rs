@@ -17,11 +17,19 @@ pub fn turn_row(sheet: &Sheet, parts: &[PartRow]) -> Option<TurnRow> {
     let (setup, assembly) = (sheet.setup, sheet.assembly);
     setup.string_gap_mm()?;
     let frame = &setup.placement.goal.frame;
-    let written = assembly.parts.iter().zip(parts).filter(|(_, row)| row.half.as_deref() == Some("A"));
-    let half =
-        written.fold(Moments::default(), |sum, (part, _)| sum + part.evidence().moments()).in_frame(frame);
-    let whole =
-        assembly.written_moments() + joined(setup, &assembly.plan) + inside(setup, &assembly.hollowed);
+    let written = assembly
+        .parts
+        .iter()
+        .zip(parts)
+        .filter(|(_, row)| row.half.as_deref() == Some("A"));
+    let half = written
+        .fold(Moments::default(), |sum, (part, _)| {
+            sum + part.evidence().moments()
+        })
+        .in_frame(frame);
+    let whole = assembly.written_moments()
+        + joined(setup, &assembly.plan)
+        + inside(setup, &assembly.hollowed);
     turned(&half, &whole.in_frame(frame))
 }
 
@@ -34,13 +42,19 @@ fn turned(half: &Moments, whole: &Moments) -> Option<TurnRow> {
     (half.volume() > 0.0).then(|| TurnRow {
         half_offset_mm: off(half).norm(),
         offset_mm_per_deg: (off(&after) - off(whole)).norm(),
-        tilt_deg_per_deg: (greatest_axis(&after)).angle(&greatest_axis(whole)).to_degrees(),
+        tilt_deg_per_deg: (greatest_axis(&after))
+            .angle(&greatest_axis(whole))
+            .to_degrees(),
     })
 }
 
 /// The axis of the greatest moment, upward.
 fn greatest_axis(moments: &Moments) -> Vector {
-    let axis: Vector = Body::new(moments, 1.0).principal().axes.column(2).into_owned();
+    let axis: Vector = Body::new(moments, 1.0)
+        .principal()
+        .axes
+        .column(2)
+        .into_owned();
     axis * axis.z.signum()
 }
 
@@ -51,8 +65,14 @@ fn greatest_axis(moments: &Moments) -> Vector {
 pub fn cup_mm3(printed: &TriMesh) -> f64 {
     let mesh = weld(printed);
     let floor_mm = mesh.aabb().min.z;
-    let is_floor = |index: usize| mesh.corners(index).iter().all(|p| p.z - floor_mm < ON_PLATE_MM);
-    let rest: Vec<usize> = (0..mesh.triangles().len()).filter(|&index| !is_floor(index)).collect();
+    let is_floor = |index: usize| {
+        mesh.corners(index)
+            .iter()
+            .all(|p| p.z - floor_mm < ON_PLATE_MM)
+    };
+    let rest: Vec<usize> = (0..mesh.triangles().len())
+        .filter(|&index| !is_floor(index))
+        .collect();
     let mut sets = UnionFind::new(mesh.vertices().len());
     for &index in &rest {
         let [a, b, c] = mesh.triangles()[index];
@@ -64,7 +84,10 @@ pub fn cup_mm3(printed: &TriMesh) -> f64 {
         let root = sets.root(mesh.triangles()[index][0]);
         *volumes_mm3.entry(root).or_default() += under_mm3(mesh.corners(index), floor_mm);
     }
-    -volumes_mm3.into_values().filter(|volume| *volume < 0.0).sum::<f64>()
+    -volumes_mm3
+        .into_values()
+        .filter(|volume| *volume < 0.0)
+        .sum::<f64>()
 }
 
 /// The volume between a triangle and the plate, negative where it faces down, mm³.
@@ -110,7 +133,10 @@ mod tests {
         assert!((row.offset_mm_per_deg - 3.0 * 0.5f64.to_radians().sin()).abs() < 1e-12);
         assert!(row.tilt_deg_per_deg > 0.1);
         assert!(
-            turned(&cube(0.0, 2.0), &(cube(0.0, 2.0) + cube(0.0, -2.0))).unwrap().offset_mm_per_deg < 1e-12
+            turned(&cube(0.0, 2.0), &(cube(0.0, 2.0) + cube(0.0, -2.0)))
+                .unwrap()
+                .offset_mm_per_deg
+                < 1e-12
         );
     }
 }

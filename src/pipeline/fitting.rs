@@ -10,10 +10,19 @@ use crate::verify::Hardware;
 /// The setup with its hardware put in, where the job has any: from then on the model is the one with the sockets, and the
 /// goal's moments count what is not printed.
 pub fn equipped(setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
-    let Some(hardware) = setup.request.hardware else { return Ok(setup) };
-    let allowances =
-        Allowances { clearance_mm: setup.printer.clearance_per_side_mm.value, wall_mm: setup.wall.wall_mm };
-    let fitted = fitted(&setup.model.solid, &setup.placement.goal, &hardware, &allowances)?;
+    let Some(hardware) = setup.request.hardware else {
+        return Ok(setup);
+    };
+    let allowances = Allowances {
+        clearance_mm: setup.printer.clearance_per_side_mm.value,
+        wall_mm: setup.wall.wall_mm,
+    };
+    let fitted = fitted(
+        &setup.model.solid,
+        &setup.placement.goal,
+        &hardware,
+        &allowances,
+    )?;
     watch.lap("hardware");
     Ok(fitted.map_or(setup.clone(), |fitted| with(setup, fitted)))
 }
@@ -32,18 +41,26 @@ impl Setup {
     /// The moments of what is not printed, as so much of the material, model frame; zero without hardware.
     pub fn hardware_moments(&self) -> Moments {
         let density_g_cm3 = self.material.density_g_cm3.value;
-        self.fitted.as_ref().map_or(Moments::default(), |fitted| fitted.moments(density_g_cm3))
+        self.fitted
+            .as_ref()
+            .map_or(Moments::default(), |fitted| fitted.moments(density_g_cm3))
     }
 
     /// The hardware as the judge sees it.
     pub fn hardware(&self) -> Vec<Hardware> {
         let pieces = self.fitted.iter().flat_map(|fitted| &fitted.pieces);
-        pieces.enumerate().map(|(index, piece)| seen(index, piece)).collect()
+        pieces
+            .enumerate()
+            .map(|(index, piece)| seen(index, piece))
+            .collect()
     }
 
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     pub fn string_gap_mm(&self) -> Option<f64> {
-        self.fitted.as_ref().map(|fitted| fitted.gap_mm).filter(|gap_mm| *gap_mm > 0.0)
+        self.fitted
+            .as_ref()
+            .map(|fitted| fitted.gap_mm)
+            .filter(|gap_mm| *gap_mm > 0.0)
     }
 }
 
@@ -82,7 +99,9 @@ pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<String> {
     let looks = || corners.iter().step_by(corners.len().div_ceil(LOOKS).max(1));
     let share = |half: &TriMesh| looks().map(|p| winding_number(half, p)).sum::<f64>();
     let shares = halves.iter().map(share).zip(["A", "B"]);
-    shares.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, half)| half.to_owned())
+    shares
+        .max_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, half)| half.to_owned())
 }
 
 fn seen(index: usize, piece: &Piece) -> Hardware {

@@ -35,7 +35,11 @@ pub fn grid_rows(sheet: &Sheet) -> Vec<GridRow> {
     let faces = parts.clone().flat_map(|part| faces(sheet, part, rulers[2]));
     let pegs = parts.flat_map(|part| pegs(sheet.setup, part, rulers));
     let mut rows: Vec<GridRow> = Vec::new();
-    for row in walls(sheet.setup, rulers).chain(pitches(sheet.setup, rulers)).chain(faces).chain(pegs) {
+    for row in walls(sheet.setup, rulers)
+        .chain(pitches(sheet.setup, rulers))
+        .chain(faces)
+        .chain(pegs)
+    {
         if !rows.contains(&row) {
             rows.push(row);
         }
@@ -48,9 +52,21 @@ fn rulers(setup: &Setup) -> [Ruler; 3] {
     let printer = &setup.printer;
     let steps_of = printer.grid.steps();
     [
-        Ruler { along: "x", steps_of, step_mm: printer.pixel_x_mm.value },
-        Ruler { along: "y", steps_of, step_mm: printer.pixel_y_mm.value },
-        Ruler { along: "z", steps_of: "layers", step_mm: printer.layer_mm.value },
+        Ruler {
+            along: "x",
+            steps_of,
+            step_mm: printer.pixel_x_mm.value,
+        },
+        Ruler {
+            along: "y",
+            steps_of,
+            step_mm: printer.pixel_y_mm.value,
+        },
+        Ruler {
+            along: "z",
+            steps_of: "layers",
+            step_mm: printer.layer_mm.value,
+        },
     ]
 }
 
@@ -65,7 +81,15 @@ impl Ruler {
         self.row((length.drawn_mm / self.step_mm).round(), length)
     }
 
-    fn row(&self, steps: f64, Length { what, asked_mm, drawn_mm }: Length) -> GridRow {
+    fn row(
+        &self,
+        steps: f64,
+        Length {
+            what,
+            asked_mm,
+            drawn_mm,
+        }: Length,
+    ) -> GridRow {
         GridRow {
             what,
             along: self.along.to_owned(),
@@ -83,11 +107,18 @@ impl Ruler {
 /// The wall along x, y and z.
 fn walls(setup: &Setup, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow> {
     let size_mm = setup.model.solid.mesh().longest_side_mm();
-    let asked_mm = setup.wall.asked_mm.unwrap_or(setup.printer.least_wall_mm(size_mm).value);
+    let asked_mm = setup
+        .wall
+        .asked_mm
+        .unwrap_or(setup.printer.least_wall_mm(size_mm).value);
     let drawn_mm = setup.wall.wall_mm;
-    rulers
-        .into_iter()
-        .map(move |ruler| ruler.at_least(Length { what: "wall".to_owned(), asked_mm, drawn_mm }))
+    rulers.into_iter().map(move |ruler| {
+        ruler.at_least(Length {
+            what: "wall".to_owned(),
+            asked_mm,
+            drawn_mm,
+        })
+    })
 }
 
 /// The pitch of the solver's columns, where they stand at whole pixels.
@@ -96,30 +127,43 @@ fn pitches(setup: &Setup, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow> {
     let pitches = setup.pitch_mm.into_iter().zip(rulers);
     let row = move |(drawn_mm, ruler): (f64, Ruler)| {
         let asked_mm = asked_mm.unwrap_or(ruler.step_mm);
-        ruler.nearest(Length { what: "pitch of the solver".to_owned(), asked_mm, drawn_mm })
+        ruler.nearest(Length {
+            what: "pitch of the solver".to_owned(),
+            asked_mm,
+            drawn_mm,
+        })
     };
     pitches.map(row).filter(|row| row.steps > 0)
 }
 
 /// The heights over the plate at which the level cut faces of a part end.
-fn faces<'a>(sheet: &'a Sheet, written: &'a WrittenPart, ruler: Ruler) -> impl Iterator<Item = GridRow> + 'a {
+fn faces<'a>(
+    sheet: &'a Sheet,
+    written: &'a WrittenPart,
+    ruler: Ruler,
+) -> impl Iterator<Item = GridRow> + 'a {
     let pose = written.evidence().pose;
     let part = &written.part;
     let plan = &sheet.assembly.plan;
     plan.cuts_of(&part.id).filter_map(move |cut| {
         let up = (pose.rotation() * Vector::from(cut.normal)).z;
         let height_mm = pose.to_print(&Point::from(cut.point_mm)).z;
-        let bounds = part
-            .solid
-            .mesh()
-            .vertices()
-            .iter()
-            .filter(|p| (pose.to_print(p).z - height_mm).abs() < WHOLE_TOLERANCE * ruler.step_mm);
+        let bounds =
+            part.solid.mesh().vertices().iter().filter(|p| {
+                (pose.to_print(p).z - height_mm).abs() < WHOLE_TOLERANCE * ruler.step_mm
+            });
         let is_level = up.abs() >= UPRIGHT && bounds.count() >= 3;
-        let decided = plan.moves.iter().find(|to| to.cut == cut.id && to.part == part.id);
+        let decided = plan
+            .moves
+            .iter()
+            .find(|to| to.cut == cut.id && to.part == part.id);
         let moved_mm = decided.map_or(0.0, |to| to.moved_mm * up);
         let what = format!("cut face {} of {}, height over the plate", cut.id, part.id);
-        let length = Length { what, asked_mm: shown_mm(height_mm - moved_mm), drawn_mm: shown_mm(height_mm) };
+        let length = Length {
+            what,
+            asked_mm: shown_mm(height_mm - moved_mm),
+            drawn_mm: shown_mm(height_mm),
+        };
         // What lies on the plate is at no height.
         (is_level && length.drawn_mm > 0.0).then(|| ruler.nearest(length))
     })
@@ -128,7 +172,11 @@ fn faces<'a>(sheet: &'a Sheet, written: &'a WrittenPart, ruler: Ruler) -> impl I
 /// A height without what rounding leaves of zero.
 fn shown_mm(height_mm: f64) -> f64 {
     const ROUNDING_MM: f64 = 1e-6;
-    if height_mm.abs() < ROUNDING_MM { 0.0 } else { height_mm }
+    if height_mm.abs() < ROUNDING_MM {
+        0.0
+    } else {
+        height_mm
+    }
 }
 
 /// The diameters and lengths of a part's pins and sockets.
@@ -138,27 +186,49 @@ fn pegs<'a>(
     rulers: [Ruler; 3],
 ) -> impl Iterator<Item = GridRow> + 'a {
     let pose = written.evidence().pose;
-    let is_upright = move |pin: &PinSite| (pose.rotation() * Vector::from(pin.direction)).z.abs() >= UPRIGHT;
+    let is_upright =
+        move |pin: &PinSite| (pose.rotation() * Vector::from(pin.direction)).z.abs() >= UPRIGHT;
     let part = &written.part;
-    let pins = part.pins.iter().map(move |pin| (is_upright(pin), pin_lengths(setup, pin)));
-    let sockets = part.sockets.iter().map(move |pin| (is_upright(pin), socket_lengths(setup, pin)));
+    let pins = part
+        .pins
+        .iter()
+        .map(move |pin| (is_upright(pin), pin_lengths(setup, pin)));
+    let sockets = part
+        .sockets
+        .iter()
+        .map(move |pin| (is_upright(pin), socket_lengths(setup, pin)));
     let is_of_lines = setup.printer.grid == Grid::Line;
     let pins = pins.flat_map(move |(upright, lengths)| peg_rows(upright, lengths, rulers));
     let sockets = sockets.flat_map(move |(upright, lengths)| {
         // A hole is not made of lines: only its depth is one of layers.
-        peg_rows(upright, lengths, rulers).into_iter().filter(move |row| !is_of_lines || row.along == "z")
+        peg_rows(upright, lengths, rulers)
+            .into_iter()
+            .filter(move |row| !is_of_lines || row.along == "z")
     });
     pins.chain(sockets)
 }
 
 /// The rows of a peg's diameter and length: along the grid where it stands upright, along none where it lies tilted.
-fn peg_rows(is_upright: bool, [diameter, length]: [Length; 2], [x, y, z]: [Ruler; 3]) -> Vec<GridRow> {
+fn peg_rows(
+    is_upright: bool,
+    [diameter, length]: [Length; 2],
+    [x, y, z]: [Ruler; 3],
+) -> Vec<GridRow> {
     if !is_upright {
         let coarser = if x.step_mm > y.step_mm { x } else { y };
-        let tilted = |ruler: Ruler, length| Ruler { along: "tilted", ..ruler }.nearest(length);
+        let tilted = |ruler: Ruler, length| {
+            Ruler {
+                along: "tilted",
+                ..ruler
+            }
+            .nearest(length)
+        };
         return vec![tilted(coarser, diameter), tilted(z, length)];
     }
-    let again = Length { what: diameter.what.clone(), ..diameter };
+    let again = Length {
+        what: diameter.what.clone(),
+        ..diameter
+    };
     vec![x.nearest(diameter), y.nearest(again), z.nearest(length)]
 }
 
@@ -168,8 +238,16 @@ fn pin_lengths(setup: &Setup, pin: &PinSite) -> [Length; 2] {
     let asked_mm = pin.diameter_mm * printer.pin_length_ratio.value;
     let least_mm = printer.pin_min_diameter_mm.value;
     [
-        Length { what: "pin, diameter, at least".to_owned(), asked_mm: least_mm, drawn_mm: pin.diameter_mm },
-        Length { what: "pin, length".to_owned(), asked_mm, drawn_mm: pin.length_mm },
+        Length {
+            what: "pin, diameter, at least".to_owned(),
+            asked_mm: least_mm,
+            drawn_mm: pin.diameter_mm,
+        },
+        Length {
+            what: "pin, length".to_owned(),
+            asked_mm,
+            drawn_mm: pin.length_mm,
+        },
     ]
 }
 
@@ -179,7 +257,15 @@ fn socket_lengths(setup: &Setup, pin: &PinSite) -> [Length; 2] {
     let asked_mm = pin.diameter_mm + 2.0 * printer.clearance_per_side_mm.value;
     let deep_mm = pin.length_mm + printer.socket_extra_depth_mm.value;
     [
-        Length { what: "socket, diameter".to_owned(), asked_mm, drawn_mm: pin.socket_diameter_mm },
-        Length { what: "socket, depth".to_owned(), asked_mm: deep_mm, drawn_mm: pin.socket_depth_mm },
+        Length {
+            what: "socket, diameter".to_owned(),
+            asked_mm,
+            drawn_mm: pin.socket_diameter_mm,
+        },
+        Length {
+            what: "socket, depth".to_owned(),
+            asked_mm: deep_mm,
+            drawn_mm: pin.socket_depth_mm,
+        },
     ]
 }

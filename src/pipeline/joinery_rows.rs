@@ -13,10 +13,16 @@ use crate::verify::PromisedJoint;
 
 /// What dowels are to be cut, alike ones together, in the order of their rods.
 pub fn cut_list(sheet: &Sheet) -> Vec<CutListRow> {
-    let dowels = sheet.assembly.plan.pins.iter().filter_map(|pin| pin.dowel.as_ref());
+    let dowels = sheet
+        .assembly
+        .plan
+        .pins
+        .iter()
+        .filter_map(|pin| pin.dowel.as_ref());
     let mut rows: Vec<CutListRow> = Vec::new();
     for dowel in dowels {
-        let alike = |row: &&mut CutListRow| row.rod == dowel.rod && row.length_mm == dowel.length_mm;
+        let alike =
+            |row: &&mut CutListRow| row.rod == dowel.rod && row.length_mm == dowel.length_mm;
         match rows.iter_mut().find(alike) {
             Some(row) => row.count += 1,
             None => rows.extend(row_of(sheet, dowel)),
@@ -28,7 +34,12 @@ pub fn cut_list(sheet: &Sheet) -> Vec<CutListRow> {
 fn row_of(sheet: &Sheet, dowel: &Dowel) -> Option<CutListRow> {
     let rod = sheet.setup.rods.iter().find(|rod| rod.id == dowel.rod);
     let said = |source: &RodSource| format!("{}: {}", source.sure, source.source);
-    let pin = sheet.assembly.plan.pins.iter().find(|pin| pin.dowel.as_ref() == Some(dowel))?;
+    let pin = sheet
+        .assembly
+        .plan
+        .pins
+        .iter()
+        .find(|pin| pin.dowel.as_ref() == Some(dowel))?;
     let bar = pin.dowel_bar()?;
     Some(CutListRow {
         count: 1,
@@ -37,7 +48,9 @@ fn row_of(sheet: &Sheet, dowel: &Dowel) -> Option<CutListRow> {
         diameter_mm: pin.diameter_mm,
         length_mm: dowel.length_mm,
         mass_g: bar.moments().volume() * dowel.density_g_cm3 / MM3_PER_CM3,
-        sources: rod.map_or(Vec::new(), |rod| [&rod.size_source, &rod.density_source].map(said).to_vec()),
+        sources: rod.map_or(Vec::new(), |rod| {
+            [&rod.size_source, &rod.density_source].map(said).to_vec()
+        }),
     })
 }
 
@@ -46,7 +59,11 @@ pub fn promised_joints(setup: &Setup, plan: &CutPlan) -> Vec<PromisedJoint> {
     let clearance_mm = setup.printer.clearance_per_side_mm.value;
     let joints = plan.joints.iter().enumerate();
     joints
-        .map(|(index, joint)| PromisedJoint { id: joint_id(index), clearance_mm, glue: film(setup, joint) })
+        .map(|(index, joint)| PromisedJoint {
+            id: joint_id(index),
+            clearance_mm,
+            glue: film(setup, joint),
+        })
         .collect()
 }
 
@@ -67,7 +84,8 @@ pub fn joint_rows(sheet: &Sheet) -> Vec<JointRow> {
             pins: joint.pins.len(),
             clearance_mm: sheet.setup.printer.clearance_per_side_mm.value,
             glue: film(sheet.setup, joint),
-            note: to_mind(joint).map(|mind| [refused(&sheet.assembly.plan, joint), mind.to_owned()].concat()),
+            note: to_mind(joint)
+                .map(|mind| [refused(&sheet.assembly.plan, joint), mind.to_owned()].concat()),
         })
         .collect()
 }
@@ -77,7 +95,9 @@ fn to_mind(joint: &JointNote) -> Option<&'static str> {
     match joint.pins.len() {
         0 => Some("no room for pins: align the outlines by eye and touch"),
         1 => Some("room for one pin only: mind the turn, align the outlines"),
-        _ if !joint.one_way => Some("the pins fit in more than one way: mind the turn, align the outlines"),
+        _ if !joint.one_way => {
+            Some("the pins fit in more than one way: mind the turn, align the outlines")
+        }
         _ => None,
     }
 }
@@ -86,23 +106,34 @@ fn to_mind(joint: &JointNote) -> Option<&'static str> {
 fn refused(plan: &CutPlan, joint: &JointNote) -> String {
     let [below, above] = &joint.parts;
     let start = format!("joint {below}–{above}: bosses around pins ");
-    let why = plan.notes.iter().find_map(|note| note.strip_prefix(&start)?.strip_suffix(": it has none"));
+    let why = plan
+        .notes
+        .iter()
+        .find_map(|note| note.strip_prefix(&start)?.strip_suffix(": it has none"));
     why.map_or_else(String::new, |why| format!("bosses around pins {why}; "))
 }
 
 /// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and which parts bear no id at
 /// the printing.
 pub fn is_told_in_a_step(note: &str) -> bool {
-    ["joint ", "no room for an id "].iter().any(|start| note.starts_with(start))
+    ["joint ", "no room for an id "]
+        .iter()
+        .any(|start| note.starts_with(start))
 }
 
 /// The joints that are to be minded, in one warning; none where all fit one way only.
 pub fn joints_to_mind(plan: &CutPlan) -> Option<String> {
-    let minded = plan.joints.iter().enumerate().filter_map(|(index, joint)| Some((index, to_mind(joint)?)));
+    let minded = plan
+        .joints
+        .iter()
+        .enumerate()
+        .filter_map(|(index, joint)| Some((index, to_mind(joint)?)));
     let mut by_what: BTreeMap<&str, Vec<String>> = BTreeMap::new();
     minded.for_each(|(index, what)| by_what.entry(what).or_default().push(joint_id(index)));
-    let told: Vec<String> =
-        by_what.into_iter().map(|(what, joints)| format!("{}: {what}", joints.join(", "))).collect();
+    let told: Vec<String> = by_what
+        .into_iter()
+        .map(|(what, joints)| format!("{}: {what}", joints.join(", ")))
+        .collect();
     (!told.is_empty()).then(|| told.join("; "))
 }
 
@@ -130,5 +161,9 @@ fn boss_row(boss: &KeptBoss) -> BossRow {
 
 /// What could have been emptied in all bosses, mm³.
 pub fn bosses_mm3(sheet: &Sheet) -> f64 {
-    sheet.assembly.bosses.last().map_or(0.0, |round| round.kept_mm3)
+    sheet
+        .assembly
+        .bosses
+        .last()
+        .map_or(0.0, |round| round.kept_mm3)
 }

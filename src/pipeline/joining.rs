@@ -11,12 +11,15 @@ use crate::verify::{GlueFilm, Hardware, Mark};
 pub fn joined(setup: &Setup, plan: &CutPlan) -> Moments {
     let density_g_cm3 = setup.material.density_g_cm3.value;
     let films = plan.joints.iter().filter_map(|joint| film(setup, joint));
-    let films = films.map(|film| film.face.film(film.thickness_mm) * (film.density_g_cm3 / density_g_cm3));
+    let films =
+        films.map(|film| film.face.film(film.thickness_mm) * (film.density_g_cm3 / density_g_cm3));
     let dowels = plan.pins.iter().filter_map(|pin| {
         let weight = pin.dowel.as_ref()?.density_g_cm3 / density_g_cm3;
         Some(pin.dowel_bar()?.moments() * weight)
     });
-    films.chain(dowels).fold(Moments::default(), |sum, part| sum + part)
+    films
+        .chain(dowels)
+        .fold(Moments::default(), |sum, part| sum + part)
 }
 
 /// How ids are sunk into cut faces: in strokes as wide as the smallest detail, or two pixels, and as deep; none where the job wants none.
@@ -25,16 +28,27 @@ pub fn label_style(setup: &Setup) -> Option<LabelStyle> {
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
     let stroke_mm = printer.min_feature_mm.value.max(2.0 * pixel_mm);
     let layers = (printer.min_feature_mm.value / printer.layer_mm.value).ceil();
-    let style = LabelStyle { stroke_mm, depth_mm: layers * printer.layer_mm.value };
+    let style = LabelStyle {
+        stroke_mm,
+        depth_mm: layers * printer.layer_mm.value,
+    };
     setup.job.ids.is_engraved().then_some(style)
 }
 
 /// The film of glue in a joint; none where the printer's profile does not say how thick it is.
 pub fn film(setup: &Setup, joint: &JointNote) -> Option<GlueFilm> {
     let number = |quantity| setup.printer.number(quantity).map(|number| number.value);
-    let (thickness_mm, density_g_cm3) = (number(Quantity::GlueFilmMm)?, number(Quantity::GlueDensityGCm3)?);
+    let (thickness_mm, density_g_cm3) = (
+        number(Quantity::GlueFilmMm)?,
+        number(Quantity::GlueDensityGCm3)?,
+    );
     let mass_g = joint.face.area_mm2 * thickness_mm * density_g_cm3 / MM3_PER_CM3;
-    Some(GlueFilm { thickness_mm, density_g_cm3, mass_g, face: joint.face })
+    Some(GlueFilm {
+        thickness_mm,
+        density_g_cm3,
+        mass_g,
+        face: joint.face,
+    })
 }
 
 /// A label as the judge sees it.

@@ -15,10 +15,13 @@ use crate::io::stl;
 use crate::job::JobError;
 use crate::mesh::weld;
 use crate::progress::Progress;
-use crate::report::{Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page};
+use crate::report::{
+    Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page,
+};
 use crate::verify::{
-    CHECKLIST_FILE, Density, Evidence, FigureName, Judgement, PrinterLimits, Promise, PromisedFigure,
-    PromisedPart, SCHEMA, SHEET_FILE, SUMS_FILE, Shells, WallOrder, checks, judge, sums,
+    CHECKLIST_FILE, Density, Evidence, FigureName, Judgement, PrinterLimits, Promise,
+    PromisedFigure, PromisedPart, SCHEMA, SHEET_FILE, SUMS_FILE, Shells, WallOrder, checks, judge,
+    sums,
 };
 
 /// The name of the uncut result in a kit.
@@ -36,7 +39,10 @@ pub fn prepared(
     mut watch: Stopwatch,
 ) -> Result<Prepared, Error> {
     progress.report(phase::VERIFY, 0.0);
-    let hollowed = stl::encode(&assembly.hollowed.to_mesh(), &format!("{} hollowed", setup.name()));
+    let hollowed = stl::encode(
+        &assembly.hollowed.to_mesh(),
+        &format!("{} hollowed", setup.name()),
+    );
     let evidence = Evidence {
         promise: promise(setup, assembly),
         hollowed: stl::decode(&hollowed)?,
@@ -64,34 +70,79 @@ pub fn prepared(
         kit.add(&file, bytes);
     }
     kit.add(JOB, setup.job.to_toml()?.into_bytes());
-    kit.add(CUTS, CutOrder::of(&assembly.plan).to_toml().map_err(JobError::from)?.into_bytes());
-    let sheet = Sheet { setup, assembly, judgement: &judgement, promised: promise.promise };
+    kit.add(
+        CUTS,
+        CutOrder::of(&assembly.plan)
+            .to_toml()
+            .map_err(JobError::from)?
+            .into_bytes(),
+    );
+    let sheet = Sheet {
+        setup,
+        assembly,
+        judgement: &judgement,
+        promised: promise.promise,
+    };
     let mut checklist = rows::checklist(&sheet);
     pictures.extend(drawings(&checklist, &sitting, &faces(assembly)?)?);
     for picture in &pictures {
         kit.add(&picture.file, picture.bytes());
     }
-    checklist.files = kit.files().map(|(file, bytes)| (file.to_owned(), sha256_hex(&[bytes]))).collect();
+    checklist.files = kit
+        .files()
+        .map(|(file, bytes)| (file.to_owned(), sha256_hex(&[bytes])))
+        .collect();
     file_papers(&mut kit, &checklist, (&pictures, &view))?;
     watch.lap(phase::REPORT);
     checklist.timing_s = Some(watch.timing());
-    Ok(Prepared { kit, checklist, failure: None })
+    Ok(Prepared {
+        kit,
+        checklist,
+        failure: None,
+    })
 }
 
 /// Adds the job sheet, for people and for machines, without anything that differs from run to run, and the list of all hashes.
-fn file_papers(kit: &mut Kit, sheet: &Checklist, (pictures, view): (&[Picture], &View)) -> Result<(), Error> {
+fn file_papers(
+    kit: &mut Kit,
+    sheet: &Checklist,
+    (pictures, view): (&[Picture], &View),
+) -> Result<(), Error> {
     let json = sheet.to_json()?;
     let sha256 = &sha256_hex(&[json.as_bytes()]);
     kit.add(CHECKLIST_FILE, json.into_bytes());
-    kit.add(SHEET_FILE, page(&Papers { sheet, sha256, pictures, view: Some(view) }).into_bytes());
+    kit.add(
+        SHEET_FILE,
+        page(&Papers {
+            sheet,
+            sha256,
+            pictures,
+            view: Some(view),
+        })
+        .into_bytes(),
+    );
     kit.add(SUMS_FILE, sums(kit.files()).into_bytes());
     Ok(())
 }
 
 /// What the pictures are taken of: the files as they are written.
 fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) -> Sitting<'a> {
-    let Promise { goal, hardware, ballast, parts: promised, .. } = &evidence.promise;
-    Sitting { shells, parts: &evidence.parts, promised, cuts, aim: *goal, hardware, ballast }
+    let Promise {
+        goal,
+        hardware,
+        ballast,
+        parts: promised,
+        ..
+    } = &evidence.promise;
+    Sitting {
+        shells,
+        parts: &evidence.parts,
+        promised,
+        cuts,
+        aim: *goal,
+        hardware,
+        ballast,
+    }
 }
 
 /// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.
@@ -99,8 +150,10 @@ fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
     let mut judgement = judge(&evidence);
     let figure = rows::promised_figure(setup.placement.goal.kind, setup.placement.goal.objective);
     let reached = judgement.assembly.value_of(figure);
-    let promise =
-        Promise { promise: reached.map(|value| PromisedFigure { figure, value }), ..evidence.promise };
+    let promise = Promise {
+        promise: reached.map(|value| PromisedFigure { figure, value }),
+        ..evidence.promise
+    };
     judgement.checks = checks(&promise, &judgement);
     (promise, judgement)
 }
@@ -116,11 +169,19 @@ fn promise(setup: &Setup, assembly: &Assembly) -> Promise {
             minimum_opening_mm: Some(setup.printer.min_opening_mm.value),
             cleaning: Some(setup.printer.cleaning_rule()),
         },
-        material: Density { density_g_cm3: rows::density_g_cm3(setup) },
+        material: Density {
+            density_g_cm3: rows::density_g_cm3(setup),
+        },
         goal: rows::aim(setup),
         promise: None,
-        wall: WallOrder { required_mm: setup.wall.wall_mm },
-        parts: assembly.parts.iter().map(|part| promised_part(part, &assembly.plan)).collect(),
+        wall: WallOrder {
+            required_mm: setup.wall.wall_mm,
+        },
+        parts: assembly
+            .parts
+            .iter()
+            .map(|part| promised_part(part, &assembly.plan))
+            .collect(),
         cuts: void_rows::promised_cuts(&assembly.plan),
         voids: void_rows::promised_voids(setup, &assembly.plan),
         hardware: setup.hardware(),
@@ -142,7 +203,11 @@ fn promised_part(written: &super::written::WrittenPart, plan: &CutPlan) -> Promi
         fingerprint: None,
         print_from_model: written.evidence().pose,
         pins: part.pins.iter().map(|pin| rows::pin(pin, plan)).collect(),
-        sockets: part.sockets.iter().map(|pin| rows::socket(pin, plan)).collect(),
+        sockets: part
+            .sockets
+            .iter()
+            .map(|pin| rows::socket(pin, plan))
+            .collect(),
         marks: part.labels.iter().map(joining::mark).collect(),
     }
 }

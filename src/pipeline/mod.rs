@@ -85,7 +85,9 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
         }
     };
     let prepared = bossed_or_plain(&setup, solved, progress, watch)?;
-    Ok(Outcome::Prepared(Box::new(advising::after(&setup, prepared, progress))))
+    Ok(Outcome::Prepared(Box::new(advising::after(
+        &setup, prepared, progress,
+    ))))
 }
 
 /// The judged kit, with every joint's pins as far as can be; where it then breaks a promise, as where what a boss hides of a
@@ -97,10 +99,15 @@ fn bossed_or_plain(
     progress: &Progress,
     mut watch: Stopwatch,
 ) -> Result<Prepared, Error> {
-    let is_ordered = setup.job.plan.as_ref().is_some_and(|order| order.pins.is_some());
+    let is_ordered = setup
+        .job
+        .plan
+        .as_ref()
+        .is_some_and(|order| order.pins.is_some());
     let (mut lengths, mut note) = (Lengths::All, None);
     loop {
-        let mut assembly = Assembly::corrected(setup, solved.clone(), lengths, (progress, &mut watch))?;
+        let mut assembly =
+            Assembly::corrected(setup, solved.clone(), lengths, (progress, &mut watch))?;
         assembly.plan.notes.extend(note.map(str::to_owned));
         let gone = assembly.lengths;
         let assembly = packages::in_format(assembly, setup)?;

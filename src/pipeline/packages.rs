@@ -25,12 +25,20 @@ pub fn in_format(mut assembly: Assembly, setup: &Setup) -> Result<Assembly, Erro
         return Ok(assembly);
     }
     let scale = Vector::from(setup.printer.print_scale_ratio());
-    let parts = std::mem::take(&mut assembly.parts).into_par_iter().enumerate();
+    let parts = std::mem::take(&mut assembly.parts)
+        .into_par_iter()
+        .enumerate();
     let repacked = parts.map(|(index, part)| {
         let printed = stl::decode(&part.bytes)?;
         let (file, bytes) = packed(setup, &part, &[object(index, &part, &printed)])?;
-        let read_back = decode_model(&bytes)?.map_vertices(|p| p.coords.component_div(&scale).into());
-        Ok(WrittenPart { file, bytes, read_back, ..part })
+        let read_back =
+            decode_model(&bytes)?.map_vertices(|p| p.coords.component_div(&scale).into());
+        Ok(WrittenPart {
+            file,
+            bytes,
+            read_back,
+            ..part
+        })
     });
     assembly.parts = repacked.collect::<Result<_, Error>>()?;
     Ok(assembly)
@@ -42,16 +50,22 @@ pub fn packages(setup: &Setup, assembly: &Assembly) -> Result<Vec<File>, Error> 
         return Ok(Vec::new());
     }
     let parts = &assembly.parts;
-    let printed: Vec<TriMesh> =
-        parts.par_iter().map(|part| decode_model(&part.bytes)).collect::<Result<_, _>>()?;
-    let objects: Vec<Object> =
-        (0..parts.len()).into_par_iter().map(|i| object(i, &parts[i], &printed[i])).collect();
+    let printed: Vec<TriMesh> = parts
+        .par_iter()
+        .map(|part| decode_model(&part.bytes))
+        .collect::<Result<_, _>>()?;
+    let objects: Vec<Object> = (0..parts.len())
+        .into_par_iter()
+        .map(|i| object(i, &parts[i], &printed[i]))
+        .collect();
     let mut jobs = plates(setup, &printed);
     jobs.insert(0, (ASSEMBLY.to_owned(), together(setup, parts)));
     let shared = jobs
         .into_par_iter()
         .map(|(file, (description, build))| package(setup, &objects, (file, description, build)));
-    let twins = (0..parts.len()).into_par_iter().filter(|_| setup.job.format == PartFormat::Both);
+    let twins = (0..parts.len())
+        .into_par_iter()
+        .filter(|_| setup.job.format == PartFormat::Both);
     let twins = twins.map(|i| packed(setup, &parts[i], &objects[i..=i]));
     twins.chain(shared).collect()
 }
@@ -61,7 +75,10 @@ type Arrangement = (String, Build);
 
 /// A part's own package, as it lies in print pose.
 fn packed(setup: &Setup, part: &WrittenPart, object: &[Object]) -> Result<File, Error> {
-    let file = Path::new(&part.file).with_extension("3mf").to_string_lossy().into_owned();
+    let file = Path::new(&part.file)
+        .with_extension("3mf")
+        .to_string_lossy()
+        .into_owned();
     let description = format!("Part {} in print pose.", part.part.id);
     let build = Build::Apart(vec![(0, Transform::default())]);
     package(setup, object, (file, description, build))
@@ -76,20 +93,39 @@ fn package(
     objects: &[Object],
     (file, description, build): (String, String, Build),
 ) -> Result<File, Error> {
-    let title = Path::new(&file).file_stem().unwrap_or_default().to_string_lossy();
+    let title = Path::new(&file)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy();
     let title = format!("{} {title}", setup.name());
-    let bytes = Package { title, description, job: setup.name(), objects, build }.encode()?;
+    let bytes = Package {
+        title,
+        description,
+        job: setup.name(),
+        objects,
+        build,
+    }
+    .encode()?;
     Ok((file, bytes))
 }
 
 /// The parts where they belong in the model: what was done to print them is undone.
 fn together(setup: &Setup, parts: &[WrittenPart]) -> Arrangement {
     let unscaled = Vector::from(setup.printer.print_scale_ratio()).map(f64::recip);
-    let size = Transform { linear: Matrix::from_diagonal(&unscaled), shift: Vector::zeros() };
+    let size = Transform {
+        linear: Matrix::from_diagonal(&unscaled),
+        shift: Vector::zeros(),
+    };
     let place = |(index, part): (usize, &WrittenPart)| {
         let pose = part.evidence().pose;
         let back = pose.rotation().transpose();
-        (index, size.then(&Transform { linear: back, shift: -(back * pose.translation()) }))
+        (
+            index,
+            size.then(&Transform {
+                linear: back,
+                shift: -(back * pose.translation()),
+            }),
+        )
     };
     let places = parts.iter().enumerate().map(place).collect();
     let description = "The parts where they belong in the model, in its own axes.".to_owned();
@@ -99,18 +135,36 @@ fn together(setup: &Setup, parts: &[WrittenPart]) -> Arrangement {
 /// The plates with their parts in print pose.
 fn plates(setup: &Setup, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
     let boxes: Vec<Aabb> = printed.iter().map(TriMesh::aabb).collect();
-    let sizes: Vec<[f64; 2]> = boxes.iter().map(|aabb| [aabb.size().x, aabb.size().y]).collect();
+    let sizes: Vec<[f64; 2]> = boxes
+        .iter()
+        .map(|aabb| [aabb.size().x, aabb.size().y])
+        .collect();
     let known = setup.printer.plate();
-    let spots = known.clone().unwrap_or_else(|| Plate::for_parts(&sizes)).arranged(&sizes);
+    let spots = known
+        .clone()
+        .unwrap_or_else(|| Plate::for_parts(&sizes))
+        .arranged(&sizes);
     let count = spots.iter().map(|spot| spot.plate + 1).max().unwrap_or(0);
     let plate = |plate: usize| {
-        let here = spots.iter().enumerate().filter(|(_, spot)| spot.plate == plate);
-        let places: Vec<_> = here.map(|(index, spot)| (index, laid(&boxes[index], spot))).collect();
-        let file = if count == 1 { "plate.3mf".to_owned() } else { format!("plate_{}.3mf", plate + 1) };
+        let here = spots
+            .iter()
+            .enumerate()
+            .filter(|(_, spot)| spot.plate == plate);
+        let places: Vec<_> = here
+            .map(|(index, spot)| (index, laid(&boxes[index], spot)))
+            .collect();
+        let file = if count == 1 {
+            "plate.3mf".to_owned()
+        } else {
+            format!("plate_{}.3mf", plate + 1)
+        };
         let fits = places.iter().all(|(index, _)| spots[*index].fits);
         (
             file,
-            (plate_words(setup, [plate + 1, count], known.is_some().then_some(fits)), Build::Apart(places)),
+            (
+                plate_words(setup, [plate + 1, count], known.is_some().then_some(fits)),
+                Build::Apart(places),
+            ),
         )
     };
     (0..count).map(plate).collect()
@@ -130,8 +184,19 @@ fn plate_words(setup: &Setup, [plate, count]: [usize; 2], fits: Option<bool>) ->
 /// The motion that lays a part from its own file on its spot.
 fn laid(aabb: &Aabb, spot: &Spot) -> Transform {
     let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    let linear = if spot.is_turned { turn } else { Matrix::identity() };
+    let linear = if spot.is_turned {
+        turn
+    } else {
+        Matrix::identity()
+    };
     // Turned, the box's far side in y is its near side in x.
-    let low = if spot.is_turned { [-aabb.max.y, aabb.min.x] } else { [aabb.min.x, aabb.min.y] };
-    Transform { linear, shift: Vector::new(spot.low_mm[0] - low[0], spot.low_mm[1] - low[1], 0.0) }
+    let low = if spot.is_turned {
+        [-aabb.max.y, aabb.min.x]
+    } else {
+        [aabb.min.x, aabb.min.y]
+    };
+    Transform {
+        linear,
+        shift: Vector::new(spot.low_mm[0] - low[0], spot.low_mm[1] - low[1], 0.0),
+    }
 }

@@ -75,24 +75,47 @@ pub fn planned<'a>(
     voids: Voids,
     (request, lengths): (&PlanRequest, Lengths),
 ) -> Result<Planned, Error> {
-    let start = Start { tuner: tuner.clone(), voids, solid: Vec::new(), rounds: Vec::new() };
-    let (start, refused) = match setup.job.plan.as_ref().filter(|order| !order.solid.is_empty()) {
+    let start = Start {
+        tuner: tuner.clone(),
+        voids,
+        solid: Vec::new(),
+        rounds: Vec::new(),
+    };
+    let (start, refused) = match setup
+        .job
+        .plan
+        .as_ref()
+        .filter(|order| !order.solid.is_empty())
+    {
         Some(order) => match start.without(order.solid.clone(), ORDERED)? {
             Some(less) => (less, None),
             None => (start, Some(TOO_SOLID.to_owned())),
         },
         None => (start, None),
     };
-    let ways = Ways { setup, start, request };
+    let ways = Ways {
+        setup,
+        start,
+        request,
+    };
     let mut planned = if lengths == Lengths::Walls {
-        ways.walled(ways.start.clone(), request.clone(), watch)?.taken(tuner, None)
+        ways.walled(ways.start.clone(), request.clone(), watch)?
+            .taken(tuner, None)
     } else {
         let first = ways.usual(watch)?;
-        let found = if lengths == Lengths::All { ways.others(&first, watch)? } else { Vec::new() };
-        let worth = found.into_iter().filter(|way| way.is_worth(&first) && way.lacking() < first.lacking());
+        let found = if lengths == Lengths::All {
+            ways.others(&first, watch)?
+        } else {
+            Vec::new()
+        };
+        let worth = found
+            .into_iter()
+            .filter(|way| way.is_worth(&first) && way.lacking() < first.lacking());
         let best = worth.min_by(|a, b| {
             let losses = [a, b].map(|way| way.loss_ratio(&first));
-            a.lacking().cmp(&b.lacking()).then(losses[0].total_cmp(&losses[1]))
+            a.lacking()
+                .cmp(&b.lacking())
+                .then(losses[0].total_cmp(&losses[1]))
         });
         match best {
             Some(best) => {
@@ -122,7 +145,12 @@ impl<'a> Start<'a> {
     fn without(&self, solid: Vec<SolidEnd>, why: &str) -> Result<Option<Self>, Error> {
         let mut tuner = self.tuner.clone();
         let less = without_ends(&mut tuner, &self.voids, (&solid, why))?;
-        Ok(less.map(|(round, voids)| Self { tuner, voids, solid, rounds: vec![round] }))
+        Ok(less.map(|(round, voids)| Self {
+            tuner,
+            voids,
+            solid,
+            rounds: vec![round],
+        }))
     }
 }
 
@@ -163,7 +191,10 @@ impl<'a> Ways<'a, '_> {
         if is_free && !found.iter().any(is_solved) {
             found.extend(self.with_wide_joints(watch)?);
         }
-        if !found.iter().any(|way| is_solved(way) && way.loss_ratio(first) <= CHEAP_LOSS_RATIO) {
+        if !found
+            .iter()
+            .any(|way| is_solved(way) && way.loss_ratio(first) <= CHEAP_LOSS_RATIO)
+        {
             let dear = self.paid_dearly(first, DEAR_LOSS_RATIO, watch)?;
             // What is too dear for some of the joints may leave others their pins.
             if dear.as_ref().is_some_and(|way| !way.is_worth(first)) {
@@ -184,20 +215,35 @@ impl<'a> Ways<'a, '_> {
     /// What is asked of plans after which more is solved for again than after the usual one.
     fn with_spare_openings(&self) -> PlanRequest {
         let min_opening_mm = SPARE_OPENING_RATIO * self.request.min_opening_mm;
-        PlanRequest { min_opening_mm, ..self.request.clone() }
+        PlanRequest {
+            min_opening_mm,
+            ..self.request.clone()
+        }
     }
 
     /// What only a further cut would let be cleaned stays solid, as long as the goal can be met so.
     fn with_fewer_cuts(&self, watch: &mut Stopwatch) -> Result<Option<Way<'a>>, Error> {
-        let fewer = PlanRequest { worth_ratio: 1.0, ..self.with_spare_openings() };
+        let fewer = PlanRequest {
+            worth_ratio: 1.0,
+            ..self.with_spare_openings()
+        };
         let way = optional(self.gone(self.start.clone(), fewer, watch).map(Some))?;
-        Ok(way.map(|way| Way { name: Some("fewer cuts for cleaning alone"), ..way }))
+        Ok(way.map(|way| Way {
+            name: Some("fewer cuts for cleaning alone"),
+            ..way
+        }))
     }
 
     fn with_wide_joints(&self, watch: &mut Stopwatch) -> Result<Option<Way<'a>>, Error> {
-        let wide = PlanRequest { wants_wide_joints: true, ..self.with_spare_openings() };
+        let wide = PlanRequest {
+            wants_wide_joints: true,
+            ..self.with_spare_openings()
+        };
         let way = optional(self.gone(self.start.clone(), wide, watch).map(Some))?;
-        Ok(way.map(|way| Way { name: Some("cuts through wider places"), ..way }))
+        Ok(way.map(|way| Way {
+            name: Some("cuts through wider places"),
+            ..way
+        }))
     }
 
     fn paid_dearly(
@@ -210,9 +256,17 @@ impl<'a> Ways<'a, '_> {
             return Ok(None);
         }
         let mut tuner = first.tuner.clone();
-        let paid = first.bossed.clone().paid_dearly(&mut tuner, self.request, max_loss_ratio);
+        let paid = first
+            .bossed
+            .clone()
+            .paid_dearly(&mut tuner, self.request, max_loss_ratio);
         watch.lap("bosses");
-        let way = |bossed| Way { tuner, bossed, name: Some("dear bosses"), ..first.clone() };
+        let way = |bossed| Way {
+            tuner,
+            bossed,
+            name: Some("dear bosses"),
+            ..first.clone()
+        };
         Ok(optional(paid.map(Some))?.map(way))
     }
 
@@ -224,14 +278,23 @@ impl<'a> Ways<'a, '_> {
             let last = found.last().unwrap_or(base);
             let margin = (self.request, ENDS_MARGIN_RATIO);
             let more = beyond(&last.bossed.voids.hollowed, &last.bossed.plan, margin);
-            let Some(more) = optional(more.map(Some).map_err(Error::from))?.filter(|more| !more.is_empty())
+            let Some(more) =
+                optional(more.map(Some).map_err(Error::from))?.filter(|more| !more.is_empty())
             else {
                 break;
             };
             solid.extend(more);
-            let Some(start) = optional(self.start.without(solid.clone(), BEYOND))? else { break };
-            let Some(way) = optional(self.gone(start, base.request.clone(), watch).map(Some))? else { break };
-            found.push(Way { name: Some("voids solid beyond joints without room"), ..way });
+            let Some(start) = optional(self.start.without(solid.clone(), BEYOND))? else {
+                break;
+            };
+            let Some(way) = optional(self.gone(start, base.request.clone(), watch).map(Some))?
+            else {
+                break;
+            };
+            found.push(Way {
+                name: Some("voids solid beyond joints without room"),
+                ..way
+            });
             if found.last().is_some_and(Way::is_full) {
                 break;
             }
@@ -241,18 +304,38 @@ impl<'a> Ways<'a, '_> {
 
     fn walled(
         &self,
-        Start { mut tuner, voids, solid, mut rounds }: Start<'a>,
+        Start {
+            mut tuner,
+            voids,
+            solid,
+            mut rounds,
+        }: Start<'a>,
         request: PlanRequest,
         watch: &mut Stopwatch,
     ) -> Result<Way<'a>, Error> {
-        let Cleaned { voids, plan, rounds: cleaning } = cleaned(self.setup, &mut tuner, voids, &request)?;
+        let Cleaned {
+            voids,
+            plan,
+            rounds: cleaning,
+        } = cleaned(self.setup, &mut tuner, voids, &request)?;
         watch.lap("plan");
         rounds.extend(cleaning);
         let bossed = Bossed::without(voids, CutPlan { solid, ..plan });
-        Ok(Way { tuner, request, cleaning: rounds, bossed, name: None })
+        Ok(Way {
+            tuner,
+            request,
+            cleaning: rounds,
+            bossed,
+            name: None,
+        })
     }
 
-    fn gone(&self, start: Start<'a>, request: PlanRequest, watch: &mut Stopwatch) -> Result<Way<'a>, Error> {
+    fn gone(
+        &self,
+        start: Start<'a>,
+        request: PlanRequest,
+        watch: &mut Stopwatch,
+    ) -> Result<Way<'a>, Error> {
         let mut way = self.walled(start, request, watch)?;
         way.bossed = bossed(&mut way.tuner, way.bossed, &way.request)?;
         watch.lap("bosses");
@@ -274,7 +357,10 @@ impl<'a> Way<'a> {
     fn lacking(&self) -> [usize; 2] {
         let joints = &self.bossed.plan.joints;
         let without = joints.iter().filter(|joint| !joint.is_aligned()).count();
-        [without, joints.iter().filter(|joint| joint.pins.is_empty()).count()]
+        [
+            without,
+            joints.iter().filter(|joint| joint.pins.is_empty()).count(),
+        ]
     }
 
     /// Whether every joint has its pins.
@@ -294,7 +380,11 @@ impl<'a> Way<'a> {
     /// Whether it keeps what the first way keeps, at no more than pins may cost.
     fn is_worth(&self, first: &Self) -> bool {
         let is_clean = |way: &Self| are_clean(&way.bossed.plan, &way.request);
-        let max_loss_ratio = if self.is_full() { DEAR_LOSS_RATIO } else { PARTIAL_LOSS_RATIO };
+        let max_loss_ratio = if self.is_full() {
+            DEAR_LOSS_RATIO
+        } else {
+            PARTIAL_LOSS_RATIO
+        };
         self.bossed.voids.solution.is_usable()
             && (is_clean(self) || !is_clean(first))
             && self.loss_ratio(first) <= max_loss_ratio
@@ -324,6 +414,14 @@ impl<'a> Way<'a> {
             (None, false) => Lengths::Bosses,
             (None, true) => Lengths::Walls,
         };
-        Planned { voids, plan, notes, request: self.request, cleaning: self.cleaning, bosses, lengths }
+        Planned {
+            voids,
+            plan,
+            notes,
+            request: self.request,
+            cleaning: self.cleaning,
+            bosses,
+            lengths,
+        }
     }
 }

@@ -29,25 +29,44 @@ fn sources(setup: &Setup) -> Vec<String> {
     let printer = &setup.printer;
     let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
     let numbers = printer.numbers().into_iter();
-    let numbers =
-        numbers.map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
-    let volume =
-        printer.build_volume_mm.iter().map(|volume| format!("build volume: {}", volume.provenance()));
+    let numbers = numbers
+        .map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
+    let volume = printer
+        .build_volume_mm
+        .iter()
+        .map(|volume| format!("build volume: {}", volume.provenance()));
     let none = printer.build_volume_mm.is_none();
-    let unfit = none.then(|| "build volume: not known; check by hand that the parts fit".to_owned());
+    let unfit =
+        none.then(|| "build volume: not known; check by hand that the parts fit".to_owned());
     let corners = printer.excluded_corners.iter().map(|corner| {
         let [x, y] = corner.size_mm.value;
-        format!("keep clear of a corner of {x} × {y} mm: {}", corner.size_mm.provenance())
+        format!(
+            "keep clear of a corner of {x} × {y} mm: {}",
+            corner.size_mm.provenance()
+        )
     });
-    let unknown: Vec<String> =
-        printer.unknown().into_iter().filter(|key| *key != "build_volume_mm").map(words).collect();
-    let unknown = (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
-    numbers.chain(volume).chain(unfit).chain(corners).chain(unknown).collect()
+    let unknown: Vec<String> = printer
+        .unknown()
+        .into_iter()
+        .filter(|key| *key != "build_volume_mm")
+        .map(words)
+        .collect();
+    let unknown =
+        (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
+    numbers
+        .chain(volume)
+        .chain(unfit)
+        .chain(corners)
+        .chain(unknown)
+        .collect()
 }
 
 /// The least wall that the printer makes of a model of this size, mm.
 pub fn minimum_wall_mm(setup: &Setup) -> f64 {
-    setup.printer.least_wall_mm(setup.model.solid.mesh().longest_side_mm()).value
+    setup
+        .printer
+        .least_wall_mm(setup.model.solid.mesh().longest_side_mm())
+        .value
 }
 
 /// What files are multiplied by; none where they are of nominal size.

@@ -19,12 +19,12 @@ use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
 use crate::report::{
-    BallastRow, Certificate, Checklist, Course, FootRow, GoalRow, LogRow, ModelRow, PartRow, PassRow,
-    SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
+    BallastRow, Certificate, Checklist, Course, FootRow, GoalRow, LogRow, ModelRow, PartRow,
+    PassRow, SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
 };
 use crate::verify::{
-    Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure, RotorOrder,
-    WaterOrder,
+    Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure,
+    RotorOrder, WaterOrder,
 };
 
 /// A face whose normal has this much of the vertical is level, within 0.8°.
@@ -65,7 +65,10 @@ fn filled(sheet: &Sheet) -> Checklist {
     let foot = standing::foot_row(sheet);
     Checklist {
         schema: Checklist::SCHEMA,
-        tool: Tool { name: env!("CARGO_PKG_NAME").to_owned(), version: env!("CARGO_PKG_VERSION").to_owned() },
+        tool: Tool {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
         job: setup.name(),
         model: model_row(setup),
         printer: printer_row(setup),
@@ -92,7 +95,10 @@ fn filled(sheet: &Sheet) -> Checklist {
         dowels: dowels(&sheet.assembly.plan),
         cut_list: cut_list(sheet),
         string_gap_mm: setup.string_gap_mm(),
-        finished_size_mm: Some(finished_size_mm(&sheet.assembly.evidence(), &setup.hardware())),
+        finished_size_mm: Some(finished_size_mm(
+            &sheet.assembly.evidence(),
+            &setup.hardware(),
+        )),
         ballast: ballast_rows(sheet),
         fill: fill_order(setup),
         rounds: round_rows(sheet),
@@ -123,14 +129,35 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
 pub fn aim(setup: &Setup) -> Aim {
     let goal = &setup.placement.goal;
     let rotor = goal.spindle.map(|spindle| {
-        let Rotor { speed_rpm, grade_mm_s, .. } = spindle.rotor;
-        RotorOrder { speed_rpm, grade_mm_s }
+        let Rotor {
+            speed_rpm,
+            grade_mm_s,
+            ..
+        } = spindle.rotor;
+        RotorOrder {
+            speed_rpm,
+            grade_mm_s,
+        }
     });
     let water = goal.afloat.map(|afloat| WaterOrder {
-        liquid_g_cm3: setup.job.goal.water.unwrap_or_default().liquid.density_g_cm3(),
+        liquid_g_cm3: setup
+            .job
+            .goal
+            .water
+            .unwrap_or_default()
+            .liquid
+            .density_g_cm3(),
         waterline_mm: afloat.waterline_mm,
     });
-    Aim { rotor, water, ..Aim::new(goal.kind, goal.frame.origin.into(), goal.frame.axis().into()) }
+    Aim {
+        rotor,
+        water,
+        ..Aim::new(
+            goal.kind,
+            goal.frame.origin.into(),
+            goal.frame.axis().into(),
+        )
+    }
 }
 
 /// The density of the material, g/cm³.
@@ -153,10 +180,14 @@ fn model_row(setup: &Setup) -> ModelRow {
 }
 
 fn goal_row(setup: &Setup) -> GoalRow {
-    let gap = setup.placement.warnings.iter().find_map(|warning| match warning {
-        Warning::ContactInAir { missing_mm } => Some(*missing_mm),
-        _ => None,
-    });
+    let gap = setup
+        .placement
+        .warnings
+        .iter()
+        .find_map(|warning| match warning {
+            Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+            _ => None,
+        });
     let asked = setup.request.objective;
     let spin_it_weights = match asked {
         Objective::SpinIt { gamma_c, gamma_i } => Some([gamma_c, gamma_i]),
@@ -201,10 +232,18 @@ pub fn shown(setup: &Setup, figure: hollow::Figure, value: f64) -> f64 {
 
 /// How the answer came about, in the units of the sheet.
 fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
-    let pass = |pass: &hollow::Pass| PassRow { value: shown(pass.value), bound: shown(pass.bound) };
-    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow { height_mm, critical_speed_rpm };
-    let (passes, speeds) =
-        (found.passes.iter().map(pass).collect(), found.speeds.iter().map(speed).collect());
+    let pass = |pass: &hollow::Pass| PassRow {
+        value: shown(pass.value),
+        bound: shown(pass.bound),
+    };
+    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow {
+        height_mm,
+        critical_speed_rpm,
+    };
+    let (passes, speeds) = (
+        found.passes.iter().map(pass).collect(),
+        found.speeds.iter().map(speed).collect(),
+    );
     (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
@@ -230,9 +269,16 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
         .zip(found)
         .map(|(written, facts)| {
             let part = &written.part;
-            let pins: Vec<Peg> = part.pins.iter().map(|site| pin(site, &sheet.assembly.plan)).collect();
-            let sockets: Vec<Peg> =
-                part.sockets.iter().map(|site| socket(site, &sheet.assembly.plan)).collect();
+            let pins: Vec<Peg> = part
+                .pins
+                .iter()
+                .map(|site| pin(site, &sheet.assembly.plan))
+                .collect();
+            let sockets: Vec<Peg> = part
+                .sockets
+                .iter()
+                .map(|site| socket(site, &sheet.assembly.plan))
+                .collect();
             let support = support_row(sheet.setup, &surfaces, written, [&pins, &sockets]);
             PartRow {
                 id: part.id.clone(),
@@ -282,26 +328,36 @@ pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
 
 /// The name of the joint a pin belongs to.
 fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
-    let joint = plan.joints.iter().position(|joint| joint.pins.contains(&pin.id));
+    let joint = plan
+        .joints
+        .iter()
+        .position(|joint| joint.pins.contains(&pin.id));
     joint.map(joint_id).unwrap_or_default()
 }
 
 /// The ballast as the judge sees it.
 pub fn ballast_orders(setup: &Setup) -> Vec<BallastOrder> {
-    let order =
-        |(index, placed): (usize, &Placed)| BallastOrder { id: format!("B{}", index + 1), lump: placed.lump };
+    let order = |(index, placed): (usize, &Placed)| BallastOrder {
+        id: format!("B{}", index + 1),
+        lump: placed.lump,
+    };
     setup.load.parts.iter().enumerate().map(order).collect()
 }
 
 /// The filling as the judge sees it.
 pub fn fill_order(setup: &Setup) -> Option<FillOrder> {
-    setup.job.fill.map(|filling| FillOrder { density_g_cm3: filling.density_g_cm3() })
+    setup.job.fill.map(|filling| FillOrder {
+        density_g_cm3: filling.density_g_cm3(),
+    })
 }
 
 fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
     let (load, voids) = (&sheet.setup.load, &sheet.assembly.plan.voids);
     let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
-    let rows = ballast_orders(sheet.setup).into_iter().zip(&load.parts).zip(pockets);
+    let rows = ballast_orders(sheet.setup)
+        .into_iter()
+        .zip(&load.parts)
+        .zip(pockets);
     rows.map(|((order, Placed { part, .. }), pocket)| BallastRow {
         order,
         part: part.id.clone(),
@@ -318,7 +374,12 @@ fn ballast_rows(sheet: &Sheet) -> Vec<BallastRow> {
 fn warnings(sheet: &Sheet, foot: Option<&FootRow>) -> Vec<String> {
     let setup = sheet.setup;
     let foot = foot.map(standing::flat_foot);
-    let placement = setup.placement.warnings.iter().chain(&foot).map(ToString::to_string);
+    let placement = setup
+        .placement
+        .warnings
+        .iter()
+        .chain(&foot)
+        .map(ToString::to_string);
     let repairs = setup.model.repairs.notable();
     let repairs = (!repairs.is_empty()).then(|| format!("the model was repaired: {repairs}"));
     let refused = sheet.assembly.refused_mm3;
@@ -327,18 +388,30 @@ fn warnings(sheet: &Sheet, foot: Option<&FootRow>) -> Vec<String> {
     } else {
         "that could not be cleaned"
     };
-    let small = (refused >= LEAST_TOLD_MM3).then(|| format!("{refused:.1} mm³ of voids {which} stay solid"));
+    let small = (refused >= LEAST_TOLD_MM3)
+        .then(|| format!("{refused:.1} mm³ of voids {which} stay solid"));
     let floats = setup.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !setup.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    let told = placement.chain(repairs).chain(small).chain(seal).chain(unweighed).chain(shallow_axle(setup));
+    let told = placement
+        .chain(repairs)
+        .chain(small)
+        .chain(seal)
+        .chain(unweighed)
+        .chain(shallow_axle(setup));
     told.chain(joints_to_mind(&sheet.assembly.plan)).collect()
 }
 
 fn notes(sheet: &Sheet) -> Vec<String> {
     let wall = sheet.setup.wall.why.clone();
     let scale = scaled(sheet.setup.printer.print_scale_ratio()).map(scale_note);
-    let planned = sheet.assembly.plan.notes.iter().filter(|note| !is_told_in_a_step(note)).cloned();
+    let planned = sheet
+        .assembly
+        .plan
+        .notes
+        .iter()
+        .filter(|note| !is_told_in_a_step(note))
+        .cloned();
     std::iter::once(wall).chain(scale).chain(planned).collect()
 }
 
@@ -352,7 +425,9 @@ fn log_row(row: &hollow::LogRow) -> LogRow {
     let finite = figures.into_iter().filter(|(_, value)| value.is_finite());
     LogRow {
         phase: stage_words(row.stage),
-        figures: finite.map(|(name, value)| (name.to_owned(), value)).collect(),
+        figures: finite
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect(),
     }
 }
 
@@ -363,7 +438,10 @@ fn stage_words(stage: hollow::Stage) -> String {
         Stage::Dominance => "dominance".to_owned(),
         Stage::HeightRange => "range of heights".to_owned(),
         Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
-        Stage::AtLever { height_mm, lever_mm4 } => {
+        Stage::AtLever {
+            height_mm,
+            lever_mm4,
+        } => {
             format!("centre at {height_mm:.3} mm, lever {lever_mm4:.0} mm⁴")
         }
         Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
@@ -383,6 +461,15 @@ fn lies(written: &WrittenPart, sheet: &Sheet) -> String {
             _ => None,
         }
     };
-    let facing: Vec<String> = sheet.assembly.plan.cuts_of(&written.part.id).filter_map(facing).collect();
-    if facing.is_empty() { "as the model stands".to_owned() } else { facing.join(", ") }
+    let facing: Vec<String> = sheet
+        .assembly
+        .plan
+        .cuts_of(&written.part.id)
+        .filter_map(facing)
+        .collect();
+    if facing.is_empty() {
+        "as the model stands".to_owned()
+    } else {
+        facing.join(", ")
+    }
 }

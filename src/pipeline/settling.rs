@@ -4,7 +4,9 @@ use super::{
     Error,
     tuner::{Tuner, Voids},
 };
-use crate::cut::{CutError, CutOrder, CutPlan, PlanRequest, Unclean, closed, plan_around, plan_by, unclean};
+use crate::cut::{
+    CutError, CutOrder, CutPlan, PlanRequest, Unclean, closed, plan_around, plan_by, unclean,
+};
 use crate::hollow::Certificate;
 use crate::mesh::TriMesh;
 
@@ -61,8 +63,15 @@ pub struct Reached {
 impl Reached {
     /// What these voids reach.
     pub fn by(voids: &Voids) -> Self {
-        let volumes = voids.hollowed.voids.iter().map(|void| void.mesh().signed_volume_mm3());
-        Self { certificate: voids.solution.certificate, voids_mm3: volumes.sum() }
+        let volumes = voids
+            .hollowed
+            .voids
+            .iter()
+            .map(|void| void.mesh().signed_volume_mm3());
+        Self {
+            certificate: voids.solution.certificate,
+            voids_mm3: volumes.sum(),
+        }
     }
 
     /// By which share of itself the goal's figure is worse after it.
@@ -86,7 +95,10 @@ pub struct Refusal {
 
 impl Refusal {
     fn because(why: &str) -> Self {
-        Self { why: why.to_owned(), loss_ratio: None }
+        Self {
+            why: why.to_owned(),
+            loss_ratio: None,
+        }
     }
 }
 
@@ -97,7 +109,11 @@ pub fn settled(
     mut voids: Voids,
     terms: &Terms,
 ) -> Result<Result<Settled, Refusal>, Error> {
-    let replan = if terms.is_ordered { plan_by } else { plan_around };
+    let replan = if terms.is_ordered {
+        plan_by
+    } else {
+        plan_around
+    };
     for round in 0..=terms.rounds {
         if !voids.solution.is_usable() {
             return Ok(Err(Refusal::because("make the goal impossible")));
@@ -105,12 +121,18 @@ pub fn settled(
         let now = Reached::by(&voids);
         let filled = terms.before.filled_ratio(&now);
         if filled > MAX_VOID_LOSS_RATIO {
-            return Ok(Err(Refusal::because(&format!("make {:.0} % of the voids solid", 100.0 * filled))));
+            return Ok(Err(Refusal::because(&format!(
+                "make {:.0} % of the voids solid",
+                100.0 * filled
+            ))));
         }
         let loss = terms.before.loss_ratio(&now);
         if round > 0 && loss > terms.max_loss_ratio {
             let why = format!("cost {:.0} % of what the kit reaches", 100.0 * loss);
-            return Ok(Err(Refusal { why, loss_ratio: Some(loss) }));
+            return Ok(Err(Refusal {
+                why,
+                loss_ratio: Some(loss),
+            }));
         }
         let dirty = match replan(&voids.hollowed, terms.request, terms.order) {
             Ok(plan) => {
@@ -133,7 +155,10 @@ pub fn settled(
             }
             Err(error) => return Err(error.into()),
         };
-        let bodies: Vec<TriMesh> = dirty.into_iter().flat_map(|unclean| unclean.lumps).collect();
+        let bodies: Vec<TriMesh> = dirty
+            .into_iter()
+            .flat_map(|unclean| unclean.lumps)
+            .collect();
         voids = tuner.without(&voids, (&bodies, MARGIN_RATIO))?;
     }
     Ok(Err(Refusal::because("leave a void that cannot be cleaned")))
@@ -144,15 +169,18 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
         return Ok(Vec::new());
     }
     let mut dirty = unclean(&voids.hollowed, plan, terms.request, false)?;
-    dirty
-        .retain(|unclean| !plan.voids[unclean.void].is_clean_without_margin(terms.request, plan.voids.len()));
+    dirty.retain(|unclean| {
+        !plan.voids[unclean.void].is_clean_without_margin(terms.request, plan.voids.len())
+    });
     Ok(dirty)
 }
 
 /// Whether every void of a plan is clean by the process's rule. The planner's margin is not asked: keeping more of a void solid and
 /// solving again for three thousandths of its wall costs more than any boss (cheburashka by filament: 15 % for two pins).
 pub fn are_clean(plan: &CutPlan, request: &PlanRequest) -> bool {
-    plan.voids.iter().all(|void| void.is_clean_without_margin(request, plan.voids.len()))
+    plan.voids
+        .iter()
+        .all(|void| void.is_clean_without_margin(request, plan.voids.len()))
 }
 
 /// By which share of itself the figure has become worse.

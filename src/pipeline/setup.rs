@@ -70,14 +70,27 @@ impl Setup {
         let (job, model) = load(job, &printer)?;
         let size_mm = model.solid.mesh().longest_side_mm();
         let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()), size_mm)?;
-        let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, size_mm, job.pitch.map(|pitch| pitch.mm()));
+        let pitch_mm =
+            printer.solve_pitch_mm(wall.wall_mm, size_mm, job.pitch.map(|pitch| pitch.mm()));
         leaves_room(size_mm, wall.wall_mm)?;
-        let means = Means { model: &model, printer: &printer, material: &material, wall: &wall };
+        let means = Means {
+            model: &model,
+            printer: &printer,
+            material: &material,
+            wall: &wall,
+        };
         let (request, choice) = means.settled(&job.goal);
-        let stock = Stock { wall_mm: wall.wall_mm, density_g_cm3: material.density_g_cm3.value };
+        let stock = Stock {
+            wall_mm: wall.wall_mm,
+            density_g_cm3: material.density_g_cm3.value,
+        };
         let placement = place_made_of(&model.solid, &stock, &request)?;
         let fill = fill(&job, stock.density_g_cm3)?;
-        let rods = if job.pins.is_printed() { Vec::new() } else { rods()? };
+        let rods = if job.pins.is_printed() {
+            Vec::new()
+        } else {
+            rods()?
+        };
         Ok(Self {
             job,
             model,
@@ -104,20 +117,35 @@ impl Setup {
 
     /// The name of the job in file names: the model's file name without its ending.
     pub fn name(&self) -> String {
-        let stem = self.job.model.path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+        let stem = self
+            .job
+            .model
+            .path
+            .file_stem()
+            .map(|stem| stem.to_string_lossy().into_owned());
         let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
-        stem.unwrap_or_default().chars().map(|c| if is_plain(c) { c } else { '-' }).collect()
+        stem.unwrap_or_default()
+            .chars()
+            .map(|c| if is_plain(c) { c } else { '-' })
+            .collect()
     }
 }
 
 /// What is in the voids of a job's print.
 fn fill(job: &Job, density_g_cm3: f64) -> Result<Fill, Error> {
-    let Some(filling) = job.fill else { return Ok(Fill::AIR) };
+    let Some(filling) = job.fill else {
+        return Ok(Fill::AIR);
+    };
     if !job.ballast.is_none() {
-        return Err(Error::FillAndBallast { fill: filling, order: job.ballast.clone() });
+        return Err(Error::FillAndBallast {
+            fill: filling,
+            order: job.ballast.clone(),
+        });
     }
-    let fill = Fill::new(filling.density_g_cm3() / density_g_cm3)
-        .ok_or(Error::FillLikePrint { fill: filling, density_g_cm3 })?;
+    let fill = Fill::new(filling.density_g_cm3() / density_g_cm3).ok_or(Error::FillLikePrint {
+        fill: filling,
+        density_g_cm3,
+    })?;
     if fill.is_heavier() && job.goal.kind == GoalKind::Balance {
         return Err(Error::HeavyFillInRotor { fill: filling });
     }
@@ -127,8 +155,10 @@ fn fill(job: &Job, density_g_cm3: f64) -> Result<Fill, Error> {
 /// The model of a job, and the job bound to it.
 fn load(job: &Job, printer: &Printer) -> Result<(Job, Model), Error> {
     let bytes = io::read_bytes(&job.model.path)?;
-    let mesh = io::decode_model(&bytes)
-        .map_err(|source| io::ReadError::Content { path: job.model.path.clone(), source })?;
+    let mesh = io::decode_model(&bytes).map_err(|source| io::ReadError::Content {
+        path: job.model.path.clone(),
+        source,
+    })?;
     let job = job.clone().bound_to(&bytes)?;
     let (mesh, repairs) = repair(mesh);
     let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
@@ -136,9 +166,22 @@ fn load(job: &Job, printer: &Printer) -> Result<(Job, Model), Error> {
     // Defects are told where they are to be found: in the file.
     let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| {
         let source = Box::new(Defects::of(&mesh).unwrap_or(defects));
-        Error::NotSolid { path: job.model.path.clone(), source }
+        Error::NotSolid {
+            path: job.model.path.clone(),
+            source,
+        }
     })?;
-    one_body(&solid)
-        .map_err(|source| Error::NotOneBody { path: job.model.path.clone(), source: Box::new(source) })?;
-    Ok((job, Model { solid, repairs, sha256: sha256_hex(&[&bytes]), scale_ratio }))
+    one_body(&solid).map_err(|source| Error::NotOneBody {
+        path: job.model.path.clone(),
+        source: Box::new(source),
+    })?;
+    Ok((
+        job,
+        Model {
+            solid,
+            repairs,
+            sha256: sha256_hex(&[&bytes]),
+            scale_ratio,
+        },
+    ))
 }

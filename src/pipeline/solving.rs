@@ -39,7 +39,12 @@ impl Solved {
     ) -> Result<Result<Self, Impossible>, Error> {
         progress.report(phase::SOLVE, 0.0);
         let goal = &setup.placement.goal;
-        let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
+        let shell = Shell::new(
+            &setup.model.solid,
+            &goal.frame,
+            setup.wall.wall_mm,
+            &setup.placement.keeps,
+        )?;
         let mut level: Option<Self> = None;
         let pitches = pitches(setup, &shell);
         // The first of several levels may lack what a finer one has; the last one has the last word.
@@ -57,10 +62,16 @@ impl Solved {
             if done >= first_to_tell && !solution.is_usable() {
                 return Ok(Err(impossible(setup, &solution)));
             }
-            let height_proof =
-                height_proof(&columns, &solution).or(level.as_ref().and_then(|level| level.height_proof));
-            let course = level.map_or_else(|| course(setup, &columns, &solution), |level| level.course);
-            level = Some(Self { columns, solution, height_proof, course });
+            let height_proof = height_proof(&columns, &solution)
+                .or(level.as_ref().and_then(|level| level.height_proof));
+            let course =
+                level.map_or_else(|| course(setup, &columns, &solution), |level| level.course);
+            level = Some(Self {
+                columns,
+                solution,
+                height_proof,
+                course,
+            });
         }
         let solved = level.ok_or(Error::Cancelled)?.proved_over_heights(setup);
         watch.lap("solve");
@@ -75,14 +86,26 @@ impl Solved {
         if weighs_lever || setup.fill != Fill::AIR {
             return self;
         }
-        let problem = Problem { goal: &setup.placement.goal, fixed: setup.fixed(), columns: &self.columns };
-        let proved = bound_over_heights(&problem, &Settings::default(), &self.solution, &Progress::silent());
+        let problem = Problem {
+            goal: &setup.placement.goal,
+            fixed: setup.fixed(),
+            columns: &self.columns,
+        };
+        let proved = bound_over_heights(
+            &problem,
+            &Settings::default(),
+            &self.solution,
+            &Progress::silent(),
+        );
         let proof = proved.map(|bound| HeightProof {
             pitch_mm: self.columns.pitch_mm[0],
             value: self.solution.certificate.value,
             bound,
         });
-        Self { height_proof: proof.or(self.height_proof), ..self }
+        Self {
+            height_proof: proof.or(self.height_proof),
+            ..self
+        }
     }
 
     /// The solution once more, with `fixed` as the moments of nothing emptied.
@@ -93,17 +116,36 @@ impl Solved {
 
 /// What a solution proves of tops with their centre of mass at any other height.
 fn height_proof(columns: &Columns, solution: &Solution) -> Option<HeightProof> {
-    let Certificate { value, bound_over_heights, .. } = solution.certificate;
-    bound_over_heights.map(|bound| HeightProof { pitch_mm: columns.pitch_mm[0], value, bound })
+    let Certificate {
+        value,
+        bound_over_heights,
+        ..
+    } = solution.certificate;
+    bound_over_heights.map(|bound| HeightProof {
+        pitch_mm: columns.pitch_mm[0],
+        value,
+        bound,
+    })
 }
 
 /// How the first answer came about.
 fn course(setup: &Setup, columns: &Columns, solution: &Solution) -> TopCourse {
-    let problem = Problem { goal: &setup.placement.goal, fixed: setup.fixed(), columns };
+    let problem = Problem {
+        goal: &setup.placement.goal,
+        fixed: setup.fixed(),
+        columns,
+    };
     let is_plain = setup.fill == Fill::AIR && solution.is_usable();
-    let of_top =
-        if is_plain { top_course(&problem, &Settings::default(), solution) } else { TopCourse::default() };
-    let passes: Vec<Pass> = if of_top.passes.is_empty() { solution.course.clone() } else { of_top.passes };
+    let of_top = if is_plain {
+        top_course(&problem, &Settings::default(), solution)
+    } else {
+        TopCourse::default()
+    };
+    let passes: Vec<Pass> = if of_top.passes.is_empty() {
+        solution.course.clone()
+    } else {
+        of_top.passes
+    };
     TopCourse { passes, ..of_top }
 }
 
@@ -119,9 +161,22 @@ fn pitches(setup: &Setup, shell: &Shell) -> Vec<[f64; 2]> {
     pitches
 }
 
-fn solution_on(setup: &Setup, columns: &Columns, from: Option<&Solved>, fixed: Moments) -> Solution {
-    let problem = Problem { goal: &setup.placement.goal, fixed, columns };
-    setup.fill.solve(&problem, from.map(|level| &level.solution), &Progress::silent())
+fn solution_on(
+    setup: &Setup,
+    columns: &Columns,
+    from: Option<&Solved>,
+    fixed: Moments,
+) -> Solution {
+    let problem = Problem {
+        goal: &setup.placement.goal,
+        fixed,
+        columns,
+    };
+    setup.fill.solve(
+        &problem,
+        from.map(|level| &level.solution),
+        &Progress::silent(),
+    )
 }
 
 /// The answer for a goal that no hollowing meets.
@@ -131,11 +186,21 @@ fn impossible(setup: &Setup, solution: &Solution) -> Impossible {
         verdict: "impossible",
         reason: solution.status.explain(goal),
         remedies: Vec::new(),
-        hints: solution.status.remedies(goal).iter().map(ToString::to_string).collect(),
+        hints: solution
+            .status
+            .remedies(goal)
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
         choice: setup.choice.clone(),
         proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
         origin_mm: goal.frame.origin.into(),
         axis: goal.frame.axis().into(),
-        warnings: setup.placement.warnings.iter().map(ToString::to_string).collect(),
+        warnings: setup
+            .placement
+            .warnings
+            .iter()
+            .map(ToString::to_string)
+            .collect(),
     }
 }

@@ -12,11 +12,20 @@ pub fn foot_row(sheet: &Sheet) -> Option<FootRow> {
         return None;
     }
     let mesh = setup.model.solid.mesh();
-    let mut points: Vec<Point> = mesh.vertices().iter().map(|p| goal.frame.to_local(p)).collect();
+    let mut points: Vec<Point> = mesh
+        .vertices()
+        .iter()
+        .map(|p| goal.frame.to_local(p))
+        .collect();
     // A tip piece touches with its end, which is the origin.
-    let has_tip = setup.request.hardware.is_some_and(|hardware| hardware.tip.is_some());
+    let has_tip = setup
+        .request
+        .hardware
+        .is_some_and(|hardware| hardware.tip.is_some());
     points.extend(has_tip.then(Point::origin));
-    let center = goal.frame.to_local(&Point::from(sheet.judgement.assembly.center_mm));
+    let center = goal
+        .frame
+        .to_local(&Point::from(sheet.judgement.assembly.center_mm));
     resting(&points, &center).map(|found| FootRow {
         radius_mm: found.radius_mm,
         center_height_mm: found.center_height_mm,
@@ -26,6 +35,14 @@ pub fn foot_row(sheet: &Sheet) -> Option<FootRow> {
 
 /// What to mind of such a foot.
 pub fn flat_foot(foot: &FootRow) -> Warning {
-    let FootRow { radius_mm, center_height_mm, rights_to_deg } = *foot;
-    Warning::FlatFoot { radius_mm, center_height_mm, rights_to_deg }
+    let FootRow {
+        radius_mm,
+        center_height_mm,
+        rights_to_deg,
+    } = *foot;
+    Warning::FlatFoot {
+        radius_mm,
+        center_height_mm,
+        rights_to_deg,
+    }
 }

@@ -14,7 +14,10 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Starts now.
     pub fn start() -> Self {
-        Self { last: Instant::now(), timing: Timing::default() }
+        Self {
+            last: Instant::now(),
+            timing: Timing::default(),
+        }
     }
 
     /// Gives the time since the last lap to `stage`.

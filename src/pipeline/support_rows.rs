@@ -39,17 +39,26 @@ impl Surfaces {
     /// Those of what was made.
     pub fn of(assembly: &Assembly) -> Self {
         let hollowed = &assembly.hollowed;
-        let voids = hollowed.voids.iter().fold(TriMesh::default(), |all, void| all.joined(void.mesh()));
+        let voids = hollowed
+            .voids
+            .iter()
+            .fold(TriMesh::default(), |all, void| all.joined(void.mesh()));
         Self {
             outer: MeshDistance::new(hollowed.outer.mesh()),
             voids: MeshDistance::new(&voids),
-            cuts: assembly.plan.cuts.iter().filter_map(|cut| cut.plane().ok()).collect(),
+            cuts: assembly
+                .plan
+                .cuts
+                .iter()
+                .filter_map(|cut| cut.plane().ok())
+                .collect(),
         }
     }
 
     /// Where a point of a part's surface is.
     fn side(&self, at: &Point, [pins, sockets]: [&[Peg]; 2]) -> Side {
-        let is_on = |surface: &MeshDistance| surface.bvh().closest(at, ON_SURFACE_MM, &[]).is_some();
+        let is_on =
+            |surface: &MeshDistance| surface.bvh().closest(at, ON_SURFACE_MM, &[]).is_some();
         let is_in = |peg: &Peg| is_in_peg(peg, at);
         if sockets.iter().any(is_in) {
             Side::Bridged
@@ -57,7 +66,11 @@ impl Surfaces {
             Side::Outside
         } else if is_on(&self.voids) {
             Side::Hollow
-        } else if pins.iter().any(is_in) || self.cuts.iter().any(|cut| cut.distance(at).abs() < ON_SURFACE_MM)
+        } else if pins.iter().any(is_in)
+            || self
+                .cuts
+                .iter()
+                .any(|cut| cut.distance(at).abs() < ON_SURFACE_MM)
         {
             Side::CutFace
         } else {
@@ -143,10 +156,14 @@ fn hanging(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> Suppor
     for (side, corners, area_mm2) in hung {
         let place = places.entry((sets.root(corners[0]), side)).or_default();
         place.area_mm2 += area_mm2;
-        corners.iter().for_each(|&corner| place.reaches(height(corner)));
+        corners
+            .iter()
+            .for_each(|&corner| place.reaches(height(corner)));
     }
     for corner in starts(mesh, rule.layer_mm) {
-        let place = places.entry((sets.root(corner), side(&mesh.vertices()[corner as usize]))).or_default();
+        let place = places
+            .entry((sets.root(corner), side(&mesh.vertices()[corner as usize])))
+            .or_default();
         place.starts = true;
         place.reaches(height(corner));
     }
@@ -180,7 +197,12 @@ fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
     let vertices = mesh.vertices();
     let floor_mm = mesh.aabb().min.z;
     let mut order: Vec<u32> = (0..vertices.len() as u32).collect();
-    order.sort_by(|&a, &b| vertices[a as usize].z.total_cmp(&vertices[b as usize].z).then(a.cmp(&b)));
+    order.sort_by(|&a, &b| {
+        vertices[a as usize]
+            .z
+            .total_cmp(&vertices[b as usize].z)
+            .then(a.cmp(&b))
+    });
     let mut ranks = vec![0u32; order.len()];
     for (rank, &corner) in order.iter().enumerate() {
         ranks[corner as usize] = rank as u32;
@@ -207,7 +229,10 @@ fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
         }
     }
     let down = looks_down(mesh, &found);
-    found.into_iter().filter(|corner| down.contains(corner)).collect()
+    found
+        .into_iter()
+        .filter(|corner| down.contains(corner))
+        .collect()
 }
 
 /// Those of some corners about which more of the surface looks down than up.
@@ -221,7 +246,11 @@ fn looks_down(mesh: &TriMesh, corners: &[u32]) -> Vec<u32> {
             }
         }
     }
-    up_mm2.into_iter().filter(|(_, up)| *up < 0.0).map(|(corner, _)| corner).collect()
+    up_mm2
+        .into_iter()
+        .filter(|(_, up)| *up < 0.0)
+        .map(|(corner, _)| corner)
+        .collect()
 }
 
 #[cfg(test)]
@@ -248,7 +277,11 @@ mod tests {
     fn a_block_needs_nothing_and_a_table_its_top_without_the_leg() {
         let leg = block([0.0; 3], [10.0, 10.0, 20.0]);
         assert_eq!(outside(&leg.to_mesh().unwrap()), SupportRow::default());
-        let table = leg.union(&block([-5.0, -5.0, 20.0], [15.0, 15.0, 22.0])).unwrap().to_mesh().unwrap();
+        let table = leg
+            .union(&block([-5.0, -5.0, 20.0], [15.0, 15.0, 22.0]))
+            .unwrap()
+            .to_mesh()
+            .unwrap();
         let row = outside(&table);
         assert!((row.outside_mm2 - 300.0).abs() < 1e-9 && row.places == 1);
         assert_eq!([row.from_mm, row.to_mm], [20.0, 20.0]);
@@ -258,7 +291,11 @@ mod tests {
     fn a_roof_of_a_socket_is_bridged_and_what_is_smaller_than_three_lines_is_carried() {
         let hole = |side: f64| {
             let cut = block([4.0, 4.0, -1.0], [4.0 + side, 4.0 + side, 5.0]);
-            block([0.0; 3], [10.0, 10.0, 20.0]).subtract(&cut).unwrap().to_mesh().unwrap()
+            block([0.0; 3], [10.0, 10.0, 20.0])
+                .subtract(&cut)
+                .unwrap()
+                .to_mesh()
+                .unwrap()
         };
         assert_eq!(hanging(&hole(4.0), &RULE, |_| Side::Bridged).places, 0);
         // 1.3² = 1.69 mm² is less than 1.35² = 1.82 mm², 1.4² = 1.96 mm² is more.
@@ -271,12 +308,18 @@ mod tests {
         let body = block([0.0; 3], [10.0, 10.0, 20.0]);
         let arm = block([10.0, 2.0, 10.0], [20.0, 8.0, 20.0]);
         let bare = body.union(&arm).unwrap().to_mesh().unwrap();
-        let fall = |p: &Point| Point::new(p.x, p.y, if p.x > 19.0 && p.z < 11.0 { 2.0 } else { p.z });
+        let fall =
+            |p: &Point| Point::new(p.x, p.y, if p.x > 19.0 && p.z < 11.0 { 2.0 } else { p.z });
         // Its lower face falls 8 mm over 10 mm outward: 39° from the level, so it overhangs; made steeper it does not.
         let leaning = bare.map_vertices(|p| fall(p));
         assert_eq!(outside(&leaning).places, 1);
-        let steep = leaning
-            .map_vertices(|p| Point::new(10.0 + (p.x - 10.0) * if p.x > 10.0 { 0.5 } else { 1.0 }, p.y, p.z));
+        let steep = leaning.map_vertices(|p| {
+            Point::new(
+                10.0 + (p.x - 10.0) * if p.x > 10.0 { 0.5 } else { 1.0 },
+                p.y,
+                p.z,
+            )
+        });
         let row = outside(&steep);
         assert_eq!((row.places, row.outside_mm2), (1, 0.0));
         assert!((row.from_mm - 2.0).abs() < 1e-9);
@@ -285,7 +328,11 @@ mod tests {
     #[test]
     fn a_pit_in_the_top_is_no_tip() {
         let cut = block([2.0, 2.0, 10.0], [8.0, 8.0, 30.0]);
-        let cup = block([0.0; 3], [10.0, 10.0, 20.0]).subtract(&cut).unwrap().to_mesh().unwrap();
+        let cup = block([0.0; 3], [10.0, 10.0, 20.0])
+            .subtract(&cut)
+            .unwrap()
+            .to_mesh()
+            .unwrap();
         assert_eq!(outside(&cup), SupportRow::default());
     }
 }

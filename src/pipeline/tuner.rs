@@ -46,7 +46,10 @@ impl Voids {
     /// The voids as they can be written: without the slivers that the rounding of a file would fold.
     pub fn finished(mut self) -> Result<Self, Error> {
         let bodies = std::mem::take(&mut self.hollowed.voids);
-        self.hollowed.voids = bodies.par_iter().map(without_slivers).collect::<Result<_, _>>()?;
+        self.hollowed.voids = bodies
+            .par_iter()
+            .map(without_slivers)
+            .collect::<Result<_, _>>()?;
         Ok(self)
     }
 }
@@ -67,8 +70,17 @@ impl<'a> Tuner<'a> {
     /// Draws what may be emptied.
     pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
         let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
-        let cavity = setup.load.jackets().try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
-        Ok(Self { setup, solved, cavity, refused_mm3: 0.0, kept_mm3: 0.0 })
+        let cavity = setup
+            .load
+            .jackets()
+            .try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?;
+        Ok(Self {
+            setup,
+            solved,
+            cavity,
+            refused_mm3: 0.0,
+            kept_mm3: 0.0,
+        })
     }
 
     /// What the run rests on.
@@ -123,7 +135,11 @@ impl<'a> Tuner<'a> {
     }
 
     /// The voids with these bodies and what lies so many minimum openings near them kept solid, and solved for again.
-    pub fn without(&mut self, voids: &Voids, (refused, openings): (&[TriMesh], f64)) -> Result<Voids, Error> {
+    pub fn without(
+        &mut self,
+        voids: &Voids,
+        (refused, openings): (&[TriMesh], f64),
+    ) -> Result<Voids, Error> {
         self.refuse(refused, openings)?;
         let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
         let written = self.written(&less, Moments::default());
@@ -133,9 +149,16 @@ impl<'a> Tuner<'a> {
 
     /// What of what may be emptied these parts of the interior hold, as one mesh; none where they hold nothing.
     pub fn parts_about(&self, ends: &[SolidEnd]) -> Result<Vec<TriMesh>, Error> {
-        let places: Vec<(Point, Aabb)> = ends.iter().map(|end| (end.at_mm.into(), end.aabb())).collect();
+        let places: Vec<(Point, Aabb)> = ends
+            .iter()
+            .map(|end| (end.at_mm.into(), end.aabb()))
+            .collect();
         let parts = self.cavity.parts_about(&places)?;
-        Ok(if parts.triangles().is_empty() { Vec::new() } else { vec![parts] })
+        Ok(if parts.triangles().is_empty() {
+            Vec::new()
+        } else {
+            vec![parts]
+        })
     }
 
     /// The voids solved for anew with these closed bodies kept solid from now on, and the volume that could have been emptied
@@ -148,7 +171,8 @@ impl<'a> Tuner<'a> {
         self.kept_mm3 += before_mm3 - self.cavity.mesh().signed_volume_mm3();
         let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
         let goal = &self.setup.placement.goal;
-        let written = moments_of_mesh(&less.hollowed.to_mesh()) + inside(self.setup, &less.hollowed);
+        let written =
+            moments_of_mesh(&less.hollowed.to_mesh()) + inside(self.setup, &less.hollowed);
         let best = self.again(&less, written.in_frame(&goal.frame))?;
         Ok((self.tuned(best, Moments::default())?, self.kept_mm3))
     }
@@ -157,7 +181,10 @@ impl<'a> Tuner<'a> {
     /// to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
         // What was refused since the voids were solved for is known to the columns now.
-        let planned = self.setup.fill.filled(voids.fixed, &self.solved.columns, &voids.solution.quadric);
+        let planned =
+            self.setup
+                .fill
+                .filled(voids.fixed, &self.solved.columns, &voids.solution.quadric);
         let fixed = voids.fixed + (written - planned);
         self.solved.solution = self.solved.corrected(self.setup, fixed);
         self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
@@ -169,15 +196,29 @@ impl<'a> Tuner<'a> {
         let bodies = self.cavity.void_bodies(&solution.quadric, frame)?;
         let crumbs_mm3 = bodies.refused_mm3();
         let least_mm3 = SIGNIFICANT_RATIO * self.setup.placement.goal.solid.volume();
-        let significant: Vec<TriMesh> =
-            bodies.refused.into_iter().filter(|body| body.signed_volume_mm3() > least_mm3).collect();
+        let significant: Vec<TriMesh> = bodies
+            .refused
+            .into_iter()
+            .filter(|body| body.signed_volume_mm3() > least_mm3)
+            .collect();
         let refused_mm3 = self.refused_mm3 + crumbs_mm3;
         self.refuse(&significant, REFUSED_MARGIN_RATIO)?;
-        let mut hollowed = Hollowed { outer: self.setup.model.solid.clone(), voids: bodies.bodies };
+        let mut hollowed = Hollowed {
+            outer: self.setup.model.solid.clone(),
+            voids: bodies.bodies,
+        };
         for pocket in self.setup.load.pockets() {
-            hollowed.voids.push(Solid::new(pocket.mesh()).map_err(VoidError::from)?);
+            hollowed
+                .voids
+                .push(Solid::new(pocket.mesh()).map_err(VoidError::from)?);
         }
-        Ok(Voids { solution, fixed, hollowed, refused_mm3, rounds })
+        Ok(Voids {
+            solution,
+            fixed,
+            hollowed,
+            refused_mm3,
+            rounds,
+        })
     }
 
     /// Keeps these bodies, and what lies so many minimum openings near them, solid from now on.
@@ -185,7 +226,9 @@ impl<'a> Tuner<'a> {
         if bodies.is_empty() {
             return Ok(());
         }
-        let all = bodies.iter().fold(TriMesh::default(), |all, body| all.joined(body));
+        let all = bodies
+            .iter()
+            .fold(TriMesh::default(), |all, body| all.joined(body));
         let margin_mm = openings * self.setup.printer.min_opening_mm.value;
         let solid = grown(&all, margin_mm)?;
         self.refused_mm3 += all.signed_volume_mm3();
@@ -197,7 +240,11 @@ impl<'a> Tuner<'a> {
         let frame = &self.setup.placement.goal.frame;
         let (cavity, columns) = rayon::join(
             || self.cavity.without(solid),
-            || self.solved.columns.without(&solid.map_vertices(|p| frame.to_local(p))),
+            || {
+                self.solved
+                    .columns
+                    .without(&solid.map_vertices(|p| frame.to_local(p)))
+            },
         );
         self.cavity = cavity?;
         self.solved.columns = columns;
@@ -207,14 +254,21 @@ impl<'a> Tuner<'a> {
 
 /// The moments, model frame, of what is put into the print: ballast, hardware, a filling of the voids.
 pub fn inside(setup: &Setup, hollowed: &Hollowed) -> Moments {
-    let voids = hollowed.voids.iter().map(|void| moments_of_mesh(void.mesh()));
+    let voids = hollowed
+        .voids
+        .iter()
+        .map(|void| moments_of_mesh(void.mesh()));
     let volume = voids.fold(Moments::default(), |sum, void| sum + void);
     setup.load.moments() + setup.hardware_moments() + volume * setup.fill.density_ratio()
 }
 
 /// What the surface of the voids is made to.
 fn cavity_spec(setup: &Setup) -> CavitySpec<'_> {
-    let pixel_mm = setup.printer.pixel_x_mm.value.min(setup.printer.pixel_y_mm.value);
+    let pixel_mm = setup
+        .printer
+        .pixel_x_mm
+        .value
+        .min(setup.printer.pixel_y_mm.value);
     CavitySpec {
         wall_mm: setup.wall.wall_mm,
         tolerance_mm: (SURFACE_TOLERANCE_PIXELS * pixel_mm).max(FINEST_SURFACE_TOLERANCE_MM),

@@ -38,7 +38,9 @@ fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
 /// The static and couple unbalance in excess of what was solved for, in tenths of what the rotor's grade allows, or of what any centre may be off.
 /// A couple counts as the offset of the mass at a lever of its radius of gyration.
 fn unbalance(goal: &Goal, excess: &Moments, moments: &Moments) -> f64 {
-    let allowed_mm = goal.spindle.map_or(f64::INFINITY, |spindle| spindle.rotor.permissible_mm());
+    let allowed_mm = goal
+        .spindle
+        .map_or(f64::INFINITY, |spindle| spindle.rotor.permissible_mm());
     let [_, x, y, _, _, yz, xz, ..] = excess.0;
     let volume = moments.volume();
     let radius_mm = (moments.second().trace() / volume).sqrt();
@@ -79,24 +81,52 @@ mod tests {
 
     /// A flat disc-like body at `center`, turned by `tilt` about x.
     fn body(center: Vector, tilt: f64) -> Moments {
-        let turn = Matrix::new(1.0, 0.0, 0.0, 0.0, tilt.cos(), -tilt.sin(), 0.0, tilt.sin(), tilt.cos());
+        let turn = Matrix::new(
+            1.0,
+            0.0,
+            0.0,
+            0.0,
+            tilt.cos(),
+            -tilt.sin(),
+            0.0,
+            tilt.sin(),
+            tilt.cos(),
+        );
         let second = Matrix::from_diagonal(&Vector::new(900.0, 800.0, 100.0));
-        Moments::from_parts(10.0, &Vector::zeros(), &second).rotated(&turn).translated(&center)
+        Moments::from_parts(10.0, &Vector::zeros(), &second)
+            .rotated(&turn)
+            .translated(&center)
     }
 
     #[test]
     fn a_top_may_have_its_centre_anywhere_on_its_axis() {
         let top = goal(GoalKind::Top);
-        assert!(is_tuned(&top, &SOLVED, &body(Vector::new(0.0, 0.0, 7.0), 0.0)));
-        assert!(!is_tuned(&top, &SOLVED, &body(Vector::new(0.001, 0.0, 7.0), 0.0)));
-        assert!(!is_tuned(&top, &SOLVED, &body(Vector::new(0.0, 0.0, 7.0), 1e-3)));
+        assert!(is_tuned(
+            &top,
+            &SOLVED,
+            &body(Vector::new(0.0, 0.0, 7.0), 0.0)
+        ));
+        assert!(!is_tuned(
+            &top,
+            &SOLVED,
+            &body(Vector::new(0.001, 0.0, 7.0), 0.0)
+        ));
+        assert!(!is_tuned(
+            &top,
+            &SOLVED,
+            &body(Vector::new(0.0, 0.0, 7.0), 1e-3)
+        ));
     }
 
     #[test]
     fn a_yoyo_must_have_its_centre_at_the_spin_point() {
         let yoyo = goal(GoalKind::Yoyo);
         assert!(is_tuned(&yoyo, &SOLVED, &body(Vector::zeros(), 0.0)));
-        assert!(!is_tuned(&yoyo, &SOLVED, &body(Vector::new(0.0, 0.0, 0.001), 0.0)));
+        assert!(!is_tuned(
+            &yoyo,
+            &SOLVED,
+            &body(Vector::new(0.0, 0.0, 0.001), 0.0)
+        ));
     }
 
     #[test]
@@ -104,27 +134,61 @@ mod tests {
         let aside = body(Vector::new(1.0, 0.0, 7.0), 0.3);
         let stand = goal(GoalKind::Stand);
         assert!(is_tuned(&stand, &SOLVED, &aside));
-        assert!(!is_tuned(&Goal { objective: Objective::LowestCenter, ..stand }, &SOLVED, &aside));
+        assert!(!is_tuned(
+            &Goal {
+                objective: Objective::LowestCenter,
+                ..stand
+            },
+            &SOLVED,
+            &aside
+        ));
     }
 
     #[test]
     fn a_rotor_is_compared_with_what_was_solved_and_a_couple_counts_at_its_radius() {
-        let spindle = Some(Spindle { rotor: Rotor::default(), ends_mm: [-5.0, 5.0] });
-        let rotor = Goal { spindle, ..goal(GoalKind::Balance) };
+        let spindle = Some(Spindle {
+            rotor: Rotor::default(),
+            ends_mm: [-5.0, 5.0],
+        });
+        let rotor = Goal {
+            spindle,
+            ..goal(GoalKind::Balance)
+        };
         let upright = body(Vector::new(0.0, 0.0, 7.0), 0.0);
         assert!(is_tuned(&rotor, &SOLVED, &upright));
         let aside = body(Vector::new(0.001, 0.0, 7.0), 0.0);
         assert!(!is_tuned(&rotor, &SOLVED, &aside) && is_tuned(&rotor, &aside, &aside));
-        assert!(!is_tuned(&rotor, &SOLVED, &body(Vector::new(0.0, 0.0, 0.0), 1e-3)));
+        assert!(!is_tuned(
+            &rotor,
+            &SOLVED,
+            &body(Vector::new(0.0, 0.0, 0.0), 1e-3)
+        ));
     }
 
     #[test]
     fn a_fast_rotor_is_tuned_to_a_tenth_of_its_grade() {
-        let fast = Rotor { speed_rpm: 60_000.0, ..Rotor::default() };
-        let spindle = Some(Spindle { rotor: fast, ends_mm: [-5.0, 5.0] });
-        let rotor = Goal { spindle, ..goal(GoalKind::Balance) };
+        let fast = Rotor {
+            speed_rpm: 60_000.0,
+            ..Rotor::default()
+        };
+        let spindle = Some(Spindle {
+            rotor: fast,
+            ends_mm: [-5.0, 5.0],
+        });
+        let rotor = Goal {
+            spindle,
+            ..goal(GoalKind::Balance)
+        };
         // G 2.5 at 60 000 rpm allows 0.4 µm.
-        assert!(!is_tuned(&rotor, &SOLVED, &body(Vector::new(0.0001, 0.0, 0.0), 0.0)));
-        assert!(is_tuned(&rotor, &SOLVED, &body(Vector::new(0.00003, 0.0, 0.0), 0.0)));
+        assert!(!is_tuned(
+            &rotor,
+            &SOLVED,
+            &body(Vector::new(0.0001, 0.0, 0.0), 0.0)
+        ));
+        assert!(is_tuned(
+            &rotor,
+            &SOLVED,
+            &body(Vector::new(0.00003, 0.0, 0.0), 0.0)
+        ));
     }
 }

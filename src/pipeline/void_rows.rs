@@ -35,14 +35,21 @@ pub fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
 
 /// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does not cut.
 fn holders(assembly: &Assembly, void: usize) -> Vec<String> {
-    let Some(body) = assembly.hollowed.voids.get(void) else { return Vec::new() };
+    let Some(body) = assembly.hollowed.voids.get(void) else {
+        return Vec::new();
+    };
     let wall = Bvh::new(body.mesh().iter_corners());
     let holds = |written: &&WrittenPart| {
         let corners = written.part.solid.mesh().vertices().iter();
         let on_wall = |p: &&Point| wall.closest(p, SAME_MM, &[]).is_some();
         corners.filter(on_wall).take(LEAST_CORNERS).count() == LEAST_CORNERS
     };
-    assembly.parts.iter().filter(holds).map(|written| written.part.id.clone()).collect()
+    assembly
+        .parts
+        .iter()
+        .filter(holds)
+        .map(|written| written.part.id.clone())
+        .collect()
 }
 
 /// The name of a void on the sheet.
@@ -55,7 +62,9 @@ fn least_opening_mm(setup: &Setup, plan: &CutPlan, void: usize) -> f64 {
     let loads = &setup.load.parts;
     let first = plan.voids.len().saturating_sub(loads.len());
     let laid = void.checked_sub(first).and_then(|index| loads.get(index));
-    laid.map_or(setup.printer.min_opening_mm.value, |placed| 2.0 * placed.lump.shape.radius_mm())
+    laid.map_or(setup.printer.min_opening_mm.value, |placed| {
+        2.0 * placed.lump.shape.radius_mm()
+    })
 }
 
 /// The voids as the judge sees them.
@@ -70,7 +79,10 @@ pub fn promised_voids(setup: &Setup, plan: &CutPlan) -> Vec<PromisedVoid> {
 
 /// The cuts as the sheet lists them.
 pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
-    let side = |side: &CutSide| SideRow { cut: side.cut.clone(), side: side.side.word().to_owned() };
+    let side = |side: &CutSide| SideRow {
+        cut: side.cut.clone(),
+        side: side.side.word().to_owned(),
+    };
     let row = |cut: &Cut| CutRow {
         id: cut.id.clone(),
         point_mm: cut.point_mm,
@@ -82,12 +94,21 @@ pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
 
 /// The cuts as the judge sees them.
 pub fn promised_cuts(plan: &CutPlan) -> Vec<PromisedCut> {
-    plan.cuts.iter().map(|cut| PromisedCut { point_mm: cut.point_mm, normal: cut.normal }).collect()
+    plan.cuts
+        .iter()
+        .map(|cut| PromisedCut {
+            point_mm: cut.point_mm,
+            normal: cut.normal,
+        })
+        .collect()
 }
 
 /// The rounds in which something was kept solid, with their values as `shown` tells them.
 pub fn cleaning_rows(rounds: &[CleaningRound], shown: impl Fn(f64) -> f64) -> Vec<CleaningRow> {
-    let kept = |(void, why): &(usize, String)| KeptRow { void: void_id(*void), why: why.clone() };
+    let kept = |(void, why): &(usize, String)| KeptRow {
+        void: void_id(*void),
+        why: why.clone(),
+    };
     let row = |round: &CleaningRound| CleaningRow {
         voids: round.kept.iter().map(kept).collect(),
         volume_mm3: round.volume_mm3,

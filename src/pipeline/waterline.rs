@@ -15,12 +15,22 @@ const ROUNDS: usize = 14;
 /// The setup with the waterline at which the metacentric height is greatest, where the job leaves it free: the heights are
 /// looked over evenly on coarse columns, then refined about the best one. Where no height will do, the one that misses least.
 pub fn chosen(mut setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
-    let Some(water) = setup.job.goal.water.filter(|water| water.waterline == Waterline::Auto) else {
+    let Some(water) = setup
+        .job
+        .goal
+        .water
+        .filter(|water| water.waterline == Waterline::Auto)
+    else {
         return Ok(setup);
     };
     let goal = &setup.placement.goal;
     let density = setup.material.density_g_cm3.value;
-    let shell = Shell::new(&setup.model.solid, &goal.frame, setup.wall.wall_mm, &setup.placement.keeps)?;
+    let shell = Shell::new(
+        &setup.model.solid,
+        &goal.frame,
+        setup.wall.wall_mm,
+        &setup.placement.keeps,
+    )?;
     let search = Search {
         setup: &setup,
         hydrostatics: Hydrostatics::new(
@@ -28,7 +38,11 @@ pub fn chosen(mut setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
             &goal.frame,
             water.liquid.density_g_cm3() / density,
         ),
-        columns: Columns::of_shell(&shell, shell.coarse_pitch(COARSE_COLUMNS), &Progress::silent())?,
+        columns: Columns::of_shell(
+            &shell,
+            shell.coarse_pitch(COARSE_COLUMNS),
+            &Progress::silent(),
+        )?,
     };
     let best = search.best();
     setup.placement.goal.afloat = Some(best);
@@ -57,20 +71,32 @@ impl Search<'_> {
         let at = best.0.waterline_mm;
         let range = [(at - step).max(lowest), (at + step).min(highest)];
         let look = |waterline_mm| self.rated(waterline_mm);
-        let inner = golden_section(range, ROUNDS, look, (|rated: &Rated| rated.0.waterline_mm, is_better));
+        let inner = golden_section(
+            range,
+            ROUNDS,
+            look,
+            (|rated: &Rated| rated.0.waterline_mm, is_better),
+        );
         inner.into_iter().fold(best, better).0
     }
 
     fn rated(&self, waterline_mm: f64) -> Rated {
         let afloat = self.hydrostatics.at(waterline_mm);
-        let goal = crate::goal::Goal { afloat: Some(afloat), ..self.setup.placement.goal.clone() };
-        let problem = Problem { goal: &goal, fixed: goal.solid, columns: &self.columns };
+        let goal = crate::goal::Goal {
+            afloat: Some(afloat),
+            ..self.setup.placement.goal.clone()
+        };
+        let problem = Problem {
+            goal: &goal,
+            fixed: goal.solid,
+            columns: &self.columns,
+        };
         let solution = self.setup.fill.solve(&problem, None, &Progress::silent());
         let rate = match solution.status {
             Status::Capsizes { greatest_gm_mm } => (false, greatest_gm_mm),
-            Status::CannotTrim { least_offset_mm, .. } => {
-                (false, -self.hydrostatics.height_mm() - least_offset_mm)
-            }
+            Status::CannotTrim {
+                least_offset_mm, ..
+            } => (false, -self.hydrostatics.height_mm() - least_offset_mm),
             Status::Sinks { least_ratio } => (false, -UNTRIMMED_MM * least_ratio),
             Status::RidesHigh { greatest_ratio } => (false, -UNTRIMMED_MM / greatest_ratio),
             _ if solution.is_usable() => (true, solution.certificate.value),
@@ -90,5 +116,9 @@ fn is_better(a: &Rated, b: &Rated) -> bool {
 }
 
 fn better(best: Rated, other: Rated) -> Rated {
-    if is_better(&other, &best) { other } else { best }
+    if is_better(&other, &best) {
+        other
+    } else {
+        best
+    }
 }

@@ -44,23 +44,43 @@ impl WrittenPart {
     }
 
     /// The part in one of the writings tried.
-    fn writing(mut part: Part, name: &str, writing: usize, scale_ratio: [f64; 3]) -> Result<Self, Error> {
+    fn writing(
+        mut part: Part,
+        name: &str,
+        writing: usize,
+        scale_ratio: [f64; 3],
+    ) -> Result<Self, Error> {
         let pose = &mut part.pose.print_from_model;
         let place = writing.saturating_sub(1);
         pose[0][3] += PLACE_STEP_MM[0] * place as f64;
         pose[1][3] += PLACE_STEP_MM[1] * place as f64;
         let pose = Pose { rows: *pose };
         let scale = Vector::from(scale_ratio);
-        let laid = part.solid.mesh().map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
+        let laid = part
+            .solid
+            .mesh()
+            .map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
         let laid = if writing > 0 { unfolded(&laid) } else { laid };
         let bytes = stl::encode(&laid, name);
-        let read_back = stl::decode(&bytes)?.map_vertices(|p| p.coords.component_div(&scale).into());
-        Ok(Self { part, file: format!("parts/{name}.stl"), bytes, read_back })
+        let read_back =
+            stl::decode(&bytes)?.map_vertices(|p| p.coords.component_div(&scale).into());
+        Ok(Self {
+            part,
+            file: format!("parts/{name}.stl"),
+            bytes,
+            read_back,
+        })
     }
 
     /// The part as the judge sees it.
     pub fn evidence(&self) -> PartEvidence {
-        let pose = Pose { rows: self.part.pose.print_from_model };
-        PartEvidence { id: self.part.id.clone(), mesh: self.read_back.clone(), pose }
+        let pose = Pose {
+            rows: self.part.pose.print_from_model,
+        };
+        PartEvidence {
+            id: self.part.id.clone(),
+            mesh: self.read_back.clone(),
+            pose,
+        }
     }
 }

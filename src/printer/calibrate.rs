@@ -13,7 +13,9 @@ use crate::toml_text::TextFault;
 use crate::units::MM3_PER_CM3;
 
 /// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any table of statistics).
-const STUDENT_T: [f64; 9] = [12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262];
+const STUDENT_T: [f64; 9] = [
+    12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
+];
 
 /// The least spread that is believed, as a share: a balance of 0.01 g on a coupon of 10 g. Below it, equal readings of a coarse
 /// balance would make a window that no sound part passes; above it careful weighing would be wasted.
@@ -69,7 +71,11 @@ impl Measured {
         let n = self.weighed_g.len();
         let t = STUDENT_T[n.checked_sub(2)?.min(STUDENT_T.len() - 1)];
         let mean = self.weighed_g.iter().sum::<f64>() / n as f64;
-        let squares: f64 = self.weighed_g.iter().map(|mass| (mass - mean).powi(2)).sum();
+        let squares: f64 = self
+            .weighed_g
+            .iter()
+            .map(|mass| (mass - mean).powi(2))
+            .sum();
         let deviation = (squares / (n as f64 - 1.0)).sqrt();
         Some((t * deviation * (1.0 + 1.0 / n as f64).sqrt() / mean).max(LEAST_SPREAD_RATIO))
     }
@@ -78,13 +84,23 @@ impl Measured {
         if self.weighed_g.is_empty() && self.lengths.is_empty() {
             return Err(CalibrateError::Nothing);
         }
-        if let Some(&bad) = self.weighed_g.iter().find(|mass| !(mass.is_finite() && **mass > 0.0)) {
+        if let Some(&bad) = self
+            .weighed_g
+            .iter()
+            .find(|mass| !(mass.is_finite() && **mass > 0.0))
+        {
             return Err(CalibrateError::Mass(bad));
         }
-        let (least, most) =
-            self.weighed_g.iter().fold((f64::INFINITY, 0.0_f64), |(l, m), &g| (l.min(g), m.max(g)));
+        let (least, most) = self
+            .weighed_g
+            .iter()
+            .fold((f64::INFINITY, 0.0_f64), |(l, m), &g| (l.min(g), m.max(g)));
         let difference = if most > 0.0 { 1.0 - least / most } else { 0.0 };
-        if difference > MOST_DIFFERENCE_RATIO { Err(CalibrateError::Differ(difference)) } else { Ok(()) }
+        if difference > MOST_DIFFERENCE_RATIO {
+            Err(CalibrateError::Differ(difference))
+        } else {
+            Ok(())
+        }
     }
 
     fn source(&self, what: &str) -> String {
@@ -98,7 +114,10 @@ pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String,
     let reader = Reader::new(file, text);
     let profile: ProfileText = reader.parse()?;
     let own: OwnMaterials = reader.parse()?;
-    let mut edits = Edits { text, edits: Vec::new() };
+    let mut edits = Edits {
+        text,
+        edits: Vec::new(),
+    };
     let mut added = String::new();
     for &(quantity, value) in &measured.lengths {
         let said = quoted(value, &measured.source("read off a coupon"));
@@ -111,7 +130,10 @@ pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String,
         edits.add_numbers(&added);
     }
     if let (Some((id, name)), Some(density)) = (&measured.material, measured.density_g_cm3()) {
-        let found = own.material.iter().find(|material| material.id.get_ref() == id);
+        let found = own
+            .material
+            .iter()
+            .find(|material| material.id.get_ref() == id);
         edits.weigh(measured, (id, name, density), found);
     }
     Ok(edits.applied())
@@ -122,7 +144,10 @@ fn quoted(value: f64, source: &str) -> String {
     // Seven digits: more than any balance or calliper has.
     const DIGITS: f64 = 1e7;
     let value = (value * DIGITS).round() / DIGITS;
-    format!("{{ value = {value}, source = {}, sure = \"measured\" }}", string(source))
+    format!(
+        "{{ value = {value}, source = {}, sure = \"measured\" }}",
+        string(source)
+    )
 }
 
 fn string(text: &str) -> String {
@@ -172,10 +197,17 @@ impl Edits<'_> {
         }
         match header {
             Some(at) => {
-                let newline = if self.text[..at].ends_with('\n') { "" } else { "\n" };
+                let newline = if self.text[..at].ends_with('\n') {
+                    ""
+                } else {
+                    "\n"
+                };
                 self.replace(at..at, format!("{newline}{lines}"));
             }
-            None => self.replace(first_material..first_material, format!("\n{HEADER}\n{lines}\n")),
+            None => self.replace(
+                first_material..first_material,
+                format!("\n{HEADER}\n{lines}\n"),
+            ),
         }
     }
 
@@ -187,15 +219,22 @@ impl Edits<'_> {
         own: Option<&OwnMaterial>,
     ) {
         let count = measured.weighed_g.len();
-        let source = measured.source(&format!("{count} coupons of {:.1} mm³ weighed", measured.coupon_mm3));
+        let source = measured.source(&format!(
+            "{count} coupons of {:.1} mm³ weighed",
+            measured.coupon_mm3
+        ));
         let density = quoted(density, &source);
-        let spread =
-            measured.spread_ratio().map(|spread| quoted(spread, &format!("{source}; 95 % of the next")));
+        let spread = measured
+            .spread_ratio()
+            .map(|spread| quoted(spread, &format!("{source}; 95 % of the next")));
         let (lot, day) = (string(&measured.lot), measured.day.clone());
         let Some(own) = own else {
-            let spread = spread.map_or_else(String::new, |said| format!("density_spread_ratio = {said}\n"));
+            let spread = spread.map_or_else(String::new, |said| {
+                format!("density_spread_ratio = {said}\n")
+            });
             let head = format!("\n[[material]]\nid = \"{id}\"\nname = {}\n", string(name));
-            let rest = format!("density_g_cm3 = {density}\n{spread}lot = {lot}\nmeasured_on = {day}\n");
+            let rest =
+                format!("density_g_cm3 = {density}\n{spread}lot = {lot}\nmeasured_on = {day}\n");
             let end = self.text.len();
             let newline = if self.text.ends_with('\n') { "" } else { "\n" };
             return self.replace(end..end, format!("{newline}{head}{rest}"));
@@ -219,7 +258,8 @@ impl Edits<'_> {
     /// The text with all pieces replaced, each where it stood.
     fn applied(mut self) -> String {
         // Stable, so that what is added at one place stays in the order it was added.
-        self.edits.sort_by_key(|(range, _)| (range.start, range.end));
+        self.edits
+            .sort_by_key(|(range, _)| (range.start, range.end));
         let mut text = String::new();
         let mut done = 0;
         for (range, by) in &self.edits {
@@ -246,7 +286,10 @@ mod tests {
             material: Some(("pla".into(), "PLA".into())),
             weighed_g: vec![9.80, 9.84, 9.88],
             coupon_mm3: 8000.0,
-            lengths: vec![(Quantity::MinWallMm, 1.2), (Quantity::ClearancePerSideMm, 0.15)],
+            lengths: vec![
+                (Quantity::MinWallMm, 1.2),
+                (Quantity::ClearancePerSideMm, 0.15),
+            ],
         }
     }
 
@@ -260,52 +303,93 @@ mod tests {
     #[test]
     fn what_was_measured_is_read_back_and_remarks_stay() {
         let text = calibrated("shop.toml", OWN, &measured()).unwrap();
-        assert!(text.starts_with("# the one by the window\n") && text.contains(" # thinner broke"), "{text}");
+        assert!(
+            text.starts_with("# the one by the window\n") && text.contains(" # thinner broke"),
+            "{text}"
+        );
         let printer = read(&text);
-        assert_eq!((printer.min_wall_mm.value, printer.clearance_per_side_mm.value), (1.2, 0.15));
+        assert_eq!(
+            (
+                printer.min_wall_mm.value,
+                printer.clearance_per_side_mm.value
+            ),
+            (1.2, 0.15)
+        );
         assert_eq!(printer.min_wall_mm.sure, Sure::Measured);
         assert!(printer.min_wall_mm.source.contains("lot A7, 2026-11-21"));
         let pla = printer.material(Some("pla")).unwrap();
         assert!((pla.density_g_cm3.value - 1.23).abs() < 1e-12);
-        assert_eq!((pla.lot.as_deref(), pla.measured_on.as_deref()), (Some("A7"), Some("2026-11-21")));
+        assert_eq!(
+            (pla.lot.as_deref(), pla.measured_on.as_deref()),
+            (Some("A7"), Some("2026-11-21"))
+        );
         let [least, most] = pla.weighing_window_g(100.0).unwrap();
         // s = 0.04 g, t(2) = 4.303: 4.303 · 0.04 · √(4/3) / 9.84 = 2.02 %.
-        assert!((most - 100.0 - 2.0198).abs() < 1e-3 && (100.0 - least - 2.0198).abs() < 1e-3, "{most}");
+        assert!(
+            (most - 100.0 - 2.0198).abs() < 1e-3 && (100.0 - least - 2.0198).abs() < 1e-3,
+            "{most}"
+        );
     }
 
     #[test]
     fn measuring_again_replaces_what_was_measured_before() {
         let once = calibrated("shop.toml", OWN, &measured()).unwrap();
-        let later =
-            Measured { day: "2026-12-24".into(), lot: "B1".into(), weighed_g: vec![9.6, 9.6], ..measured() };
+        let later = Measured {
+            day: "2026-12-24".into(),
+            lot: "B1".into(),
+            weighed_g: vec![9.6, 9.6],
+            ..measured()
+        };
         let twice = calibrated("shop.toml", &once, &later).unwrap();
         let pla = read(&twice).material(None).unwrap().clone();
-        assert_eq!((pla.density_g_cm3.value, pla.lot.as_deref()), (1.2, Some("B1")));
-        assert_eq!(pla.measured_spread_ratio(), Some(LEAST_SPREAD_RATIO), "a balance is not surer than that");
-        assert!(!twice.contains("A7") && twice.lines().count() == once.lines().count(), "{twice}");
+        assert_eq!(
+            (pla.density_g_cm3.value, pla.lot.as_deref()),
+            (1.2, Some("B1"))
+        );
+        assert_eq!(
+            pla.measured_spread_ratio(),
+            Some(LEAST_SPREAD_RATIO),
+            "a balance is not surer than that"
+        );
+        assert!(
+            !twice.contains("A7") && twice.lines().count() == once.lines().count(),
+            "{twice}"
+        );
     }
 
     #[test]
     fn a_profile_without_numbers_gets_them_before_its_materials() {
         let plain = "id = \"shop\"\nname = \"Shop\"\ninherits = \"prusa-mk4\"\n[[material]]\nid = \"pla\"\nname = \"P\"\n\
                      density_g_cm3 = { value = 1.2, source = \"s\", sure = \"read\" } # as bought";
-        let one = Measured { weighed_g: vec![9.6], ..measured() };
+        let one = Measured {
+            weighed_g: vec![9.6],
+            ..measured()
+        };
         let printer = read(&calibrated("shop.toml", plain, &one).unwrap());
         assert_eq!(printer.clearance_per_side_mm.value, 0.15);
         let pla = printer.material(None).unwrap();
-        assert!(pla.is_measured() && pla.weighing_window_g(1.0).is_none(), "one coupon has no spread");
+        assert!(
+            pla.is_measured() && pla.weighing_window_g(1.0).is_none(),
+            "one coupon has no spread"
+        );
     }
 
     #[test]
     fn what_cannot_be_measured_is_refused() {
-        let with = |weighed_g: Vec<f64>| Measured { weighed_g, lengths: Vec::new(), ..measured() };
+        let with = |weighed_g: Vec<f64>| Measured {
+            weighed_g,
+            lengths: Vec::new(),
+            ..measured()
+        };
         for (weighed, words) in [
             (vec![], "nothing was measured"),
             (vec![0.0], "a coupon of 0 g is not possible"),
             (vec![f64::NAN], "a coupon of NaN g"),
             (vec![9.8, 4.9], "differ by 50 %"),
         ] {
-            let error = calibrated("shop.toml", OWN, &with(weighed)).unwrap_err().to_string();
+            let error = calibrated("shop.toml", OWN, &with(weighed))
+                .unwrap_err()
+                .to_string();
             assert!(error.contains(words), "{error}");
         }
         assert!(calibrated("shop.toml", "id = ", &measured()).is_err());

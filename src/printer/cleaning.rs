@@ -72,7 +72,10 @@ impl Cleaning {
     /// Whether the openings of a piece of a void (diameters, mm) let out what is in it, where one alone must be `least_mm` wide.
     pub fn lets_out(&self, openings_mm: &[f64], least_mm: f64) -> bool {
         let wide = |least: f64| openings_mm.iter().filter(|&&mm| mm >= least).count();
-        wide(least_mm) > 0 || self.pair_opening_mm.is_some_and(|pair_mm| wide(pair_mm) > 1)
+        wide(least_mm) > 0
+            || self
+                .pair_opening_mm
+                .is_some_and(|pair_mm| wide(pair_mm) > 1)
     }
 }
 
@@ -83,7 +86,9 @@ impl Printer {
         let rule = match (self.support, self.grid) {
             (Support::Soluble, _) => CleaningRule::MeltOut,
             (Support::None, Grid::Pixel) => CleaningRule::PowderEscape,
-            (Support::None | Support::Breakaway, Grid::Line) => CleaningRule::InSightOrSelfSupporting,
+            (Support::None | Support::Breakaway, Grid::Line) => {
+                CleaningRule::InSightOrSelfSupporting
+            }
             (Support::Breakaway | Support::WaterJet, _) => CleaningRule::InSight,
         };
         let seen = rule.needs_sight();
@@ -120,14 +125,22 @@ mod tests {
         ] {
             let found = rule(id);
             assert_eq!(found.rule, expected, "{id}");
-            assert_eq!(found.rule.needs_sight(), found.sight_ratio > 0.0 && found.reach_mm.is_some(), "{id}");
+            assert_eq!(
+                found.rule.needs_sight(),
+                found.sight_ratio > 0.0 && found.reach_mm.is_some(),
+                "{id}"
+            );
         }
     }
 
     #[test]
     fn two_small_openings_let_powder_out_where_the_process_says_so() {
         let (mjf, sls) = (rule("hp-mjf-5200"), rule("formlabs-fuse1"));
-        assert!(mjf.lets_out(&[2.1, 2.0], 4.0) && !mjf.lets_out(&[3.9], 4.0) && mjf.lets_out(&[4.0], 4.0));
+        assert!(
+            mjf.lets_out(&[2.1, 2.0], 4.0)
+                && !mjf.lets_out(&[3.9], 4.0)
+                && mjf.lets_out(&[4.0], 4.0)
+        );
         assert!(!mjf.lets_out(&[3.9, 1.9], 4.0) && !mjf.lets_out(&[], 4.0));
         assert!(!sls.lets_out(&[4.9, 4.9], 5.0) && sls.lets_out(&[5.0], 5.0));
     }

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 
 use super::{
-    Material, Printer, Problem, Quantity, SizedWall, Sourced, Tolerance, layer::Layer, profile::Reader,
+    Material, Printer, Problem, Quantity, SizedWall, Sourced, Tolerance, layer::Layer,
+    profile::Reader,
 };
 
 /// Notes numbers that contradict each other.
@@ -13,7 +14,10 @@ pub(super) fn consistent(reader: &mut Reader, layer: &Layer) {
         (Quantity::LayerLeastMm, Quantity::LayerMm),
         (Quantity::LayerMm, Quantity::LayerMostMm),
         (Quantity::LayerLeastMm, Quantity::LayerMostMm),
-        (Quantity::ClearancePressPerSideMm, Quantity::ClearanceLoosePerSideMm),
+        (
+            Quantity::ClearancePressPerSideMm,
+            Quantity::ClearanceLoosePerSideMm,
+        ),
     ];
     for (small, large) in pairs {
         if let (Some((small, less)), Some((large, more))) = (value(small), value(large))
@@ -27,42 +31,82 @@ pub(super) fn consistent(reader: &mut Reader, layer: &Layer) {
 }
 
 fn note(reader: &mut Reader, key: &str, value: f64, against: String) {
-    reader.note(0, Problem::Contradiction { key: key.to_owned(), value, against });
+    reader.note(
+        0,
+        Problem::Contradiction {
+            key: key.to_owned(),
+            value,
+            against,
+        },
+    );
 }
 
 /// Notes a table of walls whose sizes do not rise.
 fn rising(reader: &mut Reader, walls: &[SizedWall]) {
-    for pair in walls.windows(2).filter(|pair| pair[0].up_to_mm >= pair[1].up_to_mm) {
+    for pair in walls
+        .windows(2)
+        .filter(|pair| pair[0].up_to_mm >= pair[1].up_to_mm)
+    {
         let against = format!("the one before it is {}", pair[0].up_to_mm);
-        note(reader, "walls_by_part_size.up_to_mm", pair[1].up_to_mm, against);
+        note(
+            reader,
+            "walls_by_part_size.up_to_mm",
+            pair[1].up_to_mm,
+            against,
+        );
     }
 }
 
 /// Notes a largest part or a corner beyond the build volume.
 fn within_build_volume(reader: &mut Reader, layer: &Layer) {
-    let Some(volume) = &layer.build_volume_mm else { return };
-    let part = layer.largest_part_mm.iter().flat_map(|part| part.value.into_iter().zip(volume.value));
+    let Some(volume) = &layer.build_volume_mm else {
+        return;
+    };
+    let part = layer
+        .largest_part_mm
+        .iter()
+        .flat_map(|part| part.value.into_iter().zip(volume.value));
     let part = part.map(|(size, most)| ("largest_part_mm", size, most));
-    let corner = |corner: &super::ExcludedCorner| corner.size_mm.value.into_iter().zip(volume.value);
+    let corner =
+        |corner: &super::ExcludedCorner| corner.size_mm.value.into_iter().zip(volume.value);
     let corners = layer.excluded_corners.iter().flat_map(corner);
     let corners = corners.map(|(size, most)| ("excluded_corners.size_mm", size, most));
     for (key, size, most) in part.chain(corners).filter(|(_, size, most)| size > most) {
-        note(reader, key, size, format!("the build volume is {most} there"));
+        note(
+            reader,
+            key,
+            size,
+            format!("the build volume is {most} there"),
+        );
     }
 }
 
 /// The printer, unless something that every printer needs is unset; each such key is noted.
-pub(super) fn complete(reader: &mut Reader, layer: Layer, materials: Vec<Material>) -> Option<Printer> {
-    let mut needs = Needs { reader, numbers: layer.numbers };
+pub(super) fn complete(
+    reader: &mut Reader,
+    layer: Layer,
+    materials: Vec<Material>,
+) -> Option<Printer> {
+    let mut needs = Needs {
+        reader,
+        numbers: layer.numbers,
+    };
     let [pixel_x_mm, pixel_y_mm, layer_mm] =
         [Quantity::PixelXMm, Quantity::PixelYMm, Quantity::LayerMm].map(|key| needs.number(key));
-    let [min_wall_mm, min_feature_mm, min_opening_mm] =
-        [Quantity::MinWallMm, Quantity::MinFeatureMm, Quantity::MinOpeningMm].map(|key| needs.number(key));
+    let [min_wall_mm, min_feature_mm, min_opening_mm] = [
+        Quantity::MinWallMm,
+        Quantity::MinFeatureMm,
+        Quantity::MinOpeningMm,
+    ]
+    .map(|key| needs.number(key));
     let [pin_min_diameter_mm, pin_length_ratio] =
         [Quantity::PinMinDiameterMm, Quantity::PinLengthRatio].map(|key| needs.number(key));
-    let [clearance_per_side_mm, socket_extra_depth_mm, chamfer_mm] =
-        [Quantity::ClearancePerSideMm, Quantity::SocketExtraDepthMm, Quantity::ChamferMm]
-            .map(|key| needs.number(key));
+    let [clearance_per_side_mm, socket_extra_depth_mm, chamfer_mm] = [
+        Quantity::ClearancePerSideMm,
+        Quantity::SocketExtraDepthMm,
+        Quantity::ChamferMm,
+    ]
+    .map(|key| needs.number(key));
     let least_mm = needs.number(Quantity::ToleranceLeastMm);
     let base_mm = needs.numbers.remove(&Quantity::ToleranceBaseMm);
     let ratio = needs.numbers.remove(&Quantity::ToleranceRatio);
@@ -94,7 +138,11 @@ pub(super) fn complete(reader: &mut Reader, layer: Layer, materials: Vec<Materia
         clearance_per_side_mm: clearance_per_side_mm?,
         socket_extra_depth_mm: socket_extra_depth_mm?,
         chamfer_mm: chamfer_mm?,
-        tolerance: Tolerance { least_mm: least_mm?, base_mm, ratio },
+        tolerance: Tolerance {
+            least_mm: least_mm?,
+            base_mm,
+            ratio,
+        },
         support: support?,
         print_pose: print_pose?,
         cleaning: cleaning?,
@@ -117,7 +165,12 @@ impl Needs<'_, '_> {
 
     fn word<T>(&mut self, key: &str, value: Option<T>) -> Option<T> {
         if value.is_none() {
-            self.reader.note(0, Problem::Missing { key: key.to_owned() });
+            self.reader.note(
+                0,
+                Problem::Missing {
+                    key: key.to_owned(),
+                },
+            );
         }
         value
     }

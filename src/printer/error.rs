@@ -130,7 +130,9 @@ pub enum Problem {
         id: String,
     },
     /// A profile that inherits from itself, or from one that inherits from it.
-    #[error("`{id}` inherits from itself ({way}); remedy: inherit from one of the processes {known}")]
+    #[error(
+        "`{id}` inherits from itself ({way}); remedy: inherit from one of the processes {known}"
+    )]
     Cycle {
         /// The profile.
         id: String,
@@ -140,7 +142,9 @@ pub enum Problem {
         known: String,
     },
     /// A parent's file that cannot be read.
-    #[error("cannot read the parent {parent}; remedy: check its path, taken from this profile's folder")]
+    #[error(
+        "cannot read the parent {parent}; remedy: check its path, taken from this profile's folder"
+    )]
     UnreadableParent {
         /// Its path.
         parent: String,
@@ -219,7 +223,11 @@ pub enum Problem {
 /// A number for people: with a power of ten where it would have many digits.
 fn shown(value: f64) -> String {
     let is_plain = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
-    if is_plain { value.to_string() } else { format!("{value:e}") }
+    if is_plain {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
 }
 
 /// "did you mean `x`?", or the whole list when nothing is near.

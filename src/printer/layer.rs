@@ -46,7 +46,10 @@ impl Layer {
             grid: text.grid,
             support: text.support,
             print_pose: text.print_pose,
-            cleaning: text.cleaning.as_ref().map(|cleaning| reader.words("cleaning", cleaning)),
+            cleaning: text
+                .cleaning
+                .as_ref()
+                .map(|cleaning| reader.words("cleaning", cleaning)),
             build_volume_mm: text
                 .build_volume_mm
                 .as_ref()
@@ -55,7 +58,11 @@ impl Layer {
                 .largest_part_mm
                 .as_ref()
                 .and_then(|volume| reader.volume("largest_part_mm", volume)),
-            excluded_corners: text.excluded_corners.iter().filter_map(|at| reader.corner(at)).collect(),
+            excluded_corners: text
+                .excluded_corners
+                .iter()
+                .filter_map(|at| reader.corner(at))
+                .collect(),
             walls_by_part_size: text
                 .walls_by_part_size
                 .iter()
@@ -65,17 +72,29 @@ impl Layer {
                 .compensates_shrinkage
                 .as_ref()
                 .and_then(|flag| reader.flag("compensates_shrinkage", flag)),
-            numbers: numbers.filter_map(|(&key, quoted)| Some((key, reader.number(key, quoted)?))).collect(),
-            materials: text.materials.as_ref().map(|list| list.get_ref().iter().map(reference).collect()),
+            numbers: numbers
+                .filter_map(|(&key, quoted)| Some((key, reader.number(key, quoted)?)))
+                .collect(),
+            materials: text
+                .materials
+                .as_ref()
+                .map(|list| list.get_ref().iter().map(reference).collect()),
             default_material: text.default_material.as_ref().map(reference),
-            own_materials: text.material.iter().filter_map(|material| reader.material(material)).collect(),
+            own_materials: text
+                .material
+                .iter()
+                .filter_map(|material| reader.material(material))
+                .collect(),
         }
     }
 
     /// This layer of a process, whose numbers are defaults from now on.
     pub fn into_defaults(mut self) -> Self {
         let id = self.id.clone();
-        let walls = self.walls_by_part_size.iter_mut().map(|wall| &mut wall.wall_mm);
+        let walls = self
+            .walls_by_part_size
+            .iter_mut()
+            .map(|wall| &mut wall.wall_mm);
         for number in self.numbers.values_mut().chain(walls) {
             number.process_default_of = Some(id.clone());
         }
@@ -89,7 +108,8 @@ impl Layer {
     /// This layer, with what it leaves unsaid taken from its parent.
     pub fn over(mut self, parent: Self) -> Self {
         // A machine's own wall is not to be overruled by its process's table of walls.
-        let has_wall = self.numbers.contains_key(&Quantity::MinWallMm) || !self.walls_by_part_size.is_empty();
+        let has_wall =
+            self.numbers.contains_key(&Quantity::MinWallMm) || !self.walls_by_part_size.is_empty();
         for (key, number) in parent.numbers {
             self.numbers.entry(key).or_insert(number);
         }
@@ -109,7 +129,11 @@ impl Layer {
             build_volume_mm: self.build_volume_mm.or(parent.build_volume_mm),
             largest_part_mm: self.largest_part_mm.or(parent.largest_part_mm),
             excluded_corners: first_of(self.excluded_corners, parent.excluded_corners),
-            walls_by_part_size: if has_wall { self.walls_by_part_size } else { parent.walls_by_part_size },
+            walls_by_part_size: if has_wall {
+                self.walls_by_part_size
+            } else {
+                parent.walls_by_part_size
+            },
             compensates_shrinkage: self.compensates_shrinkage.or(parent.compensates_shrinkage),
             default_material: self.default_material.or(self
                 .materials

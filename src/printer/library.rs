@@ -61,15 +61,27 @@ impl Library<'_> {
 
     /// Every printer.
     pub fn all(&self) -> Result<Vec<Printer>, ProfileError> {
-        self.printers.iter().map(|profile| resolve(self, *profile)).collect()
+        self.printers
+            .iter()
+            .map(|profile| resolve(self, *profile))
+            .collect()
     }
 
     /// The printer in that file.
     pub fn read(&self, path: &Path) -> Result<Printer, ProfileError> {
-        let text = std::fs::read_to_string(path)
-            .map_err(|source| ProfileError::Unreadable { path: path.to_owned(), source })?;
+        let text = std::fs::read_to_string(path).map_err(|source| ProfileError::Unreadable {
+            path: path.to_owned(),
+            source,
+        })?;
         let file = path.to_string_lossy();
-        resolve(self, Profile { id: &file, file: &file, text: &text })
+        resolve(
+            self,
+            Profile {
+                id: &file,
+                file: &file,
+                text: &text,
+            },
+        )
     }
 
     fn unknown(&self, id: &str) -> ProfileError {
@@ -80,7 +92,11 @@ impl Library<'_> {
             }
             meant => meant,
         };
-        ProfileError::Unknown { id: id.to_owned(), known: known.join(", "), remedy }
+        ProfileError::Unknown {
+            id: id.to_owned(),
+            known: known.join(", "),
+            remedy,
+        }
     }
 }
 
@@ -102,7 +118,10 @@ mod tests {
     fn every_built_in_printer_loads_under_the_id_of_its_file() {
         let printers = Printer::all().unwrap();
         assert_eq!(
-            printers.iter().map(|printer| printer.id.as_str()).collect::<Vec<_>>(),
+            printers
+                .iter()
+                .map(|printer| printer.id.as_str())
+                .collect::<Vec<_>>(),
             ids(BUILT_IN.printers)
         );
         for list in [BUILT_IN.printers, BUILT_IN.processes, BUILT_IN.materials] {
@@ -120,12 +139,25 @@ mod tests {
         ] {
             let mut files: Vec<String> = std::fs::read_dir(root.join(folder))
                 .unwrap()
-                .map(|entry| entry.unwrap().path().file_stem().unwrap().to_str().unwrap().to_owned())
+                .map(|entry| {
+                    entry
+                        .unwrap()
+                        .path()
+                        .file_stem()
+                        .unwrap()
+                        .to_str()
+                        .unwrap()
+                        .to_owned()
+                })
                 .collect();
             files.sort();
             assert_eq!(files, ids(list), "{folder}");
             for profile in list {
-                assert!(profile.text.contains(&format!("id = \"{}\"\n", profile.id)), "{}", profile.file);
+                assert!(
+                    profile.text.contains(&format!("id = \"{}\"\n", profile.id)),
+                    "{}",
+                    profile.file
+                );
             }
         }
     }
@@ -133,7 +165,10 @@ mod tests {
     #[test]
     fn an_unknown_printer_is_told_with_the_known_ones_and_the_nearest() {
         let error = Printer::find("objet-conex350").unwrap_err().to_string();
-        assert!(error.contains("hp-mjf-5200, objet-connex350, projet-mjp-2500"), "{error}");
+        assert!(
+            error.contains("hp-mjf-5200, objet-connex350, projet-mjp-2500"),
+            "{error}"
+        );
         assert!(error.contains("did you mean `objet-connex350`?"), "{error}");
         let error = Printer::find("makerbot").unwrap_err().to_string();
         assert!(error.contains("or the path of a profile"), "{error}");
@@ -143,11 +178,16 @@ mod tests {
     fn a_file_of_ones_own_inherits_a_process_and_a_missing_one_is_told() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("shop.toml");
-        let text =
-            by_id(BUILT_IN.printers, "objet-connex350").unwrap().text.replace("objet-connex350", "shop-jet");
+        let text = by_id(BUILT_IN.printers, "objet-connex350")
+            .unwrap()
+            .text
+            .replace("objet-connex350", "shop-jet");
         std::fs::write(&path, text).unwrap();
         let printer = Printer::find(path.to_str().unwrap()).unwrap();
-        assert_eq!((printer.id.as_str(), printer.process.as_deref()), ("shop-jet", Some("polyjet")));
+        assert_eq!(
+            (printer.id.as_str(), printer.process.as_deref()),
+            ("shop-jet", Some("polyjet"))
+        );
         let error = Printer::find("no/such/shop.toml").unwrap_err();
         assert!(matches!(error, ProfileError::Unreadable { .. }), "{error}");
     }

@@ -5,8 +5,8 @@ use std::{collections::BTreeMap, path::Path};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    ExcludedCorner, Material, MaterialError, ProfileError, Quantity, SizedWall, Sourced, error::suggestion,
-    library,
+    ExcludedCorner, Material, MaterialError, ProfileError, Quantity, SizedWall, Sourced,
+    error::suggestion, library,
 };
 
 /// What the steps of a printer's grid in x and y are.
@@ -75,7 +75,8 @@ impl Tolerance {
     /// The tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, and not below the least. Both of the
     /// makers' forms are that: "±0.3 %, at least 0.3 mm" has no base, "±0.3 mm + 0.002 mm/mm" has the least as its base.
     pub fn at_mm(&self, length_mm: f64) -> f64 {
-        let number = |number: &Option<Sourced<f64>>| number.as_ref().map_or(0.0, |number| number.value);
+        let number =
+            |number: &Option<Sourced<f64>>| number.as_ref().map_or(0.0, |number| number.value);
         let growing_mm = number(&self.base_mm) + number(&self.ratio) * length_mm;
         self.least_mm.value.max(growing_mm)
     }
@@ -163,7 +164,10 @@ impl Printer {
 
     /// Every number of the profile's `[numbers]`, in the order of [`Quantity`].
     pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
-        Quantity::ALL.iter().filter_map(|&quantity| Some((quantity, self.number(quantity)?))).collect()
+        Quantity::ALL
+            .iter()
+            .filter_map(|&quantity| Some((quantity, self.number(quantity)?)))
+            .collect()
     }
 
     /// A number of the profile's `[numbers]`; none where it is not known.
@@ -189,19 +193,39 @@ impl Printer {
 
     /// What is not known of the printer, by key, in the order of [`Quantity`].
     pub fn unknown(&self) -> Vec<&'static str> {
-        let numbers = Quantity::ALL.iter().filter(|&&quantity| self.number(quantity).is_none());
+        let numbers = Quantity::ALL
+            .iter()
+            .filter(|&&quantity| self.number(quantity).is_none());
         let volume = self.build_volume_mm.is_none().then_some("build_volume_mm");
-        let shrinkage = self.compensates_shrinkage.is_none().then_some("compensates_shrinkage");
-        volume.into_iter().chain(shrinkage).chain(numbers.map(|quantity| quantity.key())).collect()
+        let shrinkage = self
+            .compensates_shrinkage
+            .is_none()
+            .then_some("compensates_shrinkage");
+        volume
+            .into_iter()
+            .chain(shrinkage)
+            .chain(numbers.map(|quantity| quantity.key()))
+            .collect()
     }
 
     /// The material of that id; the printer's default where none is asked for.
     pub fn material(&self, id: Option<&str>) -> Result<&Material, MaterialError> {
-        let wanted = self.materials.iter().find(|material| id.is_none_or(|id| material.id == id));
+        let wanted = self
+            .materials
+            .iter()
+            .find(|material| id.is_none_or(|id| material.id == id));
         wanted.ok_or_else(|| {
-            let known: Vec<&str> = self.materials.iter().map(|material| material.id.as_str()).collect();
+            let known: Vec<&str> = self
+                .materials
+                .iter()
+                .map(|material| material.id.as_str())
+                .collect();
             let id = id.unwrap_or_default();
-            MaterialError { printer: self.id.clone(), id: id.to_owned(), remedy: suggestion(id, &known) }
+            MaterialError {
+                printer: self.id.clone(),
+                id: id.to_owned(),
+                remedy: suggestion(id, &known),
+            }
         })
     }
 }
@@ -230,7 +254,10 @@ mod tests {
         let error = mk4.material(Some("pegt")).unwrap_err();
         assert!(error.to_string().contains("did you mean `petg`"), "{error}");
         let error = mk4.material(Some("vero-white")).unwrap_err();
-        assert!(error.to_string().contains("pla, petg, asa, abs, pc"), "{error}");
+        assert!(
+            error.to_string().contains("pla, petg, asa, abs, pc"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -238,7 +265,11 @@ mod tests {
         let mut pla = printer("prusa-mk4").material(None).unwrap().clone();
         assert_eq!(pla.weighing_window_g(100.0), None);
         pla.density_g_cm3.sure = Sure::Measured;
-        let spread = Sourced { value: 0.02, sure: Sure::Measured, ..pla.density_g_cm3.clone() };
+        let spread = Sourced {
+            value: 0.02,
+            sure: Sure::Measured,
+            ..pla.density_g_cm3.clone()
+        };
         pla.density_spread_ratio = Some(spread);
         let window = pla.weighing_window_g(100.0).unwrap();
         assert!((window[0] - 98.0).abs() < 1e-12 && (window[1] - 102.0).abs() < 1e-12);

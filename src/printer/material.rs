@@ -43,7 +43,8 @@ impl Material {
 
     /// The lightest and heaviest a sound print of `mass_g` may weigh, g; none where the density was not measured.
     pub fn weighing_window_g(&self, mass_g: f64) -> Option<[f64; 2]> {
-        self.measured_spread_ratio().map(|spread| [mass_g * (1.0 - spread), mass_g * (1.0 + spread)])
+        self.measured_spread_ratio()
+            .map(|spread| [mass_g * (1.0 - spread), mass_g * (1.0 + spread)])
     }
 }
 

@@ -61,7 +61,13 @@ fn from_library(
 ) -> Result<Option<Material>, TextFault> {
     let Some(profile) = by_id(library.materials, id) else {
         let remedy = suggestion(id, &ids(library.materials));
-        child.note(at, Problem::UnknownMaterial { id: id.to_owned(), remedy });
+        child.note(
+            at,
+            Problem::UnknownMaterial {
+                id: id.to_owned(),
+                remedy,
+            },
+        );
         return Ok(None);
     };
     let mut reader = Reader::new(profile.file, profile.text);
@@ -79,9 +85,18 @@ fn default_first(reader: &mut Reader, materials: &mut [Material], default: Optio
     match materials.iter().position(|material| material.id == *id) {
         Some(place) => materials[..=place].rotate_right(1),
         None => {
-            let known: Vec<&str> = materials.iter().map(|material| material.id.as_str()).collect();
+            let known: Vec<&str> = materials
+                .iter()
+                .map(|material| material.id.as_str())
+                .collect();
             let known = known.join(", ");
-            reader.note(*at, Problem::DefaultNotListed { id: id.clone(), known });
+            reader.note(
+                *at,
+                Problem::DefaultNotListed {
+                    id: id.clone(),
+                    known,
+                },
+            );
         }
     }
 }

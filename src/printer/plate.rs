@@ -33,7 +33,10 @@ impl Printer {
     /// The whole build plate; none where the build volume is not known.
     pub fn plate(&self) -> Option<Plate> {
         let [width, depth, _] = self.build_volume_mm.as_ref()?.value;
-        Some(Plate { size_mm: [width, depth], corners: self.excluded_corners.clone() })
+        Some(Plate {
+            size_mm: [width, depth],
+            corners: self.excluded_corners.clone(),
+        })
     }
 }
 
@@ -50,11 +53,17 @@ struct Shelf {
 impl Plate {
     /// A plate that holds parts of these sizes about as wide as deep, where the machine's own is not known.
     pub fn for_parts(sizes_mm: &[[f64; 2]]) -> Self {
-        let area: f64 = sizes_mm.iter().map(|size| (size[0] + GAP_MM) * (size[1] + GAP_MM)).sum();
+        let area: f64 = sizes_mm
+            .iter()
+            .map(|size| (size[0] + GAP_MM) * (size[1] + GAP_MM))
+            .sum();
         let widest = sizes_mm.iter().map(|size| size[0]).fold(0.0, f64::max);
         let width = (area.sqrt() * WIDE_RATIO).max(widest);
         let depth = sizes_mm.iter().map(|size| size[1] + GAP_MM).sum();
-        Self { size_mm: [width, depth], corners: Vec::new() }
+        Self {
+            size_mm: [width, depth],
+            corners: Vec::new(),
+        }
     }
 
     /// A place for each of the parts, whose widths and depths are given, in their order.
@@ -81,7 +90,12 @@ impl Plate {
     /// The first shelf with room, or a new one behind the last, or one on a new plate.
     fn placed(&self, shelves: &mut Vec<Shelf>, size_mm: [f64; 2]) -> Spot {
         let (size, is_turned) = self.laid(size_mm);
-        let spot = |plate, low_mm, fits| Spot { plate, low_mm, is_turned, fits };
+        let spot = |plate, low_mm, fits| Spot {
+            plate,
+            low_mm,
+            is_turned,
+            fits,
+        };
         for shelf in shelves.iter_mut().filter(|shelf| size[1] <= shelf.depth_mm) {
             if let Some(left) = self.left_of([shelf.taken_mm, shelf.front_mm], size) {
                 shelf.taken_mm = left + size[0] + GAP_MM;
@@ -92,35 +106,59 @@ impl Plate {
         let behind = last.map(|shelf| (shelf.plate, shelf.front_mm + shelf.depth_mm + GAP_MM));
         let found = behind.and_then(|(plate, front)| Some((plate, self.start(size, front)?)));
         let next_plate = last.map_or(0, |shelf| shelf.plate + 1);
-        let (plate, low) = found.unwrap_or_else(|| (next_plate, self.start(size, 0.0).unwrap_or_default()));
+        let (plate, low) =
+            found.unwrap_or_else(|| (next_plate, self.start(size, 0.0).unwrap_or_default()));
         let fits = self.is_free(low, size);
-        let taken_mm = if fits { low[0] + size[0] + GAP_MM } else { f64::INFINITY };
+        let taken_mm = if fits {
+            low[0] + size[0] + GAP_MM
+        } else {
+            f64::INFINITY
+        };
         let depth_mm = if fits { size[1] } else { f64::INFINITY };
-        shelves.push(Shelf { plate, front_mm: low[1], depth_mm, taken_mm });
+        shelves.push(Shelf {
+            plate,
+            front_mm: low[1],
+            depth_mm,
+            taken_mm,
+        });
         spot(plate, low, fits)
     }
 
     /// Where a shelf that is not in front of `front_mm` may begin with a part of that size.
     fn start(&self, size: [f64; 2], front_mm: f64) -> Option<[f64; 2]> {
-        let behind_corners = self.corners.iter().map(|corner| front_mm.max(corner.size_mm.value[1]));
+        let behind_corners = self
+            .corners
+            .iter()
+            .map(|corner| front_mm.max(corner.size_mm.value[1]));
         let mut fronts: Vec<f64> = std::iter::once(front_mm).chain(behind_corners).collect();
         fronts.sort_by(f64::total_cmp);
-        fronts.into_iter().find_map(|front| Some([self.left_of([0.0, front], size)?, front]))
+        fronts
+            .into_iter()
+            .find_map(|front| Some([self.left_of([0.0, front], size)?, front]))
     }
 
     /// The least x from there on at which a part of that size is free.
     fn left_of(&self, [from, front]: [f64; 2], size: [f64; 2]) -> Option<f64> {
-        let beside_corners = self.corners.iter().map(|corner| from.max(corner.size_mm.value[0]));
+        let beside_corners = self
+            .corners
+            .iter()
+            .map(|corner| from.max(corner.size_mm.value[0]));
         let mut lefts: Vec<f64> = std::iter::once(from).chain(beside_corners).collect();
         lefts.sort_by(f64::total_cmp);
-        lefts.into_iter().find(|&left| self.is_free([left, front], size))
+        lefts
+            .into_iter()
+            .find(|&left| self.is_free([left, front], size))
     }
 
     /// Whether a box is on the plate and clear of its corners.
     fn is_free(&self, low: [f64; 2], size: [f64; 2]) -> bool {
         let high = [low[0] + size[0], low[1] + size[1]];
         let is_on = high[0] <= self.size_mm[0] && high[1] <= self.size_mm[1];
-        is_on && !self.corners.iter().any(|corner| corner.meets([low, high], self.size_mm))
+        is_on
+            && !self
+                .corners
+                .iter()
+                .any(|corner| corner.meets([low, high], self.size_mm))
     }
 }
 
@@ -130,28 +168,47 @@ mod tests {
     use crate::printer::{Corner, Sourced, Sure};
 
     fn plate(size_mm: [f64; 2], corners: &[(Corner, [f64; 2])]) -> Plate {
-        let sourced =
-            |value| Sourced { value, source: "test".into(), sure: Sure::Read, process_default_of: None };
-        let corners = corners.iter().map(|&(corner, size)| ExcludedCorner { corner, size_mm: sourced(size) });
-        Plate { size_mm, corners: corners.collect() }
+        let sourced = |value| Sourced {
+            value,
+            source: "test".into(),
+            sure: Sure::Read,
+            process_default_of: None,
+        };
+        let corners = corners.iter().map(|&(corner, size)| ExcludedCorner {
+            corner,
+            size_mm: sourced(size),
+        });
+        Plate {
+            size_mm,
+            corners: corners.collect(),
+        }
     }
 
     fn box_of(spot: &Spot, [x, y]: [f64; 2]) -> [[f64; 2]; 2] {
         let size = if spot.is_turned { [y, x] } else { [x, y] };
-        [spot.low_mm, [spot.low_mm[0] + size[0], spot.low_mm[1] + size[1]]]
+        [
+            spot.low_mm,
+            [spot.low_mm[0] + size[0], spot.low_mm[1] + size[1]],
+        ]
     }
 
     /// Asserts that the parts lie on the plates, clear of corners and of each other by the gap.
     fn assert_apart(plate: &Plate, sizes: &[[f64; 2]], spots: &[Spot]) {
         for (i, spot) in spots.iter().enumerate() {
             let [low, high] = box_of(spot, sizes[i]);
-            assert!(spot.fits && plate.is_free(low, [high[0] - low[0], high[1] - low[1]]), "{spot:?}");
-            for (j, other) in
-                spots.iter().enumerate().skip(i + 1).filter(|(_, other)| other.plate == spot.plate)
+            assert!(
+                spot.fits && plate.is_free(low, [high[0] - low[0], high[1] - low[1]]),
+                "{spot:?}"
+            );
+            for (j, other) in spots
+                .iter()
+                .enumerate()
+                .skip(i + 1)
+                .filter(|(_, other)| other.plate == spot.plate)
             {
                 let [from, to] = box_of(other, sizes[j]);
-                let apart =
-                    (0..2).any(|k| low[k] >= to[k] + GAP_MM - 1e-9 || from[k] >= high[k] + GAP_MM - 1e-9);
+                let apart = (0..2)
+                    .any(|k| low[k] >= to[k] + GAP_MM - 1e-9 || from[k] >= high[k] + GAP_MM - 1e-9);
                 assert!(apart, "{i} {spot:?} and {j} {other:?}");
             }
         }
@@ -160,11 +217,18 @@ mod tests {
     #[test]
     fn parts_lie_apart_clear_of_the_corners_on_as_many_plates_as_they_need() {
         let free = plate([200.0, 100.0], &[]);
-        let cornered =
-            plate([200.0, 100.0], &[(Corner::FrontLeft, [30.0, 20.0]), (Corner::BackRight, [60.0, 15.0])]);
+        let cornered = plate(
+            [200.0, 100.0],
+            &[
+                (Corner::FrontLeft, [30.0, 20.0]),
+                (Corner::BackRight, [60.0, 15.0]),
+            ],
+        );
         for seed in 1..40_usize {
             let side = |i: usize| 5.0 + ((i * i * 31 + i * seed * 17) % 60) as f64;
-            let sizes: Vec<[f64; 2]> = (0..seed % 13 + 1).map(|i| [side(2 * i), side(2 * i + 1)]).collect();
+            let sizes: Vec<[f64; 2]> = (0..seed % 13 + 1)
+                .map(|i| [side(2 * i), side(2 * i + 1)])
+                .collect();
             for plate in [&free, &cornered, &Plate::for_parts(&sizes)] {
                 let spots = plate.arranged(&sizes);
                 assert_eq!(spots.len(), sizes.len());
@@ -178,23 +242,42 @@ mod tests {
     fn two_parts_share_a_plate_and_a_third_that_finds_no_room_gets_the_next() {
         let sizes = [[90.0, 90.0], [90.0, 90.0], [90.0, 90.0]];
         let plates = plate([200.0, 100.0], &[]).arranged(&sizes);
-        assert_eq!(plates.iter().map(|spot| spot.plate).collect::<Vec<_>>(), [0, 0, 1]);
+        assert_eq!(
+            plates.iter().map(|spot| spot.plate).collect::<Vec<_>>(),
+            [0, 0, 1]
+        );
     }
 
     #[test]
     fn a_part_is_turned_only_where_that_helps_and_one_that_fits_nowhere_is_told() {
-        let spots =
-            plate([200.0, 100.0], &[]).arranged(&[[90.0, 150.0], [150.0, 90.0], [10.0, 10.0], [300.0, 10.0]]);
-        assert_eq!(spots.iter().map(|spot| spot.is_turned).collect::<Vec<_>>(), [true, false, false, false]);
-        assert_eq!(spots.iter().map(|spot| spot.fits).collect::<Vec<_>>(), [true, true, true, false]);
+        let spots = plate([200.0, 100.0], &[]).arranged(&[
+            [90.0, 150.0],
+            [150.0, 90.0],
+            [10.0, 10.0],
+            [300.0, 10.0],
+        ]);
+        assert_eq!(
+            spots.iter().map(|spot| spot.is_turned).collect::<Vec<_>>(),
+            [true, false, false, false]
+        );
+        assert_eq!(
+            spots.iter().map(|spot| spot.fits).collect::<Vec<_>>(),
+            [true, true, true, false]
+        );
         let alone = spots[3].plate;
-        assert!(spots[..3].iter().all(|spot| spot.plate != alone), "{spots:?}");
+        assert!(
+            spots[..3].iter().all(|spot| spot.plate != alone),
+            "{spots:?}"
+        );
     }
 
     #[test]
     fn a_plate_of_unknown_size_holds_everything() {
         let sizes = [[70.0, 20.0], [10.0, 120.0], [30.0, 30.0]];
         let spots = Plate::for_parts(&sizes).arranged(&sizes);
-        assert!(spots.iter().all(|spot| spot.plate == 0 && spot.fits), "{spots:?}");
+        assert!(
+            spots.iter().all(|spot| spot.plate == 0 && spot.fits),
+            "{spots:?}"
+        );
     }
 }

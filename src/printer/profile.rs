@@ -6,8 +6,8 @@ use serde::Deserialize;
 use toml::{Spanned, value::Datetime};
 
 use super::{
-    Corner, ExcludedCorner, Fault, Grid, Material, PrintPose, Problem, Quantity, SizedWall, Sourced, Support,
-    Sure,
+    Corner, ExcludedCorner, Fault, Grid, Material, PrintPose, Problem, Quantity, SizedWall,
+    Sourced, Support, Sure,
 };
 use crate::{
     toml_text::{self, Place, TextFault},
@@ -106,7 +106,11 @@ pub(super) struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     pub fn new(file: &'a str, text: &'a str) -> Self {
-        Self { file, text, faults: Vec::new() }
+        Self {
+            file,
+            text,
+            faults: Vec::new(),
+        }
     }
 
     pub fn parse<T: serde::de::DeserializeOwned>(&self) -> Result<T, TextFault> {
@@ -115,13 +119,21 @@ impl<'a> Reader<'a> {
 
     /// Notes a problem with what begins at the byte `offset`.
     pub fn note(&mut self, offset: usize, problem: Problem) {
-        self.faults.push(Fault { place: Place::of_byte(self.file, self.text, offset), problem });
+        self.faults.push(Fault {
+            place: Place::of_byte(self.file, self.text, offset),
+            problem,
+        });
     }
 
     /// The text, noted if it is blank.
     pub fn words(&mut self, key: &str, text: &Spanned<String>) -> String {
         if text.get_ref().trim().is_empty() {
-            self.note(text.span().start, Problem::Empty { key: key.to_owned() });
+            self.note(
+                text.span().start,
+                Problem::Empty {
+                    key: key.to_owned(),
+                },
+            );
         }
         text.get_ref().clone()
     }
@@ -130,23 +142,48 @@ impl<'a> Reader<'a> {
     pub fn id(&mut self, id: &Spanned<String>) -> String {
         let is_fit = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '-';
         if id.get_ref().is_empty() || !id.get_ref().chars().all(is_fit) {
-            self.note(id.span().start, Problem::BadId { id: id.get_ref().clone() });
+            self.note(
+                id.span().start,
+                Problem::BadId {
+                    id: id.get_ref().clone(),
+                },
+            );
         }
         id.get_ref().clone()
     }
 
     /// A number of the table, as a value in its key's unit.
-    pub fn number(&mut self, quantity: Quantity, quoted: &Spanned<Quoted<f64>>) -> Option<Sourced<f64>> {
+    pub fn number(
+        &mut self,
+        quantity: Quantity,
+        quoted: &Spanned<Quoted<f64>>,
+    ) -> Option<Sourced<f64>> {
         let key = quantity.key();
         let at = quoted.span().start;
         let mut quoted = quoted.get_ref().clone();
         if let (Some(dpi), true) = (quoted.dpi, quantity.is_grid_step()) {
             if quoted.value.is_some() {
-                self.note(at, Problem::TwoValues { key: key.to_owned() });
+                self.note(
+                    at,
+                    Problem::TwoValues {
+                        key: key.to_owned(),
+                    },
+                );
             }
-            quoted = Quoted { value: Some(MM_PER_INCH / dpi), dpi: None, ..quoted };
+            quoted = Quoted {
+                value: Some(MM_PER_INCH / dpi),
+                dpi: None,
+                ..quoted
+            };
         }
-        self.sourced(Entry { key, at, range: quantity.plausible() }, quoted)
+        self.sourced(
+            Entry {
+                key,
+                at,
+                range: quantity.plausible(),
+            },
+            quoted,
+        )
     }
 
     /// A box's sides.
@@ -155,32 +192,85 @@ impl<'a> Reader<'a> {
         key: &'static str,
         quoted: &Spanned<Quoted<[f64; 3]>>,
     ) -> Option<Sourced<[f64; 3]>> {
-        let entry = Entry { key, at: quoted.span().start, range: BUILD_VOLUME_MM };
+        let entry = Entry {
+            key,
+            at: quoted.span().start,
+            range: BUILD_VOLUME_MM,
+        };
         self.sourced(entry, quoted.get_ref().clone())
     }
 
     /// Whether the machine makes up for shrinkage by itself.
-    pub fn flag(&mut self, key: &'static str, quoted: &Spanned<Quoted<bool>>) -> Option<Sourced<bool>> {
-        let entry = Entry { key, at: quoted.span().start, range: BUILD_VOLUME_MM };
+    pub fn flag(
+        &mut self,
+        key: &'static str,
+        quoted: &Spanned<Quoted<bool>>,
+    ) -> Option<Sourced<bool>> {
+        let entry = Entry {
+            key,
+            at: quoted.span().start,
+            range: BUILD_VOLUME_MM,
+        };
         self.sourced(entry, quoted.get_ref().clone())
     }
 
     /// A corner where nothing may be printed.
     pub fn corner(&mut self, text: &Spanned<CornerText>) -> Option<ExcludedCorner> {
-        let CornerText { corner, size_mm, source, sure } = text.get_ref().clone();
-        let entry = Entry { key: "excluded_corners", at: text.span().start, range: CORNER_MM };
-        let size_mm = self.sourced(entry, Quoted { value: Some(size_mm), dpi: None, source, sure })?;
+        let CornerText {
+            corner,
+            size_mm,
+            source,
+            sure,
+        } = text.get_ref().clone();
+        let entry = Entry {
+            key: "excluded_corners",
+            at: text.span().start,
+            range: CORNER_MM,
+        };
+        let size_mm = self.sourced(
+            entry,
+            Quoted {
+                value: Some(size_mm),
+                dpi: None,
+                source,
+                sure,
+            },
+        )?;
         Some(ExcludedCorner { corner, size_mm })
     }
 
     /// The least wall of parts up to a size.
     pub fn sized_wall(&mut self, text: &Spanned<WallText>) -> Option<SizedWall> {
-        let WallText { up_to_mm, wall_mm, source, sure } = text.get_ref().clone();
+        let WallText {
+            up_to_mm,
+            wall_mm,
+            source,
+            sure,
+        } = text.get_ref().clone();
         let at = text.span().start;
         let key = "walls_by_part_size";
-        self.judge(&Entry { key, at, range: PART_SIZE_MM }, up_to_mm);
-        let entry = Entry { key, at, range: Quantity::MinWallMm.plausible() };
-        let wall_mm = self.sourced(entry, Quoted { value: Some(wall_mm), dpi: None, source, sure })?;
+        self.judge(
+            &Entry {
+                key,
+                at,
+                range: PART_SIZE_MM,
+            },
+            up_to_mm,
+        );
+        let entry = Entry {
+            key,
+            at,
+            range: Quantity::MinWallMm.plausible(),
+        };
+        let wall_mm = self.sourced(
+            entry,
+            Quoted {
+                value: Some(wall_mm),
+                dpi: None,
+                source,
+                sure,
+            },
+        )?;
         Some(SizedWall { up_to_mm, wall_mm })
     }
 
@@ -190,8 +280,8 @@ impl<'a> Reader<'a> {
         let name = self.words("name", &text.name);
         let density = self.number_of("density_g_cm3", &text.density_g_cm3, DENSITY_G_CM3);
         let spread = text.density_spread_ratio.as_ref();
-        let spread =
-            spread.map(|quoted| self.number_of("density_spread_ratio", quoted, DENSITY_SPREAD_RATIO));
+        let spread = spread
+            .map(|quoted| self.number_of("density_spread_ratio", quoted, DENSITY_SPREAD_RATIO));
         let lot = text.lot.as_ref().map(|lot| self.words("lot", lot));
         let measured_on = text.measured_on.as_ref().and_then(|day| self.day(day));
         let density = density?;
@@ -199,7 +289,14 @@ impl<'a> Reader<'a> {
             self.note_not_dated(text, &id);
         }
         let density_spread_ratio = spread.flatten();
-        Some(Material { id, name, density_g_cm3: density, density_spread_ratio, lot, measured_on })
+        Some(Material {
+            id,
+            name,
+            density_g_cm3: density,
+            density_spread_ratio,
+            lot,
+            measured_on,
+        })
     }
 
     fn number_of(
@@ -208,7 +305,14 @@ impl<'a> Reader<'a> {
         quoted: &Spanned<Quoted<f64>>,
         range: RangeInclusive<f64>,
     ) -> Option<Sourced<f64>> {
-        self.sourced(Entry { key, at: quoted.span().start, range }, quoted.get_ref().clone())
+        self.sourced(
+            Entry {
+                key,
+                at: quoted.span().start,
+                range,
+            },
+            quoted.get_ref().clone(),
+        )
     }
 
     /// A day without a time, as year-month-day.
@@ -223,10 +327,18 @@ impl<'a> Reader<'a> {
 
     /// Notes what a measured density lacks to be traced.
     fn note_not_dated(&mut self, text: &MaterialText, id: &str) {
-        for (is_there, missing) in [(text.measured_on.is_some(), "measured_on"), (text.lot.is_some(), "lot")]
-        {
+        for (is_there, missing) in [
+            (text.measured_on.is_some(), "measured_on"),
+            (text.lot.is_some(), "lot"),
+        ] {
             if !is_there {
-                self.note(text.density_g_cm3.span().start, Problem::NotDated { id: id.to_owned(), missing });
+                self.note(
+                    text.density_g_cm3.span().start,
+                    Problem::NotDated {
+                        id: id.to_owned(),
+                        missing,
+                    },
+                );
             }
         }
     }
@@ -246,9 +358,17 @@ impl<'a> Reader<'a> {
         }
         match &quoted.value {
             None => self.note(entry.at, Problem::NoValue { key: key() }),
-            Some(value) => value.numbers().iter().for_each(|&number| self.judge(&entry, number)),
+            Some(value) => value
+                .numbers()
+                .iter()
+                .for_each(|&number| self.judge(&entry, number)),
         }
-        Some(Sourced { value: quoted.value?, source: source?, sure: quoted.sure?, process_default_of: None })
+        Some(Sourced {
+            value: quoted.value?,
+            source: source?,
+            sure: quoted.sure?,
+            process_default_of: None,
+        })
     }
 
     /// Notes a number that is not positive and finite, or that cannot be meant.
@@ -258,7 +378,15 @@ impl<'a> Reader<'a> {
             self.note(entry.at, Problem::NotPositive { key, value });
         } else if !entry.range.contains(&value) {
             let (least, most) = (*entry.range.start(), *entry.range.end());
-            self.note(entry.at, Problem::Implausible { key, value, least, most });
+            self.note(
+                entry.at,
+                Problem::Implausible {
+                    key,
+                    value,
+                    least,
+                    most,
+                },
+            );
         }
     }
 }

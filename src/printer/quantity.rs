@@ -186,9 +186,11 @@ impl Quantity {
     /// The values that can be meant. Above it micrometres were given for millimetres or per cent for a ratio.
     pub fn plausible(self) -> RangeInclusive<f64> {
         match self {
-            Self::PixelXMm | Self::PixelYMm | Self::LayerMm | Self::LayerLeastMm | Self::LayerMostMm => {
-                FINEST_MM..=COARSEST_STEP_MM
-            }
+            Self::PixelXMm
+            | Self::PixelYMm
+            | Self::LayerMm
+            | Self::LayerLeastMm
+            | Self::LayerMostMm => FINEST_MM..=COARSEST_STEP_MM,
             Self::MinWallMm
             | Self::SupportedWallMm
             | Self::HorizontalWallMm

@@ -33,8 +33,16 @@ impl ExcludedCorner {
         let [width, depth] = self.size_mm.value;
         let left = matches!(self.corner, Corner::FrontLeft | Corner::BackLeft);
         let front = matches!(self.corner, Corner::FrontLeft | Corner::FrontRight);
-        let in_x = if left { low[0] < width } else { high[0] > plate_mm[0] - width };
-        let in_y = if front { low[1] < depth } else { high[1] > plate_mm[1] - depth };
+        let in_x = if left {
+            low[0] < width
+        } else {
+            high[0] > plate_mm[0] - width
+        };
+        let in_y = if front {
+            low[1] < depth
+        } else {
+            high[1] > plate_mm[1] - depth
+        };
         in_x && in_y
     }
 }
@@ -45,7 +53,10 @@ impl Printer {
     pub fn usable_volume_mm(&self) -> Option<[f64; 3]> {
         let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
         let [x, y] = self.clear_rectangle_mm([width, depth]);
-        let largest = self.largest_part_mm.as_ref().map_or([f64::INFINITY; 3], |largest| largest.value);
+        let largest = self
+            .largest_part_mm
+            .as_ref()
+            .map_or([f64::INFINITY; 3], |largest| largest.value);
         let scale = self.print_scale_ratio();
         let room = [x.min(largest[0]), y.min(largest[1]), height.min(largest[2])];
         Some([room[0] / scale[0], room[1] / scale[1], room[2] / scale[2]])
@@ -54,10 +65,15 @@ impl Printer {
     /// What files are multiplied by along x, y and z so that shrunken parts have their nominal size: 1, unless the profile says
     /// that the machine does not make up for shrinkage, and by how much parts shrink.
     pub fn print_scale_ratio(&self) -> [f64; 3] {
-        let is_left_to_us = self.compensates_shrinkage.as_ref().is_some_and(|flag| !flag.value);
+        let is_left_to_us = self
+            .compensates_shrinkage
+            .as_ref()
+            .is_some_and(|flag| !flag.value);
         let scale = |quantity: Quantity| {
-            let shrinkage =
-                self.number(quantity).filter(|_| is_left_to_us).map_or(0.0, |number| number.value);
+            let shrinkage = self
+                .number(quantity)
+                .filter(|_| is_left_to_us)
+                .map_or(0.0, |number| number.value);
             1.0 / (1.0 - shrinkage)
         };
         let [across, up] = [Quantity::ShrinkageXyRatio, Quantity::ShrinkageZRatio].map(scale);
@@ -67,19 +83,33 @@ impl Printer {
     /// The sides of the largest rectangle of the plate that no excluded corner reaches into, mm.
     fn clear_rectangle_mm(&self, plate_mm: [f64; 2]) -> [f64; 2] {
         let ends = |axis: usize| {
-            let sizes = self.excluded_corners.iter().map(|corner| corner.size_mm.value[axis]);
+            let sizes = self
+                .excluded_corners
+                .iter()
+                .map(|corner| corner.size_mm.value[axis]);
             let sizes: Vec<f64> = std::iter::once(0.0).chain(sizes).collect();
             let low = sizes.clone();
-            low.into_iter()
-                .flat_map(move |low| sizes.clone().into_iter().map(move |high| [low, plate_mm[axis] - high]))
+            low.into_iter().flat_map(move |low| {
+                sizes
+                    .clone()
+                    .into_iter()
+                    .map(move |high| [low, plate_mm[axis] - high])
+            })
         };
         let mut best = [0.0; 2];
         for [left, right] in ends(0) {
             for [front, back] in ends(1) {
                 let sides = [right - left, back - front];
                 let rectangle = [[left, front], [right, back]];
-                let is_clear = !self.excluded_corners.iter().any(|corner| corner.meets(rectangle, plate_mm));
-                if is_clear && sides[0] > 0.0 && sides[1] > 0.0 && sides[0] * sides[1] > best[0] * best[1] {
+                let is_clear = !self
+                    .excluded_corners
+                    .iter()
+                    .any(|corner| corner.meets(rectangle, plate_mm));
+                if is_clear
+                    && sides[0] > 0.0
+                    && sides[1] > 0.0
+                    && sides[0] * sides[1] > best[0] * best[1]
+                {
                     best = sides;
                 }
             }
@@ -102,7 +132,12 @@ mod tests {
     use crate::printer::Sure;
 
     fn sourced<T>(value: T) -> Sourced<T> {
-        Sourced { value, source: "test".into(), sure: Sure::Read, process_default_of: None }
+        Sourced {
+            value,
+            source: "test".into(),
+            sure: Sure::Read,
+            process_default_of: None,
+        }
     }
 
     #[test]
@@ -111,18 +146,28 @@ mod tests {
         assert_eq!(form4.fits([120.0, 199.0, 210.0]), Some(true));
         assert_eq!(form4.fits([126.0, 126.0, 1.0]), Some(false));
         assert_eq!(form4.fits([10.0, 10.0, 211.0]), Some(false));
-        assert_eq!(Printer::find("objet-connex350").unwrap().fits([1.0, 1.0, 1.0]), None);
+        assert_eq!(
+            Printer::find("objet-connex350")
+                .unwrap()
+                .fits([1.0, 1.0, 1.0]),
+            None
+        );
     }
 
     #[test]
     fn an_excluded_corner_takes_a_strip_off_the_side_where_that_costs_least() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
         printer.build_volume_mm = Some(sourced([256.0, 256.0, 250.0]));
-        let corner = |corner, x, y| ExcludedCorner { corner, size_mm: sourced([x, y]) };
+        let corner = |corner, x, y| ExcludedCorner {
+            corner,
+            size_mm: sourced([x, y]),
+        };
         printer.excluded_corners = vec![corner(Corner::FrontLeft, 18.0, 28.0)];
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 256.0, 250.0]));
         // A corner at the back right would cost 18 mm of width once more; both together cost less depth: 256 − 28 − 6.
-        printer.excluded_corners.push(corner(Corner::BackRight, 30.0, 6.0));
+        printer
+            .excluded_corners
+            .push(corner(Corner::BackRight, 30.0, 6.0));
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 250.0, 250.0]));
         printer.largest_part_mm = Some(sourced([300.0, 200.0, 240.0]));
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 200.0, 240.0]));
@@ -131,21 +176,28 @@ mod tests {
     #[test]
     fn files_are_nominal_unless_the_profile_says_that_shrinkage_is_left_to_us() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
-        printer.besides.insert(Quantity::ShrinkageXyRatio, sourced(0.02));
+        printer
+            .besides
+            .insert(Quantity::ShrinkageXyRatio, sourced(0.02));
         assert_eq!(printer.print_scale_ratio(), [1.0; 3]);
         printer.compensates_shrinkage = Some(sourced(true));
         assert_eq!(printer.print_scale_ratio(), [1.0; 3]);
         printer.compensates_shrinkage = Some(sourced(false));
         assert_eq!(printer.print_scale_ratio(), [1.0 / 0.98, 1.0 / 0.98, 1.0]);
         let room = printer.usable_volume_mm().unwrap();
-        assert!((room[0] - 196.0).abs() < 1e-12 && room[2] == 210.0, "{room:?}");
+        assert!(
+            (room[0] - 196.0).abs() < 1e-12 && room[2] == 210.0,
+            "{room:?}"
+        );
     }
 
     #[test]
     fn corners_that_take_the_whole_plate_leave_no_room() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
-        printer.excluded_corners =
-            vec![ExcludedCorner { corner: Corner::BackLeft, size_mm: sourced([200.0, 125.0]) }];
+        printer.excluded_corners = vec![ExcludedCorner {
+            corner: Corner::BackLeft,
+            size_mm: sourced([200.0, 125.0]),
+        }];
         assert_eq!(printer.fits([1.0, 1.0, 1.0]), Some(false));
     }
 }

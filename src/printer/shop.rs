@@ -52,9 +52,13 @@ impl Shop {
     /// The defaults in the first of these folders that has the file; none where none has.
     pub fn of_folders(folders: &[PathBuf]) -> Result<Option<Self>, ShopError> {
         let files = folders.iter().map(|folder| folder.join(SHOP_FILE));
-        let Some(file) = files.into_iter().find(|file| file.is_file()) else { return Ok(None) };
-        let text = std::fs::read_to_string(&file)
-            .map_err(|source| ShopError::Unreadable { path: file.clone(), source })?;
+        let Some(file) = files.into_iter().find(|file| file.is_file()) else {
+            return Ok(None);
+        };
+        let text = std::fs::read_to_string(&file).map_err(|source| ShopError::Unreadable {
+            path: file.clone(),
+            source,
+        })?;
         Ok(Some(Self::parse(&file, &text)?))
     }
 
@@ -64,7 +68,11 @@ impl Shop {
         let is_path = by_id(BUILT_IN.printers, &said).is_none() && said.ends_with(PROFILE_ENDING);
         let beside = || file.with_file_name(&said).to_string_lossy().into_owned();
         let printer = if is_path { beside() } else { said };
-        Ok(Self { file: file.to_owned(), printer, material: shop.material })
+        Ok(Self {
+            file: file.to_owned(),
+            printer,
+            material: shop.material,
+        })
     }
 }
 
@@ -79,10 +87,22 @@ mod tests {
         for path in [&near, &far] {
             std::fs::create_dir(path).unwrap();
         }
-        assert_eq!(Shop::of_folders(&[near.clone(), far.clone()]).unwrap(), None);
-        std::fs::write(far.join(SHOP_FILE), "printer = \"prusa-mk4\"\nmaterial = \"petg\"\n").unwrap();
-        let shop = Shop::of_folders(&[near.clone(), far.clone()]).unwrap().unwrap();
-        assert_eq!((shop.printer.as_str(), shop.material.as_deref()), ("prusa-mk4", Some("petg")));
+        assert_eq!(
+            Shop::of_folders(&[near.clone(), far.clone()]).unwrap(),
+            None
+        );
+        std::fs::write(
+            far.join(SHOP_FILE),
+            "printer = \"prusa-mk4\"\nmaterial = \"petg\"\n",
+        )
+        .unwrap();
+        let shop = Shop::of_folders(&[near.clone(), far.clone()])
+            .unwrap()
+            .unwrap();
+        assert_eq!(
+            (shop.printer.as_str(), shop.material.as_deref()),
+            ("prusa-mk4", Some("petg"))
+        );
         std::fs::write(near.join(SHOP_FILE), "printer = \"ours/jet.toml\"\n").unwrap();
         let shop = Shop::of_folders(&[near.clone(), far]).unwrap().unwrap();
         assert_eq!(Path::new(&shop.printer), near.join("ours/jet.toml"));
@@ -90,7 +110,9 @@ mod tests {
 
     #[test]
     fn a_misspelt_key_is_told_with_its_place() {
-        let error = Shop::parse(Path::new("s/equipoise.toml"), "printr = \"x\"\n").unwrap_err().to_string();
+        let error = Shop::parse(Path::new("s/equipoise.toml"), "printr = \"x\"\n")
+            .unwrap_err()
+            .to_string();
         assert!(
             error.starts_with("s/equipoise.toml:1:1: ") && error.contains("did you mean `printer`"),
             "{error}"

@@ -48,14 +48,20 @@ pub enum SizeError {
 /// A length for people, however small or large.
 fn shown(mm: f64) -> String {
     let is_plain = (1e-3..LONG_MM).contains(&mm);
-    if is_plain { show_mm(mm) } else { format!("{mm:.1e} mm") }
+    if is_plain {
+        show_mm(mm)
+    } else {
+        format!("{mm:.1e} mm")
+    }
 }
 
 impl Printer {
     /// The longest model that is tried, mm: some build lengths, or a fixed length where the build volume is not known.
     pub fn greatest_length_mm(&self) -> f64 {
         let longest = |volume: [f64; 3]| MAX_BUILD_LENGTHS * volume.into_iter().fold(0.0, f64::max);
-        self.build_volume_mm.as_ref().map_or(MAX_SIZE_MM, |volume| longest(volume.value))
+        self.build_volume_mm
+            .as_ref()
+            .map_or(MAX_SIZE_MM, |volume| longest(volume.value))
     }
 
     /// Refuses a model whose longest side is beyond what could be cut into parts for this printer.
@@ -64,13 +70,21 @@ impl Printer {
         if size_mm <= most_mm {
             return Ok(());
         }
-        Err(SizeError::TooLong { size_mm, most_mm, printer: self.id.clone() })
+        Err(SizeError::TooLong {
+            size_mm,
+            most_mm,
+            printer: self.id.clone(),
+        })
     }
 }
 
 /// Refuses a model whose longest side two walls fill.
 pub fn leaves_room(size_mm: f64, wall_mm: f64) -> Result<(), SizeError> {
-    if size_mm > 2.0 * wall_mm { Ok(()) } else { Err(SizeError::AllWall { size_mm, wall_mm }) }
+    if size_mm > 2.0 * wall_mm {
+        Ok(())
+    } else {
+        Err(SizeError::AllWall { size_mm, wall_mm })
+    }
 }
 
 #[cfg(test)]
@@ -79,10 +93,18 @@ mod tests {
 
     #[test]
     fn a_model_of_four_build_lengths_is_tried_and_a_longer_one_is_not() {
-        let longest = |printer: &Printer| printer.build_volume_mm.as_ref().map(|volume| volume.value[0]);
+        let longest = |printer: &Printer| {
+            printer
+                .build_volume_mm
+                .as_ref()
+                .map(|volume| volume.value[0])
+        };
         for (id, most_mm) in [("prusa-mk4", 1000.0), ("objet-connex350", MAX_SIZE_MM)] {
             let printer = Printer::find(id).unwrap();
-            assert_eq!(longest(&printer).map_or(MAX_SIZE_MM, |width| 4.0 * width), most_mm);
+            assert_eq!(
+                longest(&printer).map_or(MAX_SIZE_MM, |width| 4.0 * width),
+                most_mm
+            );
             assert_eq!(printer.allows_length(most_mm), Ok(()));
             for size_mm in [most_mm * 1.001, 1e300, f64::INFINITY, f64::NAN] {
                 let error = printer.allows_length(size_mm).unwrap_err().to_string();
@@ -95,7 +117,17 @@ mod tests {
     #[test]
     fn two_walls_leave_no_room() {
         assert_eq!(leaves_room(2.1, 1.0), Ok(()));
-        assert!(leaves_room(2.0, 1.0).unwrap_err().to_string().contains("nothing inside"));
-        assert!(leaves_room(1e-300, 1.0).unwrap_err().to_string().contains("1.0e-300 mm"));
+        assert!(
+            leaves_room(2.0, 1.0)
+                .unwrap_err()
+                .to_string()
+                .contains("nothing inside")
+        );
+        assert!(
+            leaves_room(1e-300, 1.0)
+                .unwrap_err()
+                .to_string()
+                .contains("1.0e-300 mm")
+        );
     }
 }

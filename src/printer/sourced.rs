@@ -54,8 +54,11 @@ pub struct Sourced<T> {
 impl<T> Sourced<T> {
     /// One line for people: `read, default of polyjet: Hubs poster`.
     pub fn provenance(&self) -> String {
-        let inherited =
-            self.process_default_of.as_ref().map(|id| format!(", default of {id}")).unwrap_or_default();
+        let inherited = self
+            .process_default_of
+            .as_ref()
+            .map(|id| format!(", default of {id}"))
+            .unwrap_or_default();
         format!("{}{inherited}: {}", self.sure, self.source)
     }
 }

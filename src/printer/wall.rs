@@ -70,7 +70,10 @@ pub enum WallError {
 impl Printer {
     /// The thinnest wall of a part whose longest side is `size_mm`, mm, that prints and survives cleaning.
     pub fn least_wall_mm(&self, size_mm: f64) -> &Sourced<f64> {
-        let sized = self.walls_by_part_size.iter().find(|wall| size_mm <= wall.up_to_mm);
+        let sized = self
+            .walls_by_part_size
+            .iter()
+            .find(|wall| size_mm <= wall.up_to_mm);
         sized.map_or(&self.min_wall_mm, |wall| &wall.wall_mm)
     }
 
@@ -80,7 +83,11 @@ impl Printer {
     /// make of it.
     ///
     /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the checklist says how many.
-    pub fn quantised_wall(&self, asked_mm: Option<f64>, size_mm: f64) -> Result<WallChoice, WallError> {
+    pub fn quantised_wall(
+        &self,
+        asked_mm: Option<f64>,
+        size_mm: f64,
+    ) -> Result<WallChoice, WallError> {
         let least = self.least_wall_mm(size_mm);
         let wanted_mm = asked_mm.unwrap_or(least.value);
         if !(wanted_mm.is_finite() && wanted_mm > 0.0) {
@@ -97,7 +104,13 @@ impl Printer {
         }
         let wall_mm = if is_whole { wanted_mm } else { steps * step_mm };
         let why = self.why(asked_mm.ok_or(least.value), wall_mm, steps);
-        Ok(WallChoice { asked_mm, wall_mm, steps: steps as u32, step_mm, why })
+        Ok(WallChoice {
+            asked_mm,
+            wall_mm,
+            steps: steps as u32,
+            step_mm,
+            why,
+        })
     }
 
     /// Whether a wall drawn so thick may come out thinner than wanted between the pixels and layers. Never of a wall that
@@ -126,7 +139,11 @@ impl Printer {
             Err(least_mm) => format!("the least this printer makes is {}", show_mm(least_mm)),
         };
         let step_mm = self.pixel_x_mm.value.max(self.pixel_y_mm.value);
-        format!("{} = {steps} {} of {step_mm:.4} mm; {from}", show_mm(wall_mm), self.grid.steps())
+        format!(
+            "{} = {steps} {} of {step_mm:.4} mm; {from}",
+            show_mm(wall_mm),
+            self.grid.steps()
+        )
     }
 
     /// The pitch of the solver's columns along x and y for a model so long, mm: the printer's own pixel, or a quarter of the
@@ -135,7 +152,10 @@ impl Printer {
     pub fn solve_pitch_mm(&self, wall_mm: f64, size_mm: f64, asked_mm: Option<f64>) -> [f64; 2] {
         let own = [self.pixel_x_mm.value, self.pixel_y_mm.value];
         let finest = own.map(|pixel_mm| pixel_mm.min(wall_mm / COLUMNS_PER_WALL));
-        let columns = finest.iter().map(|pitch_mm| size_mm / pitch_mm).product::<f64>();
+        let columns = finest
+            .iter()
+            .map(|pitch_mm| size_mm / pitch_mm)
+            .product::<f64>();
         let wanted = (columns / MOST_COLUMNS).sqrt().ceil();
         let most = finest.map(|pitch_mm| (wall_mm / COLUMNS_PER_WALL / pitch_mm).floor());
         let pixels = wanted.min(most[0]).min(most[1]).max(1.0);
@@ -159,21 +179,29 @@ mod tests {
 
     #[test]
     fn a_wall_of_1_mm_is_24_pixels_on_the_objet() {
-        let choice = printer("objet-connex350").quantised_wall(Some(1.0), 100.0).unwrap();
+        let choice = printer("objet-connex350")
+            .quantised_wall(Some(1.0), 100.0)
+            .unwrap();
         assert_eq!(choice.steps, 24);
         assert!((choice.wall_mm - 1.016).abs() < 1e-12);
-        assert_eq!(choice.why, "1.016 mm = 24 pixels of 0.0423 mm; asked for 1.000 mm");
+        assert_eq!(
+            choice.why,
+            "1.016 mm = 24 pixels of 0.0423 mm; asked for 1.000 mm"
+        );
     }
 
     #[test]
-    fn filament_walls_are_whole_lines_and_resin_walls_so_many_pixels_that_layers_cannot_thin_them() {
+    fn filament_walls_are_whole_lines_and_resin_walls_so_many_pixels_that_layers_cannot_thin_them()
+    {
         let fdm = printer("prusa-mk4").quantised_wall(None, 100.0).unwrap();
         assert_eq!((fdm.steps, fdm.wall_mm), (2, 0.9));
         assert_eq!(
             fdm.why,
             "0.900 mm = 2 line widths of 0.4500 mm; the least this printer makes is 0.800 mm"
         );
-        let sla = printer("formlabs-form4").quantised_wall(Some(1.04), 100.0).unwrap();
+        let sla = printer("formlabs-form4")
+            .quantised_wall(Some(1.04), 100.0)
+            .unwrap();
         // 21 pixels of 0.05 mm are 1.05 mm, but may hold 10 layers of 0.1 mm only.
         assert_eq!(sla.steps, 22);
         assert!(sla.why.contains("22 pixels"), "{}", sla.why);
@@ -181,22 +209,36 @@ mod tests {
 
     #[test]
     fn a_wall_below_the_least_is_refused_with_the_least_and_its_source() {
-        let error = printer("objet-connex350").quantised_wall(Some(0.99), 100.0).unwrap_err().to_string();
+        let error = printer("objet-connex350")
+            .quantised_wall(Some(0.99), 100.0)
+            .unwrap_err()
+            .to_string();
         assert!(
             error.contains("0.990 mm") && error.contains("1.000 mm") && error.contains("Hubs"),
             "{error}"
         );
         for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let error = printer("prusa-mk4").quantised_wall(Some(bad), 100.0).unwrap_err();
+            let error = printer("prusa-mk4")
+                .quantised_wall(Some(bad), 100.0)
+                .unwrap_err();
             assert!(matches!(error, WallError::NotPositive(_)), "{bad}");
         }
     }
 
     #[test]
     fn columns_stand_at_the_pixel_or_at_a_quarter_of_the_wall() {
-        assert_eq!(printer("objet-connex350").solve_pitch_mm(1.016, 100.0, None), [25.4 / 600.0; 2]);
-        assert_eq!(printer("prusa-mk4").solve_pitch_mm(0.9, 100.0, None), [0.225; 2]);
-        assert_eq!(printer("prusa-mk4").solve_pitch_mm(0.9, 100.0, Some(0.5)), [0.5; 2]);
+        assert_eq!(
+            printer("objet-connex350").solve_pitch_mm(1.016, 100.0, None),
+            [25.4 / 600.0; 2]
+        );
+        assert_eq!(
+            printer("prusa-mk4").solve_pitch_mm(0.9, 100.0, None),
+            [0.225; 2]
+        );
+        assert_eq!(
+            printer("prusa-mk4").solve_pitch_mm(0.9, 100.0, Some(0.5)),
+            [0.5; 2]
+        );
         let mut oblong = printer("formlabs-form4");
         oblong.pixel_y_mm.value = 0.4;
         assert_eq!(oblong.solve_pitch_mm(1.0, 100.0, None), [0.05, 0.25]);
@@ -217,7 +259,10 @@ mod tests {
     fn columns_too_many_are_thinned_to_whole_pixels_but_not_beyond_a_quarter_of_the_wall() {
         let saturn = printer("elegoo-saturn-4-ultra");
         // 100 mm: 5263 × 4167 columns are 3.7 times the most, so every second pixel.
-        assert_eq!(saturn.solve_pitch_mm(1.008, 100.0, None), [2.0 * 0.019, 2.0 * 0.024]);
+        assert_eq!(
+            saturn.solve_pitch_mm(1.008, 100.0, None),
+            [2.0 * 0.019, 2.0 * 0.024]
+        );
         assert_eq!(saturn.solve_pitch_mm(1.008, 30.0, None), [0.019, 0.024]);
         let [x, y] = saturn.solve_pitch_mm(1.008, 5000.0, None);
         assert!(y <= 0.252 && x / 0.019 == 10.0, "{x} {y}");
@@ -227,7 +272,10 @@ mod tests {
     fn the_least_wall_of_sintered_powder_grows_with_the_part() {
         let eos = printer("eos-p396");
         let wall_mm = |size_mm| eos.quantised_wall(None, size_mm).unwrap().wall_mm;
-        assert_eq!((wall_mm(100.0), wall_mm(101.0), wall_mm(500.0)), (0.75, 1.0, 1.0));
+        assert_eq!(
+            (wall_mm(100.0), wall_mm(101.0), wall_mm(500.0)),
+            (0.75, 1.0, 1.0)
+        );
         assert!(
             printer("formlabs-fuse1").walls_by_part_size.is_empty(),
             "the machine's own wall comes first"

@@ -30,13 +30,23 @@ pub(super) struct Apart<'a> {
 
 /// The parts' meshes in the model frame.
 pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
-    parts.iter().map(|part| part.mesh.map_vertices(|p| part.pose.to_model(p))).collect()
+    parts
+        .iter()
+        .map(|part| part.mesh.map_vertices(|p| part.pose.to_model(p)))
+        .collect()
 }
 
 /// How far each part is drawn from its place: away from every cut that is made where it lies, to its own side.
 pub(super) fn shifts(parts: &[TriMesh], cuts: &[Parting]) -> Vec<Vector> {
     let apart_mm = of_longest_side_mm(parts.iter());
-    parts.iter().map(|part| cuts.iter().map(|cut| away(cut, &part.aabb().center(), apart_mm)).sum()).collect()
+    parts
+        .iter()
+        .map(|part| {
+            cuts.iter()
+                .map(|cut| away(cut, &part.aabb().center(), apart_mm))
+                .sum()
+        })
+        .collect()
 }
 
 /// How far what has its centre here is drawn from a cut that parts `apart_mm`.
@@ -51,7 +61,9 @@ fn away(cut: &Parting, center: &Point, apart_mm: f64) -> Vector {
 /// How far ballast is drawn from its place: between the parts whose cut opens its pocket.
 pub(super) fn lump_shift(lump: &Lump, partings: &[Parting], apart_mm: f64) -> Vector {
     let (center, reach_mm) = (Point::from(lump.center_mm), lump.shape.radius_mm());
-    let past = partings.iter().filter(|cut| cut.plane.distance(&center).abs() > reach_mm);
+    let past = partings
+        .iter()
+        .filter(|cut| cut.plane.distance(&center).abs() > reach_mm);
     past.map(|cut| away(cut, &center, apart_mm)).sum()
 }
 
@@ -62,13 +74,19 @@ pub(super) fn apart_mm(items: &[Item]) -> f64 {
 
 /// The same for meshes in place.
 pub(super) fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
-    let all = meshes.map(TriMesh::aabb).fold(Aabb::EMPTY, |all, part| all.union(&part));
+    let all = meshes
+        .map(TriMesh::aabb)
+        .fold(Aabb::EMPTY, |all, part| all.union(&part));
     APART_RATIO * all.size().max()
 }
 
 impl<'a> Apart<'a> {
     pub fn of(parts: &'a [TriMesh], cuts: &'a [Parting]) -> Self {
-        Self { parts, cuts, shifts: shifts(parts, cuts) }
+        Self {
+            parts,
+            cuts,
+            shifts: shifts(parts, cuts),
+        }
     }
 
     /// The picture, with a name for every part and pin.
@@ -100,31 +118,52 @@ impl<'a> Apart<'a> {
     fn toward_viewer(&self, frame: &Frame) -> Vector {
         let direction = |index: usize| {
             let turn = std::f64::consts::TAU * index as f64 / AZIMUTHS as f64;
-            turned(&frame.direction_to_model(&-Vector::y()), &frame.axis(), [turn, LIFT])
+            turned(
+                &frame.direction_to_model(&-Vector::y()),
+                &frame.axis(),
+                [turn, LIFT],
+            )
         };
         let cost = |toward: &Vector| -> f64 {
-            self.cuts.iter().map(|cut| (cut.plane.normal.dot(toward).abs() - FACE_COSINE).powi(2)).sum()
+            self.cuts
+                .iter()
+                .map(|cut| (cut.plane.normal.dot(toward).abs() - FACE_COSINE).powi(2))
+                .sum()
         };
         let first = direction(0);
-        let better = |best: Vector, next: Vector| if cost(&next) < cost(&best) { next } else { best };
+        let better = |best: Vector, next: Vector| {
+            if cost(&next) < cost(&best) {
+                next
+            } else {
+                best
+            }
+        };
         (1..AZIMUTHS).map(direction).fold(first, better)
     }
 
     fn labels(&self, promised: &[PromisedPart]) -> Vec<Label> {
         let name = |(index, part): (usize, &PromisedPart)| Label::On(index, part.id.clone());
         let names = promised.iter().enumerate().map(name);
-        let pins = pins(promised).filter_map(|(part, pin)| self.pin_labels(part, pin, promised)).flatten();
+        let pins = pins(promised)
+            .filter_map(|(part, pin)| self.pin_labels(part, pin, promised))
+            .flatten();
         names.chain(pins).collect()
     }
 
     /// The line from a pin to its socket, and the pin's name at its tip.
     fn pin_labels(&self, part: usize, pin: &Peg, promised: &[PromisedPart]) -> Option<[Label; 2]> {
         let center = Point::from(pin.center_mm);
-        let is_mate =
-            |socket: &Peg| socket.id == pin.id && (Point::from(socket.center_mm) - center).norm() < SAME_MM;
-        let mate = promised.iter().position(|row| row.sockets.iter().any(is_mate))?;
+        let is_mate = |socket: &Peg| {
+            socket.id == pin.id && (Point::from(socket.center_mm) - center).norm() < SAME_MM
+        };
+        let mate = promised
+            .iter()
+            .position(|row| row.sockets.iter().any(is_mate))?;
         let tip = center + Vector::from(pin.axis) * pin.length_mm + self.shifts.get(part)?;
-        Some([Label::Between([tip, center + self.shifts.get(mate)?]), Label::At(tip, pin.id.clone())])
+        Some([
+            Label::Between([tip, center + self.shifts.get(mate)?]),
+            Label::At(tip, pin.id.clone()),
+        ])
     }
 }
 
@@ -132,6 +171,13 @@ impl<'a> Apart<'a> {
 fn alt(promised: &[PromisedPart]) -> String {
     let names: Vec<&str> = promised.iter().map(|part| part.id.as_str()).collect();
     let pins: Vec<&str> = pins(promised).map(|(_, pin)| pin.id.as_str()).collect();
-    let pins = if pins.is_empty() { "no pins".to_owned() } else { format!("pins {}", pins.join(", ")) };
-    format!("Exploded view of the parts {}, with {pins}.", names.join(", "))
+    let pins = if pins.is_empty() {
+        "no pins".to_owned()
+    } else {
+        format!("pins {}", pins.join(", "))
+    };
+    format!(
+        "Exploded view of the parts {}, with {pins}.",
+        names.join(", ")
+    )
 }

@@ -7,10 +7,16 @@ const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwx
 pub fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {
-        let word = (0..3).fold(0, |word, i| word << 8 | u32::from(group.get(i).copied().unwrap_or(0)));
+        let word = (0..3).fold(0, |word, i| {
+            word << 8 | u32::from(group.get(i).copied().unwrap_or(0))
+        });
         for digit in 0..4 {
             let letter = ALPHABET[(word >> (18 - 6 * digit) & 63) as usize];
-            text.push(if digit > group.len() { '=' } else { letter as char });
+            text.push(if digit > group.len() {
+                '='
+            } else {
+                letter as char
+            });
         }
     }
     text

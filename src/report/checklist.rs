@@ -12,7 +12,9 @@ use super::joinery::{CutListRow, RoundRow};
 use super::rows::{BallastRow, CutRow, JointRow, PartRow, VoidRow};
 use super::timing::Timing;
 use super::trials::FootRow;
-use crate::verify::{Aim, Check, Cleaning, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA};
+use crate::verify::{
+    Aim, Check, Cleaning, FigureName, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA,
+};
 
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
@@ -273,7 +275,11 @@ pub enum Verdict {
 impl Verdict {
     /// The verdict over these checks: pass if every one passes.
     pub fn of(checks: &[Check]) -> Self {
-        if checks.iter().all(|check| check.pass) { Self::Pass } else { Self::Fail }
+        if checks.iter().all(|check| check.pass) {
+            Self::Pass
+        } else {
+            Self::Fail
+        }
     }
 }
 
@@ -314,14 +320,19 @@ impl Checklist {
         match serde_json::from_str::<Self>(&text) {
             Ok(back) if back == *self => Ok(text),
             // JSON has no NaN: serde writes null, which is either refused on reading or read as a missing value.
-            _ => Err(ChecklistError::NotFinite { key: first_unfinite_key(&format!("{self:#?}")) }),
+            _ => Err(ChecklistError::NotFinite {
+                key: first_unfinite_key(&format!("{self:#?}")),
+            }),
         }
     }
 
     /// The same checklist as it goes into a kit: without the timings, which differ from run to run.
     #[must_use]
     pub fn without_timing(&self) -> Self {
-        Self { timing_s: None, ..self.clone() }
+        Self {
+            timing_s: None,
+            ..self.clone()
+        }
     }
 }
 

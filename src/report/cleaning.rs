@@ -76,7 +76,9 @@ fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
     match void.sight_ratio {
         Some(sight) if sheet.printer.cleaning.rule.needs_sight() => {
             let reach = sheet.printer.cleaning.reach_mm;
-            let reach = reach.map_or(String::new(), |mm| format!(" within {}", quantity(mm, "mm")));
+            let reach = reach.map_or(String::new(), |mm| {
+                format!(" within {}", quantity(mm, "mm"))
+            });
             let rest = percent(1.0 - sight);
             let bent = if sight < ALL_IN_SIGHT_RATIO {
                 format!(" (reach the other {rest} % with a bent tool)")
@@ -125,8 +127,16 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
 
 /// What stays solid besides what could not be cleaned.
 fn by_plan(sheet: &Checklist) -> &'static str {
-    let is_any = sheet.certificate.cleaning_rounds.iter().any(|round| round.by_plan);
-    if is_any { ", and where the plan keeps the inside solid" } else { "" }
+    let is_any = sheet
+        .certificate
+        .cleaning_rounds
+        .iter()
+        .any(|round| round.by_plan);
+    if is_any {
+        ", and where the plan keeps the inside solid"
+    } else {
+        ""
+    }
 }
 
 /// Whether the checks of a void pass.
@@ -137,5 +147,7 @@ pub fn is_clean(checks: &[Check], void: &str) -> bool {
 /// The checks that are about a void.
 fn of_void<'a>(checks: &'a [Check], void: &str) -> impl Iterator<Item = &'a Check> {
     let names = ["open", "clean"].map(|word| format!("void {void} {word}"));
-    checks.iter().filter(move |check| names.contains(&check.name))
+    checks
+        .iter()
+        .filter(move |check| names.contains(&check.name))
 }

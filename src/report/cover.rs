@@ -66,7 +66,11 @@ fn facts(sheet: &Checklist) -> Markup {
 /// How much of the mass is not printed.
 fn of_hardware(sheet: &Checklist) -> String {
     let mass_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
-    if mass_g > 0.0 { format!(", {} of it hardware", quantity(mass_g, "g")) } else { String::new() }
+    if mass_g > 0.0 {
+        format!(", {} of it hardware", quantity(mass_g, "g"))
+    } else {
+        String::new()
+    }
 }
 
 fn pixels(sheet: &Checklist) -> String {

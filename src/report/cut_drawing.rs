@@ -77,39 +77,71 @@ impl Sheet {
     fn of(face: &CutFace, up: [f64; 2]) -> Self {
         // Where up is all but across the plane, any direction will do.
         let length = up[0].hypot(up[1]);
-        let turn = if length > LEVEL_RATIO { up.map(|x| x / length) } else { [0.0, 1.0] };
-        let unscaled = Self { turn, scale: 1.0, offset: [0.0; 2] };
+        let turn = if length > LEVEL_RATIO {
+            up.map(|x| x / length)
+        } else {
+            [0.0, 1.0]
+        };
+        let unscaled = Self {
+            turn,
+            scale: 1.0,
+            offset: [0.0; 2],
+        };
         let [low, high] = bounds(face.rings.iter().flatten().map(|point| unscaled.at(*point)));
         let [left, top, right, bottom] = FRAME_PX;
         let fit = |from: f64, to: f64, pixels: f64| pixels / (to - from).max(f64::MIN_POSITIVE);
         let scale = fit(low[0], high[0], right - left).min(fit(low[1], high[1], bottom - top));
-        let offset = [0.5 * (left + right - scale * (low[0] + high[0])), top - scale * low[1]];
-        Self { turn, scale, offset }
+        let offset = [
+            0.5 * (left + right - scale * (low[0] + high[0])),
+            top - scale * low[1],
+        ];
+        Self {
+            turn,
+            scale,
+            offset,
+        }
     }
 
     /// Where a point of the plane falls.
     fn at(&self, [u, v]: [f64; 2]) -> Spot {
         let [x, y] = self.turn;
-        [self.offset[0] + self.scale * (u * y - v * x), self.offset[1] - self.scale * (u * x + v * y)]
+        [
+            self.offset[0] + self.scale * (u * y - v * x),
+            self.offset[1] - self.scale * (u * x + v * y),
+        ]
     }
 }
 
 /// The least and the greatest of spots.
 fn bounds(spots: impl Iterator<Item = Spot>) -> [Spot; 2] {
-    spots.fold([[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]], |[low, high], spot| {
-        [[low[0].min(spot[0]), low[1].min(spot[1])], [high[0].max(spot[0]), high[1].max(spot[1])]]
-    })
+    spots.fold(
+        [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]],
+        |[low, high], spot| {
+            [
+                [low[0].min(spot[0]), low[1].min(spot[1])],
+                [high[0].max(spot[0]), high[1].max(spot[1])],
+            ]
+        },
+    )
 }
 
 /// The drawing of every cut.
 pub(super) fn drawings(sheet: &Checklist, faces: &[CutFace]) -> Vec<Picture> {
-    faces.iter().filter(|face| !face.rings.is_empty()).map(|face| picture(sheet, face)).collect()
+    faces
+        .iter()
+        .filter(|face| !face.rings.is_empty())
+        .map(|face| picture(sheet, face))
+        .collect()
 }
 
 fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
     let pegs = pegs(sheet, &face.cut);
     let names: Vec<&str> = pegs.iter().map(|(pin, _)| pin.id.as_str()).collect();
-    let pins = if names.is_empty() { "no pins".to_owned() } else { format!("pins {}", names.join(", ")) };
+    let pins = if names.is_empty() {
+        "no pins".to_owned()
+    } else {
+        format!("pins {}", names.join(", "))
+    };
     Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
@@ -125,17 +157,41 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
 
 /// `, made only above C1 and below C2`; nothing of a cut through everything.
 fn sides(sheet: &Checklist, cut: &str) -> String {
-    let within = sheet.cuts.iter().filter(|row| row.id == cut).flat_map(|row| &row.within);
-    let sides: Vec<String> = within.map(|side| format!("{} {}", side.side, side.cut)).collect();
-    if sides.is_empty() { String::new() } else { format!(", made only {}", sides.join(" and ")) }
+    let within = sheet
+        .cuts
+        .iter()
+        .filter(|row| row.id == cut)
+        .flat_map(|row| &row.within);
+    let sides: Vec<String> = within
+        .map(|side| format!("{} {}", side.side, side.cut))
+        .collect();
+    if sides.is_empty() {
+        String::new()
+    } else {
+        format!(", made only {}", sides.join(" and "))
+    }
 }
 
 /// The pins of a cut with their sockets.
 fn pegs<'a>(sheet: &'a Checklist, cut: &str) -> Vec<(&'a Peg, Option<&'a Peg>)> {
-    let is_here = |pin: &&Peg| sheet.joints.iter().any(|joint| joint.id == pin.joint && joint.cut == cut);
-    let socket_of =
-        |pin: &Peg| sheet.parts.iter().flat_map(|part| &part.sockets).find(|socket| socket.id == pin.id);
-    let pins = sheet.parts.iter().flat_map(|part| &part.pins).filter(is_here);
+    let is_here = |pin: &&Peg| {
+        sheet
+            .joints
+            .iter()
+            .any(|joint| joint.id == pin.joint && joint.cut == cut)
+    };
+    let socket_of = |pin: &Peg| {
+        sheet
+            .parts
+            .iter()
+            .flat_map(|part| &part.sockets)
+            .find(|socket| socket.id == pin.id)
+    };
+    let pins = sheet
+        .parts
+        .iter()
+        .flat_map(|part| &part.pins)
+        .filter(is_here);
     pins.map(|pin| (pin, socket_of(pin))).collect()
 }
 
@@ -143,8 +199,11 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
     let (u, v) = face.plane.basis();
     let axis = Vector::from(sheet.goal.aim.axis).normalize();
     let paper = Sheet::of(face, [u.dot(&axis), v.dot(&axis)]);
-    let rings: Vec<Vec<Spot>> =
-        face.rings.iter().map(|ring| ring.iter().map(|p| paper.at(*p)).collect()).collect();
+    let rings: Vec<Vec<Spot>> = face
+        .rings
+        .iter()
+        .map(|ring| ring.iter().map(|p| paper.at(*p)).collect())
+        .collect();
     let [_, [_, bottom]] = bounds(rings.iter().flatten().copied());
     let mut drawing = Drawing::new([WIDTH_PX, (bottom + BELOW_PX) as usize], TEXT_PX);
     let outer: Vec<Vec<Spot>> = rings
@@ -154,31 +213,59 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
         .map(|(spots, _)| spots.clone())
         .collect();
     drawing.path(&outer, true, (Some(&hex(VOID)), Stroke::NONE));
-    Hatch::PRINTED.fill(&mut drawing, &rings, Stroke { width: 2.0, ..Stroke::THIN });
+    Hatch::PRINTED.fill(
+        &mut drawing,
+        &rings,
+        Stroke {
+            width: 2.0,
+            ..Stroke::THIN
+        },
+    );
     let inserts = inserts(sheet, &face.plane);
     draw_legend(&mut drawing, face, (!pegs.is_empty(), &inserts));
     draw_size(&mut drawing, &rings, paper.scale);
     let mut marks = Vec::new();
     for mouth in &face.mouths {
         let at = paper.at(mouth.at);
-        drawing.circle(at, 0.5 * paper.scale * mouth.diameter_mm, (None, Stroke::DASHED));
-        marks.push(Mark::new(at, format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm))));
+        drawing.circle(
+            at,
+            0.5 * paper.scale * mouth.diameter_mm,
+            (None, Stroke::DASHED),
+        );
+        marks.push(Mark::new(
+            at,
+            format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm)),
+        ));
     }
     for (pin, socket) in pegs {
         let at = paper.at(flat(&face.plane, &pin.center_mm));
         draw_peg(
             &mut drawing,
             at,
-            [paper.scale * pin.diameter_mm, socket.map_or(0.0, |s| paper.scale * s.diameter_mm)],
+            [
+                paper.scale * pin.diameter_mm,
+                socket.map_or(0.0, |s| paper.scale * s.diameter_mm),
+            ],
         );
         let radius_px = 0.5 * paper.scale * socket.map_or(pin.diameter_mm, |s| s.diameter_mm);
-        marks.push(Mark { radius_px, ..Mark::new(at, peg_words(pin, *socket)) });
+        marks.push(Mark {
+            radius_px,
+            ..Mark::new(at, peg_words(pin, *socket))
+        });
     }
     marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &paper)));
-    marks.extend(face.whole.iter().map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())));
+    marks.extend(
+        face.whole
+            .iter()
+            .map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())),
+    );
     let region = |region: &Region| Mark::new(paper.at(region.at), region.parts.join(" | "));
     marks.extend(face.regions.iter().map(region));
-    marks.extend(inserts.iter().map(|insert| draw_insert(&mut drawing, insert, &paper)));
+    marks.extend(
+        inserts
+            .iter()
+            .map(|insert| draw_insert(&mut drawing, insert, &paper)),
+    );
     drawing.callouts(&marks);
     drawing
 }
@@ -186,7 +273,10 @@ fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Dr
 /// Twice the area inside a ring, negative where it runs clockwise.
 fn area_mm2(ring: &[[f64; 2]]) -> f64 {
     let next = ring.iter().cycle().skip(1);
-    ring.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum()
+    ring.iter()
+        .zip(next)
+        .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
+        .sum()
 }
 
 /// A point of the plane in its coordinates.
@@ -197,16 +287,27 @@ fn flat(plane: &Plane, point_mm: &[f64; 3]) -> [f64; 2] {
 }
 
 fn peg_words(pin: &Peg, socket: Option<&Peg>) -> String {
-    let socket = socket.map_or(String::new(), |socket| format!(" in ⌀{}", number(socket.diameter_mm)));
+    let socket = socket.map_or(String::new(), |socket| {
+        format!(" in ⌀{}", number(socket.diameter_mm))
+    });
     format!("{} ⌀{}{socket}", pin.id, number(pin.diameter_mm))
 }
 
 /// The thinnest wall as a thick line, and its words.
 fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark {
     let [a, b] = ends.map(|end| paper.at(end));
-    drawing.line([a, b], Stroke { width: 4.0, ..Stroke::THICK });
+    drawing.line(
+        [a, b],
+        Stroke {
+            width: 4.0,
+            ..Stroke::THICK
+        },
+    );
     let mm = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
-    Mark::new([0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])], format!("wall {}", quantity(mm, "mm")))
+    Mark::new(
+        [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
+        format!("wall {}", quantity(mm, "mm")),
+    )
 }
 
 /// The section of something that is not printed, and its name.
@@ -222,13 +323,20 @@ fn draw_legend(drawing: &mut Drawing, face: &CutFace, (has_pins, inserts): (bool
     let keys = [
         (true, Key::Cut(Hatch::PRINTED), "material"),
         (!face.mouths.is_empty(), Key::Void, "open void"),
-        (!face.mouths.is_empty(), Key::Disc, "widest disc that passes"),
+        (
+            !face.mouths.is_empty(),
+            Key::Disc,
+            "widest disc that passes",
+        ),
         (has_pins, Key::Pin, "pin in its socket"),
         (has(Hatch::RODS), Key::Cut(Hatch::RODS), "hardware"),
         (has(Hatch::BALLAST), Key::Cut(Hatch::BALLAST), "ballast"),
     ];
-    let keys: Vec<(Key, &str)> =
-        keys.into_iter().filter(|key| key.0).map(|(_, key, words)| (key, words)).collect();
+    let keys: Vec<(Key, &str)> = keys
+        .into_iter()
+        .filter(|key| key.0)
+        .map(|(_, key, words)| (key, words))
+        .collect();
     let [up, left] = LEGEND_PX;
     let [_, height] = drawing.size_px();
     legend(drawing, [left, height - up], &keys);
@@ -238,8 +346,16 @@ fn draw_legend(drawing: &mut Drawing, face: &CutFace, (has_pins, inserts): (bool
 fn draw_size(drawing: &mut Drawing, rings: &[Vec<Spot>], scale: f64) {
     let [[left, top], [right, bottom]] = bounds(rings.iter().flatten().copied());
     let words = |pixels: f64| quantity(pixels / scale, "mm");
-    drawing.dimension([[left, bottom], [right, bottom]], [0.0, ASIDE_PX], &words(right - left));
-    drawing.dimension([[right, top], [right, bottom]], [ASIDE_PX, 0.0], &words(bottom - top));
+    drawing.dimension(
+        [[left, bottom], [right, bottom]],
+        [0.0, ASIDE_PX],
+        &words(right - left),
+    );
+    drawing.dimension(
+        [[right, top], [right, bottom]],
+        [ASIDE_PX, 0.0],
+        &words(bottom - top),
+    );
 }
 
 #[cfg(test)]
@@ -272,12 +388,22 @@ mod tests {
         for up in [[0.0, 1.0], [1.0, 0.0], [-0.6, 0.8]] {
             let paper = Sheet::of(&face, up);
             let [origin, above] = [[0.0, 0.0], up].map(|point| paper.at(point));
-            assert!((above[0] - origin[0]).abs() < 1e-9 && above[1] < origin[1], "{up:?}");
+            assert!(
+                (above[0] - origin[0]).abs() < 1e-9 && above[1] < origin[1],
+                "{up:?}"
+            );
             // Right of up is up turned clockwise: the drawing is no mirror image.
             let right = paper.at([up[1], -up[0]]);
-            assert!(right[0] > origin[0] && (right[1] - origin[1]).abs() < 1e-9, "{up:?}");
+            assert!(
+                right[0] > origin[0] && (right[1] - origin[1]).abs() < 1e-9,
+                "{up:?}"
+            );
         }
-        let [low, high] = bounds(face.rings[0].iter().map(|point| Sheet::of(&face, [0.0, 1.0]).at(*point)));
+        let [low, high] = bounds(
+            face.rings[0]
+                .iter()
+                .map(|point| Sheet::of(&face, [0.0, 1.0]).at(*point)),
+        );
         assert!((low[1] - FRAME_PX[1]).abs() < 1e-9 && (high[1] - FRAME_PX[3]).abs() < 1e-9);
     }
 }

@@ -26,9 +26,16 @@ pub struct TurnRow {
 
 /// The extent of the parts put together, with their hardware, along the model's own axes, mm; exact for the files.
 pub fn finished_size_mm(parts: &[PartEvidence], hardware: &[Hardware]) -> [f64; 3] {
-    let corners = parts.iter().flat_map(|part| part.mesh.vertices().iter().map(|p| part.pose.to_model(p)));
+    let corners = parts
+        .iter()
+        .flat_map(|part| part.mesh.vertices().iter().map(|p| part.pose.to_model(p)));
     let parts = corners.fold(Aabb::EMPTY, |all, p| all.grown_over(&p));
-    hardware.iter().map(bounds).fold(parts, |all, piece| all.union(&piece)).size().into()
+    hardware
+        .iter()
+        .map(bounds)
+        .fold(parts, |all, piece| all.union(&piece))
+        .size()
+        .into()
 }
 
 /// The box about a rod: a flat end reaches r·√(1 − d²) along an axis that the rod has the share d of, a round one r.
@@ -74,7 +81,13 @@ fn cups(sheet: &Checklist) -> Vec<&PartRow> {
 /// What to do about parts that print as closed cups; none where there are none.
 pub fn cup_warning(sheet: &Checklist) -> Option<String> {
     let cups = cups(sheet);
-    let told = |part: &&PartRow| format!("{} ({})", part.id, quantity(part.cup_mm3 / MM3_PER_CM3, "cm³"));
+    let told = |part: &&PartRow| {
+        format!(
+            "{} ({})",
+            part.id,
+            quantity(part.cup_mm3 / MM3_PER_CM3, "cm³")
+        )
+    };
     let told: Vec<String> = cups.iter().map(told).collect();
     (!cups.is_empty()).then(|| {
         format!(
@@ -111,7 +124,10 @@ mod tests {
         let (_, evidence) = sample();
         let bare = finished_size_mm(&evidence.parts, &[]);
         // The box of the judge's tests: 60 by 40 by 12 from z = 10.
-        assert!((Vector::from(bare) - Vector::new(60.0, 40.0, 12.0)).norm() < 1e-4, "{bare:?}");
+        assert!(
+            (Vector::from(bare) - Vector::new(60.0, 40.0, 12.0)).norm() < 1e-4,
+            "{bare:?}"
+        );
         let stem = rod([0.0, 0.0, 20.0], [0.0, 0.0, 32.0], false);
         assert!((finished_size_mm(&evidence.parts, &[stem])[2] - 22.0).abs() < 1e-4);
     }
@@ -120,7 +136,10 @@ mod tests {
     fn a_rod_aslant_reaches_as_far_as_the_corners_of_its_ends() {
         let size = bounds(&rod([0.0; 3], [30.0, 40.0, 0.0], false)).size();
         // Ends are discs across (0.6, 0.8): they reach 2·0.8 along x, 2·0.6 along y, 2 along z.
-        assert!((size - Vector::new(30.0 + 3.2, 40.0 + 2.4, 4.0)).norm() < 1e-12, "{size}");
+        assert!(
+            (size - Vector::new(30.0 + 3.2, 40.0 + 2.4, 4.0)).norm() < 1e-12,
+            "{size}"
+        );
         let round = bounds(&rod([0.0; 3], [0.0, 0.0, 10.0], true)).size();
         assert!((round - Vector::new(4.0, 4.0, 10.0)).norm() < 1e-12);
     }

@@ -22,13 +22,20 @@ struct Closing<'a> {
 /// The closings in an order that can be carried out: cut by cut, so that what is closed first lies wholly on one side of
 /// every later cut, and two bodies meet along one plane.
 fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
-    let mut bodies: Vec<Vec<&str>> = sheet.parts.iter().map(|part| vec![part.id.as_str()]).collect();
+    let mut bodies: Vec<Vec<&str>> = sheet
+        .parts
+        .iter()
+        .map(|part| vec![part.id.as_str()])
+        .collect();
     let mut open: Vec<&JointRow> = in_order_of_cuts(&sheet.joints);
     let mut closings = Vec::new();
     while let Some(first) = open.first() {
         let sides = first.parts.each_ref().map(|part| body_of(&bodies, part));
         let closes = |joint: &&JointRow| {
-            joint.parts.iter().all(|part| sides.iter().any(|side| side.contains(&part.as_str())))
+            joint
+                .parts
+                .iter()
+                .all(|part| sides.iter().any(|side| side.contains(&part.as_str())))
         };
         let (joints, rest) = open.into_iter().partition(closes);
         bodies.retain(|body| !sides.contains(body));
@@ -49,7 +56,11 @@ fn in_order_of_cuts(joints: &[JointRow]) -> Vec<&JointRow> {
 
 /// The body that a part belongs to; the part alone where it is not known.
 fn body_of<'a>(bodies: &[Vec<&'a str>], part: &'a str) -> Vec<&'a str> {
-    bodies.iter().find(|body| body.contains(&part)).cloned().unwrap_or_else(|| vec![part])
+    bodies
+        .iter()
+        .find(|body| body.contains(&part))
+        .cloned()
+        .unwrap_or_else(|| vec![part])
 }
 
 impl Closing<'_> {
@@ -78,8 +89,15 @@ impl Closing<'_> {
     /// The joint whose pins align one that has not enough of its own, because both close in one movement.
     fn guide_of(&self, joint: &JointRow) -> Option<&JointRow> {
         let is_sound = |row: &JointRow| row.pins >= ONE_WAY_PINS && row.note.is_none();
-        let others = self.joints.iter().copied().filter(|other| other.id != joint.id);
-        others.into_iter().find(|other| is_sound(other)).filter(|_| !is_sound(joint))
+        let others = self
+            .joints
+            .iter()
+            .copied()
+            .filter(|other| other.id != joint.id);
+        others
+            .into_iter()
+            .find(|other| is_sound(other))
+            .filter(|_| !is_sound(joint))
     }
 
     /// How it is aligned: its pins, and what to mind of any joint.
@@ -173,8 +191,12 @@ mod tests {
         let mut sheet = sample().0;
         let id = |index: usize| format!("P{:02}", index);
         let (part, joint) = (sheet.parts[0].clone(), sheet.joints[0].clone());
-        sheet.parts =
-            (1..=count).map(|index| super::super::PartRow { id: id(index), ..part.clone() }).collect();
+        sheet.parts = (1..=count)
+            .map(|index| super::super::PartRow {
+                id: id(index),
+                ..part.clone()
+            })
+            .collect();
         let row = |(index, (a, b, cut)): (usize, &(usize, usize, &str))| JointRow {
             id: format!("J{}", index + 1),
             parts: [id(*a), id(*b)],
@@ -199,7 +221,8 @@ mod tests {
     #[test]
     fn eight_octants_close_in_seven_movements_each_along_one_cut() {
         let bit = |index: usize, axis: usize| (index >> axis) & 1;
-        let pairs = (0..8usize).flat_map(|a| (0..3usize).map(move |axis| (a, a | (1 << axis), axis)));
+        let pairs =
+            (0..8usize).flat_map(|a| (0..3usize).map(move |axis| (a, a | (1 << axis), axis)));
         let joints: Vec<(usize, usize, &str)> = pairs
             .filter(|&(a, _, axis)| bit(a, axis) == 0)
             .map(|(a, b, axis)| (a + 1, b + 1, ["C1", "C2", "C3"][axis]))
@@ -207,10 +230,18 @@ mod tests {
         let octants = sheet(8, &joints);
         let made = closings(&octants);
         assert_eq!(made.len(), 7);
-        assert_eq!(made.iter().map(|closing| closing.joints.len()).sum::<usize>(), 12);
-        assert!(
-            made.iter().all(|closing| closing.joints.iter().all(|joint| joint.cut == closing.joints[0].cut))
+        assert_eq!(
+            made.iter()
+                .map(|closing| closing.joints.len())
+                .sum::<usize>(),
+            12
         );
+        assert!(made.iter().all(|closing| {
+            closing
+                .joints
+                .iter()
+                .all(|joint| joint.cut == closing.joints[0].cut)
+        }));
     }
 
     #[test]
@@ -230,7 +261,11 @@ mod tests {
         let told = |closing: usize| closings(&crossed)[closing].alignment().into_string();
         // J1 closes alone; J2 closes with J4.
         assert!(!told(0).contains("align it"), "{}", told(0));
-        assert!(told(2).contains("no room for pins</strong>; the pins of J4 align it"), "{}", told(2));
+        assert!(
+            told(2).contains("no room for pins</strong>; the pins of J4 align it"),
+            "{}",
+            told(2)
+        );
         assert_eq!(told(2).matches("align it").count(), 1);
     }
 
@@ -242,6 +277,8 @@ mod tests {
 
     #[test]
     fn only_what_turns_is_told_of_balance() {
-        assert!(sparing(GoalKind::Top).contains("axis") && !sparing(GoalKind::Stand).contains("axis"));
+        assert!(
+            sparing(GoalKind::Top).contains("axis") && !sparing(GoalKind::Stand).contains("axis")
+        );
     }
 }

@@ -54,7 +54,12 @@ pub(super) fn table(rows: &[GridRow]) -> Markup {
 fn gathered(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
     let mut gathered: Vec<(&GridRow, String)> = Vec::new();
     for row in rows {
-        let is_same = |other: &GridRow| GridRow { along: row.along.clone(), ..other.clone() } == *row;
+        let is_same = |other: &GridRow| {
+            GridRow {
+                along: row.along.clone(),
+                ..other.clone()
+            } == *row
+        };
         match gathered.last_mut().filter(|(last, _)| is_same(last)) {
             Some((_, along)) => *along += &format!(", {}", row.along),
             None => gathered.push((row, row.along.clone())),
@@ -67,7 +72,12 @@ fn gathered(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
 fn given(row: &GridRow) -> String {
     let least = if row.is_whole { "" } else { "about " };
     let step = number(row.step_mm * 1000.0);
-    format!("{least}{} {} of {step}\u{a0}µm = {}", row.steps, row.steps_of, quantity(row.given_mm, "mm"))
+    format!(
+        "{least}{} {} of {step}\u{a0}µm = {}",
+        row.steps,
+        row.steps_of,
+        quantity(row.given_mm, "mm")
+    )
 }
 
 #[cfg(test)]
@@ -87,8 +97,15 @@ mod tests {
             given_mm: 1.0,
             is_whole: true,
         };
-        let rows = [row("x", "pixels", 20), row("y", "pixels", 20), row("z", "layers", 10)];
-        let lines: Vec<String> = gathered(&rows).into_iter().map(|(_, along)| along).collect();
+        let rows = [
+            row("x", "pixels", 20),
+            row("y", "pixels", 20),
+            row("z", "layers", 10),
+        ];
+        let lines: Vec<String> = gathered(&rows)
+            .into_iter()
+            .map(|(_, along)| along)
+            .collect();
         assert_eq!(lines, ["x, y", "z"]);
         let oblong = [row("x", "pixels", 20), row("y", "pixels", 25)];
         assert_eq!(gathered(&oblong).len(), 2);

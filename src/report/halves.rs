@@ -13,19 +13,37 @@ const APART_RATIO: f64 = 0.2;
 const TURN_AND_LIFT: [f64; 2] = [0.45, 0.5];
 
 /// The picture; none where there are no halves on an axle.
-pub(super) fn shot<'a>(sitting: &Sitting, parts: &'a [TriMesh], hardware: &'a [TriMesh]) -> Option<Shot<'a>> {
+pub(super) fn shot<'a>(
+    sitting: &Sitting,
+    parts: &'a [TriMesh],
+    hardware: &'a [TriMesh],
+) -> Option<Shot<'a>> {
     sitting.hardware.iter().find(|piece| piece.what == "axle")?;
     let frame = sitting.aim.frame();
-    let apart_mm = APART_RATIO * parts.iter().map(TriMesh::longest_side_mm).fold(0.0, f64::max);
+    let apart_mm = APART_RATIO
+        * parts
+            .iter()
+            .map(TriMesh::longest_side_mm)
+            .fold(0.0, f64::max);
     let height_mm = |part: &TriMesh| frame.to_local(&part.aabb().center()).z;
     let half = |(index, mesh): (usize, &'a TriMesh)| Item {
         shift: frame.axis() * (apart_mm * height_mm(mesh).signum()),
         ..still(mesh, part_color(index))
     };
-    let items = parts.iter().enumerate().map(half).chain(hardware.iter().map(|mesh| still(mesh, HARDWARE)));
+    let items = parts
+        .iter()
+        .enumerate()
+        .map(half)
+        .chain(hardware.iter().map(|mesh| still(mesh, HARDWARE)));
     let name = |(index, mesh): (usize, &TriMesh)| {
-        let id = sitting.promised.get(index).map_or("", |part| part.id.as_str());
-        Label::On(index, format!("{} {id}", if height_mm(mesh) > 0.0 { "A:" } else { "B:" }))
+        let id = sitting
+            .promised
+            .get(index)
+            .map_or("", |part| part.id.as_str());
+        Label::On(
+            index,
+            format!("{} {id}", if height_mm(mesh) > 0.0 { "A:" } else { "B:" }),
+        )
     };
     let rods = sitting.hardware.iter().enumerate();
     let rods = rods.map(|(index, piece)| Label::On(parts.len() + index, piece.id.clone()));

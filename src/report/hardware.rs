@@ -36,7 +36,10 @@ pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 
 /// The parts of one half of a yo-yo, glued first; none where there are no halves.
 fn parts_of(sheet: &Checklist, half: &str) -> Option<String> {
-    let parts = sheet.parts.iter().filter(|part| part.half.as_deref() == Some(half));
+    let parts = sheet
+        .parts
+        .iter()
+        .filter(|part| part.half.as_deref() == Some(half));
     let parts: Vec<&str> = parts.map(|part| part.id.as_str()).collect();
     let glued = if parts.len() > 1 { ", glued" } else { "" };
     (!parts.is_empty()).then(|| parts.join(" + ") + glued)
@@ -45,8 +48,13 @@ fn parts_of(sheet: &Checklist, half: &str) -> Option<String> {
 /// What a piece is, how deep it goes and how far it stands out.
 fn described(sheet: &Checklist, piece: &Hardware) -> String {
     let length_mm = (Point::from(piece.to_mm) - Point::from(piece.from_mm)).norm();
-    let [length, depth, out, socket] =
-        [length_mm, piece.depth_mm, length_mm - piece.depth_mm, piece.socket_mm].map(|mm| quantity(mm, "mm"));
+    let [length, depth, out, socket] = [
+        length_mm,
+        piece.depth_mm,
+        length_mm - piece.depth_mm,
+        piece.socket_mm,
+    ]
+    .map(|mm| quantity(mm, "mm"));
     let rod = format!(
         "{} of {} in diameter, cut {length} long, {} ({})",
         piece.what,
@@ -90,10 +98,17 @@ pub(super) fn drawn(piece: &Hardware) -> TriMesh {
     let (from, to) = (Point::from(piece.from_mm), Point::from(piece.to_mm));
     let (radius_mm, length_mm) = (0.5 * piece.diameter_mm, (to - from).norm());
     let frame = Frame::with_axis(from, &(to - from));
-    let straight_mm = if piece.round_end { length_mm - radius_mm } else { length_mm };
+    let straight_mm = if piece.round_end {
+        length_mm - radius_mm
+    } else {
+        length_mm
+    };
     let rod = primitives::cylinder(radius_mm, straight_mm, SIDES);
     let end = Point::new(0.0, 0.0, straight_mm);
-    let ball =
-        if piece.round_end { primitives::ball(&end, radius_mm, BALL_LEVEL) } else { TriMesh::default() };
+    let ball = if piece.round_end {
+        primitives::ball(&end, radius_mm, BALL_LEVEL)
+    } else {
+        TriMesh::default()
+    };
     rod.joined(&ball).map_vertices(|p| frame.to_model(p))
 }

@@ -40,11 +40,23 @@ pub struct Hatch {
 
 impl Hatch {
     /// What is printed.
-    pub const PRINTED: Self = Self { dark: SECTION, pale: HATCH, runs: Runs::Up };
+    pub const PRINTED: Self = Self {
+        dark: SECTION,
+        pale: HATCH,
+        runs: Runs::Up,
+    };
     /// Axles, tips, stems and dowels.
-    pub const RODS: Self = Self { dark: HARDWARE, pale: RODS, runs: Runs::Down };
+    pub const RODS: Self = Self {
+        dark: HARDWARE,
+        pale: RODS,
+        runs: Runs::Down,
+    };
     /// Ballast.
-    pub const BALLAST: Self = Self { dark: CROSSED, pale: BALLAST, runs: Runs::Crossed };
+    pub const BALLAST: Self = Self {
+        dark: CROSSED,
+        pale: BALLAST,
+        runs: Runs::Crossed,
+    };
 
     /// The colour of a sample of a shaded picture, by its place to the right and down.
     pub fn color_at(&self, [x, y]: [usize; 2]) -> Color {
@@ -68,7 +80,18 @@ impl Hatch {
             Runs::Crossed => &[1.0, -1.0],
         };
         let stripes: Vec<Vec<Spot>> = ways.iter().flat_map(|way| stripes(rings, *way)).collect();
-        drawing.path(&stripes, false, (None, Stroke { color: self.dark, width: STRIPE_PX, dashes: "" }));
+        drawing.path(
+            &stripes,
+            false,
+            (
+                None,
+                Stroke {
+                    color: self.dark,
+                    width: STRIPE_PX,
+                    dashes: "",
+                },
+            ),
+        );
         drawing.path(rings, true, (None, outline));
     }
 }
@@ -78,7 +101,9 @@ fn stripes(rings: &[Vec<Spot>], way: f64) -> Vec<Vec<Spot>> {
     let step = PERIOD_PX * std::f64::consts::SQRT_2;
     let across = |[x, y]: Spot| (x + way * y) / step;
     let all = || rings.iter().flatten().map(|spot| across(*spot));
-    let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), at| (l.min(at), h.max(at)));
+    let (low, high) = all().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), at| {
+        (l.min(at), h.max(at))
+    });
     if low > high {
         return Vec::new();
     }
@@ -90,13 +115,20 @@ fn stripes(rings: &[Vec<Spot>], way: f64) -> Vec<Vec<Spot>> {
             .map(|(a, b)| between(a, b, (at - across(a)) / (across(b) - across(a))))
             .collect();
         crossings.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        crossings.chunks_exact(2).map(<[Spot]>::to_vec).collect::<Vec<_>>()
+        crossings
+            .chunks_exact(2)
+            .map(<[Spot]>::to_vec)
+            .collect::<Vec<_>>()
     };
     lines.flat_map(on_line).collect()
 }
 
 fn sides(rings: &[Vec<Spot>]) -> impl Iterator<Item = (Spot, Spot)> + '_ {
-    rings.iter().flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(a, b)| (*a, *b)))
+    rings.iter().flat_map(|ring| {
+        ring.iter()
+            .zip(ring.iter().cycle().skip(1))
+            .map(|(a, b)| (*a, *b))
+    })
 }
 
 fn between(a: Spot, b: Spot, share: f64) -> Spot {
@@ -153,7 +185,10 @@ mod tests {
 
     /// The length of all stripes together.
     fn length(stripes: &[Vec<Spot>]) -> f64 {
-        stripes.iter().map(|ends| (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1])).sum()
+        stripes
+            .iter()
+            .map(|ends| (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]))
+            .sum()
     }
 
     #[test]
@@ -165,7 +200,8 @@ mod tests {
             let expected = (400.0 * 400.0 - 200.0 * 200.0) / PERIOD_PX;
             assert!((length(&found) / expected - 1.0).abs() < 0.02);
             let middle = |ends: &Vec<Spot>| between(ends[0], ends[1], 0.5);
-            let is_in_hole = |[x, y]: Spot| (100.0..300.0).contains(&x) && (100.0..300.0).contains(&y);
+            let is_in_hole =
+                |[x, y]: Spot| (100.0..300.0).contains(&x) && (100.0..300.0).contains(&y);
             assert!(found.iter().all(|ends| !is_in_hole(middle(ends))));
         }
     }
@@ -174,11 +210,15 @@ mod tests {
     fn printed_matter_rods_and_ballast_differ_in_the_run_of_their_stripes() {
         let of = |hatch: Hatch| {
             let place = |index: usize| [index % 28, index / 28];
-            (0..28 * 28).map(|index| hatch.color_at(place(index)) == hatch.pale).collect::<Vec<bool>>()
+            (0..28 * 28)
+                .map(|index| hatch.color_at(place(index)) == hatch.pale)
+                .collect::<Vec<bool>>()
         };
         let [printed, rods, ballast] = [Hatch::PRINTED, Hatch::RODS, Hatch::BALLAST].map(of);
         let count = |all: &[bool]| all.iter().filter(|is| **is).count();
-        assert!(printed != rods && count(&printed) == count(&rods) && count(&ballast) > count(&rods));
+        assert!(
+            printed != rods && count(&printed) == count(&rods) && count(&ballast) > count(&rods)
+        );
         // Up: the same one to the right and one up; down: one to the right and one down.
         assert!((0..26).all(|i| printed[28 + i + 1] == printed[56 + i] && rods[28 + i] == rods[56 + i + 1]));
     }

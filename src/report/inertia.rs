@@ -40,23 +40,35 @@ pub(super) fn pictures(sheet: &Checklist, sitting: &Sitting) -> Result<Vec<Pictu
     let (outer, voids) = (sitting.shells.outer_mesh(), sitting.shells.inner_mesh());
     let frame = sitting.aim.frame();
     let view = View::of(&outer, &frame);
-    let side = Camera { margin_ratio: [0.14; 2], ..camera(view.cut.normal, frame.axis()) };
+    let side = Camera {
+        margin_ratio: [0.14; 2],
+        ..camera(view.cut.normal, frame.axis())
+    };
     let cut = Some(view.cut);
     let states = [
         State {
             file: "pictures/inertia-before.svg",
             name: "Solid",
             body: &sheet.solid,
-            scene: Scene { items: vec![still(&outer, BODY)], cut: None },
+            scene: Scene {
+                items: vec![still(&outer, BODY)],
+                cut: None,
+            },
         },
         State {
             file: "pictures/inertia-after.svg",
             name: "As made",
             body: &sheet.assembly,
-            scene: Scene { items: vec![still(&outer, BODY), still(&voids, VOID)], cut },
+            scene: Scene {
+                items: vec![still(&outer, BODY), still(&voids, VOID)],
+                cut,
+            },
         },
     ];
-    states.par_iter().map(|state| picture(state, &side, sheet)).collect()
+    states
+        .par_iter()
+        .map(|state| picture(state, &side, sheet))
+        .collect()
 }
 
 fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {
@@ -86,14 +98,24 @@ fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, P
 }
 
 fn caption(state: &State, sheet: &Checklist) -> String {
-    let [a, b, c] = state.body.principal_moments_g_mm2.map(|moment| quantity(moment, "g·mm²"));
+    let [a, b, c] = state
+        .body
+        .principal_moments_g_mm2
+        .map(|moment| quantity(moment, "g·mm²"));
     let height = match sheet.goal.aim.kind {
         GoalKind::Top | GoalKind::Stand => {
-            format!("; its centre of mass {} up", quantity(state.body.center_height_mm, "mm"))
+            format!(
+                "; its centre of mass {} up",
+                quantity(state.body.center_height_mm, "mm")
+            )
         }
         _ => String::new(),
     };
-    format!("{}: {}, I_a = {a}, I_b = {b}, I_c = {c}{height}.", state.name, quantity(state.body.mass_g, "g"))
+    format!(
+        "{}: {}, I_a = {a}, I_b = {b}, I_c = {c}{height}.",
+        state.name,
+        quantity(state.body.mass_g, "g")
+    )
 }
 
 /// The axis of the goal through its point, over the whole height.
@@ -116,8 +138,11 @@ fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
         ELLIPSOID_RATIO / body.mass_g * a.dot(&(second * b)) * projection.scale * projection.scale
     };
     // Pixels count downward, so the mixed moment changes its sign.
-    let ([major, minor], angle) =
-        ellipse([squared(&right, &right), -squared(&right, &up), squared(&up, &up)]);
+    let ([major, minor], angle) = ellipse([
+        squared(&right, &right),
+        -squared(&right, &up),
+        squared(&up, &up),
+    ]);
     let [x, y] = projection.at(&body.center).map(short);
     drawing.add(&format!(
         "<ellipse rx=\"{}\" ry=\"{}\" transform=\"translate({x} {y}) rotate({})\" fill=\"{ELLIPSOID}\" fill-opacity=\"0.25\" \
@@ -131,7 +156,10 @@ fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
 /// The semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first, and the angle of the longer one, rad.
 fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
     let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
-    ([(mean + half).max(0.0).sqrt(), (mean - half).max(0.0).sqrt()], 0.5 * (2.0 * b).atan2(a - c))
+    (
+        [(mean + half).max(0.0).sqrt(), (mean - half).max(0.0).sqrt()],
+        0.5 * (2.0 * b).atan2(a - c),
+    )
 }
 
 /// The principal axes as far as the ellipsoid, I_c thick.
@@ -140,17 +168,31 @@ fn axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     let trace = principal.moments_g_mm2.iter().sum::<f64>();
     let names = ["I_a", "I_b", "I_c"];
     for (index, (moment, name)) in principal.moments_g_mm2.iter().zip(names).enumerate() {
-        let semi_mm = (ELLIPSOID_RATIO / body.mass_g * (0.5 * trace - moment)).max(0.0).sqrt();
+        let semi_mm = (ELLIPSOID_RATIO / body.mass_g * (0.5 * trace - moment))
+            .max(0.0)
+            .sqrt();
         let along: Vector = principal.axes.column(index) * semi_mm;
-        let up = if along.dot(&projection.axes[1]) < 0.0 { -along } else { along };
+        let up = if along.dot(&projection.axes[1]) < 0.0 {
+            -along
+        } else {
+            along
+        };
         let ends = [body.center - up, body.center + up].map(|end| projection.at(&end));
-        drawing.line(ends, if index == 2 { Stroke::THICK } else { Stroke::DASHED });
+        drawing.line(
+            ends,
+            if index == 2 {
+                Stroke::THICK
+            } else {
+                Stroke::DASHED
+            },
+        );
         let [from, to] = ends;
         let length = (to[0] - from[0]).hypot(to[1] - from[1]);
         if length > 4.0 * CENTER_PX {
             let beyond = 0.8 * TEXT_PX / length;
             let size = drawing.size_px();
-            let inside = |i: usize| (to[i] + beyond * (to[i] - from[i])).clamp(TEXT_PX, size[i] - TEXT_PX);
+            let inside =
+                |i: usize| (to[i] + beyond * (to[i] - from[i])).clamp(TEXT_PX, size[i] - TEXT_PX);
             drawing.text([inside(0), inside(1)], Anchor::Middle, name);
         }
     }

@@ -25,11 +25,21 @@ impl Insert {
 
 /// The hardware and the ballast that a cut passes through.
 pub(super) fn inserts(sheet: &Checklist, plane: &Plane) -> Vec<Insert> {
-    let rods = sheet.hardware.iter().map(|rod| (&rod.id, Hatch::RODS, drawn(rod)));
-    let lumps = sheet.ballast.iter().map(|row| (&row.order.id, Hatch::BALLAST, drawn_lump(&row.order.lump)));
+    let rods = sheet
+        .hardware
+        .iter()
+        .map(|rod| (&rod.id, Hatch::RODS, drawn(rod)));
+    let lumps = sheet
+        .ballast
+        .iter()
+        .map(|row| (&row.order.id, Hatch::BALLAST, drawn_lump(&row.order.lump)));
     let insert = |(id, hatch, mesh): (&String, Hatch, TriMesh)| {
         let ring = convex_section(&mesh, plane);
-        (ring.len() > 2).then(|| Insert { id: id.clone(), hatch, ring })
+        (ring.len() > 2).then(|| Insert {
+            id: id.clone(),
+            hatch,
+            ring,
+        })
     };
     rods.chain(lumps).filter_map(insert).collect()
 }
@@ -43,7 +53,9 @@ pub(super) fn convex_section(body: &TriMesh, plane: &Plane) -> Vec<[f64; 2]> {
         let (from, to) = (plane.distance(&a), plane.distance(&b));
         ((from <= 0.0) != (to <= 0.0)).then(|| flat(a + (b - a) * (from / (from - to))))
     };
-    let edges = body.iter_corners().flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
+    let edges = body
+        .iter_corners()
+        .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]]);
     let mut ring: Vec<[f64; 2]> = edges.filter_map(crossing).collect();
     let [x, y] = mean(&ring);
     let turn = |p: &[f64; 2]| (p[1] - y).atan2(p[0] - x);
@@ -66,7 +78,11 @@ mod tests {
 
     fn area_mm2(ring: &[[f64; 2]]) -> f64 {
         let next = ring.iter().cycle().skip(1);
-        0.5 * ring.iter().zip(next).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum::<f64>()
+        0.5 * ring
+            .iter()
+            .zip(next)
+            .map(|(a, b)| a[0] * b[1] - a[1] * b[0])
+            .sum::<f64>()
     }
 
     #[test]
@@ -75,7 +91,10 @@ mod tests {
         let plane = Plane::through(&Point::new(0.0, 0.0, 6.0), &Vector::z());
         // Three off the centre: 5² − 3² = 4². The facets of 20 480 triangles lie within 0.2 % of the ball.
         let found = area_mm2(&convex_section(&ball, &plane));
-        assert!((found / (16.0 * std::f64::consts::PI) - 1.0).abs() < 0.01, "{found}");
+        assert!(
+            (found / (16.0 * std::f64::consts::PI) - 1.0).abs() < 0.01,
+            "{found}"
+        );
         let beside = Plane::through(&Point::new(0.0, 0.0, 9.0), &Vector::z());
         assert!(convex_section(&ball, &beside).is_empty());
     }

@@ -104,7 +104,12 @@ pub(super) fn rounds(sheet: &Checklist) -> Markup {
 
 fn listed(bosses: &[BossRow]) -> String {
     let named = bosses.iter().map(|boss| {
-        format!("{} at {} between {}", boss.pin, coordinates(&boss.center_mm), boss.parts.join(" and "))
+        format!(
+            "{} at {} between {}",
+            boss.pin,
+            coordinates(&boss.center_mm),
+            boss.parts.join(" and ")
+        )
     });
     named.collect::<Vec<_>>().join(", ")
 }

@@ -58,7 +58,9 @@ pub enum KitError {
         target: PathBuf,
     },
     /// A file of the kit would lie outside it.
-    #[error("`{file}` is not a path inside the kit; this is a fault of the program, please report it")]
+    #[error(
+        "`{file}` is not a path inside the kit; this is a fault of the program, please report it"
+    )]
     Outside {
         /// The path as given.
         file: String,
@@ -81,7 +83,9 @@ impl Kit {
 
     /// The files, in the order they were added.
     pub fn files(&self) -> impl ExactSizeIterator<Item = (&str, &[u8])> {
-        self.files.iter().map(|(file, bytes)| (file.as_str(), bytes.as_slice()))
+        self.files
+            .iter()
+            .map(|(file, bytes)| (file.as_str(), bytes.as_slice()))
     }
 
     /// Writes the kit as the folder `target`, making its parents where they are missing.
@@ -110,11 +114,22 @@ fn may_take(target: &Path, existing: Existing) -> Result<(), KitError> {
     let target_path = target.to_owned();
     match (fs::symlink_metadata(target), existing) {
         (Err(source), _) if source.kind() == io::ErrorKind::NotFound => Ok(()),
-        (Err(source), _) => Err(KitError::Write { path: target_path, source }),
-        (Ok(found), _) if !found.is_dir() => Err(KitError::NotAFolder { target: target_path }),
-        (Ok(_), Existing::Keep) if !is_empty(target) => Err(KitError::Exists { target: target_path }),
-        (Ok(_), _) if !is_empty(target) && !SIGNS.iter().any(|sign| target.join(sign).is_file()) => {
-            Err(KitError::NotAKit { target: target_path })
+        (Err(source), _) => Err(KitError::Write {
+            path: target_path,
+            source,
+        }),
+        (Ok(found), _) if !found.is_dir() => Err(KitError::NotAFolder {
+            target: target_path,
+        }),
+        (Ok(_), Existing::Keep) if !is_empty(target) => Err(KitError::Exists {
+            target: target_path,
+        }),
+        (Ok(_), _)
+            if !is_empty(target) && !SIGNS.iter().any(|sign| target.join(sign).is_file()) =>
+        {
+            Err(KitError::NotAKit {
+                target: target_path,
+            })
         }
         (Ok(_), _) => Ok(()),
     }
@@ -145,9 +160,14 @@ impl Drop for Staging {
 impl Staging {
     fn beside(target: &Path) -> Result<Self, KitError> {
         let parent = folder_of(target);
-        let missing = parent.ancestors().take_while(|p| !p.as_os_str().is_empty() && !p.exists());
+        let missing = parent
+            .ancestors()
+            .take_while(|p| !p.as_os_str().is_empty() && !p.exists());
         let made_parents = missing.map(Path::to_owned).collect();
-        let staging = Self { path: sibling(target, "new")?, made_parents };
+        let staging = Self {
+            path: sibling(target, "new")?,
+            made_parents,
+        };
         fs::create_dir_all(parent).map_err(failed(parent))?;
         fs::create_dir(&staging.path).map_err(failed(&staging.path))?;
         Ok(staging)
@@ -182,8 +202,14 @@ impl Staging {
 
 /// A hidden name beside the target that no other run uses at the same time.
 fn sibling(target: &Path, purpose: &str) -> Result<PathBuf, KitError> {
-    let name = target.file_name().ok_or_else(|| KitError::NoName { target: target.to_owned() })?;
-    let name = format!(".{}.{purpose}-{}", name.to_string_lossy(), std::process::id());
+    let name = target.file_name().ok_or_else(|| KitError::NoName {
+        target: target.to_owned(),
+    })?;
+    let name = format!(
+        ".{}.{purpose}-{}",
+        name.to_string_lossy(),
+        std::process::id()
+    );
     Ok(folder_of(target).join(name))
 }
 
@@ -196,26 +222,40 @@ fn folder_of(path: &Path) -> &Path {
 }
 
 fn write_file(folder: &Path, file: &str, bytes: &[u8]) -> Result<(), KitError> {
-    if file.is_empty() || !Path::new(file).components().all(|part| matches!(part, Component::Normal(_))) {
-        return Err(KitError::Outside { file: file.to_owned() });
+    if file.is_empty()
+        || !Path::new(file)
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)))
+    {
+        return Err(KitError::Outside {
+            file: file.to_owned(),
+        });
     }
     let path = folder.join(file);
     fs::create_dir_all(folder_of(&path)).map_err(failed(&path))?;
     let mut opened = fs::File::create_new(&path).map_err(failed(&path))?;
-    opened.write_all(bytes).and_then(|()| opened.sync_all()).map_err(failed(&path))
+    opened
+        .write_all(bytes)
+        .and_then(|()| opened.sync_all())
+        .map_err(failed(&path))
 }
 
 /// Asks the system to put a folder's entries on the disk, where it can do that for folders.
 fn sync_folder(folder: &Path) -> Result<(), KitError> {
     if cfg!(unix) {
-        fs::File::open(folder).and_then(|opened| opened.sync_all()).map_err(failed(folder))
+        fs::File::open(folder)
+            .and_then(|opened| opened.sync_all())
+            .map_err(failed(folder))
     } else {
         Ok(())
     }
 }
 
 fn failed(path: &Path) -> impl FnOnce(io::Error) -> KitError {
-    move |source| KitError::Write { path: path.to_owned(), source }
+    move |source| KitError::Write {
+        path: path.to_owned(),
+        source,
+    }
 }
 
 #[cfg(test)]
@@ -230,8 +270,10 @@ mod tests {
     }
 
     fn entries(folder: &Path) -> Vec<String> {
-        let mut names: Vec<String> =
-            fs::read_dir(folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+        let mut names: Vec<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|e| e.unwrap().file_name().into_string().unwrap())
+            .collect();
         names.sort();
         names
     }
@@ -252,10 +294,16 @@ mod tests {
         kit("one").write(&target, Existing::Keep).unwrap();
         let refused = kit("two").write(&target, Existing::Keep);
         assert!(matches!(refused, Err(KitError::Exists { .. })));
-        assert_eq!(fs::read_to_string(target.join("checklist.json")).unwrap(), "one");
+        assert_eq!(
+            fs::read_to_string(target.join("checklist.json")).unwrap(),
+            "one"
+        );
         fs::write(target.join("stale.txt"), "old").unwrap();
         kit("two").write(&target, Existing::Replace).unwrap();
-        assert_eq!(fs::read_to_string(target.join("checklist.json")).unwrap(), "two");
+        assert_eq!(
+            fs::read_to_string(target.join("checklist.json")).unwrap(),
+            "two"
+        );
         assert_eq!(entries(&target), ["checklist.json", "parts"]);
         assert_eq!(entries(room.path()), ["kit"]);
     }
@@ -294,11 +342,20 @@ mod tests {
         kit("one").write(&target, Existing::Keep).unwrap();
         let mut broken = kit("two");
         broken.add("parts", vec![0]);
-        assert!(matches!(broken.write(&target, Existing::Replace), Err(KitError::Write { .. })));
+        assert!(matches!(
+            broken.write(&target, Existing::Replace),
+            Err(KitError::Write { .. })
+        ));
         let mut stray = kit("two");
         stray.add("../stray", vec![0]);
-        assert!(matches!(stray.write(&target, Existing::Replace), Err(KitError::Outside { .. })));
-        assert_eq!(fs::read_to_string(target.join("checklist.json")).unwrap(), "one");
+        assert!(matches!(
+            stray.write(&target, Existing::Replace),
+            Err(KitError::Outside { .. })
+        ));
+        assert_eq!(
+            fs::read_to_string(target.join("checklist.json")).unwrap(),
+            "one"
+        );
         assert_eq!(entries(room.path()), ["kit"]);
     }
 
@@ -307,7 +364,11 @@ mod tests {
         let room = tempfile::tempdir().unwrap();
         let mut broken = kit("one");
         broken.add("parts", vec![0]);
-        assert!(broken.write(&room.path().join("deep/er/kit"), Existing::Keep).is_err());
+        assert!(
+            broken
+                .write(&room.path().join("deep/er/kit"), Existing::Keep)
+                .is_err()
+        );
         assert_eq!(entries(room.path()), Vec::<String>::new());
     }
 

@@ -48,8 +48,8 @@ mod words;
 
 pub use album::{Sitting, album, part_picture_file};
 pub use checklist::{
-    Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow, PrinterRow,
-    Tool, Verdict, WallRow,
+    Certificate, Checklist, ChecklistError, GoalRow, HeightProof, LogRow, MaterialRow, ModelRow,
+    PrinterRow, Tool, Verdict, WallRow,
 };
 pub use cleaning::{CleaningRow, KeptRow, is_clean};
 pub use course::{Course, PassRow, SpeedRow};

@@ -36,7 +36,10 @@ pub struct Papers<'a> {
 /// The checklist as a self-contained HTML page with the pictures inside it.
 pub fn page(papers: &Papers) -> String {
     let (sheet, pictures) = (papers.sheet, papers.pictures);
-    let job = JobId { name: &sheet.job, sha256: papers.sha256 };
+    let job = JobId {
+        name: &sheet.job,
+        sha256: papers.sha256,
+    };
     let body = html! {
         (cover(papers, &job))
         main {

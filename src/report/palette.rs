@@ -43,7 +43,10 @@ pub fn part_color(index: usize) -> Color {
 
 /// A colour as CSS and SVG write it.
 pub fn hex(color: Color) -> String {
-    format!("#{}", color.map(|channel| format!("{channel:02x}")).concat())
+    format!(
+        "#{}",
+        color.map(|channel| format!("{channel:02x}")).concat()
+    )
 }
 
 #[cfg(test)]
@@ -55,7 +58,11 @@ mod tests {
     fn luminance(color: Color) -> f64 {
         let linear = color.map(|channel| {
             let share = f64::from(channel) / 255.0;
-            if share <= 0.04045 { share / 12.92 } else { ((share + 0.055) / 1.055).powf(2.4) }
+            if share <= 0.04045 {
+                share / 12.92
+            } else {
+                ((share + 0.055) / 1.055).powf(2.4)
+            }
         });
         0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
     }
@@ -70,7 +77,10 @@ mod tests {
     fn outlines_and_words_stand_out_from_every_colour_and_the_paper() {
         // WCAG 2.2 asks for 3 between the parts of a picture and 4.5 for words.
         assert!(contrast(INK, PAPER) > 4.5);
-        for color in PARTS.into_iter().chain([BODY, VOID, SECTION, HATCH, PLATE[0], PLATE[1]]) {
+        for color in PARTS
+            .into_iter()
+            .chain([BODY, VOID, SECTION, HATCH, PLATE[0], PLATE[1]])
+        {
             assert!(contrast(INK, color) >= 3.0, "{color:?}");
         }
     }
@@ -87,7 +97,9 @@ mod tests {
     #[test]
     fn what_is_cut_void_and_outside_differs_in_grey() {
         assert!(
-            contrast(SECTION, VOID) > 1.5 && contrast(SECTION, BODY) > 2.0 && contrast(SECTION, HATCH) > 2.5
+            contrast(SECTION, VOID) > 1.5
+                && contrast(SECTION, BODY) > 2.0
+                && contrast(SECTION, HATCH) > 2.5
         );
     }
 }

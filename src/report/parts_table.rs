@@ -26,7 +26,9 @@ pub(super) fn parts(sheet: &Checklist, pictures: &[Picture]) -> Markup {
 }
 
 fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
-    let picture = pictures.iter().find(|picture| part.picture.as_ref() == Some(&picture.file));
+    let picture = pictures
+        .iter()
+        .find(|picture| part.picture.as_ref() == Some(&picture.file));
     html! {
         tr {
             td class="picture" { @if let Some(picture) = picture { (picture.image()) } }

@@ -91,7 +91,11 @@ impl Image {
         });
         match written {
             Ok(()) => Ok(bytes),
-            Err(source) => Err(PictureError { width: self.width, height: self.height, source }),
+            Err(source) => Err(PictureError {
+                width: self.width,
+                height: self.height,
+                source,
+            }),
         }
     }
 }
@@ -109,7 +113,11 @@ pub(super) fn render_seen(scene: &Scene, camera: &Camera) -> (Image, Seen) {
     let mut canvas = Canvas::new(scene, camera);
     for (index, item) in scene.items.iter().enumerate() {
         for corners in item.mesh.iter_corners() {
-            canvas.draw(corners.map(|corner| corner + item.shift), (item, index), scene.cut.as_ref());
+            canvas.draw(
+                corners.map(|corner| corner + item.shift),
+                (item, index),
+                scene.cut.as_ref(),
+            );
         }
     }
     canvas.outline();
@@ -130,7 +138,12 @@ struct Sample {
 /// The surface of the first kind of cut face, the next are even too; those of items are odd.
 const CUT_FACE: u32 = 2;
 /// Nothing but paper.
-const EMPTY: Sample = Sample { depth: f64::NEG_INFINITY, color: BACKGROUND, surface: 0, normal: [0.0; 3] };
+const EMPTY: Sample = Sample {
+    depth: f64::NEG_INFINITY,
+    color: BACKGROUND,
+    surface: 0,
+    normal: [0.0; 3],
+};
 
 /// The samples drawn so far, and how the scene falls on them.
 struct Canvas {
@@ -147,7 +160,12 @@ impl Canvas {
     fn new(scene: &Scene, camera: &Camera) -> Self {
         let [width, height] = camera.size_px.map(|pixels| pixels * SAMPLES);
         let projection = Projection::of(scene, camera, SAMPLES);
-        Self { width, height, projection, samples: vec![EMPTY; width * height] }
+        Self {
+            width,
+            height,
+            projection,
+            samples: vec![EMPTY; width * height],
+        }
     }
 
     fn project(&self, p: &Point, cut: Option<&Plane>) -> Corner {
@@ -165,12 +183,19 @@ impl Canvas {
         // Rows count downward, so a triangle that faces the viewer turns the other way here.
         let hatch = (cut.is_some() && area > 0.0).then_some(item.hatch);
         let drawn = match hatch {
-            Some(hatch) => Sample { surface: CUT_FACE + 2 * hatch.runs as u32, ..EMPTY },
+            Some(hatch) => Sample {
+                surface: CUT_FACE + 2 * hatch.runs as u32,
+                ..EMPTY
+            },
             None => self.shaded(&corners, item.color, 2 * index as u32 + 1),
         };
         let span = |axis: usize, limit: usize| {
             let low = a[axis].min(b[axis]).min(c[axis]).floor().max(0.0) as usize;
-            let high = a[axis].max(b[axis]).max(c[axis]).ceil().clamp(0.0, limit as f64) as usize;
+            let high = a[axis]
+                .max(b[axis])
+                .max(c[axis])
+                .ceil()
+                .clamp(0.0, limit as f64) as usize;
             low..high
         };
         for y in span(1, self.height) {
@@ -198,7 +223,11 @@ impl Canvas {
         let sample = &mut self.samples[y * self.width + x];
         if mix(3) <= 0.0 && mix(2) > sample.depth {
             let color = hatch.map_or(drawn.color, |hatch| hatch.color_at([x, y]));
-            *sample = Sample { depth: mix(2), color, ..drawn };
+            *sample = Sample {
+                depth: mix(2),
+                color,
+                ..drawn
+            };
         }
     }
 
@@ -209,17 +238,32 @@ impl Canvas {
         let lit = slope.dot(&Vector::from(LAMP)).max(0.0);
         let light = AMBIENT_RATIO + (1.0 - AMBIENT_RATIO) * lit.min(1.0);
         let color = color.map(|channel| (f64::from(channel) * light) as u8);
-        Sample { color, surface, normal: <[f64; 3]>::from(slope).map(|x| x as f32), ..EMPTY }
+        Sample {
+            color,
+            surface,
+            normal: <[f64; 3]>::from(slope).map(|x| x as f32),
+            ..EMPTY
+        }
     }
 
     /// Inks the samples where one surface ends before another, or bends sharply.
     fn outline(&mut self) {
-        let depths = || self.samples.iter().map(|sample| sample.depth).filter(|depth| depth.is_finite());
-        let (low, high) = depths().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| (l.min(d), h.max(d)));
+        let depths = || {
+            self.samples
+                .iter()
+                .map(|sample| sample.depth)
+                .filter(|depth| depth.is_finite())
+        };
+        let (low, high) = depths().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), d| {
+            (l.min(d), h.max(d))
+        });
         let step_mm = STEP_RATIO * (high - low);
-        let pairs = (0..self.samples.len()).flat_map(|at| self.neighbours(at).map(move |next| [at, next]));
+        let pairs =
+            (0..self.samples.len()).flat_map(|at| self.neighbours(at).map(move |next| [at, next]));
         let inked: Vec<usize> = pairs.filter_map(|pair| self.inked(pair, step_mm)).collect();
-        inked.into_iter().for_each(|at| self.samples[at].color = INK);
+        inked
+            .into_iter()
+            .for_each(|at| self.samples[at].color = INK);
     }
 
     /// The sample at the right of one and the one below it.
@@ -232,9 +276,15 @@ impl Canvas {
     /// The nearer of two samples, if what is seen changes between them.
     fn inked(&self, [at, next]: [usize; 2], step_mm: f64) -> Option<usize> {
         let (here, there) = (&self.samples[at], &self.samples[next]);
-        let cosine: f32 = here.normal.iter().zip(there.normal).map(|(a, b)| a * b).sum();
+        let cosine: f32 = here
+            .normal
+            .iter()
+            .zip(there.normal)
+            .map(|(a, b)| a * b)
+            .sum();
         let is_of_item = here.surface % 2 == 1;
-        let is_bent = f64::from(cosine) < CREASE_COSINE || (here.depth - there.depth).abs() > step_mm;
+        let is_bent =
+            f64::from(cosine) < CREASE_COSINE || (here.depth - there.depth).abs() > step_mm;
         let is_edge = here.surface != there.surface || is_of_item && is_bent;
         is_edge.then_some(if there.depth > here.depth { next } else { at })
     }
@@ -242,8 +292,9 @@ impl Canvas {
     /// What is seen at the first sample of each pixel.
     fn seen(&self) -> Seen {
         let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
-        let first =
-            |pixel: usize| self.samples[pixel / width * SAMPLES * self.width + pixel % width * SAMPLES];
+        let first = |pixel: usize| {
+            self.samples[pixel / width * SAMPLES * self.width + pixel % width * SAMPLES]
+        };
         let item = |sample: Sample| (sample.surface % 2 == 1).then_some(sample.surface / 2);
         let pixels = || (0..width * height).map(first);
         Seen {
@@ -256,16 +307,23 @@ impl Canvas {
     /// The mean of the samples of each pixel.
     fn resolve(&self) -> Image {
         let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
-        let sample =
-            |x: usize, y: usize, channel: usize| u32::from(self.samples[y * self.width + x].color[channel]);
+        let sample = |x: usize, y: usize, channel: usize| {
+            u32::from(self.samples[y * self.width + x].color[channel])
+        };
         let mean = |pixel: usize, channel: usize| {
             let (left, top) = (pixel % width * SAMPLES, pixel / width * SAMPLES);
-            let square =
-                (0..SAMPLES * SAMPLES).map(|i| sample(left + i % SAMPLES, top + i / SAMPLES, channel));
+            let square = (0..SAMPLES * SAMPLES)
+                .map(|i| sample(left + i % SAMPLES, top + i / SAMPLES, channel));
             (square.sum::<u32>() / (SAMPLES * SAMPLES) as u32) as u8
         };
-        let pixels = (0..width * height).map(|pixel| [0, 1, 2].map(|channel| mean(pixel, channel))).collect();
-        Image { width, height, pixels }
+        let pixels = (0..width * height)
+            .map(|pixel| [0, 1, 2].map(|channel| mean(pixel, channel)))
+            .collect();
+        Image {
+            width,
+            height,
+            pixels,
+        }
     }
 }
 
@@ -275,15 +333,30 @@ mod tests {
     use crate::verify::test_meshes::{ball, block};
 
     const RED: Color = [255, 0, 0];
-    const CUT: Hatch = Hatch { dark: [0, 0, 255], ..Hatch::PRINTED };
+    const CUT: Hatch = Hatch {
+        dark: [0, 0, 255],
+        ..Hatch::PRINTED
+    };
 
     fn from_above() -> Camera {
-        Camera { toward_viewer: Vector::z(), up: Vector::y(), size_px: [100, 100], margin_ratio: [0.0; 2] }
+        Camera {
+            toward_viewer: Vector::z(),
+            up: Vector::y(),
+            size_px: [100, 100],
+            margin_ratio: [0.0; 2],
+        }
     }
 
     fn draw(meshes: &[&TriMesh], cut: Option<Plane>) -> Image {
-        let items =
-            meshes.iter().map(|mesh| Item { mesh, color: RED, shift: Vector::zeros(), hatch: CUT }).collect();
+        let items = meshes
+            .iter()
+            .map(|mesh| Item {
+                mesh,
+                color: RED,
+                shift: Vector::zeros(),
+                hatch: CUT,
+            })
+            .collect();
         render(&Scene { items, cut }, &from_above())
     }
 
@@ -301,7 +374,9 @@ mod tests {
 
     #[test]
     fn a_disc_fills_a_quarter_of_pi_of_its_square() {
-        let filled = share_of(&draw(&[&ball(Point::origin(), 5.0, 64)], None), |pixel| *pixel != BACKGROUND);
+        let filled = share_of(&draw(&[&ball(Point::origin(), 5.0, 64)], None), |pixel| {
+            *pixel != BACKGROUND
+        });
         let want = std::f64::consts::FRAC_PI_4 * 0.92 * 0.92;
         // Half the pixels on the rim, π · 92 of them, may count either way.
         assert!((filled - want).abs() < 0.5 * std::f64::consts::PI * 92.0 / 10_000.0);
@@ -309,7 +384,10 @@ mod tests {
 
     #[test]
     fn the_nearer_face_hides_the_farther_whatever_the_order() {
-        let (low, high) = (block(Point::origin(), [9.0; 3]), block(Point::new(2.0, 2.0, 20.0), [5.0; 3]));
+        let (low, high) = (
+            block(Point::origin(), [9.0; 3]),
+            block(Point::new(2.0, 2.0, 20.0), [5.0; 3]),
+        );
         assert_eq!(draw(&[&low, &high], None), draw(&[&high, &low], None));
     }
 
@@ -329,14 +407,19 @@ mod tests {
 
     #[test]
     fn nothing_at_all_is_white_paper() {
-        assert_eq!(share_of(&draw(&[], None), |pixel| *pixel == BACKGROUND), 1.0);
+        assert_eq!(
+            share_of(&draw(&[], None), |pixel| *pixel == BACKGROUND),
+            1.0
+        );
     }
 
     #[test]
     fn a_png_reads_back_as_the_picture() {
         let image = draw(&[&ball(Point::origin(), 5.0, 12)], None);
         let bytes = image.to_png().unwrap();
-        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes)).read_info().unwrap();
+        let mut reader = png::Decoder::new(std::io::Cursor::new(bytes))
+            .read_info()
+            .unwrap();
         let mut back = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut back).unwrap();
         assert_eq!(back, image.pixels.as_flattened());

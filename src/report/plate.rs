@@ -30,11 +30,21 @@ const ASIDE_PX: f64 = 22.0;
 pub(super) fn under(part: &Aabb) -> [TriMesh; 2] {
     let first = |low: f64| (low / SQUARE_MM).floor() as i64 - 1;
     let last = |high: f64| (high / SQUARE_MM).ceil() as i64 + 1;
-    let (columns, rows) = (first(part.min.x)..last(part.max.x), first(part.min.y)..last(part.max.y));
-    let squares = || columns.clone().flat_map(|x| rows.clone().map(move |y| (x, y)));
+    let (columns, rows) = (
+        first(part.min.x)..last(part.max.x),
+        first(part.min.y)..last(part.max.y),
+    );
+    let squares = || {
+        columns
+            .clone()
+            .flat_map(|x| rows.clone().map(move |y| (x, y)))
+    };
     [0, 1].map(|parity| {
         let of_color = squares().filter(|(x, y)| (x + y).rem_euclid(2) == parity);
-        flat_squares(of_color.map(|(x, y)| [x, y].map(|side| side as f64 * SQUARE_MM)), part.min.z - BELOW_MM)
+        flat_squares(
+            of_color.map(|(x, y)| [x, y].map(|side| side as f64 * SQUARE_MM)),
+            part.min.z - BELOW_MM,
+        )
     })
 }
 
@@ -52,13 +62,22 @@ fn flat_squares(corners: impl Iterator<Item = [f64; 2]>, z: f64) -> TriMesh {
 
 /// The picture of a part on its plate.
 pub(super) fn shot<'a>(part: &'a PartEvidence, plate: &'a [TriMesh; 2], color: Color) -> Shot<'a> {
-    let plates = plate.iter().zip(PLATE).map(|(squares, shade)| still(squares, shade));
+    let plates = plate
+        .iter()
+        .zip(PLATE)
+        .map(|(squares, shade)| still(squares, shade));
     Shot {
         file: super::album::part_picture_file(&part.id),
         role: Role::Part,
         caption: format!("{} as it lies on the plate; squares of 10 mm.", part.id),
-        alt: format!("Part {} in its print pose on a plate with squares of 10 mm, with its sizes.", part.id),
-        scene: Scene { items: plates.chain([still(&part.mesh, color)]).collect(), cut: None },
+        alt: format!(
+            "Part {} in its print pose on a plate with squares of 10 mm, with its sizes.",
+            part.id
+        ),
+        scene: Scene {
+            items: plates.chain([still(&part.mesh, color)]).collect(),
+            cut: None,
+        },
         camera: Camera {
             toward_viewer: turned(&-Vector::y(), &Vector::z(), [TURN, LIFT]),
             up: Vector::z(),
@@ -78,13 +97,21 @@ fn lengths(part: &Aabb) -> Vec<Label> {
     let words = |axis: &str, mm: f64| format!("{axis} {}", number(mm));
     let right = Point::new(high.x, low.y, low.z);
     vec![
-        Label::Length([low, right], [-0.3 * ASIDE_PX, ASIDE_PX], words("x", size.x)),
+        Label::Length(
+            [low, right],
+            [-0.3 * ASIDE_PX, ASIDE_PX],
+            words("x", size.x),
+        ),
         Label::Length(
             [right, Point::new(high.x, high.y, low.z)],
             [ASIDE_PX, 0.6 * ASIDE_PX],
             words("y", size.y),
         ),
-        Label::Length([low, Point::new(low.x, low.y, high.z)], [-ASIDE_PX, 0.0], words("z", size.z)),
+        Label::Length(
+            [low, Point::new(low.x, low.y, high.z)],
+            [-ASIDE_PX, 0.0],
+            words("z", size.z),
+        ),
     ]
 }
 
@@ -99,10 +126,18 @@ mod tests {
         let plate = light.aabb().union(&dark.aabb());
         assert_eq!(
             (plate.min, plate.max),
-            (Point::new(-30.0, -10.0, -BELOW_MM), Point::new(40.0, 20.0, -BELOW_MM))
+            (
+                Point::new(-30.0, -10.0, -BELOW_MM),
+                Point::new(40.0, 20.0, -BELOW_MM)
+            )
         );
         // Seven by three squares, two triangles each, eleven of one shade.
-        assert_eq!([light.triangles().len(), dark.triangles().len()].iter().sum::<usize>(), 42);
+        assert_eq!(
+            [light.triangles().len(), dark.triangles().len()]
+                .iter()
+                .sum::<usize>(),
+            42
+        );
         assert_eq!(light.triangles().len().abs_diff(dark.triangles().len()), 2);
     }
 }

@@ -44,22 +44,42 @@ struct Plot {
 
 /// The plots of how the answer came about; none where nothing was recorded.
 pub(super) fn plots(sheet: &Checklist) -> Vec<Picture> {
-    let Some(course) = &sheet.certificate.course else { return Vec::new() };
-    certificate(sheet, course).into_iter().chain(speeds(sheet, course)).collect()
+    let Some(course) = &sheet.certificate.course else {
+        return Vec::new();
+    };
+    certificate(sheet, course)
+        .into_iter()
+        .chain(speeds(sheet, course))
+        .collect()
 }
 
 fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
     let figure = sheet.certificate.figure;
     let pick = |value: fn(&super::PassRow) -> f64| {
-        course.passes.iter().enumerate().map(|(index, row)| [index as f64, value(row)]).collect::<Vec<Spot>>()
+        course
+            .passes
+            .iter()
+            .enumerate()
+            .map(|(index, row)| [index as f64, value(row)])
+            .collect::<Vec<Spot>>()
     };
     let last = course.passes.last().filter(|_| course.passes.len() > 1)?;
     let plot = Plot {
         across: "pass over the columns".to_owned(),
         up: with_unit(figure.name(), figure.unit()),
         curves: vec![
-            Curve { name: "found", points: pick(|row| row.value), color: LINES[0], is_second: false },
-            Curve { name: "proved bound", points: pick(|row| row.bound), color: LINES[1], is_second: true },
+            Curve {
+                name: "found",
+                points: pick(|row| row.value),
+                color: LINES[0],
+                is_second: false,
+            },
+            Curve {
+                name: "proved bound",
+                points: pick(|row| row.bound),
+                color: LINES[1],
+                is_second: true,
+            },
         ],
         mark: None,
     };
@@ -80,13 +100,28 @@ fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
 }
 
 fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
-    let points: Vec<Spot> = course.speeds.iter().map(|row| [row.height_mm, row.critical_speed_rpm]).collect();
-    let best = *points.iter().min_by(|a, b| a[1].total_cmp(&b[1])).filter(|_| points.len() > 1)?;
-    let written = sheet.assembly.critical_speed_rpm.map(|rpm| [sheet.assembly.center_height_mm, rpm]);
+    let points: Vec<Spot> = course
+        .speeds
+        .iter()
+        .map(|row| [row.height_mm, row.critical_speed_rpm])
+        .collect();
+    let best = *points
+        .iter()
+        .min_by(|a, b| a[1].total_cmp(&b[1]))
+        .filter(|_| points.len() > 1)?;
+    let written = sheet
+        .assembly
+        .critical_speed_rpm
+        .map(|rpm| [sheet.assembly.center_height_mm, rpm]);
     let plot = Plot {
         across: "height ℓ of the centre of mass over the contact, mm".to_owned(),
         up: "least critical speed, rpm".to_owned(),
-        curves: vec![Curve { name: "best at that height", points, color: LINES[0], is_second: false }],
+        curves: vec![Curve {
+            name: "best at that height",
+            points,
+            color: LINES[0],
+            is_second: false,
+        }],
         mark: written.map(|at| (at, "this kit".to_owned())),
     };
     let [height, speed] = [quantity(best[0], "mm"), quantity(best[1], "rpm")];
@@ -100,7 +135,11 @@ fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
 }
 
 fn with_unit(name: &str, unit: &str) -> String {
-    if unit.is_empty() { name.to_owned() } else { format!("{name}, {unit}") }
+    if unit.is_empty() {
+        name.to_owned()
+    } else {
+        format!("{name}, {unit}")
+    }
 }
 
 impl Plot {
@@ -115,7 +154,11 @@ impl Plot {
         if let Some((at, words)) = &self.mark {
             let [x, y] = scales.each_ref().map(|scale| scale.clamped(at[scale.axis]));
             drawing.circle([x, y], 8.0, (Some(&hex(PAPER)), Stroke::THICK));
-            let anchor = if x > 0.6 * SIZE_PX[0] as f64 { Anchor::End } else { Anchor::Start };
+            let anchor = if x > 0.6 * SIZE_PX[0] as f64 {
+                Anchor::End
+            } else {
+                Anchor::Start
+            };
             let aside = if anchor == Anchor::End { -16.0 } else { 16.0 };
             drawing.text([x + aside, y - 18.0], anchor, words);
         }
@@ -126,25 +169,40 @@ impl Plot {
     fn scales(&self) -> [Scale; 2] {
         let [left, top, right, bottom] = FRAME_PX;
         let of = |axis: usize| {
-            self.curves.iter().flat_map(move |curve| curve.points.iter().map(move |point| point[axis]))
+            self.curves
+                .iter()
+                .flat_map(move |curve| curve.points.iter().map(move |point| point[axis]))
         };
         let marked = self.mark.iter().map(|(at, _)| at[1]);
         let (low, high) = range(of(1).chain(marked));
-        let ends = self.curves.iter().filter_map(|curve| curve.points.last().map(|point| point[1].abs()));
+        let ends = self
+            .curves
+            .iter()
+            .filter_map(|curve| curve.points.last().map(|point| point[1].abs()));
         let (_, end) = range(ends);
         let (low, high) = (low.max(-WORST_RATIO * end), high.min(WORST_RATIO * end));
         let room = ROOM_RATIO * (high - low).max(1e-6 * end);
         let (first, last) = range(of(0));
         [
-            Scale { axis: 0, from: [first, last], to: [left, right] },
-            Scale { axis: 1, from: [low - room, high + room], to: [bottom, top] },
+            Scale {
+                axis: 0,
+                from: [first, last],
+                to: [left, right],
+            },
+            Scale {
+                axis: 1,
+                from: [low - room, high + room],
+                to: [bottom, top],
+            },
         ]
     }
 }
 
 /// The least and the greatest.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
-    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)))
+    values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
+        (low.min(value), high.max(value))
+    })
 }
 
 /// From numbers to pixels along one axis.
@@ -168,7 +226,11 @@ impl Scale {
     fn ticks(&self) -> Vec<f64> {
         let step = round_step((self.from[1] - self.from[0]) / TICKS);
         let first = (self.from[0] / step).ceil() as i64;
-        (first..).map(|count| count as f64 * step).take_while(|tick| *tick <= self.from[1]).take(32).collect()
+        (first..)
+            .map(|count| count as f64 * step)
+            .take_while(|tick| *tick <= self.from[1])
+            .take(32)
+            .collect()
     }
 }
 
@@ -184,10 +246,18 @@ fn round_step(step: f64) -> f64 {
 
 fn axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&str; 2]) {
     let [left, top, right, bottom] = FRAME_PX;
-    let grid = Stroke { color: [201, 206, 212], width: 1.0, dashes: "" };
+    let grid = Stroke {
+        color: [201, 206, 212],
+        width: 1.0,
+        dashes: "",
+    };
     for tick in across.ticks() {
         drawing.line([[across.at(tick), top], [across.at(tick), bottom]], grid);
-        drawing.text([across.at(tick), bottom + TEXT_PX], Anchor::Middle, &number(tick));
+        drawing.text(
+            [across.at(tick), bottom + TEXT_PX],
+            Anchor::Middle,
+            &number(tick),
+        );
     }
     for tick in up.ticks() {
         drawing.line([[left, up.at(tick)], [right, up.at(tick)]], grid);
@@ -196,29 +266,63 @@ fn axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&
     drawing.path(
         &[vec![[left, top], [left, bottom], [right, bottom]]],
         false,
-        (None, Stroke { color: INK, width: 2.0, dashes: "" }),
+        (
+            None,
+            Stroke {
+                color: INK,
+                width: 2.0,
+                dashes: "",
+            },
+        ),
     );
     drawing.text([right, bottom + 2.4 * TEXT_PX], Anchor::End, x_words);
     drawing.text([10.0, 0.6 * TEXT_PX], Anchor::Start, y_words);
 }
 
 fn draw_curve(drawing: &mut Drawing, curve: &Curve, [across, up]: &[Scale; 2]) {
-    let spots: Vec<Spot> = curve.points.iter().map(|[x, y]| [across.clamped(*x), up.clamped(*y)]).collect();
+    let spots: Vec<Spot> = curve
+        .points
+        .iter()
+        .map(|[x, y]| [across.clamped(*x), up.clamped(*y)])
+        .collect();
     draw_line(drawing, &spots, curve);
 }
 
 /// A line with its marks.
 fn draw_line(drawing: &mut Drawing, spots: &[Spot], curve: &Curve) {
     let dashes = if curve.is_second { "10 6" } else { "" };
-    drawing.path(&[spots.to_vec()], false, (None, Stroke { color: curve.color, width: 3.0, dashes }));
+    drawing.path(
+        &[spots.to_vec()],
+        false,
+        (
+            None,
+            Stroke {
+                color: curve.color,
+                width: 3.0,
+                dashes,
+            },
+        ),
+    );
     for &[x, y] in spots {
         let color = hex(curve.color);
         if curve.is_second {
-            let square = vec![[x - 5.0, y - 5.0], [x + 5.0, y - 5.0], [x + 5.0, y + 5.0], [x - 5.0, y + 5.0]];
+            let square = vec![
+                [x - 5.0, y - 5.0],
+                [x + 5.0, y - 5.0],
+                [x + 5.0, y + 5.0],
+                [x - 5.0, y + 5.0],
+            ];
             drawing.path(
                 &[square],
                 true,
-                (Some(&hex(PAPER)), Stroke { color: curve.color, width: 2.5, dashes: "" }),
+                (
+                    Some(&hex(PAPER)),
+                    Stroke {
+                        color: curve.color,
+                        width: 2.5,
+                        dashes: "",
+                    },
+                ),
             );
         } else {
             drawing.circle([x, y], 5.0, (Some(&color), Stroke::NONE));
@@ -244,10 +348,18 @@ mod tests {
 
     #[test]
     fn ticks_are_round_and_lie_on_the_scale() {
-        let scale = Scale { axis: 0, from: [0.13, 1.21], to: [0.0, 100.0] };
+        let scale = Scale {
+            axis: 0,
+            from: [0.13, 1.21],
+            to: [0.0, 100.0],
+        };
         // A seventh of 1.08 rounds up to a fifth.
         assert_eq!(
-            scale.ticks().iter().map(|tick| (tick * 10.0).round()).collect::<Vec<_>>(),
+            scale
+                .ticks()
+                .iter()
+                .map(|tick| (tick * 10.0).round())
+                .collect::<Vec<_>>(),
             [2.0, 4.0, 6.0, 8.0, 10.0, 12.0]
         );
         assert_eq!([0.21, 3.0, 70.0].map(round_step), [0.5, 5.0, 100.0]);
@@ -255,8 +367,15 @@ mod tests {
 
     #[test]
     fn a_scale_maps_its_ends_to_the_frame() {
-        let scale = Scale { axis: 1, from: [2.0, 4.0], to: [380.0, 40.0] };
-        assert_eq!([2.0, 3.0, 4.0].map(|value| scale.at(value)), [380.0, 210.0, 40.0]);
+        let scale = Scale {
+            axis: 1,
+            from: [2.0, 4.0],
+            to: [380.0, 40.0],
+        };
+        assert_eq!(
+            [2.0, 3.0, 4.0].map(|value| scale.at(value)),
+            [380.0, 210.0, 40.0]
+        );
         assert_eq!(scale.clamped(9.0), 40.0);
     }
 }

@@ -38,7 +38,11 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
 
 /// Which files go to the slicer.
 fn load(sheet: &Checklist) -> Markup {
-    let plates: Vec<&String> = sheet.files.keys().filter(|file| file.starts_with(PLATE)).collect();
+    let plates: Vec<&String> = sheet
+        .files
+        .keys()
+        .filter(|file| file.starts_with(PLATE))
+        .collect();
     html! {
         @if plates.is_empty() { "the part files below" }
         @else {
@@ -99,8 +103,15 @@ mod tests {
     fn every_process_is_told_to_print_solid_and_lines_only_where_there_are_lines() {
         for process in ["fdm", "sla", "polyjet", "mjp", "sls", "mjf"] {
             let page = told(|sheet| sheet.printer.process = process.to_owned());
-            assert!(page.contains("Solid, 100 % infill") && page.contains("layers of 0.016"), "{process}");
-            assert_eq!(page.contains("lines of 0.0423"), process == "fdm", "{process}");
+            assert!(
+                page.contains("Solid, 100 % infill") && page.contains("layers of 0.016"),
+                "{process}"
+            );
+            assert_eq!(
+                page.contains("lines of 0.0423"),
+                process == "fdm",
+                "{process}"
+            );
         }
     }
 
@@ -110,9 +121,15 @@ mod tests {
             sheet.files.insert("plate_1.3mf".to_owned(), String::new());
             sheet.files.insert("plate_2.3mf".to_owned(), String::new());
         });
-        assert!(page.contains("plate_1.3mf") && page.contains("plate_2.3mf") && !page.contains("not known"));
+        assert!(
+            page.contains("plate_1.3mf")
+                && page.contains("plate_2.3mf")
+                && !page.contains("not known")
+        );
         let page = told(|sheet| sheet.printer.build_volume_mm = None);
-        assert!(!page.contains("plate_") && page.contains("build volume of this printer is not known"));
+        assert!(
+            !page.contains("plate_") && page.contains("build volume of this printer is not known")
+        );
     }
 
     #[test]

@@ -23,20 +23,34 @@ impl Projection {
         let axes = axes(camera);
         let [width, height] = camera.size_px.map(|side| side * pixels);
         let seen = |p: Point| Point::from(Vector::from(axes.map(|axis| axis.dot(&p.coords))));
-        let moved = scene.items.iter().flat_map(|i| i.mesh.vertices().iter().map(move |p| seen(p + i.shift)));
+        let moved = scene
+            .items
+            .iter()
+            .flat_map(|i| i.mesh.vertices().iter().map(move |p| seen(p + i.shift)));
         let bounds = moved.fold(Aabb::EMPTY, |bounds, point| bounds.grown_over(&point));
         let [aside, over] = camera.margin_ratio.map(|ratio| MARGIN_RATIO.max(ratio));
-        let fit = |pixels: usize, margin_ratio: f64, mm: f64| pixels as f64 * (1.0 - 2.0 * margin_ratio) / mm;
+        let fit = |pixels: usize, margin_ratio: f64, mm: f64| {
+            pixels as f64 * (1.0 - 2.0 * margin_ratio) / mm
+        };
         let scale = fit(width, aside, bounds.size().x).min(fit(height, over, bounds.size().y));
-        let offset =
-            [0.5 * width as f64 - scale * bounds.center().x, 0.5 * height as f64 + scale * bounds.center().y];
-        Self { axes, scale, offset }
+        let offset = [
+            0.5 * width as f64 - scale * bounds.center().x,
+            0.5 * height as f64 + scale * bounds.center().y,
+        ];
+        Self {
+            axes,
+            scale,
+            offset,
+        }
     }
 
     /// Where a point falls: pixels to the right, pixels down.
     pub fn at(&self, p: &Point) -> Spot {
         let [right, up, _] = self.axes.map(|axis| axis.dot(&p.coords));
-        [self.offset[0] + self.scale * right, self.offset[1] - self.scale * up]
+        [
+            self.offset[0] + self.scale * right,
+            self.offset[1] - self.scale * up,
+        ]
     }
 
     /// How near a point is to the viewer, mm.

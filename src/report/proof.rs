@@ -74,18 +74,38 @@ const COLUMNS: [Column; 13] = [
     ("Critical speed", "rpm", |body| body.critical_speed_rpm),
     ("Centre's height", "mm", |body| Some(body.center_height_mm)),
     ("Topples at", "°", |body| body.topples_deg),
-    ("Waterline", "mm", |body| body.afloat.map(|afloat| afloat.waterline_mm)),
-    ("Off buoyancy", "mm", |body| body.afloat.map(|afloat| afloat.offset_mm)),
-    ("GM", "mm", |body| body.afloat.map(|afloat| afloat.metacentric_height_mm)),
-    ("Rights from", "°", |body| body.afloat.map(|afloat| afloat.rights_from_deg)),
-    ("Static unbalance", "g·mm", |body| body.unbalance.map(|unbalance| unbalance.static_g_mm)),
-    ("Couple", "g·mm²", |body| body.unbalance.map(|unbalance| unbalance.couple_g_mm2)),
-    ("Grade G", "mm/s", |body| body.unbalance.map(|unbalance| unbalance.grade_mm_s)),
+    ("Waterline", "mm", |body| {
+        body.afloat.map(|afloat| afloat.waterline_mm)
+    }),
+    ("Off buoyancy", "mm", |body| {
+        body.afloat.map(|afloat| afloat.offset_mm)
+    }),
+    ("GM", "mm", |body| {
+        body.afloat.map(|afloat| afloat.metacentric_height_mm)
+    }),
+    ("Rights from", "°", |body| {
+        body.afloat.map(|afloat| afloat.rights_from_deg)
+    }),
+    ("Static unbalance", "g·mm", |body| {
+        body.unbalance.map(|unbalance| unbalance.static_g_mm)
+    }),
+    ("Couple", "g·mm²", |body| {
+        body.unbalance.map(|unbalance| unbalance.couple_g_mm2)
+    }),
+    ("Grade G", "mm/s", |body| {
+        body.unbalance.map(|unbalance| unbalance.grade_mm_s)
+    }),
 ];
 
 fn bodies(sheet: &Checklist) -> Markup {
-    let bodies = [("solid", &sheet.solid), ("hollowed", &sheet.hollowed), ("assembly", &sheet.assembly)];
-    let columns = COLUMNS.iter().filter(|(_, _, of)| bodies.iter().any(|(_, body)| of(body).is_some()));
+    let bodies = [
+        ("solid", &sheet.solid),
+        ("hollowed", &sheet.hollowed),
+        ("assembly", &sheet.assembly),
+    ];
+    let columns = COLUMNS
+        .iter()
+        .filter(|(_, _, of)| bodies.iter().any(|(_, body)| of(body).is_some()));
     let columns: Vec<&Column> = columns.collect();
     html! {
         table {

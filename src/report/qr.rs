@@ -31,7 +31,11 @@ impl JobId<'_> {
 
     /// What the code on every page says: the same with the first 16 digits of the hash.
     pub fn header_text(&self) -> String {
-        format!("EQUIPOISE {} SHA256 {}", self.name, digits(self.sha256, HEADER_DIGITS))
+        format!(
+            "EQUIPOISE {} SHA256 {}",
+            self.name,
+            digits(self.sha256, HEADER_DIGITS)
+        )
     }
 }
 
@@ -45,9 +49,17 @@ fn digits(sha256: &str, count: usize) -> &str {
 pub(super) fn path(text: &str) -> Option<(usize, String)> {
     let code = QrCode::with_error_correction_level(text, EcLevel::M).ok()?;
     let width = code.width();
-    let dark = code.to_colors().into_iter().enumerate().filter(|(_, color)| *color == Color::Dark);
+    let dark = code
+        .to_colors()
+        .into_iter()
+        .enumerate()
+        .filter(|(_, color)| *color == Color::Dark);
     let module = |(at, _): (usize, Color)| {
-        format!("M{} {}h1v1h-1z", at % width + QUIET_MODULES, at / width + QUIET_MODULES)
+        format!(
+            "M{} {}h1v1h-1z",
+            at % width + QUIET_MODULES,
+            at / width + QUIET_MODULES
+        )
     };
     Some((width + 2 * QUIET_MODULES, dark.map(module).collect()))
 }
@@ -71,7 +83,10 @@ mod tests {
     #[test]
     fn the_id_is_the_name_with_the_first_digits_of_the_hash() {
         let hash = "0123456789abcdef".repeat(4);
-        let job = JobId { name: "box", sha256: &hash };
+        let job = JobId {
+            name: "box",
+            sha256: &hash,
+        };
         assert_eq!(job.short(), "box-01234567");
         assert!(job.text().ends_with(&hash) && job.header_text().ends_with(" 0123456789abcdef"));
     }

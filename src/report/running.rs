@@ -54,7 +54,13 @@ fn css_string(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || " .,-_:".contains(c);
     let coded: String = text
         .chars()
-        .map(|c| if plain(c) { c.to_string() } else { format!("\\{:06x}", u32::from(c)) })
+        .map(|c| {
+            if plain(c) {
+                c.to_string()
+            } else {
+                format!("\\{:06x}", u32::from(c))
+            }
+        })
         .collect();
     format!("\"{coded}\"")
 }
@@ -65,12 +71,18 @@ mod tests {
 
     #[test]
     fn a_name_cannot_leave_its_string() {
-        assert_eq!(css_string("a\"}</style>"), "\"a\\000022\\00007d\\00003c\\00002fstyle\\00003e\"");
+        assert_eq!(
+            css_string("a\"}</style>"),
+            "\"a\\000022\\00007d\\00003c\\00002fstyle\\00003e\""
+        );
     }
 
     #[test]
     fn every_page_has_the_job_the_units_the_code_and_its_number() {
-        let style = style(&JobId { name: "box", sha256: "0123456789abcdef" });
+        let style = style(&JobId {
+            name: "box",
+            sha256: "0123456789abcdef",
+        });
         for part in [
             "Job box-01234567",
             "Lengths in mm",

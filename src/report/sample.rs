@@ -5,8 +5,8 @@ use crate::geom::{Parting, Plane, Point, Vector};
 use crate::mesh::weld;
 use crate::verify::judge_tests::sound;
 use crate::verify::{
-    Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure, PromisedVoid,
-    Shells, judge,
+    Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
+    PromisedVoid, Shells, judge,
 };
 
 /// The rule of a water jet.
@@ -25,9 +25,16 @@ const SIGHT_RATIO: f64 = 0.96;
 fn order_cleaning(promise: &mut Promise) {
     promise.printer.minimum_opening_mm = Some(4.0);
     promise.printer.cleaning = Some(CLEANING);
-    promise.cuts = vec![PromisedCut { point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 1.0] }];
+    promise.cuts = vec![PromisedCut {
+        point_mm: [0.0, 0.0, 16.0],
+        normal: [0.0, 0.0, 1.0],
+    }];
     let sight_ratio = Some(SIGHT_RATIO);
-    promise.voids = vec![PromisedVoid { id: "V1".into(), sight_ratio, least_opening_mm: Some(4.0) }];
+    promise.voids = vec![PromisedVoid {
+        id: "V1".into(),
+        sight_ratio,
+        least_opening_mm: Some(4.0),
+    }];
 }
 
 /// The checklist of a sound kit, and what it was judged on.
@@ -41,8 +48,17 @@ pub fn sample() -> (Checklist, Evidence) {
 /// Its pictures and its view.
 pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
-    let cuts = [Parting::everywhere(Plane::through(&Point::new(0.0, 0.0, 16.0), &Vector::z()))];
-    let Promise { goal: aim, parts: promised, hardware, ballast, .. } = &evidence.promise;
+    let cuts = [Parting::everywhere(Plane::through(
+        &Point::new(0.0, 0.0, 16.0),
+        &Vector::z(),
+    ))];
+    let Promise {
+        goal: aim,
+        parts: promised,
+        hardware,
+        ballast,
+        ..
+    } = &evidence.promise;
     let sitting = Sitting {
         shells: &shells,
         parts: &evidence.parts,
@@ -56,11 +72,21 @@ pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>,
     let face = CutFace {
         cut: "C1".into(),
         plane: cuts[0].plane,
-        rings: vec![frame([30.0, 20.0]), frame([27.0, 17.0]).into_iter().rev().collect()],
+        rings: vec![
+            frame([30.0, 20.0]),
+            frame([27.0, 17.0]).into_iter().rev().collect(),
+        ],
         wall: Some([[27.0, 0.0], [30.0, 0.0]]),
         whole: vec![],
-        regions: vec![Region { at: [28.5, 0.0], parts: ["P01".into(), "P02".into()] }],
-        mouths: vec![Mouth { void: "V1".into(), at: [0.0, 0.0], diameter_mm: 34.0 }],
+        regions: vec![Region {
+            at: [28.5, 0.0],
+            parts: ["P01".into(), "P02".into()],
+        }],
+        mouths: vec![Mouth {
+            void: "V1".into(),
+            at: [0.0, 0.0],
+            diameter_mm: 34.0,
+        }],
     };
     let mut pictures = album(&sitting).unwrap();
     pictures.extend(drawings(sheet, &sitting, &[face]).unwrap());
@@ -71,7 +97,10 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     let speed = found.assembly.critical_speed_rpm.unwrap();
     Checklist {
         schema: Checklist::SCHEMA,
-        tool: Tool { name: "equipoise".into(), version: "0.1.0".into() },
+        tool: Tool {
+            name: "equipoise".into(),
+            version: "0.1.0".into(),
+        },
         job: "box".into(),
         model: ModelRow {
             file: "box <&> lid.stl".into(),
@@ -90,7 +119,10 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             contact_gap_mm: 10.0,
             choice: None,
         },
-        promise: Some(PromisedFigure { figure: FigureName::CriticalSpeedRpm, value: speed }),
+        promise: Some(PromisedFigure {
+            figure: FigureName::CriticalSpeedRpm,
+            value: speed,
+        }),
         solid: found.solid.clone(),
         hollowed: found.hollowed.clone(),
         assembly: found.assembly.clone(),
@@ -103,11 +135,19 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             value_before_cleaning: Some(speed),
             cleaning_rounds: vec![],
             bosses_mm3: 0.0,
-            over_heights: Some(HeightProof { pitch_mm: 0.5, value: speed, bound: 0.998 * speed }),
+            over_heights: Some(HeightProof {
+                pitch_mm: 0.5,
+                value: speed,
+                bound: 0.998 * speed,
+            }),
             written_value: Some(speed),
             course: Some(course(speed)),
         },
-        wall: WallRow { required_mm: 3.0, asked_mm: None, measured_min_mm: found.wall_min_mm },
+        wall: WallRow {
+            required_mm: 3.0,
+            asked_mm: None,
+            measured_min_mm: found.wall_min_mm,
+        },
         voids: vec![the_void()],
         cuts: vec![CutRow {
             id: "C1".into(),
@@ -115,7 +155,13 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             normal: [0.0, 0.0, 1.0],
             within: Vec::new(),
         }],
-        parts: evidence.promise.parts.iter().zip(&found.parts).map(part).collect(),
+        parts: evidence
+            .promise
+            .parts
+            .iter()
+            .zip(&found.parts)
+            .map(part)
+            .collect(),
         joints: vec![joint()],
         grid: vec![grid_row()],
         hardware: vec![],
@@ -136,15 +182,27 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         notes: vec![],
         files: Default::default(),
         timing_s: Some(Timing(vec![("load".into(), 0.25), ("judge".into(), 0.5)])),
-        log: vec![LogRow { phase: "newton".into(), figures: [("gap_ratio".to_owned(), 1e-9)].into() }],
+        log: vec![LogRow {
+            phase: "newton".into(),
+            figures: [("gap_ratio".to_owned(), 1e-9)].into(),
+        }],
     }
 }
 
 /// Three passes to a speed, and the speeds about its height.
 fn course(speed: f64) -> Course {
-    let pass = |share: f64| PassRow { value: speed * (1.0 + share), bound: speed * (1.0 - share) };
-    let at = |height_mm: f64| SpeedRow { height_mm, critical_speed_rpm: speed + (height_mm - 16.0).powi(2) };
-    Course { passes: [0.5, 0.1, 0.0].map(pass).into(), speeds: [12.0, 16.0, 20.0].map(at).into() }
+    let pass = |share: f64| PassRow {
+        value: speed * (1.0 + share),
+        bound: speed * (1.0 - share),
+    };
+    let at = |height_mm: f64| SpeedRow {
+        height_mm,
+        critical_speed_rpm: speed + (height_mm - 16.0).powi(2),
+    };
+    Course {
+        passes: [0.5, 0.1, 0.0].map(pass).into(),
+        speeds: [12.0, 16.0, 20.0].map(at).into(),
+    }
 }
 
 fn printer() -> PrinterRow {

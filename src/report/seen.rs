@@ -32,18 +32,28 @@ impl Seen {
             .nearness_mm
             .iter()
             .filter(|near| near.is_finite())
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), near| (low.min(*near), high.max(*near)));
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), near| {
+                (low.min(*near), high.max(*near))
+            });
         let at = y.max(0.0) as usize * self.width + (x.max(0.0) as usize).min(self.width - 1);
-        self.nearness_mm.get(at).is_none_or(|near| nearness_mm >= near - BEHIND_RATIO * (high - low))
+        self.nearness_mm
+            .get(at)
+            .is_none_or(|near| nearness_mm >= near - BEHIND_RATIO * (high - low))
     }
 
     /// How many pixels every pixel of an item is from what is not the item, in steps along rows, columns and diagonals, by a
     /// pass down and one up (Rosenfeld and Pfaltz, "Sequential operations in digital picture processing", 1966).
     fn depths_of(&self, item: u32) -> Vec<u32> {
         let width = self.width;
-        let mut depths: Vec<u32> = self.items.iter().map(|seen| u32::from(*seen == Some(item))).collect();
+        let mut depths: Vec<u32> = self
+            .items
+            .iter()
+            .map(|seen| u32::from(*seen == Some(item)))
+            .collect();
         let count = depths.len();
-        let of = |depths: &[u32], at: Option<usize>| at.and_then(|at| depths.get(at).copied()).unwrap_or(0);
+        let of = |depths: &[u32], at: Option<usize>| {
+            at.and_then(|at| depths.get(at).copied()).unwrap_or(0)
+        };
         for at in 0..count {
             let near = [
                 at.checked_sub(1),
@@ -51,11 +61,19 @@ impl Seen {
                 at.checked_sub(width + 1),
                 at.checked_sub(width - 1),
             ];
-            depths[at] *= 1 + near.map(|next| of(&depths, next)).into_iter().min().unwrap_or(0);
+            depths[at] *= 1 + near
+                .map(|next| of(&depths, next))
+                .into_iter()
+                .min()
+                .unwrap_or(0);
         }
         for at in (0..count).rev() {
             let near = [at + 1, at + width, at + width + 1, at + width - 1];
-            let more = 1 + near.map(|next| of(&depths, Some(next))).into_iter().min().unwrap_or(0);
+            let more = 1 + near
+                .map(|next| of(&depths, Some(next)))
+                .into_iter()
+                .min()
+                .unwrap_or(0);
             depths[at] = depths[at].min(more);
         }
         depths
@@ -68,10 +86,20 @@ mod tests {
 
     /// A picture of letters: every letter an item, dots paper.
     fn seen(rows: &[&str]) -> Seen {
-        let items: Vec<Option<u32>> =
-            rows.concat().bytes().map(|b| b.checked_sub(b'a').map(u32::from)).collect();
-        let nearness_mm = items.iter().map(|item| item.map_or(f64::NEG_INFINITY, f64::from)).collect();
-        Seen { width: rows[0].len(), items, nearness_mm }
+        let items: Vec<Option<u32>> = rows
+            .concat()
+            .bytes()
+            .map(|b| b.checked_sub(b'a').map(u32::from))
+            .collect();
+        let nearness_mm = items
+            .iter()
+            .map(|item| item.map_or(f64::NEG_INFINITY, f64::from))
+            .collect();
+        Seen {
+            width: rows[0].len(),
+            items,
+            nearness_mm,
+        }
     }
 
     #[test]
@@ -95,6 +123,9 @@ mod tests {
     fn what_lies_behind_another_thing_is_not_shown() {
         let picture = seen(&["...", ".b.", ".a."]);
         assert!(picture.shows([1.5, 1.5], 1.0) && !picture.shows([1.5, 1.5], 0.5));
-        assert!(picture.shows([0.5, 0.5], -9.0), "nothing is in front of paper");
+        assert!(
+            picture.shows([0.5, 0.5], -9.0),
+            "nothing is in front of paper"
+        );
     }
 }

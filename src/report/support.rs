@@ -35,27 +35,46 @@ impl SupportRow {
         let areas = [
             ("outside", self.outside_mm2),
             ("in the open hollow", self.hollow_mm2),
-            ("on cut faces and pins, where every rest of it must be cut off flush", self.cut_face_mm2),
+            (
+                "on cut faces and pins, where every rest of it must be cut off flush",
+                self.cut_face_mm2,
+            ),
         ];
         let areas = areas.into_iter().filter(|(_, mm2)| *mm2 > 0.0);
-        let areas: Vec<String> =
-            areas.map(|(place, mm2)| format!("{} {place}", quantity(mm2 / MM2_PER_CM2, "cm²"))).collect();
-        let areas = if areas.is_empty() { "no more than points".to_owned() } else { areas.join(", ") };
-        let lowest = if self.from_mm < ON_PLATE_MM { 0.0 } else { self.from_mm };
+        let areas: Vec<String> = areas
+            .map(|(place, mm2)| format!("{} {place}", quantity(mm2 / MM2_PER_CM2, "cm²")))
+            .collect();
+        let areas = if areas.is_empty() {
+            "no more than points".to_owned()
+        } else {
+            areas.join(", ")
+        };
+        let lowest = if self.from_mm < ON_PLATE_MM {
+            0.0
+        } else {
+            self.from_mm
+        };
         let [from, to] = [lowest, self.to_mm].map(|mm| quantity(mm, "mm"));
-        format!("on, under {} from {from} to {to} over the plate: {areas}", counted(self.places, "place"))
+        format!(
+            "on, under {} from {from} to {to} over the plate: {areas}",
+            counted(self.places, "place")
+        )
     }
 }
 
 /// What is told of a part's support behind its name; nothing where it is not known by the part.
 pub(super) fn of_part(part: &PartRow) -> Option<String> {
-    part.support.map(|support| format!("Support {}.", support.words()))
+    part.support
+        .map(|support| format!("Support {}.", support.words()))
 }
 
 /// Where support belongs, for the whole job.
 pub(super) fn of_all(sheet: &Checklist) -> String {
-    let known: Option<Vec<usize>> =
-        sheet.parts.iter().map(|part| part.support.map(|support| support.places)).collect();
+    let known: Option<Vec<usize>> = sheet
+        .parts
+        .iter()
+        .map(|part| part.support.map(|support| support.places))
+        .collect();
     match known {
         Some(places) if places.iter().all(|&count| count == 0) => {
             "off for every part: nothing hangs in the air as they lie.".to_owned()
@@ -73,7 +92,10 @@ pub(super) fn of_all(sheet: &Checklist) -> String {
 
 /// Where support belongs by the process alone.
 fn by_process(sheet: &Checklist) -> &'static str {
-    match (sheet.printer.support.as_str(), sheet.printer.process.as_str()) {
+    match (
+        sheet.printer.support.as_str(),
+        sheet.printer.process.as_str(),
+    ) {
         ("none", _) => "none; the powder holds every part.",
         ("breakaway", "sla") => {
             "on, outside and under what overhangs in an open hollow; none on cut faces, pins and sockets. It comes out in the next step."
@@ -95,11 +117,22 @@ mod tests {
         let mut sheet = sample().0;
         let process = of_all(&sheet);
         assert!(process.contains("as the machine lays it") && of_part(&sheet.parts[0]).is_none());
-        sheet.parts.iter_mut().for_each(|part| part.support = Some(SupportRow::default()));
+        sheet
+            .parts
+            .iter_mut()
+            .for_each(|part| part.support = Some(SupportRow::default()));
         assert!(of_all(&sheet).starts_with("off for every part"));
-        assert_eq!(of_part(&sheet.parts[0]).unwrap(), "Support off, nothing hangs in the air.");
-        let hangs =
-            SupportRow { places: 2, hollow_mm2: 150.0, from_mm: 3.0, to_mm: 8.0, ..SupportRow::default() };
+        assert_eq!(
+            of_part(&sheet.parts[0]).unwrap(),
+            "Support off, nothing hangs in the air."
+        );
+        let hangs = SupportRow {
+            places: 2,
+            hollow_mm2: 150.0,
+            from_mm: 3.0,
+            to_mm: 8.0,
+            ..SupportRow::default()
+        };
         sheet.parts[0].support = Some(hangs);
         assert!(of_all(&sheet).contains("on for some parts"));
         let told = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
@@ -107,7 +140,10 @@ mod tests {
             told,
             "Support on, under 2 places from 3 mm to 8 mm over the plate: 1.5 cm² in the open hollow."
         );
-        sheet.parts.iter_mut().for_each(|part| part.support = Some(hangs));
+        sheet
+            .parts
+            .iter_mut()
+            .for_each(|part| part.support = Some(hangs));
         assert!(of_all(&sheet).starts_with("on for every part"));
     }
 }

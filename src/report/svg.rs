@@ -35,15 +35,35 @@ pub struct Stroke {
 
 impl Stroke {
     /// A whole thin line in ink.
-    pub const THIN: Self = Self { color: INK, width: 1.5, dashes: "" };
+    pub const THIN: Self = Self {
+        color: INK,
+        width: 1.5,
+        dashes: "",
+    };
     /// A whole thick line in ink.
-    pub const THICK: Self = Self { color: INK, width: 3.0, dashes: "" };
+    pub const THICK: Self = Self {
+        color: INK,
+        width: 3.0,
+        dashes: "",
+    };
     /// A hidden line or an explosion line.
-    pub const DASHED: Self = Self { color: INK, width: 1.5, dashes: "7 5" };
+    pub const DASHED: Self = Self {
+        color: INK,
+        width: 1.5,
+        dashes: "7 5",
+    };
     /// An axis.
-    pub const DASH_DOT: Self = Self { color: INK, width: 1.5, dashes: "16 5 3 5" };
+    pub const DASH_DOT: Self = Self {
+        color: INK,
+        width: 1.5,
+        dashes: "16 5 3 5",
+    };
     /// No line.
-    pub const NONE: Self = Self { color: INK, width: 0.0, dashes: "" };
+    pub const NONE: Self = Self {
+        color: INK,
+        width: 0.0,
+        dashes: "",
+    };
 
     fn attributes(&self) -> String {
         if self.width == 0.0 {
@@ -54,7 +74,11 @@ impl Stroke {
         } else {
             format!(" stroke-dasharray=\"{}\"", self.dashes)
         };
-        format!("stroke=\"{}\" stroke-width=\"{}\"{dashes}", hex(self.color), self.width)
+        format!(
+            "stroke=\"{}\" stroke-width=\"{}\"{dashes}",
+            hex(self.color),
+            self.width
+        )
     }
 }
 
@@ -74,7 +98,12 @@ pub struct Mark {
 impl Mark {
     /// A name for what is seen at a spot.
     pub fn new(at: Spot, words: String) -> Self {
-        Self { at, words, radius_px: 0.0, is_hidden: false }
+        Self {
+            at,
+            words,
+            radius_px: 0.0,
+            is_hidden: false,
+        }
     }
 
     /// Where a line from `start` ends: at its rim.
@@ -107,7 +136,11 @@ pub struct Drawing {
 impl Drawing {
     /// An empty drawing whose words are `text_px` high.
     pub fn new(size_px: [usize; 2], text_px: f64) -> Self {
-        Self { size_px, text_px, body: String::new() }
+        Self {
+            size_px,
+            text_px,
+            body: String::new(),
+        }
     }
 
     /// Width and height, pixels.
@@ -134,11 +167,22 @@ impl Drawing {
     }
 
     /// Adds lines through spots, closed or not, filled by the even-odd rule.
-    pub fn path(&mut self, lines: &[Vec<Spot>], is_closed: bool, (fill, stroke): (Option<&str>, Stroke)) {
+    pub fn path(
+        &mut self,
+        lines: &[Vec<Spot>],
+        is_closed: bool,
+        (fill, stroke): (Option<&str>, Stroke),
+    ) {
         let mut data = String::new();
         for line in lines {
             for (index, [x, y]) in line.iter().enumerate() {
-                let _ = write!(data, "{}{} {}", if index == 0 { 'M' } else { 'L' }, short(*x), short(*y));
+                let _ = write!(
+                    data,
+                    "{}{} {}",
+                    if index == 0 { 'M' } else { 'L' },
+                    short(*x),
+                    short(*y)
+                );
             }
             data.push_str(if is_closed { "Z" } else { "" });
         }
@@ -184,7 +228,10 @@ impl Drawing {
         for (end, spot) in [(from, a), (to, b)] {
             self.line(
                 [spot, [end[0] + 0.15 * aside[0], end[1] + 0.15 * aside[1]]],
-                Stroke { width: 0.8, ..Stroke::THIN },
+                Stroke {
+                    width: 0.8,
+                    ..Stroke::THIN
+                },
             );
         }
         self.line([from, to], Stroke::THIN);
@@ -210,12 +257,21 @@ impl Drawing {
     /// Adds words at the left and right edges, each with a line to what it names, in the order of their heights.
     pub fn callouts(&mut self, marks: &[Mark]) {
         let [width, height] = self.size_px();
-        for (edge, anchor, is_left) in [(8.0, Anchor::Start, true), (width - 8.0, Anchor::End, false)] {
-            let mut side: Vec<&Mark> =
-                marks.iter().filter(|mark| (mark.at[0] < 0.5 * width) == is_left).collect();
+        for (edge, anchor, is_left) in [
+            (8.0, Anchor::Start, true),
+            (width - 8.0, Anchor::End, false),
+        ] {
+            let mut side: Vec<&Mark> = marks
+                .iter()
+                .filter(|mark| (mark.at[0] < 0.5 * width) == is_left)
+                .collect();
             side.sort_by(|a, b| a.at[1].total_cmp(&b.at[1]));
             let wanted: Vec<f64> = side.iter().map(|mark| mark.at[1]).collect();
-            let heights = spread(&wanted, 1.35 * self.text_px, [self.text_px, height - self.text_px]);
+            let heights = spread(
+                &wanted,
+                1.35 * self.text_px,
+                [self.text_px, height - self.text_px],
+            );
             for (mark, y) in side.into_iter().zip(heights) {
                 let reach = 0.62 * self.text_px * mark.words.chars().count() as f64;
                 self.leader([if is_left { edge + reach } else { edge - reach }, y], mark);
@@ -227,10 +283,28 @@ impl Drawing {
     /// Adds the line from words to what they name, on a rim of paper so that it is seen on anything.
     fn leader(&mut self, start: Spot, mark: &Mark) {
         let end = mark.end_from(start);
-        self.line([start, end], Stroke { color: PAPER, width: 5.0, dashes: "" });
-        self.line([start, end], if mark.is_hidden { Stroke::DASHED } else { Stroke::THIN });
+        self.line(
+            [start, end],
+            Stroke {
+                color: PAPER,
+                width: 5.0,
+                dashes: "",
+            },
+        );
+        self.line(
+            [start, end],
+            if mark.is_hidden {
+                Stroke::DASHED
+            } else {
+                Stroke::THIN
+            },
+        );
         let fill = hex(if mark.is_hidden { PAPER } else { INK });
-        let rim = Stroke { color: if mark.is_hidden { INK } else { PAPER }, width: 1.5, dashes: "" };
+        let rim = Stroke {
+            color: if mark.is_hidden { INK } else { PAPER },
+            width: 1.5,
+            dashes: "",
+        };
         if mark.radius_px == 0.0 {
             self.circle(end, DOT_PX, (Some(&fill), rim));
         }
@@ -238,8 +312,21 @@ impl Drawing {
 
     /// Adds a dashed line that is seen on dark colours too.
     pub fn dashed(&mut self, ends: [Spot; 2]) {
-        self.line(ends, Stroke { color: PAPER, width: 4.5, dashes: "" });
-        self.line(ends, Stroke { width: 2.0, ..Stroke::DASHED });
+        self.line(
+            ends,
+            Stroke {
+                color: PAPER,
+                width: 4.5,
+                dashes: "",
+            },
+        );
+        self.line(
+            ends,
+            Stroke {
+                width: 2.0,
+                ..Stroke::DASHED
+            },
+        );
     }
 
     /// Adds SVG as it is.
@@ -287,12 +374,19 @@ fn spread(wanted: &[f64], gap: f64, [low, high]: [f64; 2]) -> Vec<f64> {
 pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.2}");
     let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    if text == "-0" {
+        "0".to_owned()
+    } else {
+        text.to_owned()
+    }
 }
 
 /// Text between tags and quotes.
 pub(super) fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+        .replace('"', "&quot;")
 }
 
 #[cfg(test)]
@@ -301,7 +395,10 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_zero_has_no_sign() {
-        assert_eq!([1.0, 2.5, -0.001, 1.0 / 3.0].map(short), ["1", "2.5", "0", "0.33"]);
+        assert_eq!(
+            [1.0, 2.5, -0.001, 1.0 / 3.0].map(short),
+            ["1", "2.5", "0", "0.33"]
+        );
     }
 
     #[test]
@@ -312,7 +409,10 @@ mod tests {
 
     #[test]
     fn a_line_to_a_circle_ends_at_its_rim_and_leaves_it_free() {
-        let pin = Mark { radius_px: 5.0, ..Mark::new([10.0, 20.0], "N1".to_owned()) };
+        let pin = Mark {
+            radius_px: 5.0,
+            ..Mark::new([10.0, 20.0], "N1".to_owned())
+        };
         assert_eq!(pin.end_from([40.0, 60.0]), [13.0, 24.0]);
         let mut drawing = Drawing::new([100, 100], 5.0);
         drawing.callouts(&[pin]);

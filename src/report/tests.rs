@@ -17,14 +17,21 @@ fn the_judge_finds_its_promises_in_the_checklist() {
     let (sheet, evidence) = sample();
     let promise: Promise = serde_json::from_str(&sheet.to_json().unwrap()).unwrap();
     assert_eq!(promise.goal, evidence.promise.goal);
-    assert_eq!(promise.parts[1].print_from_model, evidence.promise.parts[1].print_from_model);
+    assert_eq!(
+        promise.parts[1].print_from_model,
+        evidence.promise.parts[1].print_from_model
+    );
     assert_eq!(promise.printer, evidence.promise.printer);
 }
 
 #[test]
 fn the_keys_of_the_contract_are_there() {
     let value: serde_json::Value = serde_json::from_str(&sample().0.to_json().unwrap()).unwrap();
-    let at = |path: &str| value.pointer(path).unwrap_or_else(|| panic!("{path} is missing"));
+    let at = |path: &str| {
+        value
+            .pointer(path)
+            .unwrap_or_else(|| panic!("{path} is missing"))
+    };
     assert_eq!(at("/schema"), 1);
     for path in [
         "/tool/version",
@@ -69,7 +76,10 @@ fn a_number_that_is_not_finite_is_refused_by_its_key() {
         sheet.to_json().unwrap_err().to_string()
     };
     assert!(refuse(|sheet| sheet.certificate.bound = f64::NAN).contains("`bound`"));
-    assert!(refuse(|sheet| sheet.wall.measured_min_mm = Some(f64::INFINITY)).contains("`measured_min_mm`"));
+    assert!(
+        refuse(|sheet| sheet.wall.measured_min_mm = Some(f64::INFINITY))
+            .contains("`measured_min_mm`")
+    );
     assert!(refuse(|sheet| sheet.model.size_mm[1] = f64::NEG_INFINITY).contains("`size_mm`"));
 }
 
@@ -82,7 +92,12 @@ fn a_kit_keeps_no_times() {
 /// The page of a sheet with every picture and the view.
 fn whole_page(sheet: &Checklist, evidence: &crate::verify::Evidence) -> String {
     let (pictures, view) = sample_pictures(sheet, evidence);
-    page(&Papers { sheet, sha256: &"0123456789abcdef".repeat(4), pictures: &pictures, view: Some(&view) })
+    page(&Papers {
+        sheet,
+        sha256: &"0123456789abcdef".repeat(4),
+        pictures: &pictures,
+        view: Some(&view),
+    })
 }
 
 #[test]
@@ -91,9 +106,17 @@ fn the_page_stands_alone_and_escapes_what_it_is_given() {
     let page = whole_page(&sheet, &evidence);
     // The running header's code is an image in the style, whose language has to be named.
     let own = page.replace("url(\"data:", "").replace("http-equiv", "");
-    for outside in
-        ["http:", "https:", "<script src", "<link", "url(", "@import", "fetch(", "XMLHttpRequest", "import("]
-    {
+    for outside in [
+        "http:",
+        "https:",
+        "<script src",
+        "<link",
+        "url(",
+        "@import",
+        "fetch(",
+        "XMLHttpRequest",
+        "import(",
+    ] {
         assert!(!own.contains(outside), "{outside}");
     }
     assert!(page.contains("default-src 'none'"));
@@ -107,10 +130,17 @@ fn every_picture_and_code_says_in_words_what_it_shows() {
     let (sheet, evidence) = sample();
     let page = whole_page(&sheet, &evidence);
     let count = |mark: &str| page.matches(mark).count();
-    assert_eq!(count("<img "), count("<img src=\"data:image/png;base64,iVBOR"));
+    assert_eq!(
+        count("<img "),
+        count("<img src=\"data:image/png;base64,iVBOR")
+    );
     assert_eq!(count("<svg"), count("role=\"img\" aria-label=\""));
     for picture in sample_pictures(&sheet, &evidence).0 {
-        assert!(picture.alt.len() > 20 && picture.alt != picture.caption, "{}", picture.file);
+        assert!(
+            picture.alt.len() > 20 && picture.alt != picture.caption,
+            "{}",
+            picture.file
+        );
     }
 }
 
@@ -155,8 +185,16 @@ fn a_failed_check_is_the_first_thing_on_the_page() {
     let (mut sheet, _) = sample();
     sheet.checks[0].pass = false;
     sheet.verdict = Verdict::of(&sheet.checks);
-    let page = page(&Papers { sheet: &sheet, sha256: "", pictures: &[], view: None });
-    assert!(!page.contains("<script"), "without a view there is nothing to run");
+    let page = page(&Papers {
+        sheet: &sheet,
+        sha256: "",
+        pictures: &[],
+        view: None,
+    });
+    assert!(
+        !page.contains("<script"),
+        "without a view there is nothing to run"
+    );
     assert!(page.find("do not print").unwrap() < page.find("1. Print").unwrap());
     assert!(page.contains("✗ broken"));
 }
@@ -165,7 +203,10 @@ fn a_failed_check_is_the_first_thing_on_the_page() {
 fn the_pictures_and_the_view_are_the_same_on_one_thread_and_on_four() {
     let (sheet, evidence) = sample();
     let on = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| sample_pictures(&sheet, &evidence))
     };
     let one = on(1);

@@ -41,7 +41,10 @@ pub(super) fn test(sheet: &Checklist) -> Markup {
 /// What to try, with the figures to expect.
 fn test_lines(sheet: &Checklist) -> Vec<String> {
     let size_mm = sheet.finished_size_mm.unwrap_or(sheet.model.size_mm);
-    let size = format!("Measure it over all, along the model's own axes: {}.", extent(&size_mm));
+    let size = format!(
+        "Measure it over all, along the model's own axes: {}.",
+        extent(&size_mm)
+    );
     let own = match sheet.goal.aim.kind {
         GoalKind::Top => top_lines(sheet),
         GoalKind::Yoyo => yoyo_lines(sheet),
@@ -63,7 +66,9 @@ fn hang(place: &str) -> String {
 /// How to try a top: one that falls when it is slow, or one that stands on its foot.
 fn top_lines(sheet: &Checklist) -> Vec<String> {
     let height = quantity(sheet.assembly.center_height_mm, "mm");
-    let hang = hang(&format!("on the spin axis, {height} above the contact point"));
+    let hang = hang(&format!(
+        "on the spin axis, {height} above the contact point"
+    ));
     let rpm = sheet.assembly.critical_speed_rpm;
     let spin: Vec<String> = match sheet.foot {
         Some(foot) => foot_lines(&foot, rpm).collect(),
@@ -87,7 +92,11 @@ fn falling_line(rpm: f64) -> String {
 /// How to try a top that stands on its foot: no fall shows the speed that is promised.
 fn foot_lines(foot: &FootRow, rpm: Option<f64>) -> impl Iterator<Item = String> {
     let tilt = quantity(foot.rights_to_deg, "°");
-    let beyond = if foot.rights_to_deg < MOST_TILT_DEG { "; leaned further it falls over" } else { "" };
+    let beyond = if foot.rights_to_deg < MOST_TILT_DEG {
+        "; leaned further it falls over"
+    } else {
+        ""
+    };
     let rest = format!(
         "Set it on its contact without spinning it: it stands, as its foot is flatter than its centre of mass is high. Leaned by up to {tilt} \
          and let go, it comes back{beyond}."
@@ -131,7 +140,10 @@ fn standing_lines(sheet: &Checklist) -> Vec<String> {
             quantity(BOARD_MM * deg.to_radians().sin(), "mm")
         )
     });
-    [hang(&format!("{height} above the ground"))].into_iter().chain(tilt).collect()
+    [hang(&format!("{height} above the ground"))]
+        .into_iter()
+        .chain(tilt)
+        .collect()
 }
 
 /// How to try what floats.
@@ -157,8 +169,7 @@ fn floating_lines(sheet: &Checklist) -> Vec<String> {
             quantity(afloat.rights_from_deg, "°")
         )
     });
-    let tight =
-        "Held under water for a minute no bubbles rise from the seams, and it weighs as much as before.";
+    let tight = "Held under water for a minute no bubbles rise from the seams, and it weighs as much as before.";
     [tight.to_owned()].into_iter().chain(depth).collect()
 }
 
@@ -170,7 +181,8 @@ fn rotor_lines(sheet: &Checklist) -> Vec<String> {
             quantity(unbalance.end_plane_g_mm, "g·mm")
         )
     });
-    let level = "Laid with its shaft on two level knife edges, it stays however it is turned.".to_owned();
+    let level =
+        "Laid with its shaft on two level knife edges, it stays however it is turned.".to_owned();
     [level].into_iter().chain(residual).collect()
 }
 
@@ -199,12 +211,27 @@ mod tests {
         let (falls, stays) = ("leans over and falls", "does not fall when it is slow");
         let on_a_point = told(None);
         assert!(on_a_point.contains(falls) && !on_a_point.contains(stays));
-        let foot = FootRow { radius_mm: 500.0, center_height_mm: 16.0, rights_to_deg: 45.0 };
+        let foot = FootRow {
+            radius_mm: 500.0,
+            center_height_mm: 16.0,
+            rights_to_deg: 45.0,
+        };
         let on_a_foot = told(Some(foot));
         assert!(
-            !on_a_foot.contains(falls) && on_a_foot.contains(stays) && on_a_foot.contains("45° and let go")
+            !on_a_foot.contains(falls)
+                && on_a_foot.contains(stays)
+                && on_a_foot.contains("45° and let go")
         );
-        assert!(!on_a_foot.contains("leaned further"), "nothing is known beyond 45°");
-        assert!(told(Some(FootRow { rights_to_deg: 7.0, ..foot })).contains("leaned further it falls over"));
+        assert!(
+            !on_a_foot.contains("leaned further"),
+            "nothing is known beyond 45°"
+        );
+        assert!(
+            told(Some(FootRow {
+                rights_to_deg: 7.0,
+                ..foot
+            }))
+            .contains("leaned further it falls over")
+        );
     }
 }

@@ -70,14 +70,22 @@ impl View {
     /// The view of a kit; the same bytes on any number of threads. About 10 µs a triangle of the parts.
     pub fn of(sitting: &Sitting) -> Result<Self, ChecklistError> {
         let items = items(sitting);
-        let bounds =
-            items.iter().map(|item| item.mesh.aabb()).fold(Aabb::EMPTY, |all, next| all.union(&next));
+        let bounds = items
+            .iter()
+            .map(|item| item.mesh.aabb())
+            .fold(Aabb::EMPTY, |all, next| all.union(&next));
         let packed = Packed {
             bounds: [bounds.min, bounds.max].map(|corner| corner.coords.into()),
             items: items.iter().map(|item| packed(item, &bounds)).collect(),
         };
         let packed = serde_json::to_string(&packed)?;
-        Ok(Self { packed, items: items.into_iter().map(|item| (item.name, item.color)).collect() })
+        Ok(Self {
+            packed,
+            items: items
+                .into_iter()
+                .map(|item| (item.name, item.color))
+                .collect(),
+        })
     }
 }
 
@@ -87,7 +95,12 @@ fn items(sitting: &Sitting) -> Vec<Item> {
     let shifts = shifts(&in_place, &sitting.partings());
     let frame = sitting.aim.frame();
     let budget = TRIANGLES / in_place.len().max(1);
-    let parts = sitting.parts.par_iter().zip(&in_place).zip(&shifts).enumerate();
+    let parts = sitting
+        .parts
+        .par_iter()
+        .zip(&in_place)
+        .zip(&shifts)
+        .enumerate();
     let mut items: Vec<Item> = parts
         .map(|(index, ((part, mesh), shift))| Item {
             name: part.id.clone(),
@@ -141,14 +154,17 @@ fn packed(item: &Item, bounds: &Aabb) -> PackedItem {
     let share = |value: f64, low: f64, size: f64| {
         ((value - low) / size.max(f64::MIN_POSITIVE) * STEPS).round() as u16
     };
-    let coordinates =
-        vertices.iter().flat_map(|p| [0, 1, 2].map(|axis| share(p[axis], bounds.min[axis], size[axis])));
+    let coordinates = vertices
+        .iter()
+        .flat_map(|p| [0, 1, 2].map(|axis| share(p[axis], bounds.min[axis], size[axis])));
     let wide = vertices.len() > usize::from(u16::MAX);
     let corners = item.mesh.triangles().iter().flatten();
     let triangles: Vec<u8> = if wide {
         corners.flat_map(|corner| corner.to_le_bytes()).collect()
     } else {
-        corners.flat_map(|corner| (*corner as u16).to_le_bytes()).collect()
+        corners
+            .flat_map(|corner| (*corner as u16).to_le_bytes())
+            .collect()
     };
     PackedItem {
         color: shares(item.color),
@@ -247,6 +263,9 @@ mod tests {
             )
         );
         // 6 bytes a vertex, four letters for three bytes.
-        assert_eq!(packed.vertices.len(), (6 * mesh.vertices().len()).div_ceil(3) * 4);
+        assert_eq!(
+            packed.vertices.len(),
+            (6 * mesh.vertices().len()).div_ceil(3) * 4
+        );
     }
 }

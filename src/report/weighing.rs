@@ -62,17 +62,44 @@ struct Share {
 
 /// Everything the whole is made of; the masses add up to the whole's.
 fn shares(sheet: &Checklist) -> Vec<Share> {
-    let parts = Share { what: "all parts".to_owned(), mass_g: printed_g(sheet) };
-    let hardware = sheet.hardware.iter().map(|piece| (format!("{}, {}", piece.id, piece.what), piece.mass_g));
-    let ballast = sheet.ballast.iter().map(|row| (row.order.id.clone(), row.order.lump.mass_g));
+    let parts = Share {
+        what: "all parts".to_owned(),
+        mass_g: printed_g(sheet),
+    };
+    let hardware = sheet
+        .hardware
+        .iter()
+        .map(|piece| (format!("{}, {}", piece.id, piece.what), piece.mass_g));
+    let ballast = sheet
+        .ballast
+        .iter()
+        .map(|row| (row.order.id.clone(), row.order.lump.mass_g));
     let dowels = sheet.dowels.iter().map(|dowel| dowel.mass_g).sum();
-    let glue = sheet.joints.iter().filter_map(|joint| joint.glue).map(|film| film.mass_g).sum();
-    let voids_cm3 = sheet.voids.iter().map(|void| void.volume_mm3 / MM3_PER_CM3).sum::<f64>();
-    let filling = sheet.fill.map_or(0.0, |fill| fill.density_g_cm3 * voids_cm3);
+    let glue = sheet
+        .joints
+        .iter()
+        .filter_map(|joint| joint.glue)
+        .map(|film| film.mass_g)
+        .sum();
+    let voids_cm3 = sheet
+        .voids
+        .iter()
+        .map(|void| void.volume_mm3 / MM3_PER_CM3)
+        .sum::<f64>();
+    let filling = sheet
+        .fill
+        .map_or(0.0, |fill| fill.density_g_cm3 * voids_cm3);
     let lots = [("dowels", dowels), ("glue", glue), ("filling", filling)];
-    let lots = lots.into_iter().map(|(what, mass_g)| (what.to_owned(), mass_g));
-    let more = hardware.chain(ballast).chain(lots).filter(|(_, mass_g)| *mass_g > 0.0);
-    std::iter::once(parts).chain(more.map(|(what, mass_g)| Share { what, mass_g })).collect()
+    let lots = lots
+        .into_iter()
+        .map(|(what, mass_g)| (what.to_owned(), mass_g));
+    let more = hardware
+        .chain(ballast)
+        .chain(lots)
+        .filter(|(_, mass_g)| *mass_g > 0.0);
+    std::iter::once(parts)
+        .chain(more.map(|(what, mass_g)| Share { what, mass_g }))
+        .collect()
 }
 
 /// The whole on the scales, with what each kind of thing adds to it.
@@ -102,7 +129,11 @@ fn all_together(sheet: &Checklist) -> &'static str {
 
 /// The mass of everything, with the window that the print's density and the pieces of ballast leave.
 fn whole_mass(sheet: &Checklist) -> Markup {
-    let spread_g: f64 = sheet.ballast.iter().map(|row| row.order.lump.mass_g * row.mass_spread_ratio).sum();
+    let spread_g: f64 = sheet
+        .ballast
+        .iter()
+        .map(|row| row.order.lump.mass_g * row.mass_spread_ratio)
+        .sum();
     let mass_g = sheet.assembly.mass_g;
     match sheet.material.density_spread_ratio {
         // A filling is as heavy as it was mixed: its own spread is not known here.
@@ -129,9 +160,12 @@ mod tests {
 
     #[test]
     fn only_powder_processes_speak_of_powder_and_only_resin_of_resin() {
-        for (process, left) in
-            [("fdm", "support"), ("sla", "resin or support"), ("sls", "powder"), ("polyjet", "support")]
-        {
+        for (process, left) in [
+            ("fdm", "support"),
+            ("sla", "resin or support"),
+            ("sls", "powder"),
+            ("polyjet", "support"),
+        ] {
             assert_eq!(left_inside(process), left);
         }
     }

@@ -22,7 +22,11 @@ pub fn number(value: f64) -> String {
     }
     let decimals = (SIGNIFICANT_DIGITS - 1 - value.abs().log10().floor() as i32).max(0);
     let text = format!("{value:.*}", decimals as usize);
-    if decimals == 0 { text } else { text.trim_end_matches('0').trim_end_matches('.').to_owned() }
+    if decimals == 0 {
+        text
+    } else {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    }
 }
 
 /// A number with its unit: `12.35 mm`, `3.251°`, `0.7974`.
@@ -46,7 +50,13 @@ pub fn extent(size_mm: &[f64; 3]) -> String {
 
 /// The coordinates of a point in mm, or of a direction, with what is below a thousandth as zero: `(0.1349, 55.76, 0)`.
 pub fn coordinates(at: &[f64; 3]) -> String {
-    let shown = |value: f64| if value.abs() < SMALL { number(0.0) } else { number(value) };
+    let shown = |value: f64| {
+        if value.abs() < SMALL {
+            number(0.0)
+        } else {
+            number(value)
+        }
+    };
     format!("({})", at.map(shown).join(", "))
 }
 
@@ -56,9 +66,13 @@ pub fn goal(goal: &GoalRow) -> String {
     let best = best(&goal.objective) + &weights(goal);
     match goal.aim.kind {
         GoalKind::Top => {
-            format!("top: spins on its contact point {at}\u{a0}mm about the axis {along}, with {best}")
+            format!(
+                "top: spins on its contact point {at}\u{a0}mm about the axis {along}, with {best}"
+            )
         }
-        GoalKind::Yoyo => format!("yo-yo: spins about the axis {along} through {at}\u{a0}mm, with {best}"),
+        GoalKind::Yoyo => {
+            format!("yo-yo: spins about the axis {along} through {at}\u{a0}mm, with {best}")
+        }
         GoalKind::Stand => {
             format!("standing: {along} is up, the middle of its support {at}\u{a0}mm, with {best}")
         }
@@ -72,7 +86,10 @@ pub fn goal(goal: &GoalRow) -> String {
         ),
         GoalKind::Balance => format!(
             "rotor: turns about the axis {along} through {at}\u{a0}mm{}, with {best}",
-            goal.aim.rotor.map_or(String::new(), |order| format!(" at {}", quantity(order.speed_rpm, "rpm")))
+            goal.aim.rotor.map_or(String::new(), |order| format!(
+                " at {}",
+                quantity(order.speed_rpm, "rpm")
+            ))
         ),
     }
 }
@@ -103,7 +120,12 @@ fn best(objective: &str) -> String {
 /// What the finished object does, in one sentence with its figure.
 pub fn promise(sheet: &Checklist) -> String {
     let body = &sheet.assembly;
-    match (sheet.goal.aim.kind, body.critical_speed_rpm, body.topples_deg, body.dominance_ratio) {
+    match (
+        sheet.goal.aim.kind,
+        body.critical_speed_rpm,
+        body.topples_deg,
+        body.dominance_ratio,
+    ) {
         (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
         (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
         (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
@@ -138,7 +160,11 @@ fn floats(sheet: &Checklist) -> String {
 /// How true a rotor runs, before and after.
 fn runs_true(sheet: &Checklist) -> String {
     let grade = |body: &Figures| body.unbalance.map(|unbalance| number(unbalance.grade_mm_s));
-    match (sheet.goal.aim.rotor, grade(&sheet.solid), grade(&sheet.assembly)) {
+    match (
+        sheet.goal.aim.rotor,
+        grade(&sheet.solid),
+        grade(&sheet.assembly),
+    ) {
         (Some(order), Some(solid), Some(written)) => format!(
             "Balanced to G\u{a0}{written} at {}; solid it is G\u{a0}{solid}.",
             quantity(order.speed_rpm, "rpm")
@@ -151,13 +177,21 @@ fn runs_true(sheet: &Checklist) -> String {
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
     let is_top = sheet.goal.aim.kind == GoalKind::Top;
-    let better = if proof.figure.more_is_better() { "higher" } else { "lower" };
+    let better = if proof.figure.more_is_better() {
+        "higher"
+    } else {
+        "lower"
+    };
     let mut words = vec![
         format!(
             "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
             kept_solid(proof),
-            if is_top { " and its centre of mass at this height" } else { "" },
+            if is_top {
+                " and its centre of mass at this height"
+            } else {
+                ""
+            },
             proof.figure.name(),
             quantity(proof.bound, unit)
         ),
@@ -184,25 +218,40 @@ pub fn wall(wall: &WallRow) -> String {
     let given = quantity(wall.required_mm, "mm");
     let ordered = match wall.asked_mm {
         Some(asked_mm) if (asked_mm - wall.required_mm).abs() > SMALL * asked_mm => {
-            format!("{} ordered, {given} as the printer gives it", quantity(asked_mm, "mm"))
+            format!(
+                "{} ordered, {given} as the printer gives it",
+                quantity(asked_mm, "mm")
+            )
         }
         Some(_) => format!("{given} ordered"),
         None => format!("{given}, the least this printer makes"),
     };
     let measured = quantity_or_dash(wall.measured_min_mm, "mm");
-    format!("{ordered}; thinnest measured {measured}, where 1 % less than the wall is allowed for facets")
+    format!(
+        "{ordered}; thinnest measured {measured}, where 1 % less than the wall is allowed for facets"
+    )
 }
 
 /// What the proof takes as solid besides the wall.
 fn kept_solid(proof: &Certificate) -> String {
     let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
     let reasons = [
-        (proof.kept_solid_mm3 > 0.0, "where voids could not be cleaned"),
+        (
+            proof.kept_solid_mm3 > 0.0,
+            "where voids could not be cleaned",
+        ),
         (by_plan, "where the plan keeps it so"),
         (proof.bosses_mm3 > 0.0, "in bosses around pins"),
     ];
-    let said: Vec<&str> = reasons.into_iter().filter_map(|(is_so, words)| is_so.then_some(words)).collect();
-    if said.is_empty() { String::new() } else { format!(", solid {},", said.join(" and ")) }
+    let said: Vec<&str> = reasons
+        .into_iter()
+        .filter_map(|(is_so, words)| is_so.then_some(words))
+        .collect();
+    if said.is_empty() {
+        String::new()
+    } else {
+        format!(", solid {},", said.join(" and "))
+    }
 }
 
 /// What is known of a top's centre of mass at other heights.
@@ -230,7 +279,11 @@ fn gap(ratio: f64) -> String {
 
 /// The share of the best possible that was reached, 1 at the bound.
 fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
-    if proof.figure.more_is_better() { written / proof.bound } else { proof.bound / written }
+    if proof.figure.more_is_better() {
+        written / proof.bound
+    } else {
+        proof.bound / written
+    }
 }
 
 #[cfg(test)]
@@ -240,15 +293,24 @@ mod tests {
 
     #[test]
     fn numbers_have_four_digits_and_small_ones_a_power_of_ten() {
-        let shown = [1234.5, 12.345_67, 0.004_216, 100.0, -0.5, 1.5e-7, -0.0, 123_456.7].map(number);
-        assert_eq!(shown, ["1234", "12.35", "0.004216", "100", "-0.5", "1.5e-7", "0", "123457"]);
+        let shown = [
+            1234.5, 12.345_67, 0.004_216, 100.0, -0.5, 1.5e-7, -0.0, 123_456.7,
+        ]
+        .map(number);
+        assert_eq!(
+            shown,
+            [
+                "1234", "12.35", "0.004216", "100", "-0.5", "1.5e-7", "0", "123457"
+            ]
+        );
     }
 
     #[test]
     fn the_proof_says_that_it_holds_with_solid_places_where_there_are_any() {
         let (mut sheet, _) = crate::report::sample::sample();
-        let is_said =
-            |sheet: &Checklist| certificate(sheet)[0].contains("solid where voids could not be cleaned");
+        let is_said = |sheet: &Checklist| {
+            certificate(sheet)[0].contains("solid where voids could not be cleaned")
+        };
         assert!(!is_said(&sheet));
         sheet.certificate.kept_solid_mm3 = 12.0;
         assert!(is_said(&sheet));
@@ -263,13 +325,23 @@ mod tests {
             by_plan: true,
         };
         sheet.certificate.cleaning_rounds.push(round);
-        assert!(certificate(&sheet)[0].contains("cleaned and where the plan keeps it so and in bosses"));
+        assert!(
+            certificate(&sheet)[0].contains("cleaned and where the plan keeps it so and in bosses")
+        );
     }
 
     #[test]
     fn a_wall_is_told_as_it_was_ordered_and_as_the_printer_gives_it() {
-        let told = |asked_mm| wall(&WallRow { required_mm: 1.016, asked_mm, measured_min_mm: Some(1.01) });
-        assert!(told(Some(1.0)).starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer gives it"));
+        let told = |asked_mm| {
+            wall(&WallRow {
+                required_mm: 1.016,
+                asked_mm,
+                measured_min_mm: Some(1.01),
+            })
+        };
+        assert!(
+            told(Some(1.0)).starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer gives it")
+        );
         assert!(told(Some(1.016)).starts_with("1.016\u{a0}mm ordered; thinnest"));
         assert!(told(None).contains("the least this printer makes"));
     }

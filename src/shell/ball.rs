@@ -28,14 +28,22 @@ impl Ball {
     pub fn into_piece_over(self, offsets: &[Vector], margin_mm: f64) -> Piece {
         let hull: Vec<Point> = offsets.iter().map(|offset| self.center + offset).collect();
         let z_min_mm = self.center.z - self.radius;
-        Piece::new(Footprint::of_points(&hull, margin_mm), z_min_mm, Shape::Ball(self))
+        Piece::new(
+            Footprint::of_points(&hull, margin_mm),
+            z_min_mm,
+            Shape::Ball(self),
+        )
     }
 
     /// The ball cut by the row at `y_mm`.
     pub fn on_row(&self, y_mm: f64) -> RowForm {
         let dy = y_mm - self.center.y;
         let squared_reach = self.radius * self.radius - dy * dy;
-        RowForm::Ball(BallRow { x: self.center.x, z: self.center.z, squared_reach })
+        RowForm::Ball(BallRow {
+            x: self.center.x,
+            z: self.center.z,
+            squared_reach,
+        })
     }
 }
 
@@ -64,9 +72,13 @@ mod tests {
     fn a_column_off_the_centre_meets_a_ball_in_the_chord_of_pythagoras_and_beside_it_not_at_all() {
         let piece = Ball::new(Point::new(1.0, 2.0, 3.0), 5.0).into_piece(0.0);
         assert_eq!((piece.y_range_mm(), piece.z_min_mm()), ([-3.0, 7.0], -2.0));
-        let Some((x_range, RowForm::Ball(row))) = piece.on_row(2.0) else { panic!("a ball") };
+        let Some((x_range, RowForm::Ball(row))) = piece.on_row(2.0) else {
+            panic!("a ball")
+        };
         assert_eq!((x_range, row.stretch(4.0)), ([-4.0, 6.0], [-1.0, 7.0]));
-        let Some((_, RowForm::Ball(row))) = piece.on_row(5.0) else { panic!("a ball") };
+        let Some((_, RowForm::Ball(row))) = piece.on_row(5.0) else {
+            panic!("a ball")
+        };
         assert_eq!(row.stretch(1.0), [-1.0, 7.0]);
         assert!(row.stretch(5.5).iter().all(|z| z.is_nan()));
         assert_eq!(piece.on_row(8.0), None);

@@ -19,7 +19,10 @@ impl Bins {
     {
         let blocks_of = |range| blocks_of(rows.range(range), rows_per_block);
         let mut starts = vec![0; rows.len().div_ceil(rows_per_block) + 1];
-        ranges.clone().flat_map(blocks_of).for_each(|block| starts[block + 1] += 1);
+        ranges
+            .clone()
+            .flat_map(blocks_of)
+            .for_each(|block| starts[block + 1] += 1);
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut ends = starts.clone();
         let mut members = vec![0; ends[ends.len() - 1]];
@@ -40,7 +43,11 @@ impl Bins {
 
 /// The blocks that hold these rows.
 fn blocks_of(rows: Range<usize>, rows_per_block: usize) -> Range<usize> {
-    if rows.is_empty() { 0..0 } else { rows.start / rows_per_block..(rows.end - 1) / rows_per_block + 1 }
+    if rows.is_empty() {
+        0..0
+    } else {
+        rows.start / rows_per_block..(rows.end - 1) / rows_per_block + 1
+    }
 }
 
 #[cfg(test)]
@@ -50,7 +57,13 @@ mod tests {
     #[test]
     fn a_thing_is_in_every_block_it_reaches_into_and_in_no_other() {
         let rows = Ruler::covering([0.0, 10.0], 1.0, 0.5);
-        let ranges = [[0.0, 10.0], [3.6, 4.4], [5.0, 6.0], [-3.0, 0.6], [20.0, 30.0]];
+        let ranges = [
+            [0.0, 10.0],
+            [3.6, 4.4],
+            [5.0, 6.0],
+            [-3.0, 0.6],
+            [20.0, 30.0],
+        ];
         let bins = Bins::of_ranges(ranges.into_iter(), &rows, 4);
         assert_eq!(bins.of(0), [0, 3]);
         assert_eq!(bins.of(1), [0, 2]);

@@ -31,7 +31,13 @@ impl RowCrossings {
     pub fn find(&mut self, mesh: &TriMesh, triangles: &[u32], y_mm: f64, xs: &Ruler) {
         self.found.clear();
         for &triangle in triangles {
-            cross(mesh, mesh.triangles()[triangle as usize], y_mm, xs, &mut self.found);
+            cross(
+                mesh,
+                mesh.triangles()[triangle as usize],
+                y_mm,
+                xs,
+                &mut self.found,
+            );
         }
         self.sort(xs.len());
     }
@@ -45,7 +51,9 @@ impl RowCrossings {
     fn sort(&mut self, columns: usize) {
         self.starts.clear();
         self.starts.resize(columns + 1, 0);
-        self.found.iter().for_each(|&(column, _)| self.starts[column as usize] += 1);
+        self.found
+            .iter()
+            .for_each(|&(column, _)| self.starts[column as usize] += 1);
         let mut total = 0;
         for start in &mut self.starts {
             total += *start;
@@ -87,7 +95,9 @@ fn cross(mesh: &TriMesh, triangle: [u32; 3], y: f64, xs: &Ruler, found: &mut Vec
             _ => {}
         }
     }
-    let (Some(up), Some(down)) = (up, down) else { return };
+    let (Some(up), Some(down)) = (up, down) else {
+        return;
+    };
     let (first, last) = (xs.index_at_or_after(down.x), xs.index_at_or_after(up.x));
     let winding_step = if first < last { -1 } else { 1 };
     for column in first.min(last)..first.max(last) {
@@ -101,7 +111,10 @@ fn edge_on_row(mesh: &TriMesh, a: u32, b: u32, y: f64) -> OnRow {
     let corner = |vertex: u32| mesh.vertices()[vertex as usize];
     let (p, q): (Point, Point) = (corner(a.min(b)), corner(a.max(b)));
     let ratio = ((y - p.y) / (q.y - p.y)).clamp(0.0, 1.0);
-    OnRow { x: p.x + (q.x - p.x) * ratio, z: p.z + (q.z - p.z) * ratio }
+    OnRow {
+        x: p.x + (q.x - p.x) * ratio,
+        z: p.z + (q.z - p.z) * ratio,
+    }
 }
 
 /// The height at `x` on the segment from `a` to `b`, never outside the heights of its ends.
@@ -150,7 +163,10 @@ mod tests {
         let crossings = all_crossings(solid.mesh(), 4.2, &xs);
         for i in 0..xs.len() {
             let inside = (0.0..10.0).contains(&xs.at(i));
-            assert_eq!(stretches(crossings.of(i)), if inside { vec![[0.0, 10.0]] } else { vec![] });
+            assert_eq!(
+                stretches(crossings.of(i)),
+                if inside { vec![[0.0, 10.0]] } else { vec![] }
+            );
         }
     }
 

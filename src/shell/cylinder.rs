@@ -23,7 +23,12 @@ impl Cylinder {
     /// The cylinder from `from` to `to`; None if the two are the same point.
     pub fn new(from: Point, to: Point, radius: f64) -> Option<Self> {
         let (axis, length) = Unit::try_new_and_get(to - from, 0.0)?;
-        Some(Self { from, axis: axis.into_inner(), length, radius })
+        Some(Self {
+            from,
+            axis: axis.into_inner(),
+            length,
+            radius,
+        })
     }
 
     /// The whole cylinder as a piece.
@@ -36,9 +41,16 @@ impl Cylinder {
     /// A piece that holds the part of the cylinder within the hull of the segment's ends moved by `offsets`.
     pub fn into_piece_over(self, offsets: &[Vector], margin_mm: f64) -> Piece {
         let to = self.from + self.axis * self.length;
-        let hull: Vec<Point> = offsets.iter().flat_map(|offset| [self.from + offset, to + offset]).collect();
+        let hull: Vec<Point> = offsets
+            .iter()
+            .flat_map(|offset| [self.from + offset, to + offset])
+            .collect();
         let z_min_mm = self.from.z.min(to.z) - self.radius;
-        Piece::new(Footprint::of_points(&hull, margin_mm), z_min_mm, Shape::Cylinder(self))
+        Piece::new(
+            Footprint::of_points(&hull, margin_mm),
+            z_min_mm,
+            Shape::Cylinder(self),
+        )
     }
 
     /// The cylinder cut by the row at `y_mm`.
@@ -84,14 +96,21 @@ impl CylinderRow {
     #[inline]
     fn endless(&self, dx: f64, along: f64) -> [f64; 2] {
         if self.lean < VERTICAL_LIMIT {
-            return if dx * dx <= self.squared_reach { EVERYWHERE } else { NOWHERE };
+            return if dx * dx <= self.squared_reach {
+                EVERYWHERE
+            } else {
+                NOWHERE
+            };
         }
         let across = self.across[0] * dx + self.across[1];
         let discriminant = self.chord - across * across;
         if discriminant < 0.0 {
             return NOWHERE;
         }
-        let (middle, half) = (along * self.axis_z / self.lean, discriminant.sqrt() / self.lean);
+        let (middle, half) = (
+            along * self.axis_z / self.lean,
+            discriminant.sqrt() / self.lean,
+        );
         [middle - half, middle + half]
     }
 
@@ -99,7 +118,11 @@ impl CylinderRow {
     #[inline]
     fn between_ends(&self, along: f64) -> [f64; 2] {
         if self.axis_z == 0.0 {
-            return if (0.0..=self.length).contains(&along) { EVERYWHERE } else { NOWHERE };
+            return if (0.0..=self.length).contains(&along) {
+                EVERYWHERE
+            } else {
+                NOWHERE
+            };
         }
         let (a, b) = (-along / self.axis_z, (self.length - along) / self.axis_z);
         [a.min(b), a.max(b)]
@@ -131,7 +154,8 @@ mod tests {
     fn holds(cylinder: &Cylinder, point: &Point) -> bool {
         let from = point - cylinder.from;
         let along = from.dot(&cylinder.axis);
-        (0.0..=cylinder.length).contains(&along) && (from - cylinder.axis * along).norm() <= cylinder.radius
+        (0.0..=cylinder.length).contains(&along)
+            && (from - cylinder.axis * along).norm() <= cylinder.radius
     }
 
     /// How many of random points about the cylinder its columns find in it; each must be so by the definition.
@@ -140,14 +164,21 @@ mod tests {
         let cylinder = Cylinder::new(from, from + axis * 3.0, 1.5).unwrap();
         let piece = cylinder.into_piece(0.0);
         let is_found = |point: &Point| {
-            let Some(([low, high], RowForm::Cylinder(row))) = piece.on_row(point.y) else { return false };
+            let Some(([low, high], RowForm::Cylinder(row))) = piece.on_row(point.y) else {
+                return false;
+            };
             let [bottom, top] = row.stretch(point.x);
             low <= point.x && point.x <= high && bottom <= point.z && point.z <= top
         };
-        let points = (0..2000).map(|_| from + axis * 1.5 + random.direction() * (3.0 * random.unit()));
+        let points =
+            (0..2000).map(|_| from + axis * 1.5 + random.direction() * (3.0 * random.unit()));
         let found = points.filter(|point| {
             let found = is_found(point);
-            assert_eq!(found, holds(&cylinder, point), "{point} about the axis {axis}");
+            assert_eq!(
+                found,
+                holds(&cylinder, point),
+                "{point} about the axis {axis}"
+            );
             found
         });
         found.count()
@@ -157,7 +188,13 @@ mod tests {
     fn columns_meet_cylinders_of_any_direction_where_the_definition_says() {
         let mut random = Random::new(1);
         let nearly_up = Vector::new(1e-7, -1e-8, 1.0).normalize();
-        let fixed = [Vector::x(), -Vector::y(), Vector::z(), -Vector::z(), nearly_up];
+        let fixed = [
+            Vector::x(),
+            -Vector::y(),
+            Vector::z(),
+            -Vector::z(),
+            nearly_up,
+        ];
         let others: Vec<Vector> = (0..10).map(|_| random.direction()).collect();
         for axis in fixed.iter().chain(&others) {
             assert!(check(axis, &mut random) > 300);

@@ -56,7 +56,11 @@ pub(crate) fn cells(cells: &[[i32; 3]], size_mm: f64) -> Solid {
                         vertices.len() as u32 - 1
                     })
                 });
-                let [a, b, c, d] = if side == 1 { quad } else { [quad[3], quad[2], quad[1], quad[0]] };
+                let [a, b, c, d] = if side == 1 {
+                    quad
+                } else {
+                    [quad[3], quad[2], quad[1], quad[0]]
+                };
                 triangles.extend([[a, b, c], [a, c, d]]);
             }
         }
@@ -66,12 +70,19 @@ pub(crate) fn cells(cells: &[[i32; 3]], size_mm: f64) -> Solid {
 
 /// A sphere of `radius_mm` with its vertices moved outward by `bump(direction)` mm: an icosahedron whose faces are
 /// split into four `levels` times.
-pub(crate) fn bumpy_ball(radius_mm: f64, levels: usize, mut bump: impl FnMut(&Vector) -> f64) -> Solid {
+pub(crate) fn bumpy_ball(
+    radius_mm: f64,
+    levels: usize,
+    mut bump: impl FnMut(&Vector) -> f64,
+) -> Solid {
     let (mut directions, mut triangles) = icosahedron();
     for _ in 0..levels {
         triangles = split(&mut directions, &triangles);
     }
-    let vertices = directions.iter().map(|d| Point::from(d * (radius_mm + bump(d)))).collect();
+    let vertices = directions
+        .iter()
+        .map(|d| Point::from(d * (radius_mm + bump(d))))
+        .collect();
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
@@ -113,7 +124,10 @@ fn icosahedron() -> (Vec<Vector>, Vec<[u32; 3]>) {
         [8, 6, 7],
         [9, 8, 1],
     ];
-    (corners.map(|c| Vector::from(c).normalize()).to_vec(), triangles.to_vec())
+    (
+        corners.map(|c| Vector::from(c).normalize()).to_vec(),
+        triangles.to_vec(),
+    )
 }
 
 fn split(directions: &mut Vec<Vector>, triangles: &[[u32; 3]]) -> Vec<[u32; 3]> {

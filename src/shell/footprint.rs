@@ -22,15 +22,26 @@ impl Footprint {
             hull = bounding_rectangle(&hull);
         }
         let ys = || hull.iter().map(|corner| corner[1]);
-        let y_range_mm = [ys().fold(f64::INFINITY, f64::min), ys().fold(f64::NEG_INFINITY, f64::max)];
+        let y_range_mm = [
+            ys().fold(f64::INFINITY, f64::min),
+            ys().fold(f64::NEG_INFINITY, f64::max),
+        ];
         let mut corners = [[0.0; 2]; MAX_CORNERS];
         corners[..hull.len()].copy_from_slice(&hull);
-        Self { corners, count: hull.len() as u8, y_range_mm, margin_mm }
+        Self {
+            corners,
+            count: hull.len() as u8,
+            y_range_mm,
+            margin_mm,
+        }
     }
 
     /// The y-range, mm, with the margin.
     pub fn y_range_mm(&self) -> [f64; 2] {
-        [self.y_range_mm[0] - self.margin_mm, self.y_range_mm[1] + self.margin_mm]
+        [
+            self.y_range_mm[0] - self.margin_mm,
+            self.y_range_mm[1] + self.margin_mm,
+        ]
     }
 
     /// The x-range, mm, over the row at `y_mm`, or None if the row misses the footprint.
@@ -56,13 +67,25 @@ impl Footprint {
 
 /// The x-coordinates of the ends of the part of a segment that lies in the strip of y.
 fn edge_on_strip(from: [f64; 2], to: [f64; 2], [below, above]: [f64; 2]) -> Option<[f64; 2]> {
-    let (lower, upper) = if from[1] <= to[1] { (from, to) } else { (to, from) };
+    let (lower, upper) = if from[1] <= to[1] {
+        (from, to)
+    } else {
+        (to, from)
+    };
     if upper[1] < below || lower[1] > above {
         return None;
     }
     let slope = (upper[0] - lower[0]) / (upper[1] - lower[1]);
-    let start = if lower[1] >= below { lower[0] } else { lower[0] + slope * (below - lower[1]) };
-    let end = if upper[1] <= above { upper[0] } else { lower[0] + slope * (above - lower[1]) };
+    let start = if lower[1] >= below {
+        lower[0]
+    } else {
+        lower[0] + slope * (below - lower[1])
+    };
+    let end = if upper[1] <= above {
+        upper[0]
+    } else {
+        lower[0] + slope * (above - lower[1])
+    };
     Some([start, end])
 }
 
@@ -103,10 +126,17 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
 
 /// The corners of the bounding rectangle.
 fn bounding_rectangle(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let fold =
-        |axis: usize, start: f64, f: fn(f64, f64) -> f64| points.iter().map(|p| p[axis]).fold(start, f);
-    let (x0, x1) = (fold(0, f64::INFINITY, f64::min), fold(0, f64::NEG_INFINITY, f64::max));
-    let (y0, y1) = (fold(1, f64::INFINITY, f64::min), fold(1, f64::NEG_INFINITY, f64::max));
+    let fold = |axis: usize, start: f64, f: fn(f64, f64) -> f64| {
+        points.iter().map(|p| p[axis]).fold(start, f)
+    };
+    let (x0, x1) = (
+        fold(0, f64::INFINITY, f64::min),
+        fold(0, f64::NEG_INFINITY, f64::max),
+    );
+    let (y0, y1) = (
+        fold(1, f64::INFINITY, f64::min),
+        fold(1, f64::NEG_INFINITY, f64::max),
+    );
     vec![[x0, y0], [x1, y0], [x1, y1], [x0, y1]]
 }
 
@@ -130,7 +160,10 @@ mod tests {
     #[test]
     fn a_row_across_a_triangle_covers_what_similar_triangles_say() {
         let triangle = points(&[[0.0, 0.0], [4.0, 0.0], [0.0, 4.0]]);
-        assert_eq!(Footprint::of_points(&triangle, 0.0).on_row(1.0), Some([0.0, 3.0]));
+        assert_eq!(
+            Footprint::of_points(&triangle, 0.0).on_row(1.0),
+            Some([0.0, 3.0])
+        );
     }
 
     #[test]
@@ -144,10 +177,15 @@ mod tests {
 
     #[test]
     fn a_polygon_of_too_many_corners_is_replaced_by_its_rectangle() {
-        let circle: Vec<Point> =
-            (0..12).map(|i| f64::from(i) * 0.5).map(|t| Point::new(t.cos(), t.sin(), 0.0)).collect();
+        let circle: Vec<Point> = (0..12)
+            .map(|i| f64::from(i) * 0.5)
+            .map(|t| Point::new(t.cos(), t.sin(), 0.0))
+            .collect();
         let footprint = Footprint::of_points(&circle, 0.0);
         let [low, high] = footprint.on_row(0.9).unwrap();
-        assert!(low < -0.95 && high == 1.0, "the rectangle is as wide at the top as in the middle");
+        assert!(
+            low < -0.95 && high == 1.0,
+            "the rectangle is as wide at the top as in the middle"
+        );
     }
 }

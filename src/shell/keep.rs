@@ -17,14 +17,22 @@ pub struct Keep {
 impl Keep {
     /// A ball that stays solid.
     pub fn ball(center: Point, radius_mm: f64) -> Self {
-        Self { from: center, to: center, radius_mm }
+        Self {
+            from: center,
+            to: center,
+            radius_mm,
+        }
     }
 
     /// How far a point lies outside the region, mm; negative inside.
     pub fn distance_mm(&self, point: &Point) -> f64 {
         let (along, offset) = (self.to - self.from, point - self.from);
         let length_squared = along.norm_squared();
-        let ratio = if length_squared > 0.0 { offset.dot(&along) / length_squared } else { 0.0 };
+        let ratio = if length_squared > 0.0 {
+            offset.dot(&along) / length_squared
+        } else {
+            0.0
+        };
         (offset - along * ratio.clamp(0.0, 1.0)).norm() - self.radius_mm
     }
 }

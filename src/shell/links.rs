@@ -15,13 +15,21 @@ pub(super) struct Edge {
 
 /// Every edge of a solid once, ordered by its lower, then its higher vertex.
 pub(super) fn edges(solid: &Solid) -> Vec<Edge> {
-    let mut sides: Vec<([u32; 2], [u32; 2], u32)> = Vec::with_capacity(3 * solid.mesh().triangles().len());
+    let mut sides: Vec<([u32; 2], [u32; 2], u32)> =
+        Vec::with_capacity(3 * solid.mesh().triangles().len());
     for (triangle, &[a, b, c]) in solid.mesh().triangles().iter().enumerate() {
-        sides.extend([[a, b], [b, c], [c, a]].map(|[p, q]| ([p.min(q), p.max(q)], [p, q], triangle as u32)));
+        sides.extend(
+            [[a, b], [b, c], [c, a]].map(|[p, q]| ([p.min(q), p.max(q)], [p, q], triangle as u32)),
+        );
     }
     sides.par_sort_unstable();
     let pairs = sides.chunks_exact(2);
-    pairs.map(|pair| Edge { ends: pair[0].1, triangles: [pair[0].2, pair[1].2] }).collect()
+    pairs
+        .map(|pair| Edge {
+            ends: pair[0].1,
+            triangles: [pair[0].2, pair[1].2],
+        })
+        .collect()
 }
 
 /// For each vertex the triangles around it.
@@ -35,7 +43,12 @@ impl Stars {
     /// The stars of a mesh.
     pub fn new(mesh: &TriMesh) -> Self {
         let mut starts = vec![0; mesh.vertices().len() + 1];
-        let corners = || mesh.triangles().iter().flatten().map(|&vertex| vertex as usize);
+        let corners = || {
+            mesh.triangles()
+                .iter()
+                .flatten()
+                .map(|&vertex| vertex as usize)
+        };
         corners().for_each(|vertex| starts[vertex + 1] += 1);
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut ends = starts.clone();
@@ -66,10 +79,14 @@ pub(super) fn others([a, b, c]: [u32; 3], vertex: u32) -> [u32; 2] {
 
 /// Whether the links (pairs of neighbours) of a vertex's triangles close to one ring.
 pub(super) fn is_one_ring(links: &[[u32; 2]]) -> bool {
-    let Some(&[start, mut at]) = links.first() else { return false };
+    let Some(&[start, mut at]) = links.first() else {
+        return false;
+    };
     let mut steps = 1;
     while at != start && steps <= links.len() {
-        let Some(link) = links.iter().find(|link| link[0] == at) else { return false };
+        let Some(link) = links.iter().find(|link| link[0] == at) else {
+            return false;
+        };
         at = link[1];
         steps += 1;
     }
@@ -86,7 +103,11 @@ mod tests {
         let solid = fixtures::cells(&[[0, 0, 0]], 1.0);
         let edges = edges(&solid);
         assert_eq!(edges.len(), 18);
-        for Edge { ends: [a, b], triangles: [first, second] } in edges {
+        for Edge {
+            ends: [a, b],
+            triangles: [first, second],
+        } in edges
+        {
             let runs = |t: u32, from, to| {
                 let [p, q, r] = solid.mesh().triangles()[t as usize];
                 [(p, q), (q, r), (r, p)].contains(&(from, to))
@@ -98,7 +119,14 @@ mod tests {
     #[test]
     fn one_ring_closes_and_two_rings_at_a_pinch_do_not() {
         assert!(is_one_ring(&[[1, 2], [3, 1], [2, 3]]));
-        assert!(!is_one_ring(&[[1, 2], [2, 3], [3, 1], [4, 5], [5, 6], [6, 4]]));
+        assert!(!is_one_ring(&[
+            [1, 2],
+            [2, 3],
+            [3, 1],
+            [4, 5],
+            [5, 6],
+            [6, 4]
+        ]));
         assert!(!is_one_ring(&[]));
     }
 

@@ -46,7 +46,12 @@ pub(super) fn of_edge(normals: [Vector; 2], along: &Vector, one_sided: bool) -> 
         return Need::Whole;
     }
     let tip = (first + second) / (1.0 + first.dot(&second));
-    Need::Hull(vec![Vector::zeros(), first * sign, second * sign, tip * sign])
+    Need::Hull(vec![
+        Vector::zeros(),
+        first * sign,
+        second * sign,
+        tip * sign,
+    ])
 }
 
 /// What a vertex needs, from the unit directions of its edges.
@@ -62,7 +67,11 @@ pub(super) fn of_vertex(edges: &[Vector], outward: Option<&Vector>) -> Need {
     if let Some(outward) = outward {
         rays.retain(|ray| ray.dot(outward) <= TOLERANCE);
     }
-    if rays.is_empty() { Need::Nothing } else { hull_of_rays(&rays) }
+    if rays.is_empty() {
+        Need::Nothing
+    } else {
+        hull_of_rays(&rays)
+    }
 }
 
 /// The extreme rays of { d : d · e ≤ 0 for every edge e }, some of them several times: the crossings of two
@@ -71,9 +80,13 @@ fn polar_rays(edges: &[Vector]) -> Vec<Vector> {
     let mut rays = Vec::new();
     for (i, a) in edges.iter().enumerate() {
         for b in &edges[..i] {
-            let Some(ray) = a.cross(b).try_normalize(PARALLEL) else { continue };
+            let Some(ray) = a.cross(b).try_normalize(PARALLEL) else {
+                continue;
+            };
             let candidates = [ray, -ray].into_iter();
-            rays.extend(candidates.filter(|ray| edges.iter().all(|edge| ray.dot(edge) <= TOLERANCE)));
+            rays.extend(
+                candidates.filter(|ray| edges.iter().all(|edge| ray.dot(edge) <= TOLERANCE)),
+            );
         }
     }
     rays
@@ -82,7 +95,9 @@ fn polar_rays(edges: &[Vector]) -> Vec<Vector> {
 /// A hull around the part of the unit ball in the cone of these rays: zero, and each ray up to the plane that
 /// touches the ball at the cone's axis.
 fn hull_of_rays(rays: &[Vector]) -> Need {
-    let Some(axis) = rays.iter().sum::<Vector>().try_normalize(MIN_COSINE) else { return Need::Whole };
+    let Some(axis) = rays.iter().sum::<Vector>().try_normalize(MIN_COSINE) else {
+        return Need::Whole;
+    };
     if rays.iter().any(|ray| ray.dot(&axis) < MIN_COSINE) {
         return Need::Whole;
     }
@@ -97,9 +112,22 @@ mod tests {
     #[test]
     fn a_convex_edge_needs_nothing_and_a_valley_the_wedge_between_its_inner_normals() {
         let along = Vector::y();
-        assert_eq!(of_edge([Vector::z(), Vector::x()], &along, true), Need::Nothing);
-        let Need::Hull(hull) = of_edge([Vector::z(), -Vector::x()], &along, true) else { panic!("a hull") };
-        assert_eq!(hull, [Vector::zeros(), -Vector::z(), Vector::x(), Vector::new(1.0, 0.0, -1.0)]);
+        assert_eq!(
+            of_edge([Vector::z(), Vector::x()], &along, true),
+            Need::Nothing
+        );
+        let Need::Hull(hull) = of_edge([Vector::z(), -Vector::x()], &along, true) else {
+            panic!("a hull")
+        };
+        assert_eq!(
+            hull,
+            [
+                Vector::zeros(),
+                -Vector::z(),
+                Vector::x(),
+                Vector::new(1.0, 0.0, -1.0)
+            ]
+        );
     }
 
     #[test]
@@ -107,18 +135,27 @@ mod tests {
         let edges = [Vector::x(), Vector::y(), Vector::z()];
         let outward = Vector::repeat(-1.0 / 3.0f64.sqrt());
         assert_eq!(of_vertex(&edges, Some(&outward)), Need::Nothing);
-        let Need::Hull(hull) = of_vertex(&edges, Some(&-outward)) else { panic!("a hull") };
+        let Need::Hull(hull) = of_vertex(&edges, Some(&-outward)) else {
+            panic!("a hull")
+        };
         assert_eq!(hull.len(), 4);
         assert!(
-            hull[1..].iter().all(|tip| (tip.dot(&outward) - 1.0).abs() < 1e-12),
+            hull[1..]
+                .iter()
+                .all(|tip| (tip.dot(&outward) - 1.0).abs() < 1e-12),
             "up to the plane of the axis"
         );
     }
 
     #[test]
     fn a_saddle_needs_nothing() {
-        let edges = [[1.0, 0.0, 0.2], [0.0, 1.0, -0.2], [-1.0, 0.0, 0.2], [0.0, -1.0, -0.2]]
-            .map(|[x, y, z]| Vector::new(x, y, z).normalize());
+        let edges = [
+            [1.0, 0.0, 0.2],
+            [0.0, 1.0, -0.2],
+            [-1.0, 0.0, 0.2],
+            [0.0, -1.0, -0.2],
+        ]
+        .map(|[x, y, z]| Vector::new(x, y, z).normalize());
         assert_eq!(of_vertex(&edges, None), Need::Nothing);
     }
 
@@ -127,18 +164,31 @@ mod tests {
         let mut random = crate::shell::fixtures::Random::new(7);
         let mut tried = 0;
         while tried < 200 {
-            let edges: Vec<Vector> =
-                (0..6).map(|_| (random.direction() + Vector::z() * 1.2).normalize()).collect();
-            let Need::Hull(hull) = of_vertex(&edges, None) else { continue };
-            let axis = hull[1..].iter().map(|tip| tip.normalize()).sum::<Vector>().normalize();
+            let edges: Vec<Vector> = (0..6)
+                .map(|_| (random.direction() + Vector::z() * 1.2).normalize())
+                .collect();
+            let Need::Hull(hull) = of_vertex(&edges, None) else {
+                continue;
+            };
+            let axis = hull[1..]
+                .iter()
+                .map(|tip| tip.normalize())
+                .sum::<Vector>()
+                .normalize();
             let direction = (random.direction() * 0.7 + axis).normalize();
             if edges.iter().any(|edge| edge.dot(&direction) > 0.0) {
                 continue;
             }
             tried += 1;
             for plane in (0..50).map(|_| random.direction()) {
-                let support = hull.iter().map(|tip| tip.dot(&plane)).fold(f64::NEG_INFINITY, f64::max);
-                assert!(direction.dot(&plane) <= support + 1e-9, "the hull misses a direction");
+                let support = hull
+                    .iter()
+                    .map(|tip| tip.dot(&plane))
+                    .fold(f64::NEG_INFINITY, f64::max);
+                assert!(
+                    direction.dot(&plane) <= support + 1e-9,
+                    "the hull misses a direction"
+                );
             }
         }
     }

@@ -44,7 +44,11 @@ pub trait OnRow {
 impl Piece {
     /// The part of `shape` over `footprint`, nowhere lower than `z_min_mm`.
     pub(super) fn new(footprint: Footprint, z_min_mm: f64, shape: Shape) -> Self {
-        Self { footprint, z_min_mm, shape }
+        Self {
+            footprint,
+            z_min_mm,
+            shape,
+        }
     }
 
     /// The y-range, mm.

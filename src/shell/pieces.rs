@@ -33,16 +33,25 @@ impl<'a> Builder<'a> {
     /// The builder for `mesh`; `one_sided` if the wall need only be right inside the solid.
     pub fn new(mesh: &'a TriMesh, wall_mm: f64, one_sided: bool) -> Self {
         let normals = (0..mesh.triangles().len()).into_par_iter();
-        let normals = normals.map(|triangle| unit_normal(&mesh.corners(triangle))).collect();
-        Self { mesh, normals, wall_mm, one_sided }
+        let normals = normals
+            .map(|triangle| unit_normal(&mesh.corners(triangle)))
+            .collect();
+        Self {
+            mesh,
+            normals,
+            wall_mm,
+            one_sided,
+        }
     }
 
     /// Every piece of the wall of `solid`, whose triangles and vertices are those of the builder's mesh.
     pub fn pieces(&self, solid: &Solid) -> Vec<Piece> {
         let stars = Stars::new(self.mesh);
         let edges = links::edges(solid);
-        let mut pieces: Vec<Piece> =
-            (0..self.normals.len()).into_par_iter().filter_map(|triangle| self.face(triangle)).collect();
+        let mut pieces: Vec<Piece> = (0..self.normals.len())
+            .into_par_iter()
+            .filter_map(|triangle| self.face(triangle))
+            .collect();
         pieces.par_extend(edges.par_iter().filter_map(|edge| self.edge(edge)));
         let vertices = (0..self.mesh.vertices().len()).into_par_iter();
         pieces.par_extend(vertices.filter_map(|vertex| self.vertex(vertex, stars.of(vertex))));
@@ -52,15 +61,27 @@ impl<'a> Builder<'a> {
     /// The slab behind a face.
     fn face(&self, triangle: usize) -> Option<Piece> {
         let outward_mm = self.wall_mm * if self.one_sided { MARGIN_RATIO } else { 1.0 };
-        let reach = Reach { inward_mm: self.wall_mm, outward_mm };
-        Some(Slab::piece(&self.mesh.corners(triangle), &self.normals[triangle]?, reach))
+        let reach = Reach {
+            inward_mm: self.wall_mm,
+            outward_mm,
+        };
+        Some(Slab::piece(
+            &self.mesh.corners(triangle),
+            &self.normals[triangle]?,
+            reach,
+        ))
     }
 
     /// The part of an edge's cylinder that is needed.
     fn edge(&self, edge: &Edge) -> Option<Piece> {
-        let [from, to] = edge.ends.map(|vertex| self.mesh.vertices()[vertex as usize]);
+        let [from, to] = edge
+            .ends
+            .map(|vertex| self.mesh.vertices()[vertex as usize]);
         let cylinder = Cylinder::new(from, to, self.wall_mm)?;
-        let need = match edge.triangles.map(|triangle| self.normals[triangle as usize]) {
+        let need = match edge
+            .triangles
+            .map(|triangle| self.normals[triangle as usize])
+        {
             [Some(first), Some(second)] => {
                 normal_cone::of_edge([first, second], &(to - from).normalize(), self.one_sided)
             }
@@ -68,7 +89,9 @@ impl<'a> Builder<'a> {
         };
         match need {
             Need::Nothing => None,
-            Need::Hull(hull) => Some(cylinder.into_piece_over(&self.scaled(hull), self.margin_mm())),
+            Need::Hull(hull) => {
+                Some(cylinder.into_piece_over(&self.scaled(hull), self.margin_mm()))
+            }
             Need::Whole => Some(cylinder.into_piece(self.margin_mm())),
         }
     }
@@ -86,13 +109,17 @@ impl<'a> Builder<'a> {
     /// Which part of a vertex's ball is needed: all of it beside a triangle without a normal, nothing for a vertex
     /// of no triangle.
     fn vertex_need(&self, vertex: u32, triangles: &[u32]) -> Need {
-        let links: Vec<[u32; 2]> =
-            triangles.iter().map(|&t| links::others(self.mesh.triangles()[t as usize], vertex)).collect();
+        let links: Vec<[u32; 2]> = triangles
+            .iter()
+            .map(|&t| links::others(self.mesh.triangles()[t as usize], vertex))
+            .collect();
         let point = self.mesh.vertices()[vertex as usize];
         let towards = |other: u32| (self.mesh.vertices()[other as usize] - point).normalize();
         let mut pseudonormal = Vector::zeros();
         for (&triangle, &[a, b]) in triangles.iter().zip(&links) {
-            let Some(normal) = self.normals[triangle as usize] else { return Need::Whole };
+            let Some(normal) = self.normals[triangle as usize] else {
+                return Need::Whole;
+            };
             pseudonormal += normal * towards(a).angle(&towards(b));
         }
         if links.is_empty() {
@@ -119,13 +146,22 @@ pub(super) fn of_keep(keep: &Keep, frame: &Frame) -> impl Iterator<Item = Piece>
     let (from, to) = (frame.to_local(&keep.from), frame.to_local(&keep.to));
     let between = Cylinder::new(from, to, keep.radius_mm).map(|cylinder| cylinder.into_piece(0.0));
     let ball = |center: Point| Ball::new(center, keep.radius_mm).into_piece(0.0);
-    [Some(ball(from)), between, (from != to).then(|| ball(to))].into_iter().flatten()
+    [Some(ball(from)), between, (from != to).then(|| ball(to))]
+        .into_iter()
+        .flatten()
 }
 
 /// The outer unit normal of a triangle; None for a sliver.
 fn unit_normal(corners: &[Point; 3]) -> Option<Vector> {
-    let [ab, bc, ca] = [corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]];
-    let longest = ab.norm_squared().max(bc.norm_squared()).max(ca.norm_squared());
+    let [ab, bc, ca] = [
+        corners[1] - corners[0],
+        corners[2] - corners[1],
+        corners[0] - corners[2],
+    ];
+    let longest = ab
+        .norm_squared()
+        .max(bc.norm_squared())
+        .max(ca.norm_squared());
     let doubled_area = bc.cross(&ca);
     (doubled_area.norm() > SLIVER_RATIO * longest).then(|| doubled_area.normalize())
 }

@@ -26,7 +26,12 @@ impl Ruler {
         let first = (low_mm / pitch_mm - phase).ceil();
         let last = (high_mm / pitch_mm - phase).floor();
         let count = (last - first + 1.0).max(0.0) as usize;
-        Self { first, count, pitch_mm, phase }
+        Self {
+            first,
+            count,
+            pitch_mm,
+            phase,
+        }
     }
 
     /// How many centres there are.

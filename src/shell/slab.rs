@@ -32,11 +32,17 @@ pub(super) struct Reach {
 impl Slab {
     /// The prism over the triangle from `outward_mm` outside to `inward_mm` inside, for its outer unit normal.
     pub fn piece(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Piece {
-        let mut slab =
-            Self { lower: [[0.0, 0.0, f64::NEG_INFINITY]; 4], upper: [[0.0, 0.0, f64::INFINITY]; 4] };
+        let mut slab = Self {
+            lower: [[0.0, 0.0, f64::NEG_INFINITY]; 4],
+            upper: [[0.0, 0.0, f64::INFINITY]; 4],
+        };
         let mut used = [0, 0];
         slab.bound(&mut used, normal, &(corners[0] + normal * reach.outward_mm));
-        slab.bound(&mut used, &-normal, &(corners[0] - normal * reach.inward_mm));
+        slab.bound(
+            &mut used,
+            &-normal,
+            &(corners[0] - normal * reach.inward_mm),
+        );
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let side = (corners[to] - corners[from]).cross(normal).normalize();
             slab.bound(&mut used, &side, &corners[from]);
@@ -45,7 +51,11 @@ impl Slab {
         let inner = corners.map(|corner| corner - normal * reach.inward_mm);
         let hull = [outer, inner].concat();
         let z_min_mm = hull.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-        Piece::new(Footprint::of_points(&hull, 0.0), z_min_mm, Shape::Slab(slab))
+        Piece::new(
+            Footprint::of_points(&hull, 0.0),
+            z_min_mm,
+            Shape::Slab(slab),
+        )
     }
 
     /// Adds the half-space through `point` on the inner side of the outward unit `normal`.
@@ -53,7 +63,11 @@ impl Slab {
         if normal.z.abs() < VERTICAL_LIMIT {
             return;
         }
-        let coefficients = [-normal.x / normal.z, -normal.y / normal.z, normal.dot(&point.coords) / normal.z];
+        let coefficients = [
+            -normal.x / normal.z,
+            -normal.y / normal.z,
+            normal.dot(&point.coords) / normal.z,
+        ];
         if normal.z > 0.0 {
             self.upper[used[0]] = coefficients;
             used[0] += 1;
@@ -66,7 +80,10 @@ impl Slab {
     /// The prism cut by the row at `y_mm`.
     pub fn on_row(&self, y_mm: f64) -> RowForm {
         let on_row = |[x, y, c]: [f64; 3]| [x, y * y_mm + c];
-        RowForm::Slab(SlabRow { lower: self.lower.map(on_row), upper: self.upper.map(on_row) })
+        RowForm::Slab(SlabRow {
+            lower: self.lower.map(on_row),
+            upper: self.upper.map(on_row),
+        })
     }
 }
 
@@ -92,23 +109,33 @@ mod tests {
     use super::*;
     use crate::shell::fixtures::Random;
 
-    const REACH: Reach = Reach { inward_mm: 0.8, outward_mm: 0.1 };
+    const REACH: Reach = Reach {
+        inward_mm: 0.8,
+        outward_mm: 0.1,
+    };
 
     /// Whether a point is in the prism, by the definition: between the caps and inside all three sides.
     fn holds(corners: &[Point; 3], normal: &Vector, point: &Point) -> bool {
         let height = (point - corners[0]).dot(normal);
         let is_left = |from: usize| {
-            (corners[(from + 1) % 3] - corners[from]).cross(&(point - corners[from])).dot(normal)
+            (corners[(from + 1) % 3] - corners[from])
+                .cross(&(point - corners[from]))
+                .dot(normal)
         };
-        (-REACH.inward_mm..=REACH.outward_mm).contains(&height) && (0..3).all(|side| is_left(side) >= 0.0)
+        (-REACH.inward_mm..=REACH.outward_mm).contains(&height)
+            && (0..3).all(|side| is_left(side) >= 0.0)
     }
 
     /// How many of random points about the triangle the columns find in its slab; each must be so by the definition.
     fn check(corners: &[Point; 3], random: &mut Random) -> usize {
-        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+        let normal = (corners[1] - corners[0])
+            .cross(&(corners[2] - corners[0]))
+            .normalize();
         let piece = Slab::piece(corners, &normal, REACH);
         let is_found = |point: &Point| {
-            let Some(([low, high], RowForm::Slab(row))) = piece.on_row(point.y) else { return false };
+            let Some(([low, high], RowForm::Slab(row))) = piece.on_row(point.y) else {
+                return false;
+            };
             let [bottom, top] = row.stretch(point.x);
             low <= point.x && point.x <= high && bottom <= point.z && point.z <= top
         };
@@ -125,7 +152,11 @@ mod tests {
     #[test]
     fn columns_meet_slabs_of_any_direction_where_the_definition_says() {
         let mut random = Random::new(4);
-        let flat = [Point::origin(), Point::new(2.0, 0.0, 0.0), Point::new(0.0, 2.0, 0.0)];
+        let flat = [
+            Point::origin(),
+            Point::new(2.0, 0.0, 0.0),
+            Point::new(0.0, 2.0, 0.0),
+        ];
         let upright = flat.map(|p| Point::new(p.x, 1.0, p.y));
         let skew = flat.map(|p| Point::new(1.0 - p.x, p.y, p.x * 1e-11));
         for corners in [flat, upright, skew] {

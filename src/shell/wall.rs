@@ -52,13 +52,23 @@ impl Shell {
     ///
     /// Costs some microseconds per triangle. If the solid overlaps itself (looked for on a lattice of columns), every
     /// triangle has a wall on both sides, also those buried in the solid.
-    pub fn new(solid: &Solid, frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<Self, ShellError> {
+    pub fn new(
+        solid: &Solid,
+        frame: &Frame,
+        wall_mm: f64,
+        keeps: &[Keep],
+    ) -> Result<Self, ShellError> {
         check(frame, wall_mm, keeps)?;
         let surface = solid.mesh().in_frame(frame);
         let overlaps_itself = overlaps_itself(&surface);
         let mut pieces = Builder::new(&surface, wall_mm, !overlaps_itself).pieces(solid);
         pieces.extend(keeps.iter().flat_map(|keep| pieces::of_keep(keep, frame)));
-        Ok(Self { surface, pieces: from_low_to_high(&pieces), wall_mm, overlaps_itself })
+        Ok(Self {
+            surface,
+            pieces: from_low_to_high(&pieces),
+            wall_mm,
+            overlaps_itself,
+        })
     }
 
     /// The surface of the solid in the goal frame.
@@ -100,14 +110,21 @@ impl Shell {
 
     /// The pieces that reach into each block of rows.
     pub(crate) fn bin_pieces(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
-        Bins::of_ranges(self.pieces.iter().map(Piece::y_range_mm), rows, rows_per_block)
+        Bins::of_ranges(
+            self.pieces.iter().map(Piece::y_range_mm),
+            rows,
+            rows_per_block,
+        )
     }
 }
 
 /// The pieces ascending in their lowest points, which keeps a column's intervals few while they are carved.
 fn from_low_to_high(pieces: &[Piece]) -> Vec<Piece> {
-    let mut order: Vec<(f64, usize)> =
-        pieces.par_iter().enumerate().map(|(index, piece)| (piece.z_min_mm(), index)).collect();
+    let mut order: Vec<(f64, usize)> = pieces
+        .par_iter()
+        .enumerate()
+        .map(|(index, piece)| (piece.z_min_mm(), index))
+        .collect();
     order.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     order.par_iter().map(|&(_, index)| pieces[index]).collect()
 }
@@ -123,9 +140,14 @@ fn check(frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<(), ShellError> 
     }
     let is_sound = |keep: &Keep| {
         let ends = keep.from.iter().chain(keep.to.iter());
-        ends.into_iter().all(|c| c.is_finite()) && keep.radius_mm > 0.0 && keep.radius_mm.is_finite()
+        ends.into_iter().all(|c| c.is_finite())
+            && keep.radius_mm > 0.0
+            && keep.radius_mm.is_finite()
     };
-    keeps.iter().position(|keep| !is_sound(keep)).map_or(Ok(()), |index| Err(ShellError::Keep { index }))
+    keeps
+        .iter()
+        .position(|keep| !is_sound(keep))
+        .map_or(Ok(()), |index| Err(ShellError::Keep { index }))
 }
 
 #[cfg(test)]
@@ -139,21 +161,49 @@ mod tests {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
         let identity = Frame::identity();
         for wall_mm in [0.0, -1.0, f64::INFINITY] {
-            assert_eq!(Shell::new(&solid, &identity, wall_mm, &[]), Err(ShellError::Wall { wall_mm }));
+            assert_eq!(
+                Shell::new(&solid, &identity, wall_mm, &[]),
+                Err(ShellError::Wall { wall_mm })
+            );
         }
-        assert!(matches!(Shell::new(&solid, &identity, f64::NAN, &[]), Err(ShellError::Wall { .. })));
-        let keeps = [Keep::ball(Point::origin(), 1.0), Keep::ball(Point::origin(), 0.0)];
-        assert_eq!(Shell::new(&solid, &identity, 1.0, &keeps), Err(ShellError::Keep { index: 1 }));
-        let stretched = Frame { axes: Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)), ..identity };
-        assert_eq!(Shell::new(&solid, &stretched, 1.0, &[]), Err(ShellError::Frame));
+        assert!(matches!(
+            Shell::new(&solid, &identity, f64::NAN, &[]),
+            Err(ShellError::Wall { .. })
+        ));
+        let keeps = [
+            Keep::ball(Point::origin(), 1.0),
+            Keep::ball(Point::origin(), 0.0),
+        ];
+        assert_eq!(
+            Shell::new(&solid, &identity, 1.0, &keeps),
+            Err(ShellError::Keep { index: 1 })
+        );
+        let stretched = Frame {
+            axes: Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)),
+            ..identity
+        };
+        assert_eq!(
+            Shell::new(&solid, &stretched, 1.0, &[]),
+            Err(ShellError::Frame)
+        );
     }
 
     #[test]
     fn a_cube_has_a_slab_for_each_face_and_next_to_nothing_else() {
-        let shell = Shell::new(&fixtures::cells(&[[0, 0, 0]], 10.0), &Frame::identity(), 1.0, &[]).unwrap();
+        let shell = Shell::new(
+            &fixtures::cells(&[[0, 0, 0]], 10.0),
+            &Frame::identity(),
+            1.0,
+            &[],
+        )
+        .unwrap();
         // Twelve triangles, and the six flat diagonals.
         assert_eq!(shell.pieces().len(), 12 + 6);
-        assert!(shell.pieces().is_sorted_by(|a, b| a.z_min_mm() <= b.z_min_mm()));
+        assert!(
+            shell
+                .pieces()
+                .is_sorted_by(|a, b| a.z_min_mm() <= b.z_min_mm())
+        );
         assert_eq!(shell.coarse_pitch(20), [0.5, 0.5]);
     }
 }

@@ -20,12 +20,19 @@ pub struct BallastOrder {
 /// What the parts add to a body of `density_g_mm3`, model frame.
 pub(super) fn ballast_moments(ballast: &[BallastOrder], density_g_mm3: f64) -> Moments {
     let of_part = |order: &BallastOrder| order.lump.moments(density_g_mm3);
-    ballast.iter().map(of_part).fold(Moments::default(), |sum, part| sum + part)
+    ballast
+        .iter()
+        .map(of_part)
+        .fold(Moments::default(), |sum, part| sum + part)
 }
 
 /// The least gap between a part of ballast and the material around it, mm; negative where one lies in material, or
 /// outside the body; none without ballast.
-pub(super) fn least_room_mm(ballast: &[BallastOrder], hollowed: &TriMesh, outer: &TriMesh) -> Option<f64> {
+pub(super) fn least_room_mm(
+    ballast: &[BallastOrder],
+    hollowed: &TriMesh,
+    outer: &TriMesh,
+) -> Option<f64> {
     if ballast.is_empty() {
         return None;
     }
@@ -41,7 +48,12 @@ pub(super) fn least_room_mm(ballast: &[BallastOrder], hollowed: &TriMesh, outer:
 /// Whether every part of ballast fits where it was declared to lie.
 pub(super) fn room_check(room_mm: f64) -> Check {
     let promise = "every part of ballast lies in a void, with a gap around it of";
-    Check::new("ballast room", promise, Some(room_mm), Limit::above(0.0, "mm"))
+    Check::new(
+        "ballast room",
+        promise,
+        Some(room_mm),
+        Limit::above(0.0, "mm"),
+    )
 }
 
 /// What the voids are filled with.
@@ -52,6 +64,12 @@ pub struct FillOrder {
 }
 
 /// What a filling of the voids, which are turned inward, adds to a body of `density_g_cm3`, model frame.
-pub(super) fn fill_moments(fill: Option<FillOrder>, voids: &TriMesh, density_g_cm3: f64) -> Moments {
-    fill.map_or(Moments::default(), |fill| moments_of_mesh(voids) * (-fill.density_g_cm3 / density_g_cm3))
+pub(super) fn fill_moments(
+    fill: Option<FillOrder>,
+    voids: &TriMesh,
+    density_g_cm3: f64,
+) -> Moments {
+    fill.map_or(Moments::default(), |fill| {
+        moments_of_mesh(voids) * (-fill.density_g_cm3 / density_g_cm3)
+    })
 }

@@ -67,7 +67,9 @@ impl fmt::Display for FileChange {
             Change::Scaled(ratio) => format!("was scaled to {:.3} % of its size", ratio * 100.0),
             Change::Mirrored => "was mirrored".to_owned(),
             Change::Reshaped(pins) if pins.is_empty() => "has another shape".to_owned(),
-            Change::Reshaped(pins) => format!("has another shape: it lacks the pins {}", pins.join(", ")),
+            Change::Reshaped(pins) => {
+                format!("has another shape: it lacks the pins {}", pins.join(", "))
+            }
         };
         write!(f, "{} {words}", self.file)
     }
@@ -87,7 +89,11 @@ impl FileChange {
             Change::Resaved => "nothing of its shape was lost; print the original file to be sure",
             Change::Exchanged(_) => "give the file its own name back, or copy it again",
             Change::Scaled(_) => "print the original file again, at 100 %",
-            Change::Touched | Change::Moved(_) | Change::Turned | Change::Mirrored | Change::Reshaped(_) => {
+            Change::Touched
+            | Change::Moved(_)
+            | Change::Turned
+            | Change::Mirrored
+            | Change::Reshaped(_) => {
                 "print the original file again; a part is turned and moved on the plate, not in its file"
             }
         }
@@ -111,20 +117,37 @@ pub fn file_changes(folder: &Path, evidence: &Evidence) -> Result<Vec<FileChange
     let parts = promise.parts.iter().zip(&evidence.parts);
     let parts = parts.filter(|(part, _)| changed(&part.file, &part.sha256));
     let mut changes: Vec<FileChange> = parts
-        .map(|(part, read)| FileChange { file: part.file.clone(), change: part_change(part, read, promise) })
+        .map(|(part, read)| FileChange {
+            file: part.file.clone(),
+            change: part_change(part, read, promise),
+        })
         .collect();
     let is_part = |file: &str| promise.parts.iter().any(|part| part.file == file);
-    let others = promise.files.iter().filter(|(file, sha256)| !is_part(file) && changed(file, sha256));
+    let others = promise
+        .files
+        .iter()
+        .filter(|(file, sha256)| !is_part(file) && changed(file, sha256));
     changes.extend(others.map(|(file, _)| {
-        let change = if found.contains_key(file) { Change::Altered } else { Change::Missing };
-        FileChange { file: file.clone(), change }
+        let change = if found.contains_key(file) {
+            Change::Altered
+        } else {
+            Change::Missing
+        };
+        FileChange {
+            file: file.clone(),
+            change,
+        }
     }));
     Ok(changes)
 }
 
 /// The hashes of the files of a kit that are there.
 fn hashes(folder: &Path, promise: &Promise) -> Result<BTreeMap<String, String>, VerifyError> {
-    let files = promise.parts.iter().map(|part| &part.file).chain(promise.files.keys());
+    let files = promise
+        .parts
+        .iter()
+        .map(|part| &part.file)
+        .chain(promise.files.keys());
     let mut hashes = BTreeMap::new();
     for file in files.filter(|file| folder.join(file).exists()) {
         hashes.insert(file.clone(), sha256_hex(&[&read_file(&folder.join(file))?]));
@@ -134,7 +157,9 @@ fn hashes(folder: &Path, promise: &Promise) -> Result<BTreeMap<String, String>, 
 
 /// What became of a part, by the marks that the checklist holds.
 fn part_change(part: &PromisedPart, read: &PartEvidence, promise: &Promise) -> Change {
-    let Some(fingerprint) = &part.fingerprint else { return Change::Altered };
+    let Some(fingerprint) = &part.fingerprint else {
+        return Change::Altered;
+    };
     let found = Fingerprint::of(&read.mesh);
     let likeness = fingerprint.likeness(&found);
     let is_it = |other: &&PromisedPart| {
@@ -162,7 +187,11 @@ fn part_change(part: &PromisedPart, read: &PartEvidence, promise: &Promise) -> C
 fn missing_pins(part: &PromisedPart, read: &PartEvidence) -> Vec<String> {
     let felt = Felt::of(read);
     let is_gone = |pin: &&super::Peg| !felt.holds(&pin.at(pin.length_mm / 2.0));
-    part.pins.iter().filter(is_gone).map(|pin| pin.id.clone()).collect()
+    part.pins
+        .iter()
+        .filter(is_gone)
+        .map(|pin| pin.id.clone())
+        .collect()
 }
 
 /// The name of the check that nothing was changed.
@@ -172,6 +201,11 @@ pub const FILES_CHECK: &str = "changed files";
 pub fn files_check(changes: &[FileChange]) -> Check {
     let words: Vec<String> = changes.iter().map(FileChange::to_string).collect();
     let promise = "every file is the one the checklist was made for";
-    Check::new(FILES_CHECK, promise, Some(changes.len() as f64), Limit::at_most(0.0, ""))
-        .at((!words.is_empty()).then(|| words.join("; ")))
+    Check::new(
+        FILES_CHECK,
+        promise,
+        Some(changes.len() as f64),
+        Limit::at_most(0.0, ""),
+    )
+    .at((!words.is_empty()).then(|| words.join("; ")))
 }

@@ -74,22 +74,38 @@ pub struct Limit {
 impl Limit {
     /// value ≤ limit.
     pub const fn at_most(value: f64, unit: &'static str) -> Self {
-        Self { comparison: Comparison::AtMost, value, unit }
+        Self {
+            comparison: Comparison::AtMost,
+            value,
+            unit,
+        }
     }
 
     /// value ≥ limit.
     pub const fn at_least(value: f64, unit: &'static str) -> Self {
-        Self { comparison: Comparison::AtLeast, value, unit }
+        Self {
+            comparison: Comparison::AtLeast,
+            value,
+            unit,
+        }
     }
 
     /// value < limit.
     pub const fn below(value: f64, unit: &'static str) -> Self {
-        Self { comparison: Comparison::Below, value, unit }
+        Self {
+            comparison: Comparison::Below,
+            value,
+            unit,
+        }
     }
 
     /// value > limit.
     pub const fn above(value: f64, unit: &'static str) -> Self {
-        Self { comparison: Comparison::Above, value, unit }
+        Self {
+            comparison: Comparison::Above,
+            value,
+            unit,
+        }
     }
 }
 
@@ -131,8 +147,17 @@ mod tests {
 
     #[test]
     fn what_cannot_be_measured_fails_whatever_the_limit() {
-        for value in [None, Some(f64::NAN), Some(f64::INFINITY), Some(f64::NEG_INFINITY)] {
-            for limit in [Limit::at_most(1.0, ""), Limit::at_least(1.0, ""), Limit::below(1.0, "")] {
+        for value in [
+            None,
+            Some(f64::NAN),
+            Some(f64::INFINITY),
+            Some(f64::NEG_INFINITY),
+        ] {
+            for limit in [
+                Limit::at_most(1.0, ""),
+                Limit::at_least(1.0, ""),
+                Limit::below(1.0, ""),
+            ] {
                 let check = Check::new("n", "p", value, limit);
                 assert_eq!((check.pass, check.value), (false, None));
             }

@@ -46,13 +46,26 @@ pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
 /// printed, do the parts make the whole.
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let mut checks = goal_checks(&promise.goal, &found.assembly);
-    checks.extend(promise.promise.map(|p| figure_check(p.figure, p.value, &found.assembly)));
-    checks.extend(found.wall_min_mm.map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)));
+    checks.extend(
+        promise
+            .promise
+            .map(|p| figure_check(p.figure, p.value, &found.assembly)),
+    );
+    checks.extend(
+        found
+            .wall_min_mm
+            .map(|wall_mm| wall_check(promise.wall.required_mm, wall_mm)),
+    );
     checks.extend(fit_checks(promise, found));
     checks.extend(found.ballast_room_mm.map(ballast::room_check));
     checks.extend(surface_checks(found));
     checks.extend(plate_checks(&found.parts));
-    checks.extend(promise.printer.build_volume_mm.map(|room| room_check(&found.parts, room)));
+    checks.extend(
+        promise
+            .printer
+            .build_volume_mm
+            .map(|room| room_check(&found.parts, room)),
+    );
     checks.extend(cleaning_checks(promise, &found.voids));
     checks.push(volume_check(promise, found));
     checks.extend(joint_checks(promise, found));
@@ -72,20 +85,32 @@ fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
         )
     };
     match aim.kind {
-        GoalKind::Top => {
-            [vec![offset("the centre of mass lies on the spin axis")], spinning_checks(assembly)].concat()
-        }
-        GoalKind::Yoyo => {
-            [vec![offset("the centre of mass lies in the spin point")], spinning_checks(assembly)].concat()
-        }
+        GoalKind::Top => [
+            vec![offset("the centre of mass lies on the spin axis")],
+            spinning_checks(assembly),
+        ]
+        .concat(),
+        GoalKind::Yoyo => [
+            vec![offset("the centre of mass lies in the spin point")],
+            spinning_checks(assembly),
+        ]
+        .concat(),
         GoalKind::Stand => vec![Check::new(
             "standing",
             "it stands, and topples when tilted by",
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
         )],
-        GoalKind::Float => aim.water.iter().flat_map(|order| floating_checks(order, assembly)).collect(),
-        GoalKind::Balance => aim.rotor.iter().map(|order| grade_check(order, assembly)).collect(),
+        GoalKind::Float => aim
+            .water
+            .iter()
+            .flat_map(|order| floating_checks(order, assembly))
+            .collect(),
+        GoalKind::Balance => aim
+            .rotor
+            .iter()
+            .map(|order| grade_check(order, assembly))
+            .collect(),
     }
 }
 
@@ -96,7 +121,12 @@ fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
     let depth = format!("it floats {:.2} mm deep, within", order.waterline_mm);
     let check = |name, promise: &str, value, limit| Check::new(name, promise, value, limit);
     vec![
-        check("waterline", &depth, aside, Limit::at_most(WATERLINE_LIMIT_MM, "mm")),
+        check(
+            "waterline",
+            &depth,
+            aside,
+            Limit::at_most(WATERLINE_LIMIT_MM, "mm"),
+        ),
         check(
             "upright",
             "its centre of mass is over its centre of buoyancy",
@@ -120,9 +150,17 @@ fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
 
 /// Whether a rotor runs as true as it was ordered to.
 fn grade_check(order: &RotorOrder, assembly: &Figures) -> Check {
-    let promise = format!("at {} rpm its balance quality grade (ISO 21940-11) is G", order.speed_rpm);
+    let promise = format!(
+        "at {} rpm its balance quality grade (ISO 21940-11) is G",
+        order.speed_rpm
+    );
     let grade = assembly.value_of(FigureName::BalanceGradeMmS);
-    Check::new("balance quality", &promise, grade, Limit::at_most(order.grade_mm_s, "mm/s"))
+    Check::new(
+        "balance quality",
+        &promise,
+        grade,
+        Limit::at_most(order.grade_mm_s, "mm/s"),
+    )
 }
 
 /// What tops and yo-yos share: the axis is principal, and the stable one.
@@ -130,7 +168,12 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
     let tilt = Limit::at_most(AXIS_TILT_LIMIT_DEG, "°");
     let dominance = Limit::below(DOMINANCE_LIMIT_RATIO, "");
     vec![
-        Check::new("axis tilt", "the spin axis is a principal axis", assembly.axis_tilt_deg, tilt),
+        Check::new(
+            "axis tilt",
+            "the spin axis is a principal axis",
+            assembly.axis_tilt_deg,
+            tilt,
+        ),
         Check::new(
             "dominance",
             "the moment of inertia is largest about the spin axis (I_b/I_c)",
@@ -147,21 +190,38 @@ fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check 
         _ if figure.more_is_better() => Limit::at_least(promised - slack, figure.unit()),
         _ => Limit::at_most(promised + slack, figure.unit()),
     };
-    Check::new(figure.name(), figure.promise(), assembly.value_of(figure), limit)
+    Check::new(
+        figure.name(),
+        figure.promise(),
+        assembly.value_of(figure),
+        limit,
+    )
 }
 
 fn wall_check(required_mm: f64, wall_mm: f64) -> Check {
     let limit = Limit::at_least(required_mm - WALL_TOLERANCE_MM, "mm");
-    Check::new("wall", "every wall between a void and the outside is at least", Some(wall_mm), limit)
+    Check::new(
+        "wall",
+        "every wall between a void and the outside is at least",
+        Some(wall_mm),
+        limit,
+    )
 }
 
 /// Whether the hardware goes in, and holds a yo-yo's halves apart.
 fn fit_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
-    let Some(fit) = &found.fit else { return Vec::new() };
+    let Some(fit) = &found.fit else {
+        return Vec::new();
+    };
     let gap = promise.string_gap_mm.map(|ordered_mm| {
         let off_mm = fit.gap_mm.map(|gap_mm| (gap_mm - ordered_mm).abs());
         let promise = format!("the halves are {ordered_mm} mm apart at their axle, within");
-        Check::new("string gap", &promise, off_mm, Limit::at_most(STRING_GAP_TOLERANCE_MM, "mm"))
+        Check::new(
+            "string gap",
+            &promise,
+            off_mm,
+            Limit::at_most(STRING_GAP_TOLERANCE_MM, "mm"),
+        )
     });
     let room = Check::new(
         "hardware",
@@ -175,8 +235,12 @@ fn fit_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 /// Whether the surfaces of all files can be printed.
 fn surface_checks(found: &Judgement) -> Vec<Check> {
     let uncut = std::iter::once(("hollowed.stl", &found.surface));
-    let surfaces: Vec<_> = uncut.chain(found.parts.iter().map(|p| (p.id.as_str(), &p.surface))).collect();
-    let broken = surfaces.iter().filter_map(|(id, s)| s.defect.as_ref().map(|why| format!("{id}: {why}")));
+    let surfaces: Vec<_> = uncut
+        .chain(found.parts.iter().map(|p| (p.id.as_str(), &p.surface)))
+        .collect();
+    let broken = surfaces
+        .iter()
+        .filter_map(|(id, s)| s.defect.as_ref().map(|why| format!("{id}: {why}")));
     let crossed = surfaces.iter().filter(|(_, s)| s.crossings > 0);
     let crossings = surfaces.iter().map(|(_, s)| s.crossings).sum();
     let sealed = found.parts.iter().filter(|p| p.cavities > 0);
@@ -188,8 +252,14 @@ fn surface_checks(found: &Judgement) -> Vec<Check> {
             broken.clone().count(),
         )
         .at(listed(broken)),
-        none("self-intersections", "no surface passes through itself", crossings)
-            .at(listed(crossed.map(|(id, s)| format!("{id}: {}", s.crossings)))),
+        none(
+            "self-intersections",
+            "no surface passes through itself",
+            crossings,
+        )
+        .at(listed(
+            crossed.map(|(id, s)| format!("{id}: {}", s.crossings)),
+        )),
         none("closed cavities", "every void is opened by a cut", cavities)
             .at(listed(sealed.map(|p| format!("{}: {}", p.id, p.cavities)))),
     ]
@@ -207,8 +277,13 @@ fn plate_checks(parts: &[PartFacts]) -> Vec<Check> {
             Limit::at_most(RESTING_LIMIT_MM, "mm"),
         )
         .at(resting_at),
-        Check::new("pose", "every pose is a turn and a shift", pose, Limit::at_most(POSE_LIMIT_RATIO, ""))
-            .at(pose_at),
+        Check::new(
+            "pose",
+            "every pose is a turn and a shift",
+            pose,
+            Limit::at_most(POSE_LIMIT_RATIO, ""),
+        )
+        .at(pose_at),
     ]
 }
 
@@ -220,16 +295,24 @@ fn room_check(parts: &[PartFacts], room_mm: [f64; 3]) -> Check {
     };
     let (excess_mm, at) = worst(parts, excess);
     let left_mm = excess_mm.map(|excess| -excess);
-    Check::new("build volume", "every part fits, with room to spare of", left_mm, Limit::at_least(0.0, "mm"))
-        .at(at)
+    Check::new(
+        "build volume",
+        "every part fits, with room to spare of",
+        left_mm,
+        Limit::at_least(0.0, "mm"),
+    )
+    .at(at)
 }
 
 /// Whether the parts are the uncut body, plus the pins, less the sockets.
 fn volume_check(promise: &Promise, found: &Judgement) -> Check {
     let sum = |pegs: &[Peg]| pegs.iter().map(|peg| peg.volume_mm3).sum::<f64>();
     let marks = |part: &PromisedPart| part.marks.iter().map(|mark| mark.volume_mm3).sum::<f64>();
-    let joints: f64 =
-        promise.parts.iter().map(|part| sum(&part.pins) - sum(&part.sockets) - marks(part)).sum();
+    let joints: f64 = promise
+        .parts
+        .iter()
+        .map(|part| sum(&part.pins) - sum(&part.sockets) - marks(part))
+        .sum();
     let whole = found.hollowed.volume_mm3;
     let error = (found.assembly.volume_mm3 - whole - joints).abs() / whole;
     Check::new(
@@ -272,11 +355,19 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 
 fn wall_around_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
     let limit = Limit::at_least(promise.printer.minimum_wall_mm - WALL_TOLERANCE_MM, "mm");
-    Check::new("socket wall", "the wall around every socket is at least", wall_mm, limit)
+    Check::new(
+        "socket wall",
+        "the wall around every socket is at least",
+        wall_mm,
+        limit,
+    )
 }
 
 /// The largest value of any pin and which; not a number, so that the check fails, where one has none.
-fn worst_of(pegs: &[PegFacts], value: impl Fn(&PegFacts) -> Option<f64>) -> (Option<f64>, Option<String>) {
+fn worst_of(
+    pegs: &[PegFacts],
+    value: impl Fn(&PegFacts) -> Option<f64>,
+) -> (Option<f64>, Option<String>) {
     let of = |peg: &PegFacts| value(peg).unwrap_or(f64::INFINITY);
     let worst = pegs.iter().max_by(|a, b| of(a).total_cmp(&of(b)));
     (worst.map(of), worst.map(|peg| peg.id.clone()))
@@ -289,8 +380,14 @@ fn none(name: &str, promise: &str, count: usize) -> Check {
 
 /// The largest value of any part and whose it is; none without parts.
 fn worst(parts: &[PartFacts], value: impl Fn(&PartFacts) -> f64) -> (Option<f64>, Option<String>) {
-    let worst = parts.iter().map(|part| (value(part), part)).max_by(|a, b| a.0.total_cmp(&b.0));
-    (worst.map(|(value, _)| value), worst.map(|(_, part)| part.id.clone()))
+    let worst = parts
+        .iter()
+        .map(|part| (value(part), part))
+        .max_by(|a, b| a.0.total_cmp(&b.0));
+    (
+        worst.map(|(value, _)| value),
+        worst.map(|(_, part)| part.id.clone()),
+    )
 }
 
 /// All words, separated by semicolons; none if there are none.

@@ -77,15 +77,29 @@ struct Patch<'a> {
 
 /// The voids of the uncut result as the parts have them; none where no cleaning was ordered.
 pub(super) fn voids(promise: &Promise, cavities: &[TriMesh], felt: &[Felt]) -> Vec<VoidFacts> {
-    let Some(cleaning) = promise.printer.cleaning else { return Vec::new() };
-    let plane = |cut: &PromisedCut| Plane::through(&Point::from(cut.point_mm), &Vector::from(cut.normal));
+    let Some(cleaning) = promise.printer.cleaning else {
+        return Vec::new();
+    };
+    let plane =
+        |cut: &PromisedCut| Plane::through(&Point::from(cut.point_mm), &Vector::from(cut.normal));
     let planes: Vec<Plane> = promise.cuts.iter().map(plane).collect();
     let parts: Vec<TriMesh> = felt.par_iter().map(in_model).collect();
     let tool_mm = promise.printer.minimum_opening_mm.unwrap_or(0.0);
-    let (reach_mm, overhang_deg) = (cleaning.reach_mm.unwrap_or(f64::INFINITY), cleaning.overhang_deg);
-    let seeker = Seeker { planes: &planes, tool_mm, reach_mm, overhang_deg };
+    let (reach_mm, overhang_deg) = (
+        cleaning.reach_mm.unwrap_or(f64::INFINITY),
+        cleaning.overhang_deg,
+    );
+    let seeker = Seeker {
+        planes: &planes,
+        tool_mm,
+        reach_mm,
+        overhang_deg,
+    };
     let fact = |(index, cavity): (usize, &TriMesh)| {
-        let id = promise.voids.get(index).map_or_else(|| format!("V{}", index + 1), |void| void.id.clone());
+        let id = promise
+            .voids
+            .get(index)
+            .map_or_else(|| format!("V{}", index + 1), |void| void.id.clone());
         seeker.void(id, cavity, (felt, &parts))
     };
     cavities.par_iter().enumerate().map(fact).collect()
@@ -105,21 +119,37 @@ struct Seeker<'a> {
 }
 
 impl Seeker<'_> {
-    fn void(&self, id: String, cavity: &TriMesh, (felt, parts): (&[Felt], &[TriMesh])) -> VoidFacts {
+    fn void(
+        &self,
+        id: String,
+        cavity: &TriMesh,
+        (felt, parts): (&[Felt], &[TriMesh]),
+    ) -> VoidFacts {
         let surface = Bvh::new(cavity.iter_corners());
-        let area: f64 = cavity.iter_corners().map(|corners| area_mm2(&corners)).sum();
-        let mouths: Vec<Vec<Place>> =
-            self.planes.iter().map(|plane| places(cavity, plane, self.tool_mm / 2.0)).collect();
+        let area: f64 = cavity
+            .iter_corners()
+            .map(|corners| area_mm2(&corners))
+            .sum();
+        let mouths: Vec<Vec<Place>> = self
+            .planes
+            .iter()
+            .map(|plane| places(cavity, plane, self.tool_mm / 2.0))
+            .collect();
         let (mut openings_mm, mut found, mut seen, mut clean) = (Vec::new(), 0.0, 0.0, 0.0);
         for (felt, part) in felt.iter().zip(parts) {
             for patch in self.patches(&surface, felt, part) {
-                let wall_mm2: f64 = patch.wall.iter_corners().map(|corners| area_mm2(&corners)).sum();
+                let wall_mm2: f64 = patch
+                    .wall
+                    .iter_corners()
+                    .map(|corners| area_mm2(&corners))
+                    .sum();
                 if wall_mm2 < CRUMB_RATIO * area {
                     continue;
                 }
                 let own = patch.places(&mouths);
                 openings_mm.extend(self.openings(&patch, &own));
-                let [in_sight, cleaned] = self.looked_at(&patch, &own, (wall_mm2 / area * SAMPLES) as usize);
+                let [in_sight, cleaned] =
+                    self.looked_at(&patch, &own, (wall_mm2 / area * SAMPLES) as usize);
                 found += wall_mm2;
                 seen += in_sight * wall_mm2;
                 clean += cleaned * wall_mm2;
@@ -127,24 +157,38 @@ impl Seeker<'_> {
         }
         // What no part has of the wall counts as out of sight.
         let whole = f64::max(found, area).max(f64::MIN_POSITIVE);
-        VoidFacts { id, openings_mm, sight_ratio: seen / whole, clean_ratio: clean / whole }
+        VoidFacts {
+            id,
+            openings_mm,
+            sight_ratio: seen / whole,
+            clean_ratio: clean / whole,
+        }
     }
 
     /// The connected pieces of a void's wall on a part.
     fn patches<'a>(&self, surface: &Bvh, felt: &'a Felt<'a>, part: &TriMesh) -> Vec<Patch<'a>> {
         let in_cut = |points: &[Point]| {
-            self.planes.iter().position(|plane| points.iter().all(|p| plane.distance(p).abs() < NEAR_MM))
+            self.planes
+                .iter()
+                .position(|plane| points.iter().all(|p| plane.distance(p).abs() < NEAR_MM))
         };
         let is_wall = |t: &&[u32; 3]| {
             let corners = t.map(|v| part.vertices()[v as usize]);
-            let middle = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
+            let middle =
+                Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
             surface.closest(&middle, NEAR_MM, &[]).is_some() && in_cut(&corners).is_none()
         };
         let triangles: Vec<[u32; 3]> = part.triangles().iter().filter(is_wall).copied().collect();
         let all = TriMesh::new(part.vertices().to_vec(), triangles).unwrap_or_default();
         let patch = |wall: TriMesh| {
             let rims = open_edges(&wall).into_iter();
-            Patch { felt, rims: rims.filter_map(|edge| Some((in_cut(&edge)?, edge))).collect(), wall }
+            Patch {
+                felt,
+                rims: rims
+                    .filter_map(|edge| Some((in_cut(&edge)?, edge)))
+                    .collect(),
+                wall,
+            }
         };
         pieces(&all).into_iter().map(patch).collect()
     }
@@ -161,7 +205,11 @@ impl Seeker<'_> {
         }
         widest.sort_by(|a, b| b.1.total_cmp(&a.1));
         let is_dimple = widest.first().is_some_and(|&((cut, _), wide_mm)| {
-            let heights = patch.wall.vertices().iter().map(|p| self.planes[cut].distance(p).abs());
+            let heights = patch
+                .wall
+                .vertices()
+                .iter()
+                .map(|p| self.planes[cut].distance(p).abs());
             heights.fold(0.0, f64::max) <= DIMPLE_RATIO * wide_mm
         });
         (!is_dimple).then(|| widest.into_iter().map(|(_, wide_mm)| wide_mm).collect())
@@ -176,19 +224,32 @@ impl Seeker<'_> {
             .par_iter()
             .map(|point| {
                 let is_seen = eyes.iter().any(|eye| self.sees(patch.felt, eye, &point.at));
-                [is_seen, is_seen || self.needs_nothing(patch.felt, &corners[point.triangle])]
+                [
+                    is_seen,
+                    is_seen || self.needs_nothing(patch.felt, &corners[point.triangle]),
+                ]
             })
             .collect();
-        [0, 1].map(|i| looks.iter().filter(|look| look[i]).count() as f64 / looks.len().max(1) as f64)
+        [0, 1]
+            .map(|i| looks.iter().filter(|look| look[i]).count() as f64 / looks.len().max(1) as f64)
     }
 
     /// The places that let the tool in, thinned; the widest where none does.
     fn eyes(&self, own: &[(usize, Place)]) -> Vec<Point> {
         let mut roomy: Vec<&Place> = own.iter().map(|(_, place)| place).collect();
         roomy.sort_by(|a, b| b.room_mm.total_cmp(&a.room_mm));
-        let wide = roomy.iter().filter(|place| 2.0 * place.room_mm >= self.tool_mm).count().max(1);
+        let wide = roomy
+            .iter()
+            .filter(|place| 2.0 * place.room_mm >= self.tool_mm)
+            .count()
+            .max(1);
         let stride = wide.div_ceil(EYES).max(1);
-        roomy.iter().take(wide).step_by(stride).map(|place| place.at).collect()
+        roomy
+            .iter()
+            .take(wide)
+            .step_by(stride)
+            .map(|place| place.at)
+            .collect()
     }
 
     /// Whether nothing of the part is between the eye and a place of its wall within reach.
@@ -199,7 +260,9 @@ impl Seeker<'_> {
 
     /// Whether a triangle of a part's surface prints without support: it looks up, or leans enough from the level.
     fn needs_nothing(&self, felt: &Felt, [a, b, c]: &[Point; 3]) -> bool {
-        let Some(overhang_deg) = self.overhang_deg else { return false };
+        let Some(overhang_deg) = self.overhang_deg else {
+            return false;
+        };
         let normal = felt.part.pose.rotation() * (b - a).cross(&(c - a));
         -normal.z <= overhang_deg.to_radians().cos() * normal.norm()
     }
@@ -210,45 +273,65 @@ impl Patch<'_> {
     fn places(&self, mouths: &[Vec<Place>]) -> Vec<(usize, Place)> {
         let is_own = |cut: usize, place: &Place| {
             let edges = self.rims.iter().filter(|(of, _)| *of == cut);
-            edges
-                .into_iter()
-                .any(|(_, [a, b])| (closest_on_segment(&place.rim, a, b) - place.rim).norm() < 2.0 * NEAR_MM)
+            edges.into_iter().any(|(_, [a, b])| {
+                (closest_on_segment(&place.rim, a, b) - place.rim).norm() < 2.0 * NEAR_MM
+            })
         };
-        let all =
-            mouths.iter().enumerate().flat_map(|(cut, places)| places.iter().map(move |place| (cut, *place)));
+        let all = mouths
+            .iter()
+            .enumerate()
+            .flat_map(|(cut, places)| places.iter().map(move |place| (cut, *place)));
         all.filter(|(cut, place)| is_own(*cut, place)).collect()
     }
 }
 
 /// The edges of a surface that have one side only.
 fn open_edges(mesh: &TriMesh) -> Vec<[Point; 2]> {
-    let mut sides: Vec<[u32; 2]> =
-        mesh.triangles().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]).collect();
+    let mut sides: Vec<[u32; 2]> = mesh
+        .triangles()
+        .iter()
+        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .collect();
     sides.sort_unstable();
     let is_open = |&[a, b]: &[u32; 2]| sides.binary_search(&[b, a]).is_err();
     let open = sides.iter().copied().filter(is_open);
-    open.map(|side| side.map(|v| mesh.vertices()[v as usize])).collect()
+    open.map(|side| side.map(|v| mesh.vertices()[v as usize]))
+        .collect()
 }
 
 /// Whether every void is open and clean by the printer's rule.
 pub(super) fn cleaning_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> {
-    let Some(cleaning) = promise.printer.cleaning else { return Vec::new() };
+    let Some(cleaning) = promise.printer.cleaning else {
+        return Vec::new();
+    };
     let mut checks = Vec::new();
     for (index, void) in found.iter().enumerate() {
         let ordered = promise.voids.get(index);
-        let least_mm = ordered.and_then(|void| void.least_opening_mm).or(promise.printer.minimum_opening_mm);
-        checks.push(opening_check(void, cleaning.pair_opening_mm, least_mm.unwrap_or(0.0)));
+        let least_mm = ordered
+            .and_then(|void| void.least_opening_mm)
+            .or(promise.printer.minimum_opening_mm);
+        checks.push(opening_check(
+            void,
+            cleaning.pair_opening_mm,
+            least_mm.unwrap_or(0.0),
+        ));
         let share = match cleaning.rule {
             CleaningRule::InSight => Some(("in sight of its openings", void.sight_ratio)),
-            CleaningRule::InSightOrSelfSupporting => {
-                Some(("in sight of its openings, or printed without support", void.clean_ratio))
-            }
+            CleaningRule::InSightOrSelfSupporting => Some((
+                "in sight of its openings, or printed without support",
+                void.clean_ratio,
+            )),
             CleaningRule::MeltOut | CleaningRule::PowderEscape => None,
         };
         checks.extend(share.map(|(what, ratio)| {
             let promise = format!("the wall of {} is {what}, to a share of", void.id);
             let name = format!("void {} clean", void.id);
-            Check::new(&name, &promise, Some(ratio), Limit::at_least(cleaning.sight_ratio, ""))
+            Check::new(
+                &name,
+                &promise,
+                Some(ratio),
+                Limit::at_least(cleaning.sight_ratio, ""),
+            )
         }));
     }
     checks.extend(stated_check(promise, found));
@@ -260,7 +343,11 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
     let by_pair = |openings: &Vec<f64>| {
         let second_mm = openings.get(1).copied().unwrap_or(0.0);
         let one_mm = openings.first().copied().unwrap_or(0.0);
-        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) { one_mm.max(least_mm) } else { one_mm }
+        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) {
+            one_mm.max(least_mm)
+        } else {
+            one_mm
+        }
     };
     let narrowest_mm = void.openings_mm.iter().map(by_pair).reduce(f64::min);
     let promise = format!("every piece of {} opens by", void.id);
@@ -275,11 +362,22 @@ fn stated_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
     if found.is_empty() && promise.voids.is_empty() {
         return None;
     }
-    let off =
-        |(void, facts): (&PromisedVoid, &VoidFacts)| Some((void.sight_ratio? - facts.sight_ratio).abs());
-    let worst = promise.voids.iter().zip(found).filter_map(off).fold(0.0, f64::max);
+    let off = |(void, facts): (&PromisedVoid, &VoidFacts)| {
+        Some((void.sight_ratio? - facts.sight_ratio).abs())
+    };
+    let worst = promise
+        .voids
+        .iter()
+        .zip(found)
+        .filter_map(off)
+        .fold(0.0, f64::max);
     let is_whole = promise.voids.len() == found.len();
     let name = "voids as stated";
     let promise = "the sheet states the share of every void's wall in sight, within";
-    Some(Check::new(name, promise, is_whole.then_some(worst), Limit::at_most(SIGHT_TOLERANCE_RATIO, "")))
+    Some(Check::new(
+        name,
+        promise,
+        is_whole.then_some(worst),
+        Limit::at_most(SIGHT_TOLERANCE_RATIO, ""),
+    ))
 }

@@ -18,9 +18,15 @@ fn kit(cleaning: Cleaning) -> Evidence {
     let mut kit = sound();
     kit.promise.printer.cleaning = Some(cleaning);
     kit.promise.printer.minimum_opening_mm = Some(4.0);
-    kit.promise.cuts = vec![PromisedCut { point_mm: [0.0, 0.0, 16.0], normal: [0.0, 0.0, 2.0] }];
-    kit.promise.voids =
-        vec![PromisedVoid { id: "V1".into(), sight_ratio: Some(1.0), least_opening_mm: Some(4.0) }];
+    kit.promise.cuts = vec![PromisedCut {
+        point_mm: [0.0, 0.0, 16.0],
+        normal: [0.0, 0.0, 2.0],
+    }];
+    kit.promise.voids = vec![PromisedVoid {
+        id: "V1".into(),
+        sight_ratio: Some(1.0),
+        least_opening_mm: Some(4.0),
+    }];
     kit
 }
 
@@ -41,8 +47,18 @@ fn both_trays_of_a_box_lie_open_and_in_sight() {
     assert_eq!((found.voids.len(), found.voids[0].sight_ratio), (1, 1.0));
     // Both trays are dimples: 3 mm deep under a mouth of 54 × 34.
     assert_eq!(found.voids[0].openings_mm, Vec::<Vec<f64>>::new());
-    assert!(found.checks.iter().any(|check| check.name == "void V1 clean"));
-    assert!(found.checks.iter().any(|check| check.name == "void V1 open"));
+    assert!(
+        found
+            .checks
+            .iter()
+            .any(|check| check.name == "void V1 clean")
+    );
+    assert!(
+        found
+            .checks
+            .iter()
+            .any(|check| check.name == "void V1 open")
+    );
 }
 
 #[test]
@@ -55,8 +71,11 @@ fn a_wall_behind_a_cover_is_not_clean_and_not_as_stated() {
 #[test]
 fn a_floor_that_faces_up_needs_no_sight_where_no_support_stands_on_it() {
     // The lower tray lies with its void up: its floor and sides need no support, seen or not.
-    let leaning =
-        Cleaning { rule: CleaningRule::InSightOrSelfSupporting, overhang_deg: Some(45.0), ..IN_SIGHT };
+    let leaning = Cleaning {
+        rule: CleaningRule::InSightOrSelfSupporting,
+        overhang_deg: Some(45.0),
+        ..IN_SIGHT
+    };
     let mut kit = covered();
     kit.promise.printer.cleaning = Some(leaning);
     assert!(!failures(&kit).contains(&"void V1 clean".to_owned()));
@@ -65,10 +84,16 @@ fn a_floor_that_faces_up_needs_no_sight_where_no_support_stands_on_it() {
 
 #[test]
 fn a_wall_beyond_the_tools_reach_is_not_clean() {
-    let mut kit = kit(Cleaning { reach_mm: Some(2.0), ..IN_SIGHT });
+    let mut kit = kit(Cleaning {
+        reach_mm: Some(2.0),
+        ..IN_SIGHT
+    });
     // The floors lie 3 mm behind the mouths.
     assert!(failures(&kit).contains(&"void V1 clean".to_owned()));
-    kit.promise.printer.cleaning = Some(Cleaning { reach_mm: Some(8.0), ..IN_SIGHT });
+    kit.promise.printer.cleaning = Some(Cleaning {
+        reach_mm: Some(8.0),
+        ..IN_SIGHT
+    });
     assert!(!failures(&kit).contains(&"void V1 clean".to_owned()));
 }
 

@@ -77,7 +77,10 @@ impl Figures {
     /// The figures of a printed region with a load inside, both as moments of the print's density (model frame); the
     /// volume is that of the print alone.
     pub fn loaded(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
-        Self { volume_mm3: printed.volume(), ..Self::new(&(*printed + *load), setting) }
+        Self {
+            volume_mm3: printed.volume(),
+            ..Self::new(&(*printed + *load), setting)
+        }
     }
 
     /// The figures of the region with these moments (model frame), with the setting's hardware in it. As exact as the
@@ -105,7 +108,9 @@ impl Figures {
             FigureName::SpinItRatio => self.spin_it_ratio,
             FigureName::TopplesDeg => self.topples_deg,
             FigureName::CenterHeightMm => Some(self.center_height_mm),
-            FigureName::MetacentricHeightMm => self.afloat.map(|afloat| afloat.metacentric_height_mm),
+            FigureName::MetacentricHeightMm => {
+                self.afloat.map(|afloat| afloat.metacentric_height_mm)
+            }
             FigureName::MassG => Some(self.mass_g),
             FigureName::BalanceGradeMmS => self.unbalance.map(|unbalance| unbalance.grade_mm_s),
         }
@@ -141,7 +146,10 @@ impl Figures {
     }
 
     fn of_yoyo(self, body: &Body, frame: &Frame) -> Self {
-        Self { axis_offset_mm: Some((body.center - frame.origin).norm()), ..self.spinning(body, frame) }
+        Self {
+            axis_offset_mm: Some((body.center - frame.origin).norm()),
+            ..self.spinning(body, frame)
+        }
     }
 
     fn of_standing(self, body: &Body, frame: &Frame, support: Option<&Support>) -> Self {
@@ -160,17 +168,25 @@ impl Figures {
             hull.float(body.mass_g / (order.liquid_g_cm3 / MM3_PER_CM3), &center)
         };
         let afloat = setting.hull.as_ref().zip(setting.aim.water).and_then(float);
-        Self { center_height_mm: center.z, afloat, ..self }
+        Self {
+            center_height_mm: center.z,
+            afloat,
+            ..self
+        }
     }
 
     fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
-        let (local, density) = (moments.in_frame(&setting.aim.frame()), setting.density_g_mm3());
+        let (local, density) = (
+            moments.in_frame(&setting.aim.frame()),
+            setting.density_g_mm3(),
+        );
         let center = local.centroid();
         let unbalance = setting.aim.rotor.zip(setting.ends_mm);
         Self {
             center_height_mm: center.z,
             axis_offset_mm: Some(center.x.hypot(center.y)),
-            unbalance: unbalance.map(|(order, ends_mm)| Unbalance::new(&local, density, ends_mm, &order)),
+            unbalance: unbalance
+                .map(|(order, ends_mm)| Unbalance::new(&local, density, ends_mm, &order)),
             ..self
         }
     }
@@ -194,8 +210,16 @@ impl Figures {
 fn axis_tilt(body: &Body, frame: &Frame) -> f64 {
     let axis = frame.axis();
     let axes = body.principal().axes;
-    let angle = |i: usize| axes.column(i).cross(&axis).norm().atan2(axes.column(i).dot(&axis).abs());
-    [0, 1, 2].map(angle).into_iter().fold(f64::INFINITY, f64::min)
+    let angle = |i: usize| {
+        axes.column(i)
+            .cross(&axis)
+            .norm()
+            .atan2(axes.column(i).dot(&axis).abs())
+    };
+    [0, 1, 2]
+        .map(angle)
+        .into_iter()
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// The larger eigenvalue of the upper 2×2 block of a tensor whose z is the spin axis.
@@ -265,9 +289,15 @@ mod tests {
 
     #[test]
     fn the_speed_does_not_depend_on_the_density() {
-        let light = Setting { density_g_cm3: 0.7, ..setting(GoalKind::Top, [0.0, 0.0, 1.0]) };
+        let light = Setting {
+            density_g_cm3: 0.7,
+            ..setting(GoalKind::Top, [0.0, 0.0, 1.0])
+        };
         let speed = |setting| Figures::new(&plate(), setting).critical_speed_rpm.unwrap();
-        let (a, b) = (speed(&light), speed(&setting(GoalKind::Top, [0.0, 0.0, 1.0])));
+        let (a, b) = (
+            speed(&light),
+            speed(&setting(GoalKind::Top, [0.0, 0.0, 1.0])),
+        );
         assert!((a - b).abs() < 1e-12 * a);
     }
 
@@ -281,13 +311,20 @@ mod tests {
     #[test]
     fn an_axis_leaning_by_a_known_angle_is_reported_with_that_angle() {
         let lean = 0.01_f64;
-        let figures = Figures::new(&plate(), &setting(GoalKind::Top, [lean.sin(), 0.0, lean.cos()]));
+        let figures = Figures::new(
+            &plate(),
+            &setting(GoalKind::Top, [lean.sin(), 0.0, lean.cos()]),
+        );
         assert!((figures.axis_tilt_deg.unwrap() - lean.to_degrees()).abs() < 1e-9);
     }
 
     #[test]
     fn a_top_may_be_high_above_its_contact_but_a_yo_yo_must_be_at_its_point() {
-        let offset = |kind| Figures::new(&plate(), &setting(kind, [0.0, 0.0, 1.0])).axis_offset_mm.unwrap();
+        let offset = |kind| {
+            Figures::new(&plate(), &setting(kind, [0.0, 0.0, 1.0]))
+                .axis_offset_mm
+                .unwrap()
+        };
         assert!(offset(GoalKind::Top) < 1e-12);
         assert!((offset(GoalKind::Yoyo) - 12.0).abs() < 1e-12);
     }
@@ -295,10 +332,16 @@ mod tests {
     #[test]
     fn a_box_standing_on_its_face_topples_at_the_angle_of_its_diagonal() {
         let corners_mm = vec![[-30.0, -20.0], [30.0, -20.0], [30.0, 20.0], [-30.0, 20.0]];
-        let support = Some(Support { corners_mm, ground_mm: 10.0 });
+        let support = Some(Support {
+            corners_mm,
+            ground_mm: 10.0,
+        });
         // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
         let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
-        assert_eq!(aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)), Point::new(1.0, 0.0, 0.0));
+        assert_eq!(
+            aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)),
+            Point::new(1.0, 0.0, 0.0)
+        );
         let figures = Figures::new(
             &plate(),
             &Setting {
@@ -310,16 +353,25 @@ mod tests {
                 hardware: Moments::default(),
             },
         );
-        assert!((figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12);
+        assert!(
+            (figures.topples_deg.unwrap() - (20.0_f64 / 2.0).atan().to_degrees()).abs() < 1e-12
+        );
         assert!((figures.center_height_mm - 2.0).abs() < 1e-12);
         assert_eq!(figures.axis_offset_mm, None);
     }
 
     #[test]
     fn the_spin_it_ratio_does_not_depend_on_how_the_frame_is_turned_about_its_axis() {
-        let value =
-            |axis: [f64; 3]| Figures::new(&plate(), &setting(GoalKind::Yoyo, axis)).spin_it_ratio.unwrap();
-        let (xx, yy, zz) = (40.0 * 40.0 + 16.0, 60.0 * 60.0 + 16.0, 60.0 * 60.0 + 40.0 * 40.0);
+        let value = |axis: [f64; 3]| {
+            Figures::new(&plate(), &setting(GoalKind::Yoyo, axis))
+                .spin_it_ratio
+                .unwrap()
+        };
+        let (xx, yy, zz) = (
+            40.0 * 40.0 + 16.0,
+            60.0 * 60.0 + 16.0,
+            60.0 * 60.0 + 40.0 * 40.0,
+        );
         let want = (xx * xx + yy * yy) / (zz * zz);
         assert!((value([0.0, 0.0, 1.0]) - want).abs() < 1e-12);
         assert!((value([0.0, 0.0, -3.0]) - want).abs() < 1e-12);

@@ -65,15 +65,29 @@ const THIRD: [[usize; 3]; 10] = [
     [2, 2, 2],
 ];
 /// The orders that three axes can come in, the turns first.
-const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [1, 0, 2], [2, 1, 0]];
+const ORDERS: [[usize; 3]; 6] = [
+    [0, 1, 2],
+    [1, 2, 0],
+    [2, 0, 1],
+    [0, 2, 1],
+    [1, 0, 2],
+    [2, 1, 0],
+];
 
 impl Fingerprint {
     /// The mark of a surface; one pass over its triangles and a sort of them.
     pub fn of(mesh: &TriMesh) -> Self {
         let patches: Vec<(f64, Point)> = mesh.iter_corners().map(patch).collect();
         let area_mm2: f64 = patches.iter().map(|(area, _)| area).sum();
-        let weighed: Vector = patches.iter().map(|(area, middle)| middle.coords * *area).sum();
-        let center = if area_mm2 > 0.0 { weighed / area_mm2 } else { Vector::zeros() };
+        let weighed: Vector = patches
+            .iter()
+            .map(|(area, middle)| middle.coords * *area)
+            .sum();
+        let center = if area_mm2 > 0.0 {
+            weighed / area_mm2
+        } else {
+            Vector::zeros()
+        };
         let sum = |axes: &[usize]| -> f64 {
             let term = |(area, middle): &(f64, Point)| {
                 let arm = middle.coords - center;
@@ -96,7 +110,9 @@ impl Fingerprint {
             return Likeness::Same;
         }
         let ratio = (other.area_mm2 / self.area_mm2).sqrt();
-        let Some(map) = maps().find(|map| self.becomes(other, map, ratio)) else { return Likeness::Other };
+        let Some(map) = maps().find(|map| self.becomes(other, map, ratio)) else {
+            return Likeness::Other;
+        };
         let moved_mm = (Vector::from(other.center_mm) - Vector::from(self.center_mm)).norm();
         match map {
             map if map.is_mirror() => Likeness::Mirrored,
@@ -135,7 +151,10 @@ struct AxisMap {
 }
 
 impl AxisMap {
-    const IDENTITY: Self = Self { from: ORDERS[0], signs: [1.0; 3] };
+    const IDENTITY: Self = Self {
+        from: ORDERS[0],
+        signs: [1.0; 3],
+    };
 
     /// The sign and the axes that these come from, ascending.
     fn of<const N: usize>(&self, axes: [usize; N]) -> (f64, [usize; N]) {
@@ -153,15 +172,22 @@ impl AxisMap {
 /// All maps of the axes, the identity first, then the turns, then the mirrors.
 fn maps() -> impl Iterator<Item = AxisMap> {
     let sign = |i: usize, axis: usize| if i >> axis & 1 == 1 { -1.0 } else { 1.0 };
-    let all = ORDERS.into_iter().flat_map(move |from| (0..8).map(move |i| (from, i)));
-    let all = all.map(move |(from, i)| AxisMap { from, signs: [0, 1, 2].map(|axis| sign(i, axis)) });
+    let all = ORDERS
+        .into_iter()
+        .flat_map(move |from| (0..8).map(move |i| (from, i)));
+    let all = all.map(move |(from, i)| AxisMap {
+        from,
+        signs: [0, 1, 2].map(|axis| sign(i, axis)),
+    });
     let (mirrors, turns): (Vec<AxisMap>, Vec<AxisMap>) = all.partition(AxisMap::is_mirror);
     turns.into_iter().chain(mirrors)
 }
 
 /// Where the axes stand in a list that has them.
 fn place<const N: usize>(list: &[[usize; N]], axes: [usize; N]) -> usize {
-    list.iter().position(|known| *known == axes).unwrap_or_default()
+    list.iter()
+        .position(|known| *known == axes)
+        .unwrap_or_default()
 }
 
 /// The area of a triangle, mm², and its middle.
@@ -172,14 +198,23 @@ fn patch([a, b, c]: [Point; 3]) -> (f64, Point) {
 
 /// SHA-256 of the triangles in single precision, each begun at its least corner, in ascending order.
 fn triangles_sha256(mesh: &TriMesh) -> String {
-    let mut triangles: Vec<[[u32; 3]; 3]> = mesh.iter_corners().map(|corners| corners.map(bits)).collect();
+    let mut triangles: Vec<[[u32; 3]; 3]> = mesh
+        .iter_corners()
+        .map(|corners| corners.map(bits))
+        .collect();
     for triangle in &mut triangles {
-        let least = (0..3).min_by_key(|&corner| triangle[corner]).unwrap_or_default();
+        let least = (0..3)
+            .min_by_key(|&corner| triangle[corner])
+            .unwrap_or_default();
         triangle.rotate_left(least);
     }
     triangles.sort_unstable();
-    let bytes: Vec<u8> =
-        triangles.as_flattened().as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
+    let bytes: Vec<u8> = triangles
+        .as_flattened()
+        .as_flattened()
+        .iter()
+        .flat_map(|x| x.to_le_bytes())
+        .collect();
     sha256_hex(&[&bytes])
 }
 
@@ -203,16 +238,28 @@ mod tests {
 
     fn mapped(linear: Matrix, shift: Vector) -> Likeness {
         let moved = lopsided().map_vertices(|p| Point::from(linear * p.coords + shift));
-        let mesh = if linear.determinant() < 0.0 { moved.reversed() } else { moved };
+        let mesh = if linear.determinant() < 0.0 {
+            moved.reversed()
+        } else {
+            moved
+        };
         Fingerprint::of(&lopsided()).likeness(&Fingerprint::of(&mesh))
     }
 
     #[test]
     fn the_same_triangles_are_known_in_any_order_and_from_any_corner() {
         let mesh = lopsided();
-        let turned = mesh.triangles().iter().rev().map(|&[a, b, c]| [b, c, a]).collect();
+        let turned = mesh
+            .triangles()
+            .iter()
+            .rev()
+            .map(|&[a, b, c]| [b, c, a])
+            .collect();
         let other = TriMesh::new(mesh.vertices().to_vec(), turned).unwrap();
-        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&other)), Likeness::Same);
+        assert_eq!(
+            Fingerprint::of(&mesh).likeness(&Fingerprint::of(&other)),
+            Likeness::Same
+        );
         assert_ne!(
             Fingerprint::of(&mesh).triangles_sha256,
             Fingerprint::of(&mesh.reversed()).triangles_sha256
@@ -223,19 +270,29 @@ mod tests {
     fn what_was_done_to_a_shape_is_told() {
         let id = Matrix::identity();
         let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-        let Likeness::Moved(mm) = mapped(id, Vector::new(3.0, 0.0, 4.0)) else { panic!() };
+        let Likeness::Moved(mm) = mapped(id, Vector::new(3.0, 0.0, 4.0)) else {
+            panic!()
+        };
         assert!((mm - 5.0).abs() < 1e-9);
         assert_eq!(mapped(turn, Vector::new(1.0, 2.0, 3.0)), Likeness::Turned);
-        let Likeness::Scaled(ratio) = mapped(id * 1.02, Vector::zeros()) else { panic!() };
+        let Likeness::Scaled(ratio) = mapped(id * 1.02, Vector::zeros()) else {
+            panic!()
+        };
         assert!((ratio - 1.02).abs() < 1e-9);
         for axis in 0..3 {
             let mut mirror = id;
             mirror[(axis, axis)] = -1.0;
-            assert_eq!(mapped(mirror, Vector::new(10.0, 0.0, 0.0)), Likeness::Mirrored);
+            assert_eq!(
+                mapped(mirror, Vector::new(10.0, 0.0, 0.0)),
+                Likeness::Mirrored
+            );
             assert_eq!(mapped(turn * mirror, Vector::zeros()), Likeness::Mirrored);
         }
         assert_eq!(
-            mapped(Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)), Vector::zeros()),
+            mapped(
+                Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)),
+                Vector::zeros()
+            ),
             Likeness::Other
         );
     }
@@ -244,16 +301,28 @@ mod tests {
     fn rounded_coordinates_are_near_and_another_body_is_other() {
         let mesh = lopsided();
         let rounded = mesh.map_vertices(|p| p.map(|x| (x * 1e5).round() / 1e5));
-        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&rounded)), Likeness::Near);
+        assert_eq!(
+            Fingerprint::of(&mesh).likeness(&Fingerprint::of(&rounded)),
+            Likeness::Near
+        );
         let without = block(Point::origin(), [10.0, 6.0, 3.0]);
-        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&without)), Likeness::Other);
-        assert_eq!(Fingerprint::of(&mesh).likeness(&Fingerprint::of(&TriMesh::default())), Likeness::Other);
+        assert_eq!(
+            Fingerprint::of(&mesh).likeness(&Fingerprint::of(&without)),
+            Likeness::Other
+        );
+        assert_eq!(
+            Fingerprint::of(&mesh).likeness(&Fingerprint::of(&TriMesh::default())),
+            Likeness::Other
+        );
     }
 
     #[test]
     fn half_of_the_maps_are_turns() {
         let all: Vec<AxisMap> = maps().collect();
         assert_eq!((all.len(), all[0]), (48, AxisMap::IDENTITY));
-        assert!(all[..24].iter().all(|map| !map.is_mirror()) && all[24..].iter().all(AxisMap::is_mirror));
+        assert!(
+            all[..24].iter().all(|map| !map.is_mirror())
+                && all[24..].iter().all(AxisMap::is_mirror)
+        );
     }
 }

@@ -72,7 +72,10 @@ impl Hardware {
 
 /// The moments of all pieces times their densities, model frame.
 pub fn mass_moments(hardware: &[Hardware]) -> Moments {
-    hardware.iter().map(Hardware::mass_moments).fold(Moments::default(), |sum, piece| sum + piece)
+    hardware
+        .iter()
+        .map(Hardware::mass_moments)
+        .fold(Moments::default(), |sum, piece| sum + piece)
 }
 
 /// How the pieces sit in the outer surface.
@@ -82,7 +85,10 @@ pub fn fit(hardware: &[Hardware], aim: &Aim, (outer, wall_mm): (&TriMesh, f64)) 
     let axle = hardware.iter().find(|piece| piece.what == "axle");
     let radius_mm = |axle: &Hardware| 0.5 * axle.socket_mm + GAP_WALL_RATIO * wall_mm;
     let gap_mm = axle.and_then(|axle| gap_mm(outer, &aim.frame(), radius_mm(axle)));
-    Some(Fit { room_mm: Some(room_mm), gap_mm })
+    Some(Fit {
+        room_mm: Some(room_mm),
+        gap_mm,
+    })
 }
 
 /// The least distance of the surface from the side of a bar, mm; negative by as much as it reaches in. A bar that lies in the
@@ -96,7 +102,10 @@ fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     }
     let ends_mm = [END_MM, bar.length_mm() - END_MM];
     let off_axis = outer.iter_corners().filter_map(|corners| {
-        distance_from_axis(&between(corners.map(|p| frame.to_local(&p).coords), ends_mm))
+        distance_from_axis(&between(
+            corners.map(|p| frame.to_local(&p).coords),
+            ends_mm,
+        ))
     });
     off_axis.fold(f64::INFINITY, f64::min) - bar.radius_mm
 }
@@ -133,7 +142,11 @@ fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
     let to_side = |(p, q): (&Vector, &Vector)| {
         let (start, along) = (p.xy(), q.xy() - p.xy());
         let length = along.norm_squared();
-        let share = if length > 0.0 { (-start.dot(&along) / length).clamp(0.0, 1.0) } else { 0.0 };
+        let share = if length > 0.0 {
+            (-start.dot(&along) / length).clamp(0.0, 1.0)
+        } else {
+            0.0
+        };
         (start + along * share).norm()
     };
     sides().map(to_side).min_by(f64::total_cmp)
@@ -141,18 +154,30 @@ fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
 
 /// The least way from half to half along the axis, on lines about it at this radius, mm; none where a line meets only one.
 fn gap_mm(outer: &TriMesh, frame: &Frame, radius_mm: f64) -> Option<f64> {
-    let local: Vec<[Vector; 3]> =
-        outer.iter_corners().map(|corners| corners.map(|p| frame.to_local(&p).coords)).collect();
+    let local: Vec<[Vector; 3]> = outer
+        .iter_corners()
+        .map(|corners| corners.map(|p| frame.to_local(&p).coords))
+        .collect();
     let on_line = |i: usize| {
         let (sin, cos) = (TAU * (i as f64 + 0.5) / GAP_LINES as f64).sin_cos();
         let at = Vector::new(radius_mm * cos, radius_mm * sin, 0.0);
-        let heights = local.iter().filter_map(|corners| height_on_line(corners, &at));
-        let [above, below] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[above, below], z| {
-            if z >= 0.0 { [above.min(z), below] } else { [above, below.max(z)] }
-        });
+        let heights = local
+            .iter()
+            .filter_map(|corners| height_on_line(corners, &at));
+        let [above, below] =
+            heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[above, below], z| {
+                if z >= 0.0 {
+                    [above.min(z), below]
+                } else {
+                    [above, below.max(z)]
+                }
+            });
         above - below
     };
-    (0..GAP_LINES).map(on_line).min_by(f64::total_cmp).filter(|gap| gap.is_finite())
+    (0..GAP_LINES)
+        .map(on_line)
+        .min_by(f64::total_cmp)
+        .filter(|gap| gap.is_finite())
 }
 
 /// Where the vertical line through a point meets a triangle.
@@ -214,7 +239,11 @@ mod tests {
 
     #[test]
     fn a_triangle_about_the_axis_touches_it_and_one_beside_it_does_not() {
-        let about = [Vector::new(-1.0, -1.0, 0.0), Vector::new(2.0, -1.0, 0.0), Vector::new(0.0, 2.0, 0.0)];
+        let about = [
+            Vector::new(-1.0, -1.0, 0.0),
+            Vector::new(2.0, -1.0, 0.0),
+            Vector::new(0.0, 2.0, 0.0),
+        ];
         assert_eq!(distance_from_axis(&about), Some(0.0));
         let moved = about.map(|p| p + Vector::new(0.0, 3.0, 0.0));
         assert!((distance_from_axis(&moved).unwrap() - 2.0).abs() < 1e-12);

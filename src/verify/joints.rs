@@ -40,22 +40,34 @@ impl GlueFilm {
 /// The moments times the densities of all films, model frame.
 pub(super) fn film_moments(promise: &Promise) -> Moments {
     let films = promise.joints.iter().filter_map(|joint| joint.glue);
-    let of_film = |film: GlueFilm| film.face.film(film.thickness_mm) * (film.density_g_cm3 / MM3_PER_CM3);
-    films.map(of_film).fold(Moments::default(), |sum, film| sum + film)
+    let of_film =
+        |film: GlueFilm| film.face.film(film.thickness_mm) * (film.density_g_cm3 / MM3_PER_CM3);
+    films
+        .map(of_film)
+        .fold(Moments::default(), |sum, film| sum + film)
 }
 
 /// By how much of it a film's area differs from that of the faces in its plane, at worst, and in which joint; none without films.
 ///
 /// All films of a plane are taken together; of the faces that look either way, the mean.
 pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f64, String)> {
-    let films: Vec<(&String, GlueFilm)> =
-        promise.joints.iter().filter_map(|joint| Some((&joint.id, joint.glue?))).collect();
+    let films: Vec<(&String, GlueFilm)> = promise
+        .joints
+        .iter()
+        .filter_map(|joint| Some((&joint.id, joint.glue?)))
+        .collect();
     let error = |(id, film): &(&String, GlueFilm)| {
         let (center, normal) = (Point::from(film.face.center_mm), film.normal());
         let is_in_plane = |p: &Point| normal.dot(&(p - center)).abs() <= IN_PLANE_MM;
-        let alike = films.iter().filter(|(_, other)| is_in_plane(&Point::from(other.face.center_mm)));
+        let alike = films
+            .iter()
+            .filter(|(_, other)| is_in_plane(&Point::from(other.face.center_mm)));
         let promised: f64 = alike.map(|(_, other)| other.face.area_mm2).sum();
-        let found: f64 = parts.iter().map(|part| flat_area_mm2(part, is_in_plane)).sum::<f64>() / 2.0;
+        let found: f64 = parts
+            .iter()
+            .map(|part| flat_area_mm2(part, is_in_plane))
+            .sum::<f64>()
+            / 2.0;
         ((promised - found).abs() / promised, (*id).clone())
     };
     films.iter().map(error).max_by(|a, b| a.0.total_cmp(&b.0))
@@ -64,14 +76,20 @@ pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f
 /// How many strokes of engraved ids are missing from their files, or not as deep as promised; none where no part bears an id.
 pub(super) fn lost_strokes(promise: &Promise, felt: &[Felt]) -> Option<usize> {
     let parts = promise.parts.iter().zip(felt);
-    let marks: Vec<(&Mark, &Felt)> =
-        parts.flat_map(|(part, felt)| part.marks.iter().map(move |mark| (mark, felt))).collect();
+    let marks: Vec<(&Mark, &Felt)> = parts
+        .flat_map(|(part, felt)| part.marks.iter().map(move |mark| (mark, felt)))
+        .collect();
     let is_lost = |mark: &Mark, felt: &Felt, stroke: &[f64; 3]| {
-        let at = |depth: f64| Point::from(*stroke) + Vector::from(mark.axis) * (depth * mark.depth_mm);
+        let at =
+            |depth: f64| Point::from(*stroke) + Vector::from(mark.axis) * (depth * mark.depth_mm);
         felt.holds(&at(1.0 - DEPTH_RATIO)) || !felt.holds(&at(1.0 + DEPTH_RATIO))
     };
-    let lost =
-        |&(mark, felt): &(&Mark, &Felt)| mark.strokes_mm.iter().filter(|s| is_lost(mark, felt, s)).count();
+    let lost = |&(mark, felt): &(&Mark, &Felt)| {
+        mark.strokes_mm
+            .iter()
+            .filter(|s| is_lost(mark, felt, s))
+            .count()
+    };
     (!marks.is_empty()).then(|| marks.iter().map(lost).sum())
 }
 
@@ -83,13 +101,23 @@ pub(super) fn marks_check(lost: usize) -> Check {
 
 /// The area of a part's triangles all of whose corners lie in a plane of the model.
 fn flat_area_mm2(part: &PartEvidence, is_in_plane: impl Fn(&Point) -> bool) -> f64 {
-    let corners = part.mesh.iter_corners().map(|corners| corners.map(|p| part.pose.to_model(&p)));
+    let corners = part
+        .mesh
+        .iter_corners()
+        .map(|corners| corners.map(|p| part.pose.to_model(&p)));
     let flat = corners.filter(|corners| corners.iter().all(&is_in_plane));
-    flat.map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0).sum()
+    flat.map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0)
+        .sum()
 }
 
 /// Whether the films are as large as the faces in the files.
 pub(super) fn film_check((error, joint): (f64, String)) -> Check {
     let promise = "every film of glue is as large as its faces, but for a share of";
-    Check::new("glue", promise, Some(error), Limit::at_most(FILM_LIMIT_RATIO, "")).at(Some(joint))
+    Check::new(
+        "glue",
+        promise,
+        Some(error),
+        Limit::at_most(FILM_LIMIT_RATIO, ""),
+    )
+    .at(Some(joint))
 }

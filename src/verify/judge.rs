@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::pegs::{Felt, overlaps, pegs};
 use super::{
-    Check, Figures, FileChange, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting, Shells,
-    Support, SurfaceFacts, VoidFacts, assembly_moments,
+    Check, Figures, FileChange, Fit, Hull, PartEvidence, PartFacts, PegFacts, Promise, Setting,
+    Shells, Support, SurfaceFacts, VoidFacts, assembly_moments,
     ballast::{ballast_moments, fill_moments, least_room_mm},
     checks,
     cleaning::voids,
@@ -84,7 +84,8 @@ pub fn judge(evidence: &Evidence) -> Judgement {
     let load = ballast_moments(&promise.ballast, setting.density_g_mm3())
         + fill_moments(promise.fill, &shells.inner_mesh(), setting.density_g_cm3);
     let figures_of = |moments| Figures::loaded(&moments, &load, &setting);
-    let joined = (film_moments(promise) + mass_moments(&promise.dowels)) * setting.density_g_mm3().recip();
+    let joined =
+        (film_moments(promise) + mass_moments(&promise.dowels)) * setting.density_g_mm3().recip();
     let assembled = assembly_moments(&evidence.parts);
     let felt: Vec<Felt> = evidence.parts.par_iter().map(Felt::of).collect();
     let mut judgement = Judgement {
@@ -94,7 +95,11 @@ pub fn judge(evidence: &Evidence) -> Judgement {
         surface: SurfaceFacts::of_mesh(&welded),
         parts: evidence.parts.par_iter().map(PartFacts::of_part).collect(),
         wall_min_mm: smallest_wall_mm(&shells),
-        fit: fit(&promise.hardware, &promise.goal, (&outer, promise.wall.required_mm)),
+        fit: fit(
+            &promise.hardware,
+            &promise.goal,
+            (&outer, promise.wall.required_mm),
+        ),
         ballast_room_mm: least_room_mm(&promise.ballast, &welded, &outer),
         pegs: pegs(&evidence.promise, &felt, &evidence.hollowed),
         overlaps: overlaps(&felt),
@@ -115,5 +120,12 @@ pub fn setting(promise: &Promise, outer: &TriMesh) -> Setting {
     let ends_mm = (aim.kind == GoalKind::Balance).then(|| ends_mm(outer, &aim.frame()));
     let hull = (aim.kind == GoalKind::Float).then(|| Hull::new(outer, &aim.frame()));
     let hardware = mass_moments(&promise.hardware);
-    Setting { density_g_cm3: promise.material.density_g_cm3, aim, support, ends_mm, hull, hardware }
+    Setting {
+        density_g_cm3: promise.material.density_g_cm3,
+        aim,
+        support,
+        ends_mm,
+        hull,
+        hardware,
+    }
 }

@@ -16,12 +16,22 @@ pub(crate) fn sound() -> Evidence {
     let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
     let corner = Vector::new(-30.0, -20.0, 10.0);
     let turned = Matrix::from_diagonal(&Vector::new(1.0, -1.0, -1.0));
-    let poses =
-        [Pose::new(&Matrix::identity(), &-corner), Pose::new(&turned, &Vector::new(30.0, 20.0, 22.0))];
-    let part = |i: usize| PartEvidence { id: format!("P0{}", i + 1), mesh: tray(half, WALL), pose: poses[i] };
+    let poses = [
+        Pose::new(&Matrix::identity(), &-corner),
+        Pose::new(&turned, &Vector::new(30.0, 20.0, 22.0)),
+    ];
+    let part = |i: usize| PartEvidence {
+        id: format!("P0{}", i + 1),
+        mesh: tray(half, WALL),
+        pose: poses[i],
+    };
     let cavity = block(Point::new(-27.0, -17.0, 13.0), [54.0, 34.0, 6.0]);
     let hollowed = block(Point::from(corner), SIZE).joined(&cavity.reversed());
-    Evidence { promise: promise(&poses), hollowed, parts: vec![part(0), part(1)] }
+    Evidence {
+        promise: promise(&poses),
+        hollowed,
+        parts: vec![part(0), part(1)],
+    }
 }
 
 fn promise(poses: &[Pose]) -> Promise {
@@ -63,7 +73,12 @@ fn promise(poses: &[Pose]) -> Promise {
 
 /// The names of the checks a kit fails.
 pub(crate) fn failures(evidence: &Evidence) -> Vec<String> {
-    judge(evidence).checks.into_iter().filter(|check| !check.pass).map(|check| check.name).collect()
+    judge(evidence)
+        .checks
+        .into_iter()
+        .filter(|check| !check.pass)
+        .map(|check| check.name)
+        .collect()
 }
 
 #[test]
@@ -101,7 +116,9 @@ fn a_mirrored_pose_is_refused() {
 #[test]
 fn a_part_that_hovers_is_found() {
     let mut evidence = sound();
-    evidence.parts[1].mesh = evidence.parts[1].mesh.map_vertices(|p| p + Vector::z() * 0.001);
+    evidence.parts[1].mesh = evidence.parts[1]
+        .mesh
+        .map_vertices(|p| p + Vector::z() * 0.001);
     assert_eq!(failures(&evidence), ["resting"]);
 }
 
@@ -110,8 +127,11 @@ fn an_uncut_body_is_a_closed_cavity() {
     let mut evidence = sound();
     let shift = Vector::new(30.0, 20.0, -10.0);
     let mesh = evidence.hollowed.map_vertices(|p| p + shift);
-    evidence.parts =
-        vec![PartEvidence { id: "P01".into(), mesh, pose: Pose::new(&Matrix::identity(), &shift) }];
+    evidence.parts = vec![PartEvidence {
+        id: "P01".into(),
+        mesh,
+        pose: Pose::new(&Matrix::identity(), &shift),
+    }];
     evidence.promise.printer.build_volume_mm = None;
     assert_eq!(failures(&evidence), ["closed cavities"]);
 }
@@ -130,7 +150,11 @@ fn a_part_too_large_for_the_printer_is_found() {
     let mut evidence = sound();
     evidence.promise.printer.build_volume_mm = Some([100.0, 39.0, 100.0]);
     let judgement = judge(&evidence);
-    let room = judgement.checks.iter().find(|check| check.name == "build volume").unwrap();
+    let room = judgement
+        .checks
+        .iter()
+        .find(|check| check.name == "build volume")
+        .unwrap();
     assert_eq!((room.pass, room.value), (false, Some(-1.0)));
 }
 
@@ -146,9 +170,15 @@ fn a_promise_better_than_the_truth_is_broken_and_one_within_the_slack_is_kept() 
     let mut evidence = sound();
     let speed = judge(&evidence).assembly.critical_speed_rpm.unwrap();
     let figure = FigureName::CriticalSpeedRpm;
-    evidence.promise.promise = Some(PromisedFigure { figure, value: speed * 0.99 });
+    evidence.promise.promise = Some(PromisedFigure {
+        figure,
+        value: speed * 0.99,
+    });
     assert_eq!(failures(&evidence), ["critical speed"]);
-    evidence.promise.promise = Some(PromisedFigure { figure, value: speed * 0.9995 });
+    evidence.promise.promise = Some(PromisedFigure {
+        figure,
+        value: speed * 0.9995,
+    });
     assert_eq!(failures(&evidence), Vec::<String>::new());
 }
 
@@ -180,7 +210,11 @@ fn the_same_box_stands_until_its_centre_is_over_its_edge() {
 #[test]
 fn the_judgement_is_the_same_on_one_thread_and_on_four() {
     let on = |threads| {
-        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap().install(|| judge(&sound()))
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap()
+            .install(|| judge(&sound()))
     };
     assert_eq!(on(1), on(4));
 }
@@ -188,17 +222,32 @@ fn the_judgement_is_the_same_on_one_thread_and_on_four() {
 /// The sound box as a rotor about its own middle, which is at z = 16.
 fn rotor(origin_mm: [f64; 3], speed_rpm: f64) -> Evidence {
     let mut evidence = sound();
-    let rotor = Some(RotorOrder { speed_rpm, grade_mm_s: 2.5 });
-    evidence.promise.goal = Aim { rotor, ..Aim::new(GoalKind::Balance, origin_mm, [0.0, 0.0, 1.0]) };
+    let rotor = Some(RotorOrder {
+        speed_rpm,
+        grade_mm_s: 2.5,
+    });
+    evidence.promise.goal = Aim {
+        rotor,
+        ..Aim::new(GoalKind::Balance, origin_mm, [0.0, 0.0, 1.0])
+    };
     evidence
 }
 
 #[test]
 fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
     // G = e ω: 0.01 mm at 2000 rpm is 2.09 mm/s, at 3000 rpm 3.14.
-    assert_eq!(failures(&rotor([0.01, 0.0, 16.0], 2000.0)), Vec::<String>::new());
-    assert_eq!(failures(&rotor([0.01, 0.0, 16.0], 3000.0)), ["balance quality"]);
-    let unbalance = judge(&rotor([0.01, 0.0, 16.0], 3000.0)).assembly.unbalance.unwrap();
+    assert_eq!(
+        failures(&rotor([0.01, 0.0, 16.0], 2000.0)),
+        Vec::<String>::new()
+    );
+    assert_eq!(
+        failures(&rotor([0.01, 0.0, 16.0], 3000.0)),
+        ["balance quality"]
+    );
+    let unbalance = judge(&rotor([0.01, 0.0, 16.0], 3000.0))
+        .assembly
+        .unbalance
+        .unwrap();
     let mass_g = judge(&sound()).assembly.mass_g;
     assert!((unbalance.static_g_mm - 0.01 * mass_g).abs() < 1e-9 && unbalance.couple_g_mm2 < 1e-9);
 }
@@ -208,8 +257,14 @@ fn boat(waterline_mm: f64) -> Evidence {
     let mut evidence = sound();
     // Its mass over the water it displaces: 1.2 · (28 800 − 11 016)/(2400 · T) at T mm; at 6 mm a liquid of 1.482.
     let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
-    let water = Some(WaterOrder { liquid_g_cm3, waterline_mm });
-    evidence.promise.goal = Aim { water, ..Aim::new(GoalKind::Float, [0.0, 0.0, 10.0], [0.0, 0.0, 1.0]) };
+    let water = Some(WaterOrder {
+        liquid_g_cm3,
+        waterline_mm,
+    });
+    evidence.promise.goal = Aim {
+        water,
+        ..Aim::new(GoalKind::Float, [0.0, 0.0, 10.0], [0.0, 0.0, 1.0])
+    };
     evidence
 }
 
@@ -225,8 +280,14 @@ fn a_box_that_floats_as_deep_as_was_said_passes_and_one_said_to_be_higher_does_n
 #[test]
 fn a_box_heavier_than_the_water_it_displaces_sinks_and_fails_every_promise_of_floating() {
     let mut evidence = boat(6.0);
-    evidence.promise.goal.water = Some(WaterOrder { liquid_g_cm3: 0.7, waterline_mm: 6.0 });
-    assert_eq!(failures(&evidence), ["waterline", "upright", "stability", "righting"]);
+    evidence.promise.goal.water = Some(WaterOrder {
+        liquid_g_cm3: 0.7,
+        waterline_mm: 6.0,
+    });
+    assert_eq!(
+        failures(&evidence),
+        ["waterline", "upright", "stability", "righting"]
+    );
 }
 
 #[test]
@@ -240,8 +301,16 @@ fn a_box_with_a_heavy_side_does_not_float_upright() {
 fn ballasted() -> Evidence {
     let mut evidence = sound();
     let shape = LumpShape::Ball { diameter_mm: 4.0 };
-    let lump = Lump { shape, mass_g: 0.2624, center_mm: [0.0, 0.0, 16.0], axis: [0.0, 0.0, 1.0] };
-    evidence.promise.ballast = vec![BallastOrder { id: "B1".into(), lump }];
+    let lump = Lump {
+        shape,
+        mass_g: 0.2624,
+        center_mm: [0.0, 0.0, 16.0],
+        axis: [0.0, 0.0, 1.0],
+    };
+    evidence.promise.ballast = vec![BallastOrder {
+        id: "B1".into(),
+        lump,
+    }];
     evidence
 }
 
@@ -250,7 +319,10 @@ fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
     let [bare, loaded] = [sound(), ballasted()].map(|evidence| judge(&evidence));
     assert!(loaded.passes());
     assert!((loaded.assembly.mass_g - bare.assembly.mass_g - 0.2624).abs() < 1e-12);
-    assert_eq!((loaded.assembly.volume_mm3, &loaded.solid), (bare.assembly.volume_mm3, &bare.solid));
+    assert_eq!(
+        (loaded.assembly.volume_mm3, &loaded.solid),
+        (bare.assembly.volume_mm3, &bare.solid)
+    );
     // A ball of 4 mm in the middle of a void 6 mm high.
     assert!((loaded.ballast_room_mm.unwrap() - 1.0).abs() < 1e-9);
     let added = |i: usize| loaded.assembly.inertia_g_mm2[i][i] - bare.assembly.inertia_g_mm2[i][i];
@@ -263,10 +335,17 @@ fn a_wrong_mass_of_ballast_is_found() {
     let mut evidence = ballasted();
     let sheet = sheet::stated(&serde_json::Value::Null, &evidence, &judge(&evidence));
     let before = misstatements(&sheet, &evidence, &judge(&evidence));
-    assert!(before.iter().all(|words| words.starts_with("model.")), "{before:?}");
+    assert!(
+        before.iter().all(|words| words.starts_with("model.")),
+        "{before:?}"
+    );
     evidence.promise.ballast[0].lump.mass_g *= 1.01;
     let told = misstatements(&sheet, &evidence, &judge(&evidence));
-    assert!(told.iter().any(|words| words.starts_with("assembly.mass_g states")), "{told:?}");
+    assert!(
+        told.iter()
+            .any(|words| words.starts_with("assembly.mass_g states")),
+        "{told:?}"
+    );
 }
 
 #[test]
@@ -276,7 +355,10 @@ fn ballast_beside_its_place_spoils_the_balance_or_has_no_room() {
     assert!(failures(&evidence).contains(&"axis offset".to_owned()));
     for place in [[0.0, 0.0, 17.5], [0.0, 0.0, 21.0], [0.0, 0.0, 40.0]] {
         evidence.promise.ballast[0].lump.center_mm = place;
-        assert!(failures(&evidence).contains(&"ballast room".to_owned()), "{place:?}");
+        assert!(
+            failures(&evidence).contains(&"ballast room".to_owned()),
+            "{place:?}"
+        );
     }
 }
 

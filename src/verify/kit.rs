@@ -37,7 +37,9 @@ pub enum VerifyError {
         source: std::io::Error,
     },
     /// The checklist is not what this program writes.
-    #[error("{path} is not a checklist this program can read; write the kit again with `equipoise prepare`")]
+    #[error(
+        "{path} is not a checklist this program can read; write the kit again with `equipoise prepare`"
+    )]
     Checklist {
         /// Which file.
         path: PathBuf,
@@ -45,7 +47,9 @@ pub enum VerifyError {
         source: serde_json::Error,
     },
     /// The checklist is of another version.
-    #[error("{path} has schema {found}, this program reads schema {SCHEMA}; use the version that wrote it")]
+    #[error(
+        "{path} has schema {found}, this program reads schema {SCHEMA}; use the version that wrote it"
+    )]
     Schema {
         /// Which file.
         path: PathBuf,
@@ -86,14 +90,26 @@ impl VerifyError {
     /// there is no kit to be judged in `folder`.
     pub fn changes(&self, folder: &Path) -> Vec<FileChange> {
         match self {
-            Self::Missing { files, .. } => {
-                files.iter().map(|file| FileChange { file: file.clone(), change: Change::Missing }).collect()
-            }
+            Self::Missing { files, .. } => files
+                .iter()
+                .map(|file| FileChange {
+                    file: file.clone(),
+                    change: Change::Missing,
+                })
+                .collect(),
             Self::Mesh { path, source } => {
-                let causes = std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
+                let causes =
+                    std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
                 let why = causes.last().map(ToString::to_string).unwrap_or_default();
-                let file = path.strip_prefix(folder).unwrap_or(path).display().to_string();
-                vec![FileChange { file, change: Change::Unreadable(why) }]
+                let file = path
+                    .strip_prefix(folder)
+                    .unwrap_or(path)
+                    .display()
+                    .to_string();
+                vec![FileChange {
+                    file,
+                    change: Change::Unreadable(why),
+                }]
             }
             _ => Vec::new(),
         }
@@ -109,13 +125,23 @@ pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     let parts = promise.parts.iter().map(|part| {
         let mesh = read_mesh(&folder.join(&part.file))?;
         let mesh = of_nominal_size(mesh, promise.printer.print_scale_ratio);
-        Ok(PartEvidence { id: part.id.clone(), mesh, pose: part.print_from_model })
+        Ok(PartEvidence {
+            id: part.id.clone(),
+            mesh,
+            pose: part.print_from_model,
+        })
     });
-    let evidence = Evidence { hollowed, parts: parts.collect::<Result<_, _>>()?, promise };
+    let evidence = Evidence {
+        hollowed,
+        parts: parts.collect::<Result<_, _>>()?,
+        promise,
+    };
     let mut judgement = judge(&evidence);
     let misstated = misstatements(&sheet, &evidence, &judgement);
     judgement.changes = file_changes(folder, &evidence)?;
-    judgement.changes.extend(paper_changes(folder, &evidence.promise)?);
+    judgement
+        .changes
+        .extend(paper_changes(folder, &evidence.promise)?);
     judgement.checks.push(sheet_check(&misstated));
     judgement.checks.push(files_check(&judgement.changes));
     judgement.checks.extend(packages_check(folder, &evidence)?);
@@ -133,7 +159,9 @@ fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyError> {
     let bytes = read_file(&path)?;
     let sheet: Result<Value, _> = serde_json::from_slice(&bytes);
     match sheet.as_ref().map(|sheet| sheet["schema"].as_u64()) {
-        Ok(Some(found)) if found != u64::from(SCHEMA) => return Err(VerifyError::Schema { path, found }),
+        Ok(Some(found)) if found != u64::from(SCHEMA) => {
+            return Err(VerifyError::Schema { path, found });
+        }
         _ => {}
     }
     let read = sheet.and_then(|sheet| Ok((serde_json::from_slice(&bytes)?, sheet)));
@@ -143,22 +171,40 @@ fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyError> {
 /// Refuses a kit that names files outside of it, or that lacks a mesh to be judged.
 fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
     let parts = || promise.parts.iter().map(|part| &part.file);
-    if let Some(file) = parts().chain(promise.files.keys()).find(|file| !lies_within(file)) {
+    if let Some(file) = parts()
+        .chain(promise.files.keys())
+        .find(|file| !lies_within(file))
+    {
         return Err(VerifyError::Outside { file: file.clone() });
     }
     let hollowed = HOLLOWED_FILE.to_owned();
-    let missing = parts().chain([&hollowed]).filter(|file| !folder.join(file).exists());
+    let missing = parts()
+        .chain([&hollowed])
+        .filter(|file| !folder.join(file).exists());
     let files: Vec<String> = missing.cloned().collect();
-    if files.is_empty() { Ok(()) } else { Err(VerifyError::Missing { folder: folder.to_owned(), files }) }
+    if files.is_empty() {
+        Ok(())
+    } else {
+        Err(VerifyError::Missing {
+            folder: folder.to_owned(),
+            files,
+        })
+    }
 }
 
 /// Whether a relative path stays below the folder it is joined to.
 pub(super) fn lies_within(file: &str) -> bool {
-    !file.is_empty() && Path::new(file).components().all(|part| matches!(part, Component::Normal(_)))
+    !file.is_empty()
+        && Path::new(file)
+            .components()
+            .all(|part| matches!(part, Component::Normal(_)))
 }
 
 pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {
-    std::fs::read(path).map_err(|source| VerifyError::File { path: path.to_owned(), source })
+    std::fs::read(path).map_err(|source| VerifyError::File {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// The mesh of a part before it was scaled for the printer.
@@ -170,5 +216,8 @@ pub(super) fn of_nominal_size(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> T
 }
 
 fn read_mesh(path: &Path) -> Result<TriMesh, VerifyError> {
-    read_model(path).map_err(|source| VerifyError::Mesh { path: path.to_owned(), source })
+    read_model(path).map_err(|source| VerifyError::Mesh {
+        path: path.to_owned(),
+        source,
+    })
 }

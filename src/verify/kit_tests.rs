@@ -17,7 +17,11 @@ fn write_kit(folder: &Path) {
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");
     fs::create_dir_all(folder.join("parts")).unwrap();
     fs::write(folder.join(HOLLOWED_FILE), &hollowed).unwrap();
-    let parts: Vec<Value> = evidence.parts.iter().map(|part| part_json(folder, part)).collect();
+    let parts: Vec<Value> = evidence
+        .parts
+        .iter()
+        .map(|part| part_json(folder, part))
+        .collect();
     let mut sheet = json!({
         "schema": SCHEMA,
         "printer": { "build_volume_mm": null, "minimum_wall_mm": 1.0 },
@@ -29,7 +33,10 @@ fn write_kit(folder: &Path) {
         "files": { HOLLOWED_FILE: sha256_hex(&[&hollowed]) },
     });
     // As the program does, what is found is stated.
-    let read = Evidence { promise: serde_json::from_value(sheet.clone()).unwrap(), ..evidence };
+    let read = Evidence {
+        promise: serde_json::from_value(sheet.clone()).unwrap(),
+        ..evidence
+    };
     fill_in(&mut sheet, stated(&Value::Null, &read, &judge(&read)));
     fill_in(&mut sheet, stated_before_rounding(&read, &judge(&read)));
     fs::write(folder.join(CHECKLIST_FILE), sheet.to_string()).unwrap();
@@ -40,12 +47,16 @@ fn write_kit(folder: &Path) {
 fn fill_in(sheet: &mut Value, with: Value) {
     match (sheet, with) {
         (Value::Object(sheet), Value::Object(with)) => {
-            with.into_iter().for_each(|(key, value)| fill_in(sheet.entry(key).or_insert(Value::Null), value));
+            with.into_iter()
+                .for_each(|(key, value)| fill_in(sheet.entry(key).or_insert(Value::Null), value));
         }
         (Value::Array(sheet), Value::Array(with))
             if !sheet.is_empty() && with.iter().any(Value::is_object) =>
         {
-            sheet.iter_mut().zip(with).for_each(|(sheet, value)| fill_in(sheet, value));
+            sheet
+                .iter_mut()
+                .zip(with)
+                .for_each(|(sheet, value)| fill_in(sheet, value));
         }
         (sheet, with) => *sheet = with,
     }
@@ -54,17 +65,37 @@ fn fill_in(sheet: &mut Value, with: Value) {
 /// Writes the job sheet and the list of hashes for the checklist as it is.
 fn seal(folder: &Path) {
     let json = fs::read(folder.join(CHECKLIST_FILE)).unwrap();
-    fs::write(folder.join(SHEET_FILE), format!("made for {}", sha256_hex(&[&json]))).unwrap();
+    fs::write(
+        folder.join(SHEET_FILE),
+        format!("made for {}", sha256_hex(&[&json])),
+    )
+    .unwrap();
     let sheet: Value = serde_json::from_slice(&json).unwrap();
-    let mut files: Vec<String> = sheet["files"].as_object().unwrap().keys().cloned().collect();
+    let mut files: Vec<String> = sheet["files"]
+        .as_object()
+        .unwrap()
+        .keys()
+        .cloned()
+        .collect();
     files.extend([CHECKLIST_FILE, SHEET_FILE].map(str::to_owned));
-    let bytes: Vec<Vec<u8>> = files.iter().map(|file| fs::read(folder.join(file)).unwrap()).collect();
-    let list = sums(files.iter().map(String::as_str).zip(bytes.iter().map(Vec::as_slice)));
+    let bytes: Vec<Vec<u8>> = files
+        .iter()
+        .map(|file| fs::read(folder.join(file)).unwrap())
+        .collect();
+    let list = sums(
+        files
+            .iter()
+            .map(String::as_str)
+            .zip(bytes.iter().map(Vec::as_slice)),
+    );
     fs::write(folder.join(SUMS_FILE), list).unwrap();
 }
 
 fn part_json(folder: &Path, part: &PartEvidence) -> Value {
-    let (bytes, file) = (stl::encode(&part.mesh, &part.id), format!("parts/{}.stl", part.id));
+    let (bytes, file) = (
+        stl::encode(&part.mesh, &part.id),
+        format!("parts/{}.stl", part.id),
+    );
     fs::write(folder.join(&file), &bytes).unwrap();
     let fingerprint = Fingerprint::of(&stl::decode(&bytes).unwrap());
     json!({ "id": part.id, "file": file, "sha256": sha256_hex(&[&bytes]), "fingerprint": fingerprint, "print_from_model": part.pose })
@@ -87,7 +118,12 @@ fn kit_with(change: impl FnOnce(&Path)) -> Result<Judgement, VerifyError> {
 }
 
 fn failures(judgement: &Judgement) -> Vec<&str> {
-    judgement.checks.iter().filter(|check| !check.pass).map(|check| check.name.as_str()).collect()
+    judgement
+        .checks
+        .iter()
+        .filter(|check| !check.pass)
+        .map(|check| check.name.as_str())
+        .collect()
 }
 
 #[test]
@@ -116,10 +152,15 @@ fn a_part_with_the_same_shape_under_another_header_is_a_changed_file_and_nothing
 fn numbers(at: &str, value: &Value) -> Vec<String> {
     match value {
         Value::Number(_) => vec![at.to_owned()],
-        Value::Object(keys) => keys.iter().flat_map(|(key, v)| numbers(&format!("{at}/{key}"), v)).collect(),
-        Value::Array(rows) => {
-            rows.iter().enumerate().flat_map(|(i, v)| numbers(&format!("{at}/{i}"), v)).collect()
-        }
+        Value::Object(keys) => keys
+            .iter()
+            .flat_map(|(key, v)| numbers(&format!("{at}/{key}"), v))
+            .collect(),
+        Value::Array(rows) => rows
+            .iter()
+            .enumerate()
+            .flat_map(|(i, v)| numbers(&format!("{at}/{i}"), v))
+            .collect(),
         _ => Vec::new(),
     }
 }
@@ -131,9 +172,19 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_the
     let whole = fs::read_to_string(room.path().join(CHECKLIST_FILE)).unwrap();
     let sheet: Value = serde_json::from_str(&whole).unwrap();
     let of_judge = |key: &String| {
-        ["/solid", "/hollowed", "/assembly", "/parts", "/voids", "/checks", "/wall", "/model", "/material"]
-            .iter()
-            .any(|table| key.starts_with(table))
+        [
+            "/solid",
+            "/hollowed",
+            "/assembly",
+            "/parts",
+            "/voids",
+            "/checks",
+            "/wall",
+            "/model",
+            "/material",
+        ]
+        .iter()
+        .any(|table| key.starts_with(table))
     };
     let keys: Vec<String> = numbers("", &sheet).into_iter().filter(of_judge).collect();
     // Mass, volume, centre, inertia and figures of three bodies, and the rows and marks of two parts.
@@ -149,7 +200,11 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_the
         // A careful liar makes the job sheet and the list of hashes anew.
         seal(room.path());
         let told = verify_kit(room.path()).unwrap();
-        assert!(!told.passes(), "{key} may be {} in place of {old}", old + step);
+        assert!(
+            !told.passes(),
+            "{key} may be {} in place of {old}",
+            old + step
+        );
     }
 }
 
@@ -161,9 +216,15 @@ fn a_lie_is_told_with_its_key_and_both_numbers() {
     });
     let judgement = judgement.unwrap();
     assert_eq!(failures(&judgement), ["checklist"]);
-    let words =
-        judgement.checks.iter().find_map(|check| check.detail.clone().filter(|_| !check.pass)).unwrap();
-    assert!(words.starts_with("parts[P02].mass_g states 20.0, the files have "), "{words}");
+    let words = judgement
+        .checks
+        .iter()
+        .find_map(|check| check.detail.clone().filter(|_| !check.pass))
+        .unwrap();
+    assert!(
+        words.starts_with("parts[P02].mass_g states 20.0, the files have "),
+        "{words}"
+    );
 }
 
 #[test]
@@ -171,7 +232,12 @@ fn papers_that_do_not_belong_together_are_told_each() {
     let changed = |change: &dyn Fn(&Path)| {
         let judgement = kit_with(change).unwrap();
         assert_eq!(failures(&judgement), ["changed files"]);
-        judgement.changes.iter().map(FileChange::to_string).collect::<Vec<_>>().join("; ")
+        judgement
+            .changes
+            .iter()
+            .map(FileChange::to_string)
+            .collect::<Vec<_>>()
+            .join("; ")
     };
     let append = |file: &'static str| {
         move |kit: &Path| {
@@ -181,7 +247,12 @@ fn papers_that_do_not_belong_together_are_told_each() {
     };
     let page = changed(&append(SHEET_FILE));
     assert_eq!(page, "checklist.html was changed: it has other bytes");
-    assert_eq!(changed(&append(CHECKLIST_FILE)).matches("checklist.json was changed").count(), 1);
+    assert_eq!(
+        changed(&append(CHECKLIST_FILE))
+            .matches("checklist.json was changed")
+            .count(),
+        1
+    );
     let emptied = changed(&|kit| fs::write(kit.join(SUMS_FILE), "").unwrap());
     assert!(emptied.contains("SHA256SUMS was changed"), "{emptied}");
     let gone = changed(&|kit| fs::remove_file(kit.join(SUMS_FILE)).unwrap());
@@ -194,7 +265,11 @@ fn papers_that_do_not_belong_together_are_told_each() {
         let list = fs::read_to_string(kit.join(SUMS_FILE)).unwrap();
         let own = sha256_hex(&[&fs::read(kit.join(SHEET_FILE)).unwrap()]);
         fs::write(kit.join(SHEET_FILE), &page).unwrap();
-        fs::write(kit.join(SUMS_FILE), list.replace(&own, &sha256_hex(&[&page]))).unwrap();
+        fs::write(
+            kit.join(SUMS_FILE),
+            list.replace(&own, &sha256_hex(&[&page])),
+        )
+        .unwrap();
     });
     assert_eq!(other, "checklist.html speaks of another checklist.json");
 }
@@ -203,7 +278,8 @@ fn papers_that_do_not_belong_together_are_told_each() {
 fn a_missing_part_is_named() {
     let error = kit_with(|kit| fs::remove_file(kit.join("parts/P02.stl")).unwrap()).unwrap_err();
     assert!(
-        matches!(&error, VerifyError::Missing { .. }) && error.to_string().contains("parts/P02.stl"),
+        matches!(&error, VerifyError::Missing { .. })
+            && error.to_string().contains("parts/P02.stl"),
         "{error}"
     );
 }
@@ -225,14 +301,18 @@ fn a_checklist_of_another_schema_or_of_nonsense_is_refused() {
 #[test]
 fn a_checklist_that_points_outside_its_kit_is_refused() {
     for outside in ["../secret.stl", "/etc/hostname", "parts/../../x", ""] {
-        let error =
-            kit_with(|kit| edit(kit, |sheet| sheet["parts"][0]["file"] = json!(outside))).unwrap_err();
+        let error = kit_with(|kit| edit(kit, |sheet| sheet["parts"][0]["file"] = json!(outside)))
+            .unwrap_err();
         assert!(matches!(error, VerifyError::Outside { .. }), "{outside}");
     }
 }
 
 #[test]
 fn a_part_that_is_no_mesh_is_named() {
-    let error = kit_with(|kit| fs::write(kit.join("parts/P01.stl"), "no mesh").unwrap()).unwrap_err();
-    assert!(matches!(&error, VerifyError::Mesh { path, .. } if path.ends_with("parts/P01.stl")), "{error}");
+    let error =
+        kit_with(|kit| fs::write(kit.join("parts/P01.stl"), "no mesh").unwrap()).unwrap_err();
+    assert!(
+        matches!(&error, VerifyError::Mesh { path, .. } if path.ends_with("parts/P01.stl")),
+        "{error}"
+    );
 }

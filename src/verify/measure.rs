@@ -52,7 +52,9 @@ impl SurfaceFacts {
     pub fn of_mesh(welded: &TriMesh) -> Self {
         Self {
             triangles: welded.triangles().len(),
-            defect: Solid::new(welded.clone()).err().map(|defects| defects.to_string()),
+            defect: Solid::new(welded.clone())
+                .err()
+                .map(|defects| defects.to_string()),
             crossings: Crossings::of(welded).pairs,
             volume_mm3: moments_of_mesh(welded).volume(),
         }
@@ -85,5 +87,7 @@ impl PartEvidence {
 
 /// The moments of the parts put together in the model frame, exact for what was written.
 pub fn assembly_moments<'a>(parts: impl IntoIterator<Item = &'a PartEvidence>) -> Moments {
-    parts.into_iter().fold(Moments::default(), |sum, part| sum + part.moments())
+    parts
+        .into_iter()
+        .fold(Moments::default(), |sum, part| sum + part.moments())
 }

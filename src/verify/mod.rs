@@ -40,10 +40,10 @@ pub use ballast::{BallastOrder, FillOrder};
 pub use changes::{Change, FILES_CHECK, FileChange, files_check};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO, GAP_TOLERANCE_MM,
-    METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG,
-    STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
-    WATERLINE_LIMIT_MM, checks,
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
+    GAP_TOLERANCE_MM, METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
+    RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
+    WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
 };
 pub use cleaning::{PromisedCut, PromisedVoid, SIGHT_TOLERANCE_RATIO, VoidFacts};
 pub use figures::{Figures, Setting};
@@ -51,13 +51,15 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Fit, Hardware, mass_moments};
 pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
 pub use judge::{Evidence, Judgement, judge, setting};
-pub use kit::{CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE, VerifyError, read_promise, verify_kit};
+pub use kit::{
+    CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE, VerifyError, read_promise, verify_kit,
+};
 pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
 pub use pegs::PegFacts;
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Mark, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint, PromisedPart,
-    SCHEMA, WallOrder,
+    Aim, Density, FigureName, Mark, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint,
+    PromisedPart, SCHEMA, WallOrder,
 };
 pub use rotor::{RotorOrder, Unbalance};
 pub use seal::sums;

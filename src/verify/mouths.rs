@@ -58,7 +58,12 @@ pub(super) fn places(shell: &TriMesh, plane: &Plane, tool_radius_mm: f64) -> Vec
         flat.extend(rims.beside(ring, tool_radius_mm));
         places.extend(flat.into_iter().filter_map(|(at, room_mm)| {
             let (_, rim) = rims.nearest(&at)?;
-            Some(Place { at: lift(&at), room_mm, rim: lift(&rim), mouth: rims.mouth(&at)? })
+            Some(Place {
+                at: lift(&at),
+                room_mm,
+                rim: lift(&rim),
+                mouth: rims.mouth(&at)?,
+            })
         }));
     }
     places
@@ -74,7 +79,12 @@ impl Rims {
             flat(p + (q - p) * (g / (g - h)))
         };
         let mut next: BTreeMap<[u32; 2], [u32; 2]> = BTreeMap::new();
-        next.extend(shell.triangles().iter().filter_map(|t| crossed(t, &heights)));
+        next.extend(
+            shell
+                .triangles()
+                .iter()
+                .filter_map(|t| crossed(t, &heights)),
+        );
         let mut rings = Vec::new();
         while let Some((mut from, mut to)) = next.pop_first() {
             let mut segments = vec![[at(from), at(to)]];
@@ -89,13 +99,22 @@ impl Rims {
 
     /// The nearest point of a rim and its distance, mm.
     fn nearest(&self, p: &Flat) -> Option<(f64, Flat)> {
-        let on = self.rings.iter().flat_map(|ring| &ring.segments).map(|[a, b]| {
-            let (along, to_p) = (b - a, p - a);
-            let square = along.norm_squared();
-            let share = if square > 0.0 { (to_p.dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
-            a + along * share
-        });
-        on.map(|q| ((q - p).norm(), q)).min_by(|a, b| a.0.total_cmp(&b.0))
+        let on = self
+            .rings
+            .iter()
+            .flat_map(|ring| &ring.segments)
+            .map(|[a, b]| {
+                let (along, to_p) = (b - a, p - a);
+                let square = along.norm_squared();
+                let share = if square > 0.0 {
+                    (to_p.dot(&along) / square).clamp(0.0, 1.0)
+                } else {
+                    0.0
+                };
+                a + along * share
+            });
+        on.map(|q| ((q - p).norm(), q))
+            .min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// The room about a point, mm; negative outside the void.
@@ -107,9 +126,15 @@ impl Rims {
 
     /// The mouth a point of the void lies in: the smallest ring around it is that mouth's outer rim.
     fn mouth(&self, p: &Flat) -> Option<usize> {
-        let around = self.rings.iter().enumerate().filter(|(_, ring)| ring.holds(p));
+        let around = self
+            .rings
+            .iter()
+            .enumerate()
+            .filter(|(_, ring)| ring.holds(p));
         let size = |ring: &Ring| (ring.high - ring.low).norm();
-        around.min_by(|a, b| size(a.1).total_cmp(&size(b.1))).map(|(index, _)| index)
+        around
+            .min_by(|a, b| size(a.1).total_cmp(&size(b.1)))
+            .map(|(index, _)| index)
     }
 
     /// Points of the void over the box of a ring, with their room.
@@ -134,10 +159,14 @@ impl Rims {
             while next < walked + length(segment) {
                 let foot = a + along * (next - walked);
                 let normal = nalgebra::Vector2::new(along.y, -along.x);
-                let sides =
-                    [1.0, -1.0].map(|side| foot + normal * (side * room_mm * (1.0 + ROOM_SLACK_RATIO)));
+                let sides = [1.0, -1.0]
+                    .map(|side| foot + normal * (side * room_mm * (1.0 + ROOM_SLACK_RATIO)));
                 let beside = sides.map(|p| (p, self.room_mm(&p)));
-                points.extend(beside.into_iter().find(|(_, found_mm)| *found_mm >= room_mm));
+                points.extend(
+                    beside
+                        .into_iter()
+                        .find(|(_, found_mm)| *found_mm >= room_mm),
+                );
                 next += spacing;
             }
             walked += length(segment);
@@ -152,7 +181,9 @@ impl Rims {
         while step > CLIMB_RATIO * size {
             let sides = (0..8).map(|i| (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos());
             let around = sides.map(|(sin, cos)| at + nalgebra::Vector2::new(cos, sin) * step);
-            let best = around.map(|p| (p, self.room_mm(&p))).max_by(|a, b| a.1.total_cmp(&b.1));
+            let best = around
+                .map(|p| (p, self.room_mm(&p)))
+                .max_by(|a, b| a.1.total_cmp(&b.1));
             match best {
                 Some((better, more_mm)) if more_mm > room_mm => (at, room_mm) = (better, more_mm),
                 _ => step /= 2.0,
@@ -167,7 +198,11 @@ impl Ring {
         let first = segments.first()?[0];
         let ends = segments.iter().flatten();
         let (low, high) = ends.fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-        Some(Self { segments, low, high })
+        Some(Self {
+            segments,
+            low,
+            high,
+        })
     }
 
     /// Whether a point lies inside, by even and odd.
@@ -196,7 +231,10 @@ mod tests {
     use crate::verify::test_meshes::block;
 
     fn level(z: f64) -> Plane {
-        Plane { normal: Vector::z(), offset_mm: z }
+        Plane {
+            normal: Vector::z(),
+            offset_mm: z,
+        }
     }
 
     #[test]
@@ -204,8 +242,9 @@ mod tests {
         for turned in [false, true] {
             let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
             let shell = if turned { shell.reversed() } else { shell };
-            let widest =
-                places(&shell, &level(4.0), 0.5).into_iter().max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
+            let widest = places(&shell, &level(4.0), 0.5)
+                .into_iter()
+                .max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
             let widest = widest.unwrap();
             assert!((widest.room_mm - 2.5).abs() < 0.01, "{widest:?}");
             assert!((widest.at.z - 4.0).abs() < 1e-12 && (widest.rim - widest.at).norm() > 2.49);
@@ -229,15 +268,23 @@ mod tests {
 
     #[test]
     fn two_mouths_of_one_cut_are_told_apart_and_a_hole_is_none() {
-        let two = block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
-        let mouths: std::collections::BTreeSet<usize> =
-            places(&two, &level(2.0), 0.5).iter().map(|place| place.mouth).collect();
+        let two =
+            block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
+        let mouths: std::collections::BTreeSet<usize> = places(&two, &level(2.0), 0.5)
+            .iter()
+            .map(|place| place.mouth)
+            .collect();
         assert_eq!(mouths.len(), 2);
         // A square frame: 1 mm of room all around a column of material.
-        let frame =
-            block(Point::origin(), [10.0; 3]).joined(&block(Point::new(2.0, 2.0, 0.0), [6.0; 3]).reversed());
+        let frame = block(Point::origin(), [10.0; 3])
+            .joined(&block(Point::new(2.0, 2.0, 0.0), [6.0; 3]).reversed());
         let found = places(&frame, &level(2.0), 0.5);
         let first = found[0].mouth;
-        assert!(found.iter().all(|place| place.mouth == first && place.room_mm < 1.2), "{found:?}");
+        assert!(
+            found
+                .iter()
+                .all(|place| place.mouth == first && place.room_mm < 1.2),
+            "{found:?}"
+        );
     }
 }

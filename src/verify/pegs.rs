@@ -46,7 +46,10 @@ pub(super) struct Felt<'a> {
 
 impl<'a> Felt<'a> {
     pub(super) fn of(part: &'a PartEvidence) -> Self {
-        Self { part, surface: Bvh::new(part.mesh.iter_corners()) }
+        Self {
+            part,
+            surface: Bvh::new(part.mesh.iter_corners()),
+        }
     }
 
     /// Whether nothing of the part is between two points of the model.
@@ -62,8 +65,11 @@ impl<'a> Felt<'a> {
 
     /// The distance from a point of the model to the part's surface along a unit direction, mm; none within `reach_mm`.
     fn feel(&self, model: &Point, direction: &Vector, reach_mm: f64) -> Option<f64> {
-        let [from, to] = [*model, model + direction * reach_mm].map(|p| self.part.pose.to_print(&p));
-        self.surface.first_crossing(&from, &to).map(|share| share * reach_mm)
+        let [from, to] =
+            [*model, model + direction * reach_mm].map(|p| self.part.pose.to_print(&p));
+        self.surface
+            .first_crossing(&from, &to)
+            .map(|share| share * reach_mm)
     }
 
     /// The distances of a peg's sides from its axis, mm, all around it at [`HEIGHTS`] of `length_mm`; none where there is no side.
@@ -72,9 +78,17 @@ impl<'a> Felt<'a> {
         let turn = |k: usize| std::f64::consts::TAU * (k as f64 + ASKEW) / DIRECTIONS as f64;
         let feel = |(height, k): (f64, usize)| {
             let side = u * turn(k).cos() + v * turn(k).sin();
-            self.feel(&peg.at(height * length_mm), &side, REACH_RATIO * peg.diameter_mm)
+            self.feel(
+                &peg.at(height * length_mm),
+                &side,
+                REACH_RATIO * peg.diameter_mm,
+            )
         };
-        HEIGHTS.iter().flat_map(|&height| (0..DIRECTIONS).map(move |k| (height, k))).map(feel).collect()
+        HEIGHTS
+            .iter()
+            .flat_map(|&height| (0..DIRECTIONS).map(move |k| (height, k)))
+            .map(feel)
+            .collect()
     }
 
     /// How high above the cut the peg ends over [`ENDS`] places beside its axis, mm.
@@ -84,8 +98,11 @@ impl<'a> Felt<'a> {
         let feel = |k: usize| {
             let turn = std::f64::consts::TAU * (k as f64 + ASKEW) / ENDS as f64;
             let aside = (u * turn.cos() + v * turn.sin()) * (peg.diameter_mm / 8.0);
-            let beyond_mm =
-                self.feel(&(peg.at(middle_mm) + aside), &peg.direction(), REACH_RATIO * peg.length_mm)?;
+            let beyond_mm = self.feel(
+                &(peg.at(middle_mm) + aside),
+                &peg.direction(),
+                REACH_RATIO * peg.length_mm,
+            )?;
             Some(middle_mm + beyond_mm)
         };
         (0..ENDS).map(feel).collect()
@@ -94,7 +111,9 @@ impl<'a> Felt<'a> {
 
 impl Peg {
     fn direction(&self) -> Vector {
-        Vector::from(self.axis).try_normalize(0.0).unwrap_or_else(Vector::z)
+        Vector::from(self.axis)
+            .try_normalize(0.0)
+            .unwrap_or_else(Vector::z)
     }
 
     /// The point of its axis so far above the cut.
@@ -106,19 +125,31 @@ impl Peg {
 /// Every pin of the kit and its socket, felt out in the files, in the checklist's order.
 pub(super) fn pegs(promise: &Promise, felt: &[Felt], hollowed: &TriMesh) -> Vec<PegFacts> {
     let whole = Bvh::new(hollowed.iter_corners());
-    let carried =
-        promise.parts.iter().zip(felt).flat_map(|(part, felt)| part.pins.iter().map(move |pin| (pin, felt)));
+    let carried = promise
+        .parts
+        .iter()
+        .zip(felt)
+        .flat_map(|(part, felt)| part.pins.iter().map(move |pin| (pin, felt)));
     let printed = carried.map(|(pin, carrier)| {
         let mut received = promise.parts.iter().zip(felt).filter_map(|(part, felt)| {
-            part.sockets.iter().find(|socket| socket.id == pin.id).map(|socket| (socket, felt))
+            part.sockets
+                .iter()
+                .find(|socket| socket.id == pin.id)
+                .map(|socket| (socket, felt))
         });
         let ordered_gap_mm = promise.clearance_mm(&pin.joint);
         match received.next() {
             Some(mate) => seated((pin, carrier), mate, (&whole, ordered_gap_mm)),
-            None => PegFacts { ordered_gap_mm, ..PegFacts::lost(&pin.id) },
+            None => PegFacts {
+                ordered_gap_mm,
+                ..PegFacts::lost(&pin.id)
+            },
         }
     });
-    let dowels = promise.dowels.iter().map(|dowel| dowelled(dowel, (promise, felt), &whole));
+    let dowels = promise
+        .dowels
+        .iter()
+        .map(|dowel| dowelled(dowel, (promise, felt), &whole));
     printed.chain(dowels).collect()
 }
 
@@ -126,20 +157,36 @@ pub(super) fn pegs(promise: &Promise, felt: &[Felt], hollowed: &TriMesh) -> Vec<
 fn dowelled(dowel: &Hardware, (promise, felt): (&Promise, &[Felt]), whole: &Bvh) -> PegFacts {
     let parts = promise.parts.iter().zip(felt);
     let ends: Vec<(&Peg, &Felt)> = parts
-        .filter_map(|(part, felt)| Some((part.sockets.iter().find(|peg| peg.id == dowel.id)?, felt)))
+        .filter_map(|(part, felt)| {
+            Some((part.sockets.iter().find(|peg| peg.id == dowel.id)?, felt))
+        })
         .collect();
     let lost = PegFacts::lost(&dowel.id);
-    let [first, second] = ends[..] else { return lost };
+    let [first, second] = ends[..] else {
+        return lost;
+    };
     let ordered_gap_mm = promise.clearance_mm(&first.0.joint);
     let wall_mm = wall_mm(first.0, whole).min(wall_mm(second.0, whole));
-    let lost = PegFacts { ordered_gap_mm, wall_mm, ..lost };
-    let Some(found) = [first, second].map(|end| socketed(end, dowel)).into_iter().collect::<Option<Vec<_>>>()
+    let lost = PegFacts {
+        ordered_gap_mm,
+        wall_mm,
+        ..lost
+    };
+    let Some(found) = [first, second]
+        .map(|end| socketed(end, dowel))
+        .into_iter()
+        .collect::<Option<Vec<_>>>()
     else {
         return lost;
     };
     PegFacts {
         deviation_mm: found.iter().map(|(off, _)| *off).fold(0.0, f64::max),
-        gap_mm: Some(found.iter().map(|(_, gap)| *gap).fold(f64::INFINITY, f64::min)),
+        gap_mm: Some(
+            found
+                .iter()
+                .map(|(_, gap)| *gap)
+                .fold(f64::INFINITY, f64::min),
+        ),
         ..lost
     }
 }
@@ -149,7 +196,9 @@ fn socketed((socket, part): (&Peg, &Felt), dowel: &Hardware) -> Option<(f64, f64
     if part.holds(&socket.at(dowel.depth_mm / 2.0)) {
         return None;
     }
-    let (radii, depths) = part.radii(socket, dowel.depth_mm).zip(part.ends_mm(socket))?;
+    let (radii, depths) = part
+        .radii(socket, dowel.depth_mm)
+        .zip(part.ends_mm(socket))?;
     let radius_mm = radii.iter().copied().fold(f64::INFINITY, f64::min);
     let off = depths.iter().map(|depth| (depth - socket.length_mm).abs());
     let off_mm = off.fold((radius_mm - socket.diameter_mm / 2.0).abs(), f64::max);
@@ -176,16 +225,24 @@ fn seated(
     (whole, ordered_gap_mm): (&Bvh, f64),
 ) -> PegFacts {
     let wall_mm = wall_mm(socket, whole);
-    let lost = PegFacts { ordered_gap_mm, wall_mm, ..PegFacts::lost(&pin.id) };
+    let lost = PegFacts {
+        ordered_gap_mm,
+        wall_mm,
+        ..PegFacts::lost(&pin.id)
+    };
     let middle = pin.at(pin.length_mm / 2.0);
     if !carrier.holds(&middle) || receiver.holds(&middle) {
         return lost;
     }
-    let Some((pins, sockets)) = carrier.radii(pin, pin.length_mm).zip(receiver.radii(socket, pin.length_mm))
+    let Some((pins, sockets)) = carrier
+        .radii(pin, pin.length_mm)
+        .zip(receiver.radii(socket, pin.length_mm))
     else {
         return lost;
     };
-    let Some((lengths, depths)) = carrier.ends_mm(pin).zip(receiver.ends_mm(socket)) else { return lost };
+    let Some((lengths, depths)) = carrier.ends_mm(pin).zip(receiver.ends_mm(socket)) else {
+        return lost;
+    };
     let gaps = pins.iter().zip(&sockets).map(|(pin, socket)| socket - pin);
     let greatest = |radii: &[f64]| radii.iter().copied().fold(0.0, f64::max);
     let least = |radii: &[f64]| radii.iter().copied().fold(f64::INFINITY, f64::min);
@@ -198,7 +255,9 @@ fn seated(
         least(&depths) - socket.length_mm,
     ];
     PegFacts {
-        deviation_mm: deviations.iter().fold(0.0, |worst: f64, off| worst.max(off.abs())),
+        deviation_mm: deviations
+            .iter()
+            .fold(0.0, |worst: f64, off| worst.max(off.abs())),
         gap_mm: Some(gaps.fold(f64::INFINITY, f64::min)),
         ..lost
     }
@@ -207,28 +266,42 @@ fn seated(
 /// The least material between a socket's bore and the surfaces of the uncut body, mm: the distance of its axis from them less
 /// its radius, which is no more than the truth.
 fn wall_mm(socket: &Peg, whole: &Bvh) -> f64 {
-    let axis_mm = whole.segment_distance(&socket.at(0.0), &socket.at(socket.length_mm), f64::INFINITY);
+    let axis_mm =
+        whole.segment_distance(&socket.at(0.0), &socket.at(socket.length_mm), f64::INFINITY);
     axis_mm - socket.diameter_mm / 2.0
 }
 
 /// How many of a sample of places just under the parts' surfaces lie in another part too.
 pub(super) fn overlaps(felt: &[Felt]) -> usize {
     // Where a part ends in an edge, what lies under its surface may be outside of it already.
-    let is_shared = |place: &Point, part: &Felt| part.holds(place) && is_in_another(place, part, felt);
-    felt.iter().map(|part| under_surface(part.part).filter(|place| is_shared(place, part)).count()).sum()
+    let is_shared =
+        |place: &Point, part: &Felt| part.holds(place) && is_in_another(place, part, felt);
+    felt.iter()
+        .map(|part| {
+            under_surface(part.part)
+                .filter(|place| is_shared(place, part))
+                .count()
+        })
+        .sum()
 }
 
 /// Whether a place is in another part as well as in its own: under an acute rim it may be in neither or in the mate alone.
 fn is_in_another(place: &Point, own: &Felt, felt: &[Felt]) -> bool {
-    own.holds(place) && felt.iter().any(|other| !std::ptr::eq(other, own) && other.holds(place))
+    own.holds(place)
+        && felt
+            .iter()
+            .any(|other| !std::ptr::eq(other, own) && other.holds(place))
 }
 
 /// Places just under the middles of a sample of the part's triangles, model frame.
 fn under_surface(part: &PartEvidence) -> impl Iterator<Item = Point> {
     let stride = part.mesh.triangles().len().div_ceil(SAMPLES).max(1);
-    part.mesh.iter_corners().step_by(stride).filter_map(|[a, b, c]| {
-        let inward = (c - a).cross(&(b - a)).try_normalize(0.0)?;
-        let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
-        Some(part.pose.to_model(&(middle + inward * UNDER_MM)))
-    })
+    part.mesh
+        .iter_corners()
+        .step_by(stride)
+        .filter_map(|[a, b, c]| {
+            let inward = (c - a).cross(&(b - a)).try_normalize(0.0)?;
+            let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
+            Some(part.pose.to_model(&(middle + inward * UNDER_MM)))
+        })
 }

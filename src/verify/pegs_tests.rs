@@ -15,7 +15,15 @@ const SOCKET: [f64; 2] = [PIN[0] + 2.0 * GAP_MM, PIN[1] + 0.3];
 /// A pin or socket of that diameter and length at the seat.
 pub(crate) fn peg(diameter_mm: f64, length_mm: f64, volume_mm3: f64) -> Peg {
     let (id, joint) = ("N1".to_owned(), "J1".to_owned());
-    Peg { id, joint, center_mm: SEAT, axis: [0.0, 0.0, 1.0], diameter_mm, length_mm, volume_mm3 }
+    Peg {
+        id,
+        joint,
+        center_mm: SEAT,
+        axis: [0.0, 0.0, 1.0],
+        diameter_mm,
+        length_mm,
+        volume_mm3,
+    }
 }
 
 /// A turned body of 96 sides about the seat, from `below` under the cut to `above` over it.
@@ -32,16 +40,27 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
         Csg::of_mesh(&part.mesh.map_vertices(|p| part.pose.to_model(p))).unwrap()
     };
     let (pin, socket) = made;
-    let carrier = body(&evidence, 0).union(&Csg::of_mesh(&turned(pin[0], [0.5, pin[1]])).unwrap()).unwrap();
+    let carrier = body(&evidence, 0)
+        .union(&Csg::of_mesh(&turned(pin[0], [0.5, pin[1]])).unwrap())
+        .unwrap();
     let hole = turned(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
-    let receiver = body(&evidence, 1).subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
+    let receiver = body(&evidence, 1)
+        .subtract(&Csg::of_mesh(&hole).unwrap())
+        .unwrap();
     for (part, solid) in evidence.parts.iter_mut().zip([carrier, receiver]) {
-        part.mesh = solid.to_mesh().unwrap().map_vertices(|p| part.pose.to_print(p));
+        part.mesh = solid
+            .to_mesh()
+            .unwrap()
+            .map_vertices(|p| part.pose.to_print(p));
     }
     let volume = |[diameter, length]: [f64; 2]| turned(diameter, [0.0, length]).signed_volume_mm3();
     evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
     evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
-    let joint = PromisedJoint { id: "J1".to_owned(), clearance_mm: GAP_MM - 0.001, glue: None };
+    let joint = PromisedJoint {
+        id: "J1".to_owned(),
+        clearance_mm: GAP_MM - 0.001,
+        glue: None,
+    };
     evidence.promise.joints = vec![joint];
     evidence.promise.printer.minimum_wall_mm = 1.05;
     evidence.promise.printer.build_volume_mm = None;
@@ -50,17 +69,28 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
 
 /// What fails beside what moves with any pin: a single pin at the side puts the centre aside.
 fn wrong(evidence: &Evidence) -> Vec<String> {
-    failures(evidence).into_iter().filter(|name| name != "axis offset" && name != "volumes").collect()
+    failures(evidence)
+        .into_iter()
+        .filter(|name| name != "axis offset" && name != "volumes")
+        .collect()
 }
 
 #[test]
 fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
     let evidence = jointed((PIN, SOCKET), Vector::zeros());
-    assert_eq!(wrong(&evidence), Vec::<String>::new(), "{:?}", judge(&evidence).pegs);
+    assert_eq!(
+        wrong(&evidence),
+        Vec::<String>::new(),
+        "{:?}",
+        judge(&evidence).pegs
+    );
     assert!(!failures(&evidence).contains(&"volumes".to_owned()));
     let found = judge(&evidence).pegs.remove(0);
     // Sides of 96-gons lie within 5e-4 of their radius inside the circle.
-    assert!(found.deviation_mm < 5e-4 && (found.gap_mm.unwrap() - GAP_MM).abs() < 5e-4, "{found:?}");
+    assert!(
+        found.deviation_mm < 5e-4 && (found.gap_mm.unwrap() - GAP_MM).abs() < 5e-4,
+        "{found:?}"
+    );
     // The side is 3 mm thick, the seat in its middle.
     assert!((found.wall_mm - (1.5 - SOCKET[0] / 2.0)).abs() < 1e-9);
 }
@@ -111,9 +141,15 @@ fn dowelled(made: [f64; 2]) -> Evidence {
     let body = Csg::of_mesh(&whole.mesh.map_vertices(|p| whole.pose.to_model(p))).unwrap();
     let hole = turned(made[0], [made[1], 0.5]);
     let body = body.subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
-    below.mesh = body.to_mesh().unwrap().map_vertices(|p| below.pose.to_print(p));
+    below.mesh = body
+        .to_mesh()
+        .unwrap()
+        .map_vertices(|p| below.pose.to_print(p));
     let volume_mm3 = turned(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
-    let second = Peg { axis: [0.0, 0.0, -1.0], ..peg(SOCKET[0], SOCKET[1], volume_mm3) };
+    let second = Peg {
+        axis: [0.0, 0.0, -1.0],
+        ..peg(SOCKET[0], SOCKET[1], volume_mm3)
+    };
     evidence.promise.parts[0].pins.clear();
     evidence.promise.parts[0].sockets = vec![second];
     let [x, y, z] = SEAT;
@@ -136,18 +172,34 @@ fn dowelled(made: [f64; 2]) -> Evidence {
 #[test]
 fn a_dowel_lies_in_two_sockets_and_weighs() {
     let evidence = dowelled(SOCKET);
-    assert_eq!(wrong(&evidence), Vec::<String>::new(), "{:?}", judge(&evidence).pegs);
+    assert_eq!(
+        wrong(&evidence),
+        Vec::<String>::new(),
+        "{:?}",
+        judge(&evidence).pegs
+    );
     assert!(!failures(&evidence).contains(&"volumes".to_owned()));
-    let bare =
-        Evidence { promise: Promise { dowels: Vec::new(), ..evidence.promise.clone() }, ..evidence.clone() };
+    let bare = Evidence {
+        promise: Promise {
+            dowels: Vec::new(),
+            ..evidence.promise.clone()
+        },
+        ..evidence.clone()
+    };
     let mass_g = judge(&evidence).assembly.mass_g - judge(&bare).assembly.mass_g;
     // π/4 · 0.6² · 2.4 mm³ of 1 g/cm³.
-    assert!((mass_g - std::f64::consts::FRAC_PI_4 * 0.36 * 2.4e-3).abs() < 1e-12, "{mass_g}");
+    assert!(
+        (mass_g - std::f64::consts::FRAC_PI_4 * 0.36 * 2.4e-3).abs() < 1e-12,
+        "{mass_g}"
+    );
 }
 
 #[test]
 fn a_second_socket_too_narrow_too_shallow_or_missing_is_found() {
-    assert_eq!(wrong(&dowelled([SOCKET[0] - 0.06, SOCKET[1]])), ["pins", "clearance"]);
+    assert_eq!(
+        wrong(&dowelled([SOCKET[0] - 0.06, SOCKET[1]])),
+        ["pins", "clearance"]
+    );
     assert_eq!(wrong(&dowelled([SOCKET[0], SOCKET[1] - 0.05])), ["pins"]);
     let mut evidence = dowelled(SOCKET);
     evidence.promise.parts[0].sockets.clear();
@@ -162,7 +214,12 @@ fn glued(area_mm2: f64) -> Evidence {
         center_mm: [0.0, 0.0, SEAT[2]],
         squares_mm4: [[1e4, 0.0, 0.0], [0.0, 1e4, 0.0], [0.0; 3]],
     };
-    let film = GlueFilm { thickness_mm: 0.1, density_g_cm3: 1.0, mass_g: 1e-4 * area_mm2, face };
+    let film = GlueFilm {
+        thickness_mm: 0.1,
+        density_g_cm3: 1.0,
+        mass_g: 1e-4 * area_mm2,
+        face,
+    };
     evidence.promise.joints[0].glue = Some(film);
     evidence
 }
@@ -171,10 +228,18 @@ fn glued(area_mm2: f64) -> Evidence {
 fn rim_mm2(evidence: &Evidence) -> f64 {
     let flat = |[a, b, c]: [crate::geom::Point; 3]| {
         let is_flat = [a, b, c].iter().all(|p| (p.z - SEAT[2]).abs() < 1e-4);
-        if is_flat { (b - a).cross(&(c - a)).norm() / 2.0 } else { 0.0 }
+        if is_flat {
+            (b - a).cross(&(c - a)).norm() / 2.0
+        } else {
+            0.0
+        }
     };
     let part = &evidence.parts[1];
-    part.mesh.map_vertices(|p| part.pose.to_model(p)).iter_corners().map(flat).sum()
+    part.mesh
+        .map_vertices(|p| part.pose.to_model(p))
+        .iter_corners()
+        .map(flat)
+        .sum()
 }
 
 #[test]

@@ -21,8 +21,17 @@ impl Pose {
 
     /// The pose print = rotation · model + translation.
     pub fn new(rotation: &Matrix, translation: &Vector) -> Self {
-        let row = |i: usize| [rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)], translation[i]];
-        Self { rows: [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]] }
+        let row = |i: usize| {
+            [
+                rotation[(i, 0)],
+                rotation[(i, 1)],
+                rotation[(i, 2)],
+                translation[i],
+            ]
+        };
+        Self {
+            rows: [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]],
+        }
     }
 
     /// The linear part: a proper rotation if the pose is rigid.
@@ -47,7 +56,9 @@ impl Pose {
 
     /// The moments in the model frame of a region whose moments are given in the print frame.
     pub fn moments_to_model(&self, print: &Moments) -> Moments {
-        print.translated(&-self.translation()).rotated(&self.rotation().transpose())
+        print
+            .translated(&-self.translation())
+            .rotated(&self.rotation().transpose())
     }
 
     /// How far the matrix is from a rigid motion: the largest deviation of R·Rᵀ from 1, of det R from +1 and of
@@ -57,7 +68,16 @@ impl Pose {
         let orthogonal = (rotation * rotation.transpose() - Matrix::identity()).amax();
         let proper = (rotation.determinant() - 1.0).abs();
         let [x, y, z, w] = self.rows[3];
-        [orthogonal, proper, x.abs(), y.abs(), z.abs(), (w - 1.0).abs()].into_iter().fold(0.0, larger)
+        [
+            orthogonal,
+            proper,
+            x.abs(),
+            y.abs(),
+            z.abs(),
+            (w - 1.0).abs(),
+        ]
+        .into_iter()
+        .fold(0.0, larger)
     }
 }
 
@@ -97,7 +117,10 @@ mod tests {
     #[test]
     fn a_rotation_is_rigid_and_a_mirror_a_stretch_and_a_hole_are_not() {
         assert!(tilted().rigidity_error() < 1e-15);
-        let mirror = Pose::new(&Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)), &Vector::zeros());
+        let mirror = Pose::new(
+            &Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)),
+            &Vector::zeros(),
+        );
         assert_eq!(mirror.rigidity_error(), 2.0);
         let stretch = Pose::new(&(Matrix::identity() * 1.001), &Vector::zeros());
         assert!(stretch.rigidity_error() > 1e-3);

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut, PromisedVoid,
-    RotorOrder, WaterOrder,
+    BallastOrder, Cleaning, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut,
+    PromisedVoid, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
@@ -108,7 +108,13 @@ pub struct Aim {
 impl Aim {
     /// A goal that is told by its place alone.
     pub fn new(kind: GoalKind, origin_mm: [f64; 3], axis: [f64; 3]) -> Self {
-        Self { kind, origin_mm, axis, rotor: None, water: None }
+        Self {
+            kind,
+            origin_mm,
+            axis,
+            rotor: None,
+            water: None,
+        }
     }
 
     /// The goal frame: its origin at the contact, its z along the axis.
@@ -170,7 +176,10 @@ impl FigureName {
 
     /// Whether more of it is better.
     pub fn more_is_better(self) -> bool {
-        matches!(self, Self::TopplesDeg | Self::MetacentricHeightMm | Self::MassG)
+        matches!(
+            self,
+            Self::TopplesDeg | Self::MetacentricHeightMm | Self::MassG
+        )
     }
 
     /// The unit of its values; empty for a ratio.

@@ -31,12 +31,20 @@ pub struct Unbalance {
 
 impl Unbalance {
     /// The unbalance of a body of these moments (goal frame) and this density, between planes at `ends_mm` along z.
-    pub fn new(moments: &Moments, density_g_mm3: f64, [a, b]: [f64; 2], order: &RotorOrder) -> Self {
+    pub fn new(
+        moments: &Moments,
+        density_g_mm3: f64,
+        [a, b]: [f64; 2],
+        order: &RotorOrder,
+    ) -> Self {
         let [volume, x, y, z, _, yz, xz, ..] = moments.0.map(|moment| moment * density_g_mm3);
         let (sum, product) = (Vector::new(x, y, 0.0), Vector::new(xz, yz, 0.0));
         let center_mm = z / volume;
         let planes = [(sum * b - product) / (b - a), (product - sum * a) / (b - a)];
-        let end_plane_g_mm = planes.map(|plane| plane.norm()).into_iter().fold(0.0, f64::max);
+        let end_plane_g_mm = planes
+            .map(|plane| plane.norm())
+            .into_iter()
+            .fold(0.0, f64::max);
         let omega_rad_s = order.speed_rpm * std::f64::consts::TAU / 60.0;
         Self {
             static_g_mm: sum.norm(),
@@ -49,8 +57,13 @@ impl Unbalance {
 
 /// Where a surface begins and ends along the frame's axis, mm.
 pub fn ends_mm(mesh: &TriMesh, frame: &Frame) -> [f64; 2] {
-    let along = mesh.vertices().iter().map(|vertex| frame.to_local(vertex).z);
-    along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| [low.min(z), high.max(z)])
+    let along = mesh
+        .vertices()
+        .iter()
+        .map(|vertex| frame.to_local(vertex).z);
+    along.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], z| {
+        [low.min(z), high.max(z)]
+    })
 }
 
 #[cfg(test)]
@@ -58,20 +71,32 @@ mod tests {
     use super::*;
     use crate::geom::Matrix;
 
-    const ORDER: RotorOrder = RotorOrder { speed_rpm: 3000.0, grade_mm_s: 2.5 };
+    const ORDER: RotorOrder = RotorOrder {
+        speed_rpm: 3000.0,
+        grade_mm_s: 2.5,
+    };
 
     /// Small balls of these masses at these places, 1 g/mm³.
     fn balls(places: &[(f64, [f64; 3])]) -> Moments {
         let ball = |&(mass, at): &(f64, [f64; 3])| {
-            Moments::from_parts(mass, &Vector::zeros(), &Matrix::zeros()).translated(&Vector::from(at))
+            Moments::from_parts(mass, &Vector::zeros(), &Matrix::zeros())
+                .translated(&Vector::from(at))
         };
-        places.iter().map(ball).fold(Moments::default(), |sum, ball| sum + ball)
+        places
+            .iter()
+            .map(ball)
+            .fold(Moments::default(), |sum, ball| sum + ball)
     }
 
     #[test]
     fn a_disc_a_hundredth_of_a_millimetre_off_has_the_grade_of_the_standards_formula() {
         // 200 g with e = 0.01 mm: U = 2 g·mm, G = e ω = 0.01 · 100 π = 3.1416 mm/s.
-        let got = Unbalance::new(&balls(&[(200.0, [0.006, 0.008, 0.0])]), 1.0, [-5.0, 5.0], &ORDER);
+        let got = Unbalance::new(
+            &balls(&[(200.0, [0.006, 0.008, 0.0])]),
+            1.0,
+            [-5.0, 5.0],
+            &ORDER,
+        );
         assert!((got.static_g_mm - 2.0).abs() < 1e-12 && got.couple_g_mm2.abs() < 1e-12);
         assert!((got.grade_mm_s - std::f64::consts::PI).abs() < 1e-12);
         assert!((got.end_plane_g_mm - 1.0).abs() < 1e-12);
@@ -80,12 +105,18 @@ mod tests {
     #[test]
     fn a_pure_couple_is_seen_though_the_centre_is_on_the_axis() {
         // 3 g at ±2 mm off the axis, 20 mm apart along it: U₁ = 3·2 = 6 g·mm in each of the planes there, couple 120 g·mm².
-        let pair = balls(&[(3.0, [2.0, 0.0, -10.0]), (3.0, [-2.0, 0.0, 10.0]), (94.0, [0.0; 3])]);
+        let pair = balls(&[
+            (3.0, [2.0, 0.0, -10.0]),
+            (3.0, [-2.0, 0.0, 10.0]),
+            (94.0, [0.0; 3]),
+        ]);
         let got = Unbalance::new(&pair, 1.0, [-10.0, 10.0], &ORDER);
         assert!(got.static_g_mm < 1e-12 && (got.couple_g_mm2 - 120.0).abs() < 1e-12);
         assert!((got.end_plane_g_mm - 6.0).abs() < 1e-12);
         // The planes may lie anywhere: the couple about the centre is the same, the planes' share grows with their nearness.
         let near = Unbalance::new(&pair, 1.0, [-2.5, 2.5], &ORDER);
-        assert!((near.couple_g_mm2 - 120.0).abs() < 1e-12 && (near.end_plane_g_mm - 24.0).abs() < 1e-12);
+        assert!(
+            (near.couple_g_mm2 - 120.0).abs() < 1e-12 && (near.end_plane_g_mm - 24.0).abs() < 1e-12
+        );
     }
 }

@@ -10,7 +10,10 @@ use crate::digest::sha256_hex;
 
 /// The list over these files, a line each in their order: the hash, two blanks, the path.
 pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String {
-    files.into_iter().map(|(file, bytes)| format!("{}  {file}\n", sha256_hex(&[bytes]))).collect()
+    files
+        .into_iter()
+        .map(|(file, bytes)| format!("{}  {file}\n", sha256_hex(&[bytes])))
+        .collect()
 }
 
 /// What became of the papers: the checklist, the job sheet and the list itself.
@@ -18,13 +21,20 @@ pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String 
 /// The checklist has the hashes of all other files, the job sheet that of the checklist, and the list all of them; any two that
 /// disagree are told.
 pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>, VerifyError> {
-    let changed = |file: &str, change| FileChange { file: file.to_owned(), change };
-    let missing = [SUMS_FILE, SHEET_FILE].into_iter().filter(|file| !folder.join(file).is_file());
+    let changed = |file: &str, change| FileChange {
+        file: file.to_owned(),
+        change,
+    };
+    let missing = [SUMS_FILE, SHEET_FILE]
+        .into_iter()
+        .filter(|file| !folder.join(file).is_file());
     let mut changes: Vec<FileChange> = missing.map(|file| changed(file, Change::Missing)).collect();
     if !folder.join(SUMS_FILE).is_file() {
         return Ok(changes);
     }
-    let listed = listed(&String::from_utf8_lossy(&read_file(&folder.join(SUMS_FILE))?));
+    let listed = listed(&String::from_utf8_lossy(&read_file(
+        &folder.join(SUMS_FILE),
+    )?));
     let json = sha256_hex(&[&read_file(&folder.join(CHECKLIST_FILE))?]);
     let is_listed = listed.get(CHECKLIST_FILE) == Some(&json);
     if !is_listed {
@@ -38,7 +48,11 @@ pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>
             changes.push(changed(SHEET_FILE, Change::OfAnother));
         }
     }
-    if promise.files.iter().any(|(file, sha256)| listed.get(file) != Some(sha256)) {
+    if promise
+        .files
+        .iter()
+        .any(|(file, sha256)| listed.get(file) != Some(sha256))
+    {
         changes.push(changed(SUMS_FILE, Change::Altered));
     }
     Ok(changes)

@@ -2,7 +2,9 @@
 
 use serde_json::{Map, Value, json};
 
-use super::{Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells};
+use super::{
+    Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells,
+};
 use crate::mass::moments_of_mesh;
 use crate::mesh::weld;
 use crate::units::MM3_PER_CM3;
@@ -29,9 +31,15 @@ struct Comparison {
 /// Parts whose files have another shape than their marks are left out, and all that depends on them: they are another
 /// complaint, and would hide this one.
 pub fn misstatements(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Vec<String> {
-    let mut exact = Comparison { ratio: SHEET_LIMIT_RATIO, found: Vec::new() };
+    let mut exact = Comparison {
+        ratio: SHEET_LIMIT_RATIO,
+        found: Vec::new(),
+    };
     exact.object("", sheet, &stated(sheet, evidence, judgement));
-    let mut rough = Comparison { ratio: BEFORE_ROUNDING_RATIO, found: exact.found };
+    let mut rough = Comparison {
+        ratio: BEFORE_ROUNDING_RATIO,
+        found: exact.found,
+    };
     rough.object("", sheet, &stated_before_rounding(evidence, judgement));
     rough.found
 }
@@ -44,22 +52,38 @@ pub fn sheet_check(misstated: &[String]) -> Check {
     if more > 0 {
         words += &format!("; and {more} more");
     }
-    Check::new("checklist", promise, Some(misstated.len() as f64), Limit::at_most(0.0, ""))
-        .at((!words.is_empty()).then_some(words))
+    Check::new(
+        "checklist",
+        promise,
+        Some(misstated.len() as f64),
+        Limit::at_most(0.0, ""),
+    )
+    .at((!words.is_empty()).then_some(words))
 }
 
 /// What the checklist must state of these files, in its own keys.
 pub(super) fn stated(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Value {
     let promise = &evidence.promise;
-    let is_whole: Vec<bool> = (0..evidence.parts.len()).map(|part| has_its_shape(evidence, part)).collect();
+    let is_whole: Vec<bool> = (0..evidence.parts.len())
+        .map(|part| has_its_shape(evidence, part))
+        .collect();
     let parts = judgement.parts.iter().enumerate();
     let parts: Vec<Value> = parts
-        .map(|(index, facts)| if is_whole[index] { part_row(evidence, index, facts) } else { json!({}) })
+        .map(|(index, facts)| {
+            if is_whole[index] {
+                part_row(evidence, index, facts)
+            } else {
+                json!({})
+            }
+        })
         .collect();
     let mut rows = Map::new();
     rows.insert("solid".to_owned(), json!(judgement.solid));
     rows.insert("hollowed".to_owned(), json!(judgement.hollowed));
-    rows.insert("wall".to_owned(), json!({ "measured_min_mm": judgement.wall_min_mm }));
+    rows.insert(
+        "wall".to_owned(),
+        json!({ "measured_min_mm": judgement.wall_min_mm }),
+    );
     rows.insert("parts".to_owned(), json!(parts));
     rows.insert("joints".to_owned(), json!(joint_rows(promise)));
     if is_whole.into_iter().all(|whole| whole) {
@@ -75,14 +99,23 @@ fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<
     let mut rows = Map::new();
     rows.insert("assembly".to_owned(), json!(judgement.assembly));
     rows.insert("checks".to_owned(), json!(judgement.checks));
-    rows.insert("verdict".to_owned(), json!(if passes { "pass" } else { "fail" }));
+    rows.insert(
+        "verdict".to_owned(),
+        json!(if passes { "pass" } else { "fail" }),
+    );
     if let Some(promised) = promise.promise {
-        rows.insert("promise".to_owned(), json!({ "value": figure(promised.figure) }));
+        rows.insert(
+            "promise".to_owned(),
+            json!({ "value": figure(promised.figure) }),
+        );
     }
     // Spin-It's functional with weights is no figure of the judge's.
     let named = serde_json::from_value(sheet["certificate"]["figure"].clone()).ok();
     if let Some(named) = named.filter(|name| *name != FigureName::SpinItRatio) {
-        rows.insert("certificate".to_owned(), json!({ "written_value": figure(named) }));
+        rows.insert(
+            "certificate".to_owned(),
+            json!({ "written_value": figure(named) }),
+        );
     }
     rows
 }
@@ -93,7 +126,11 @@ pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement)
     let voids = evidence.promise.voids.iter().zip(&shells.inward);
     let void_row = |(promised, cavity): (&super::PromisedVoid, &crate::mesh::TriMesh)| {
         let names = ["open", "clean"].map(|word| format!("void {} {word}", promised.id));
-        let is_clean = judgement.checks.iter().filter(|check| names.contains(&check.name)).all(|c| c.pass);
+        let is_clean = judgement
+            .checks
+            .iter()
+            .filter(|check| names.contains(&check.name))
+            .all(|c| c.pass);
         let mut row = json!({ "volume_mm3": moments_of_mesh(cavity).volume().abs() });
         if (0..evidence.parts.len()).all(|part| has_its_shape(evidence, part)) {
             row["is_clean"] = json!(is_clean);
@@ -118,7 +155,10 @@ pub(super) fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
 }
 
 fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
-    let (mesh, density) = (&evidence.parts[part].mesh, evidence.promise.material.density_g_cm3);
+    let (mesh, density) = (
+        &evidence.parts[part].mesh,
+        evidence.promise.material.density_g_cm3,
+    );
     let mut row = json!({
         "id": facts.id,
         "triangles": facts.surface.triangles,
@@ -135,8 +175,14 @@ fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
 /// The pins of every joint, and what its glue weighs.
 fn joint_rows(promise: &Promise) -> Vec<Value> {
     let row = |joint: &super::PromisedJoint| {
-        let pegs = promise.parts.iter().flat_map(|part| part.pins.iter().chain(&part.sockets));
-        let mut ids: Vec<&String> = pegs.filter(|peg| peg.joint == joint.id).map(|peg| &peg.id).collect();
+        let pegs = promise
+            .parts
+            .iter()
+            .flat_map(|part| part.pins.iter().chain(&part.sockets));
+        let mut ids: Vec<&String> = pegs
+            .filter(|peg| peg.joint == joint.id)
+            .map(|peg| &peg.id)
+            .collect();
         ids.sort();
         ids.dedup();
         let mut row = json!({ "id": joint.id, "pins": ids.len() });
@@ -152,9 +198,15 @@ fn joint_rows(promise: &Promise) -> Vec<Value> {
 impl Comparison {
     /// Holds every key of `found` against what is stated there; keys that were not computed again are passed over.
     fn object(&mut self, at: &str, stated: &Value, found: &Value) {
-        let Some(found) = found.as_object() else { return };
+        let Some(found) = found.as_object() else {
+            return;
+        };
         for (key, found) in found {
-            let at = if at.is_empty() { key.clone() } else { format!("{at}.{key}") };
+            let at = if at.is_empty() {
+                key.clone()
+            } else {
+                format!("{at}.{key}")
+            };
             self.value(&at, stated.get(key).unwrap_or(&Value::Null), found);
         }
     }
@@ -166,7 +218,9 @@ impl Comparison {
                 self.rows(at, stated, rows);
             }
             _ if is_near(stated, found, self.ratio * largest(found)) => {}
-            _ => self.found.push(format!("{at} states {stated}, the files have {found}")),
+            _ => self
+                .found
+                .push(format!("{at} states {stated}, the files have {found}")),
         }
     }
 
@@ -174,10 +228,16 @@ impl Comparison {
     fn rows(&mut self, at: &str, stated: &Value, found: &[Value]) {
         let stated = stated.as_array().map_or(&[][..], Vec::as_slice);
         if stated.len() != found.len() {
-            self.found.push(format!("{at} has {} rows, the files have {}", stated.len(), found.len()));
+            self.found.push(format!(
+                "{at} has {} rows, the files have {}",
+                stated.len(),
+                found.len()
+            ));
         }
         for (stated, found) in stated.iter().zip(found) {
-            let name = [&stated["id"], &stated["name"]].into_iter().find_map(Value::as_str);
+            let name = [&stated["id"], &stated["name"]]
+                .into_iter()
+                .find_map(Value::as_str);
             self.object(&format!("{at}[{}]", name.unwrap_or("?")), stated, found);
         }
     }

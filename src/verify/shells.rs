@@ -18,8 +18,9 @@ impl Shells {
     /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single vertex stay apart, so
     /// a cavity that touches the outside in a point is still seen as one.
     pub fn of_mesh(mesh: &TriMesh) -> Self {
-        let (outward, inward) =
-            pieces(mesh).into_iter().partition(|piece| moments_of_mesh(piece).volume() > 0.0);
+        let (outward, inward) = pieces(mesh)
+            .into_iter()
+            .partition(|piece| moments_of_mesh(piece).volume() > 0.0);
         Self { outward, inward }
     }
 
@@ -45,7 +46,10 @@ pub(super) fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
     for (&triangle, root) in mesh.triangles().iter().zip(roots(mesh)) {
         groups.entry(root).or_default().push(triangle);
     }
-    groups.into_values().map(|triangles| extract(mesh, &triangles)).collect()
+    groups
+        .into_values()
+        .map(|triangles| extract(mesh, &triangles))
+        .collect()
 }
 
 /// For each triangle the least triangle it is connected to.
@@ -57,7 +61,9 @@ fn roots(mesh: &TriMesh) -> Vec<u32> {
         let (a, b) = (find(&mut parent, pair[0].1), find(&mut parent, pair[1].1));
         parent[a.max(b) as usize] = a.min(b);
     }
-    (0..parent.len() as u32).map(|triangle| find(&mut parent, triangle)).collect()
+    (0..parent.len() as u32)
+        .map(|triangle| find(&mut parent, triangle))
+        .collect()
 }
 
 /// Every side of every triangle as (its vertices ascending, the triangle).
@@ -65,7 +71,11 @@ fn sorted_sides(mesh: &TriMesh) -> Vec<([u32; 2], u32)> {
     let sides = |(index, &[a, b, c]): (usize, &[u32; 3])| {
         [[a, b], [b, c], [c, a]].map(|[from, to]| ([from.min(to), from.max(to)], index as u32))
     };
-    mesh.triangles().iter().enumerate().flat_map(sides).collect()
+    mesh.triangles()
+        .iter()
+        .enumerate()
+        .flat_map(sides)
+        .collect()
 }
 
 /// The root of a triangle, with the path to it halved (Tarjan and van Leeuwen 1984).
@@ -115,8 +125,11 @@ mod tests {
         let cavity = block(Point::origin(), [1.0, 1.0, 1.0]).reversed();
         let joined = outer.clone().joined(&cavity);
         let first_of_cavity = outer.vertices().len() as u32;
-        let triangles =
-            joined.triangles().iter().map(|t| t.map(|v| if v == first_of_cavity { 0 } else { v })).collect();
+        let triangles = joined
+            .triangles()
+            .iter()
+            .map(|t| t.map(|v| if v == first_of_cavity { 0 } else { v }))
+            .collect();
         let touching = TriMesh::new(joined.vertices().to_vec(), triangles).unwrap();
         assert_eq!(Shells::of_mesh(&touching).inward.len(), 1);
     }

@@ -23,8 +23,15 @@ impl Support {
         let ground_mm = local.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
         let top_mm = local.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
         let band_mm = SUPPORT_BAND_RATIO * (top_mm - ground_mm);
-        let feet = local.iter().filter(|p| p.z <= ground_mm + band_mm).map(|p| [p.x, p.y]).collect();
-        Self { corners_mm: convex_hull(feet), ground_mm }
+        let feet = local
+            .iter()
+            .filter(|p| p.z <= ground_mm + band_mm)
+            .map(|p| [p.x, p.y])
+            .collect();
+        Self {
+            corners_mm: convex_hull(feet),
+            ground_mm,
+        }
     }
 
     /// The tilt, in radians, at which a body with this centre of mass (goal frame) topples over its nearest edge;
@@ -46,7 +53,10 @@ impl Support {
 
 /// The edges of a closed polygon.
 fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
-    corners.iter().zip(corners.iter().cycle().skip(1)).map(|(&from, &to)| (from, to))
+    corners
+        .iter()
+        .zip(corners.iter().cycle().skip(1))
+        .map(|(&from, &to)| (from, to))
 }
 
 /// How far `point` lies to the left of the line from → to.
@@ -76,7 +86,8 @@ fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
 fn half_hull(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut chain: Vec<[f64; 2]> = Vec::new();
     for point in points {
-        while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0 {
+        while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0
+        {
             chain.pop();
         }
         chain.push(point);
@@ -91,13 +102,19 @@ mod tests {
     use crate::verify::test_meshes::block;
 
     fn standing_block() -> Support {
-        Support::of_mesh(&block(Point::origin(), [4.0, 2.0, 10.0]), &Frame::identity())
+        Support::of_mesh(
+            &block(Point::origin(), [4.0, 2.0, 10.0]),
+            &Frame::identity(),
+        )
     }
 
     #[test]
     fn a_block_stands_on_its_four_lower_corners() {
         let support = standing_block();
-        assert_eq!(support.corners_mm, vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]);
+        assert_eq!(
+            support.corners_mm,
+            vec![[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]]
+        );
         assert_eq!(support.ground_mm, 0.0);
     }
 
@@ -115,16 +132,33 @@ mod tests {
 
     #[test]
     fn nothing_stands_on_a_point_or_on_an_edge_unless_exactly_above_it() {
-        let point = Support { corners_mm: vec![[0.0, 0.0]], ground_mm: 0.0 };
+        let point = Support {
+            corners_mm: vec![[0.0, 0.0]],
+            ground_mm: 0.0,
+        };
         assert!(point.toppling_angle(&Point::new(0.3, 0.4, 1.0)) < 0.0);
-        let edge = Support { corners_mm: vec![[0.0, 0.0], [1.0, 0.0]], ground_mm: 0.0 };
+        let edge = Support {
+            corners_mm: vec![[0.0, 0.0], [1.0, 0.0]],
+            ground_mm: 0.0,
+        };
         assert!(edge.toppling_angle(&Point::new(0.5, 0.1, 1.0)) < 0.0);
         assert!(edge.toppling_angle(&Point::new(0.5, -0.1, 1.0)) < 0.0);
     }
 
     #[test]
     fn the_hull_drops_points_inside_and_on_its_edges() {
-        let points = vec![[0.0, 0.0], [2.0, 0.0], [1.0, 0.0], [1.0, 1.0], [2.0, 2.0], [0.0, 2.0], [0.0, 0.0]];
-        assert_eq!(convex_hull(points), vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]);
+        let points = vec![
+            [0.0, 0.0],
+            [2.0, 0.0],
+            [1.0, 0.0],
+            [1.0, 1.0],
+            [2.0, 2.0],
+            [0.0, 2.0],
+            [0.0, 0.0],
+        ];
+        assert_eq!(
+            convex_hull(points),
+            vec![[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]]
+        );
     }
 }

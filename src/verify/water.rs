@@ -63,17 +63,26 @@ struct Buoyancy {
 impl Hull {
     /// The outside as seen from a goal frame.
     pub fn new(outer: &TriMesh, frame: &Frame) -> Self {
-        let triangles: Vec<[Point; 3]> =
-            outer.iter_corners().map(|corners| corners.map(|corner| frame.to_local(&corner))).collect();
+        let triangles: Vec<[Point; 3]> = outer
+            .iter_corners()
+            .map(|corners| corners.map(|corner| frame.to_local(&corner)))
+            .collect();
         let heights = triangles.iter().flatten().map(|corner| corner.z);
-        Self { lowest_mm: heights.fold(f64::INFINITY, f64::min), triangles }
+        Self {
+            lowest_mm: heights.fold(f64::INFINITY, f64::min),
+            triangles,
+        }
     }
 
     /// How a body of this outside floats that displaces `volume_mm3` and has its centre of mass (goal frame) here; none if
     /// it sinks or has no mass.
     pub fn float(&self, volume_mm3: f64, center: &Point) -> Option<Afloat> {
         let (level, held) = self.level(volume_mm3, &Vector::z(), center.z)?;
-        let held_up = Held { volume_mm3, center: *center, level };
+        let held_up = Held {
+            volume_mm3,
+            center: *center,
+            level,
+        };
         let aside = center.coords.xy() - held.first_across.xy() / held.volume;
         Some(Afloat {
             waterline_mm: level - self.lowest_mm,
@@ -93,7 +102,10 @@ impl Hull {
         };
         let quarter = std::f64::consts::FRAC_PI_2;
         let (along_x, along_y, between) = (growth(0.0)?, growth(quarter)?, growth(0.5 * quarter)?);
-        let (mean, cross) = (0.5 * (along_x + along_y), between - 0.5 * (along_x + along_y));
+        let (mean, cross) = (
+            0.5 * (along_x + along_y),
+            between - 0.5 * (along_x + along_y),
+        );
         Some(mean - (0.5 * (along_x - along_y)).hypot(cross))
     }
 
@@ -104,7 +116,12 @@ impl Hull {
             let arm = |i| self.righting_arm(body, lean(i), heel_deg.to_radians());
             (0..LEANS).all(|i| arm(i).is_some_and(|arm| arm > 0.0))
         };
-        HEELS_DEG.iter().take_while(is_righted).last().copied().unwrap_or(0.0)
+        HEELS_DEG
+            .iter()
+            .take_while(is_righted)
+            .last()
+            .copied()
+            .unwrap_or(0.0)
     }
 
     /// The lever with which the water turns the body back, mm, when its side at `lean_rad` about the axis is lifted by
@@ -121,10 +138,15 @@ impl Hull {
     /// The height along `up` of the level at which the body displaces this volume, and what the water then does; none
     /// where it has less. Newton's method from `near`, kept between the levels known to be too low and too high.
     fn level(&self, volume_mm3: f64, up: &Vector, near: f64) -> Option<(f64, Buoyancy)> {
-        let heights = self.triangles.iter().flatten().map(|corner| up.dot(&corner.coords));
-        let [mut low, mut high] = heights.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
-            [low.min(height), high.max(height)]
-        });
+        let heights = self
+            .triangles
+            .iter()
+            .flatten()
+            .map(|corner| up.dot(&corner.coords));
+        let [mut low, mut high] = heights
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], height| {
+                [low.min(height), high.max(height)]
+            });
         if !(volume_mm3 > 0.0 && self.buoyancy(up, high).volume > volume_mm3) {
             return None;
         }
@@ -216,24 +238,37 @@ mod tests {
 
     /// A block 40 × 60 × 30, its bottom at z = 5.
     fn pontoon() -> Hull {
-        Hull::new(&block(Point::new(-20.0, -30.0, 5.0), [40.0, 60.0, 30.0]), &Frame::identity())
+        Hull::new(
+            &block(Point::new(-20.0, -30.0, 5.0), [40.0, 60.0, 30.0]),
+            &Frame::identity(),
+        )
     }
 
     #[test]
     fn a_pontoon_has_the_draught_and_the_metacentric_height_of_the_textbook() {
         // T = V/(L B), KB = T/2, BM = B²/(12 T), with KG = 8.
-        let found = pontoon().float(40.0 * 60.0 * 12.0, &Point::new(0.0, 0.0, 13.0)).unwrap();
+        let found = pontoon()
+            .float(40.0 * 60.0 * 12.0, &Point::new(0.0, 0.0, 13.0))
+            .unwrap();
         assert!((found.waterline_mm - 12.0).abs() < 1e-10 && found.offset_mm < 1e-10);
         let gm = 6.0 + 1600.0 / (12.0 * 12.0) - 8.0;
         // A wall-sided body's arm is sin φ (GM + BM/2 tan² φ): 1e-7 BM at a fiftieth of a degree.
-        assert!((found.metacentric_height_mm - gm).abs() < 1e-5, "{} {gm}", found.metacentric_height_mm);
+        assert!(
+            (found.metacentric_height_mm - gm).abs() < 1e-5,
+            "{} {gm}",
+            found.metacentric_height_mm
+        );
         assert!(found.rights_from_deg >= 20.0);
     }
 
     #[test]
     fn a_pontoon_heeled_five_degrees_has_the_arm_of_the_wall_sided_formula() {
         let heel = 5.0_f64.to_radians();
-        let body = Held { volume_mm3: 40.0 * 60.0 * 12.0, center: Point::new(0.0, 0.0, 13.0), level: 17.0 };
+        let body = Held {
+            volume_mm3: 40.0 * 60.0 * 12.0,
+            center: Point::new(0.0, 0.0, 13.0),
+            level: 17.0,
+        };
         let bm = 1600.0 / (12.0 * 12.0);
         let want = heel.sin() * (6.0 + bm - 8.0 + 0.5 * bm * heel.tan().powi(2));
         let arm = pontoon().righting_arm(&body, 0.0, heel).unwrap();
@@ -243,20 +278,31 @@ mod tests {
     #[test]
     fn top_heavy_it_turns_over_and_too_heavy_it_sinks() {
         let volume = 40.0 * 60.0 * 12.0;
-        let tall = pontoon().float(volume, &Point::new(0.0, 0.0, 25.0)).unwrap();
+        let tall = pontoon()
+            .float(volume, &Point::new(0.0, 0.0, 25.0))
+            .unwrap();
         assert!(tall.metacentric_height_mm < 0.0 && tall.rights_from_deg == 0.0);
-        assert_eq!(pontoon().float(40.0 * 60.0 * 30.1, &Point::new(0.0, 0.0, 13.0)), None);
+        assert_eq!(
+            pontoon().float(40.0 * 60.0 * 30.1, &Point::new(0.0, 0.0, 13.0)),
+            None
+        );
         assert_eq!(pontoon().float(0.0, &Point::origin()), None);
     }
 
     #[test]
     fn a_ball_has_its_metacentre_in_its_middle_whatever_it_weighs() {
-        let hull = Hull::new(&ball(Point::new(1.0, 2.0, 3.0), 10.0, 60), &Frame::identity());
+        let hull = Hull::new(
+            &ball(Point::new(1.0, 2.0, 3.0), 10.0, 60),
+            &Frame::identity(),
+        );
         for share in [0.2, 0.5, 0.9] {
             let volume = share * 4.0 / 3.0 * std::f64::consts::PI * 1000.0 * 0.997;
             let found = hull.float(volume, &Point::new(1.0, 2.0, 1.0)).unwrap();
             // Sixty rings: chords lie up to 1.4e-3 of the radius inside.
-            assert!((found.metacentric_height_mm - 2.0).abs() < 0.03, "{share}: {found:?}");
+            assert!(
+                (found.metacentric_height_mm - 2.0).abs() < 0.03,
+                "{share}: {found:?}"
+            );
             assert!(found.rights_from_deg == 45.0 && found.offset_mm < 1e-6);
         }
     }

@@ -61,13 +61,19 @@ impl Limits<'_> {
             return true;
         }
         let keeps_clear = |keep: &Keep| keep_distance(keep, corners) >= keep.radius_mm - lack_mm;
-        !self.surface.is_triangle_within(corners, self.spec.wall_mm - lack_mm)
+        !self
+            .surface
+            .is_triangle_within(corners, self.spec.wall_mm - lack_mm)
             && self.spec.keeps.iter().all(keeps_clear)
     }
 
     /// The wall, or a smaller keep's radius: the same sag lets a triangle deeper into a smaller ball.
     fn smallest_radius_mm(&self) -> f64 {
-        self.spec.keeps.iter().map(|keep| keep.radius_mm).fold(self.spec.wall_mm, f64::min)
+        self.spec
+            .keeps
+            .iter()
+            .map(|keep| keep.radius_mm)
+            .fold(self.spec.wall_mm, f64::min)
     }
 }
 
@@ -75,7 +81,11 @@ impl Limits<'_> {
 /// Σ λᵢ |vᵢ − t|² = |x − t|² + Σ λᵢ |vᵢ − x|² for x = Σ λᵢ vᵢ, and the last sum is at most the squared circumradius,
 /// or a quarter of the longest side's square where the triangle is obtuse.
 fn sag_squared([a, b, c]: &[Point; 3]) -> f64 {
-    let mut sides = [(b - a).norm_squared(), (c - b).norm_squared(), (a - c).norm_squared()];
+    let mut sides = [
+        (b - a).norm_squared(),
+        (c - b).norm_squared(),
+        (a - c).norm_squared(),
+    ];
     sides.sort_by(f64::total_cmp);
     let [p, q, r] = sides;
     if p + q <= r {
@@ -91,19 +101,36 @@ fn keep_distance(keep: &Keep, corners: &[Point; 3]) -> f64 {
 }
 
 /// The cavity's surface.
-pub(super) fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> Result<TriMesh, VoidError> {
+pub(super) fn extract(
+    solid: &Solid,
+    spec: &CavitySpec,
+    progress: &Progress,
+) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(solid.mesh().iter_corners());
-    let limits = Limits { surface: &surface, spec };
+    let limits = Limits {
+        surface: &surface,
+        spec,
+    };
     for attempt in 0..ATTEMPTS {
         let bias_mm = BIAS_MM + DEEPER_MM * attempt as f64;
         if let Some(drawn) = draw(&limits, bias_mm, progress)? {
-            let stray =
-                Stray { outside_mm: SIMPLE_OUTSIDE_MM, inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm };
+            let stray = Stray {
+                outside_mm: SIMPLE_OUTSIDE_MM,
+                inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm,
+            };
             let allows = |corners: &[Point; 3]| limits.allow(corners, bias_mm, FINAL_LACK_MM);
-            return Ok(simplified(drawn, Rules { stray, allows: &allows })?);
+            return Ok(simplified(
+                drawn,
+                Rules {
+                    stray,
+                    allows: &allows,
+                },
+            )?);
         }
     }
-    Err(VoidError::WallNotKept { wall_mm: spec.wall_mm })
+    Err(VoidError::WallNotKept {
+        wall_mm: spec.wall_mm,
+    })
 }
 
 /// The surface at the wall's distance plus the bias, refined until no triangle breaks the limits; `None` if that
@@ -125,15 +152,18 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
         inside_mm: (spec.tolerance_mm - BIAS_MM).max(BIAS_MM),
     };
     let aabb = limits.surface.aabb();
-    let mut extractor = Extractor::new(&field, &aabb, resolution)
-        .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;
+    let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(VoidError::TooFine {
+        size_mm: aabb.size().max(),
+        finest_mm: resolution.finest_mm,
+    })?;
     let mut dirty = extractor.leaves();
     for round in 0..CHECK_ROUNDS {
         progress.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
         stop_if_cancelled(progress)?;
         let drawn = extractor.settle(dirty);
-        let refused =
-            extractor.refused_leaves(&drawn, |corners| limits.allow(corners, bias_mm, DRAWN_LACK_MM));
+        let refused = extractor.refused_leaves(&drawn, |corners| {
+            limits.allow(corners, bias_mm, DRAWN_LACK_MM)
+        });
         if refused.is_empty() {
             return Ok(Some(extractor.mesh()?));
         }
@@ -146,5 +176,9 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
 const PHASE: &str = "cavity";
 
 fn stop_if_cancelled(progress: &Progress) -> Result<(), VoidError> {
-    if progress.is_cancelled() { Err(VoidError::Cancelled) } else { Ok(()) }
+    if progress.is_cancelled() {
+        Err(VoidError::Cancelled)
+    } else {
+        Ok(())
+    }
 }

@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use crate::geom::triangle::{segment_triangle_distance_squared, triangle_triangle_distance_squared};
+use crate::geom::triangle::{
+    segment_triangle_distance_squared, triangle_triangle_distance_squared,
+};
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 
@@ -34,7 +36,9 @@ pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
         });
         meeting
     };
-    let asked = (0..mesh.triangles().len() as u32).into_par_iter().filter(|&i| is_asked[i as usize]);
+    let asked = (0..mesh.triangles().len() as u32)
+        .into_par_iter()
+        .filter(|&i| is_asked[i as usize]);
     let mut crossing: Vec<u32> = asked.flat_map_iter(meets_of).collect();
     crossing.sort_unstable();
     crossing.dedup();
@@ -55,7 +59,8 @@ fn meet(mesh: &TriMesh, i: usize, j: usize) -> bool {
         [k] => {
             let l = (0..3).find(|&l| t[l] == s[k]).unwrap_or(0);
             let opposite = |c: &[Point; 3], k: usize, other: &[Point; 3]| {
-                segment_triangle_distance_squared(&c[(k + 1) % 3], &c[(k + 2) % 3], other) < limit_squared
+                segment_triangle_distance_squared(&c[(k + 1) % 3], &c[(k + 2) % 3], other)
+                    < limit_squared
             };
             opposite(&a, k, &b) || opposite(&b, l, &a)
         }
@@ -82,7 +87,9 @@ fn is_beside(a: &[Point; 3], plane: &[Point; 3]) -> bool {
 
 /// Whether the corner that lies in the plane is a corner of the triangle there.
 fn is_corner_of(a: &[Point; 3], plane: &[Point; 3], heights: &[f64; 3], margin: f64) -> bool {
-    (0..3).filter(|&k| heights[k].abs() <= margin).all(|k| plane.contains(&a[k]))
+    (0..3)
+        .filter(|&k| heights[k].abs() <= margin)
+        .all(|k| plane.contains(&a[k]))
 }
 
 /// Whether two triangles at the side from `a` to `b` are folded onto each other.
@@ -136,8 +143,13 @@ mod tests {
     #[test]
     fn a_corner_pushed_through_the_far_side_is_found() {
         let solid = block([0.0; 3], [2.0; 3]);
-        let pushed = solid
-            .map_vertices(|p| if *p == Point::new(2.0, 2.0, 2.0) { Point::new(-0.5, 0.9, 1.0) } else { *p });
+        let pushed = solid.map_vertices(|p| {
+            if *p == Point::new(2.0, 2.0, 2.0) {
+                Point::new(-0.5, 0.9, 1.0)
+            } else {
+                *p
+            }
+        });
         assert!(!crossing_triangles(&pushed).is_empty());
     }
 

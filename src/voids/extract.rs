@@ -50,7 +50,9 @@ impl<'a, F: Field> Extractor<'a, F> {
 
     /// All leaves.
     pub fn leaves(&self) -> Vec<u32> {
-        (0..self.tree.cells().len() as u32).filter(|&i| self.tree.is_leaf(i)).collect()
+        (0..self.tree.cells().len() as u32)
+            .filter(|&i| self.tree.is_leaf(i))
+            .collect()
     }
 
     /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Gives the leaves whose triangles
@@ -71,13 +73,20 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// The leaves to divide because a triangle in these is not allowed.
-    pub fn refused_leaves(&self, leaves: &[u32], allows: impl Fn(&[Point; 3]) -> bool + Sync) -> Vec<u32> {
+    pub fn refused_leaves(
+        &self,
+        leaves: &[u32],
+        allows: impl Fn(&[Point; 3]) -> bool + Sync,
+    ) -> Vec<u32> {
         let refused_in = |&leaf: &u32| {
             let refused = self.triangles_of(leaf).into_iter().filter(|(keys, _)| {
-                let [a, b, c] = keys.map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
+                let [a, b, c] =
+                    keys.map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
                 matches!((a, b, c), (Some(a), Some(b), Some(c)) if !allows(&[a, b, c]))
             });
-            refused.flat_map(|(_, leaves)| self.to_divide(leaves)).collect::<Vec<u32>>()
+            refused
+                .flat_map(|(_, leaves)| self.to_divide(leaves))
+                .collect::<Vec<u32>>()
         };
         leaves.par_iter().flat_map_iter(refused_in).collect()
     }
@@ -94,30 +103,47 @@ impl<'a, F: Field> Extractor<'a, F> {
     /// The triangles as they are now.
     pub fn mesh(&self) -> Result<TriMesh, MeshError> {
         let leaves = self.leaves();
-        let named: Vec<Named> = leaves.par_iter().flat_map_iter(|&leaf| self.triangles_of(leaf)).collect();
+        let named: Vec<Named> = leaves
+            .par_iter()
+            .flat_map_iter(|&leaf| self.triangles_of(leaf))
+            .collect();
         self.numbered(&named)
     }
 
     /// Of the two leaves of a triangle those to divide when it will not do: the larger one that holds surface.
     fn to_divide(&self, leaves: [u32; 2]) -> impl Iterator<Item = u32> {
-        let size = |i: u32| if self.tree.cell(i).is_free { 0 } else { self.tree.cell(i).size };
+        let size = |i: u32| {
+            if self.tree.cell(i).is_free {
+                0
+            } else {
+                self.tree.cell(i).size
+            }
+        };
         let largest = size(leaves[0]).max(size(leaves[1]));
         let both = leaves.map(|leaf| (leaf, size(leaf)));
-        both.into_iter().filter(move |&(_, size)| size == largest && size > 0).map(|(leaf, _)| leaf)
+        both.into_iter()
+            .filter(move |&(_, size)| size == largest && size > 0)
+            .map(|(leaf, _)| leaf)
     }
 
     /// Marches through the leaves' tetrahedra and makes ready the crossings.
     fn prepare(&mut self, leaves: &[u32]) {
-        let linked: Vec<(u32, Links)> =
-            leaves.par_iter().map(|&leaf| (leaf, Links::new(&self.tree, leaf))).collect();
+        let linked: Vec<(u32, Links)> = leaves
+            .par_iter()
+            .map(|&leaf| (leaf, Links::new(&self.tree, leaf)))
+            .collect();
         let numbers = self.nodes.prepare(&self.tree, &linked, self.field);
         let marched: Vec<Vec<Placed>> = linked
             .par_iter()
             .zip(&numbers)
             .map(|((leaf, links), numbers)| self.march(*leaf, links, numbers))
             .collect();
-        let keys: Vec<VertexKey> = marched.par_iter().flat_map_iter(|pieces| crossings_of(pieces)).collect();
-        self.roots.prepare(&self.nodes, keys.into_iter(), self.field);
+        let keys: Vec<VertexKey> = marched
+            .par_iter()
+            .flat_map_iter(|pieces| crossings_of(pieces))
+            .collect();
+        self.roots
+            .prepare(&self.nodes, keys.into_iter(), self.field);
         self.pieces.resize(self.tree.cells().len(), Vec::new());
         for (&leaf, pieces) in leaves.iter().zip(marched) {
             self.pieces[leaf as usize] = pieces;
@@ -131,12 +157,23 @@ impl<'a, F: Field> Extractor<'a, F> {
             let corners = tetrahedron.slots.map(|slot| numbers.at(slot));
             let positive = corners.map(|corner| self.nodes.is_positive(corner));
             let across = links.across[tetrahedron.face];
-            let leaves = [leaf, if let Across::Leaf(other) = across { other } else { leaf }];
+            let leaves = [
+                leaf,
+                if let Across::Leaf(other) = across {
+                    other
+                } else {
+                    leaf
+                },
+            ];
             pieces.extend(piece(corners, positive).map(|piece| (piece, leaves)));
             if across == Across::Boundary {
                 let [_, b, c, d] = corners;
                 let faces = cap([b, c, d], [positive[1], positive[2], positive[3]]);
-                pieces.extend(faces.into_iter().map(|face| (Piece::Triangle(face), leaves)));
+                pieces.extend(
+                    faces
+                        .into_iter()
+                        .map(|face| (Piece::Triangle(face), leaves)),
+                );
             }
         });
         pieces
@@ -150,7 +187,11 @@ impl<'a, F: Field> Extractor<'a, F> {
                 Piece::Triangle(t) => triangles.push((t, leaves)),
                 Piece::Quad([a, b, c, d]) => {
                     let is_first = self.bend(a, c).abs() <= self.bend(b, d).abs();
-                    let halves = if is_first { [[a, b, c], [a, c, d]] } else { [[a, b, d], [b, c, d]] };
+                    let halves = if is_first {
+                        [[a, b, c], [a, c, d]]
+                    } else {
+                        [[a, b, d], [b, c, d]]
+                    };
                     triangles.extend(halves.map(|half| (half, leaves)));
                 }
             }
@@ -159,7 +200,10 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     fn bend(&self, a: VertexKey, b: VertexKey) -> f64 {
-        match (self.roots.vertex(&self.nodes, a), self.roots.vertex(&self.nodes, b)) {
+        match (
+            self.roots.vertex(&self.nodes, a),
+            self.roots.vertex(&self.nodes, b),
+        ) {
             (Some(a), Some(b)) => bend_mm(a, b),
             _ => 0.0,
         }
@@ -169,14 +213,20 @@ impl<'a, F: Field> Extractor<'a, F> {
     fn bent_leaves(&self, leaves: &[u32]) -> Vec<u32> {
         let bent_in = |&leaf: &u32| {
             let triangles = self.triangles_of(leaf);
-            triangles.into_iter().flat_map(|named| self.bent_leaves_of(named)).collect::<Vec<u32>>()
+            triangles
+                .into_iter()
+                .flat_map(|named| self.bent_leaves_of(named))
+                .collect::<Vec<u32>>()
         };
         leaves.par_iter().flat_map_iter(bent_in).collect()
     }
 
     fn bent_leaves_of(&self, (keys, leaves): Named) -> Vec<u32> {
         let divisible: Vec<u32> = self.to_divide(leaves).collect();
-        let Some(size_mm) = divisible.first().map(|&i| self.tree.length_mm(self.tree.cell(i).size)) else {
+        let Some(size_mm) = divisible
+            .first()
+            .map(|&i| self.tree.length_mm(self.tree.cell(i).size))
+        else {
             return Vec::new();
         };
         let is_bent = (0..3).any(|i| {
@@ -190,7 +240,12 @@ impl<'a, F: Field> Extractor<'a, F> {
     /// that leaves a doubt, by the function at its middle.
     fn is_bent(&self, a: &Known, b: &Known, size_mm: f64) -> bool {
         let bend = bend_mm(a, b);
-        let Resolution { outside_mm, inside_mm, crease_mm, finest_mm } = self.resolution;
+        let Resolution {
+            outside_mm,
+            inside_mm,
+            crease_mm,
+            finest_mm,
+        } = self.resolution;
         let is_crease = bend > 0.0 && a.sample.gradient.dot(&b.sample.gradient) < CREASE_COSINE;
         let smallest_mm = if is_crease { crease_mm } else { finest_mm };
         let middle = nalgebra::center(&a.at, &b.at);
@@ -214,7 +269,10 @@ impl<'a, F: Field> Extractor<'a, F> {
                 vertices.len() as u32 - 1
             })
         };
-        let triangles = named.iter().map(|&(keys, _)| keys.map(&mut number)).collect();
+        let triangles = named
+            .iter()
+            .map(|&(keys, _)| keys.map(&mut number))
+            .collect();
         TriMesh::new(vertices, triangles)
     }
 }

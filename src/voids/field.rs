@@ -20,7 +20,13 @@ pub(super) struct Sample {
 impl Sample {
     /// A sample of a function that knows no model.
     pub fn plain(value: f64, gradient: Vector) -> Self {
-        Self { value, gradient, clearance_mm: 0.0, inside: false, hint: NO_HINT }
+        Self {
+            value,
+            gradient,
+            clearance_mm: 0.0,
+            inside: false,
+            hint: NO_HINT,
+        }
     }
 
     /// Whether the point belongs to the region.

@@ -22,8 +22,13 @@ const STRAY_RATIO: f64 = 0.4;
 pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;
-    let field =
-        WallField { surface: &surface, keeps: &[], iso_mm: -margin_mm, keep_margin_mm: 0.0, coarse_mm };
+    let field = WallField {
+        surface: &surface,
+        keeps: &[],
+        iso_mm: -margin_mm,
+        keep_margin_mm: 0.0,
+        coarse_mm,
+    };
     let resolution = Resolution {
         finest_mm: FINEST_RATIO * margin_mm,
         crease_mm: FINEST_RATIO * margin_mm,
@@ -31,7 +36,10 @@ pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
         inside_mm: STRAY_RATIO * margin_mm,
     };
     let aabb = surface.aabb().inflated(2.0 * margin_mm);
-    let too_fine = VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm };
+    let too_fine = VoidError::TooFine {
+        size_mm: aabb.size().max(),
+        finest_mm: resolution.finest_mm,
+    };
     let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(too_fine)?;
     let leaves = extractor.leaves();
     extractor.settle(leaves);
@@ -47,7 +55,8 @@ mod tests {
 
     #[test]
     fn a_grown_body_clears_the_body_by_about_the_margin() {
-        let bodies = block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
+        let bodies =
+            block([0.0; 3], [8.0, 0.2, 5.0]).joined(&ball(Point::new(4.0, 6.0, 2.0), 1.0, 3));
         let grown = grown(&bodies, 0.3).unwrap();
         let distance = MeshDistance::new(&bodies);
         for p in grown.vertices() {

@@ -84,7 +84,15 @@ fn measured(bvh: &Bvh, center: Point, half_mm: f64, hint: u32) -> (Option<Candid
     let side = if bvh.winding(&center) > 0 { 1.0 } else { -1.0 };
     let depth_mm = side * nearest.distance_squared.sqrt();
     let bound_mm = depth_mm + 2.0 * half_mm * CIRCUMRADIUS;
-    (Some(Candidate { center, half_mm, bound_mm, hint: nearest.hint }), depth_mm)
+    (
+        Some(Candidate {
+            center,
+            half_mm,
+            bound_mm,
+            hint: nearest.hint,
+        }),
+        depth_mm,
+    )
 }
 
 #[cfg(test)]

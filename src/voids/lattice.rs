@@ -80,7 +80,10 @@ impl Links {
         let cell = tree.cell(leaf);
         let across = [0, 1, 2, 3, 4, 5].map(|face| across(tree, cell, face));
         let is_idle = across.iter().all(|&a| a == Across::Nothing);
-        Self { across, halved: if is_idle { 0 } else { halved(tree, cell) } }
+        Self {
+            across,
+            halved: if is_idle { 0 } else { halved(tree, cell) },
+        }
     }
 
     /// Every tetrahedron that the leaf answers for.
@@ -90,7 +93,10 @@ impl Links {
                 let ends = ends(face, i);
                 let middle = (ends[0] + ends[1]) / 2;
                 let mut segment = |from: Slot, to: Slot| {
-                    visit(Tetrahedron { face, slots: [CENTER, FAR + face as Slot, from, to] });
+                    visit(Tetrahedron {
+                        face,
+                        slots: [CENTER, FAR + face as Slot, from, to],
+                    });
                 };
                 if self.halved >> (4 * face + i) & 1 == 1 {
                     segment(ends[0], middle);
@@ -154,11 +160,19 @@ fn in_face(axis: usize, [u, v]: [i32; 2]) -> Grid {
 fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
     let Some(other) = tree.at(cell.neighbour_corner(NEIGHBOURS[face]), cell.size) else {
         let is_outside = cell.is_free && !cell.center.sample.is_positive();
-        return if is_outside { Across::Nothing } else { Across::Boundary };
+        return if is_outside {
+            Across::Nothing
+        } else {
+            Across::Boundary
+        };
     };
     let neighbour = tree.cell(other);
     let is_ours = tree.is_leaf(other) && (neighbour.size > cell.size || axis(face).1);
-    if is_ours && !(cell.is_free && neighbour.is_free) { Across::Leaf(other) } else { Across::Nothing }
+    if is_ours && !(cell.is_free && neighbour.is_free) {
+        Across::Leaf(other)
+    } else {
+        Across::Nothing
+    }
 }
 
 /// Which edges of which faces are touched by a finer leaf: of the four places around an edge only the two beyond the

@@ -9,8 +9,14 @@ use super::roots::{VertexKey, corner_key, crossing_key};
 const APEX_FIRST: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
 
 /// For each pair of corners an even order of the corners that begins with it.
-const PAIR_FIRST: [[usize; 4]; 6] =
-    [[0, 1, 2, 3], [0, 2, 3, 1], [0, 3, 1, 2], [1, 2, 0, 3], [1, 3, 2, 0], [2, 3, 0, 1]];
+const PAIR_FIRST: [[usize; 4]; 6] = [
+    [0, 1, 2, 3],
+    [0, 2, 3, 1],
+    [0, 3, 1, 2],
+    [1, 2, 0, 3],
+    [1, 3, 2, 0],
+    [2, 3, 0, 1],
+];
 
 /// A triangle or a quadrilateral of surface, counter-clockwise as seen from outside the region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -51,5 +57,7 @@ pub(super) fn cap(corners: [u32; 3], positive: [bool; 3]) -> Vec<[VertexKey; 3]>
             ring.push(crossing_key(corners[i], corners[j]));
         }
     }
-    (2..ring.len()).map(|k| [ring[0], ring[k - 1], ring[k]]).collect()
+    (2..ring.len())
+        .map(|k| [ring[0], ring[k - 1], ring[k]])
+        .collect()
 }

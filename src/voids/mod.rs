@@ -73,7 +73,9 @@ pub enum VoidError {
         value_mm: f64,
     },
     /// The wall is too thin for the size of the model.
-    #[error("a model of {size_mm} mm cannot be divided into cells of {finest_mm} mm; take a thicker wall")]
+    #[error(
+        "a model of {size_mm} mm cannot be divided into cells of {finest_mm} mm; take a thicker wall"
+    )]
     TooFine {
         /// The model's longest side, mm.
         size_mm: f64,
@@ -118,15 +120,28 @@ pub struct Cavity {
 
 impl Cavity {
     /// The region of `solid` farther from its surface than the wall and outside the keeps. It may be empty.
-    pub fn extract(solid: &Solid, spec: &CavitySpec, progress: &Progress) -> Result<Self, VoidError> {
-        for (name, value_mm) in [("the wall", spec.wall_mm), ("the tolerance", spec.tolerance_mm)] {
+    pub fn extract(
+        solid: &Solid,
+        spec: &CavitySpec,
+        progress: &Progress,
+    ) -> Result<Self, VoidError> {
+        for (name, value_mm) in [
+            ("the wall", spec.wall_mm),
+            ("the tolerance", spec.tolerance_mm),
+        ] {
             if !(value_mm > 0.0 && value_mm.is_finite()) {
                 return Err(VoidError::NotPositive { name, value_mm });
             }
         }
         let mesh = cavity::extract(solid, spec, progress)?;
         let (body, bvh) = rayon::join(|| Csg::of_mesh(&mesh), || Bvh::new(mesh.iter_corners()));
-        Ok(Self { body: body?, bvh, mesh, tolerance_mm: spec.tolerance_mm, min_void_mm: spec.min_void_mm })
+        Ok(Self {
+            body: body?,
+            bvh,
+            mesh,
+            tolerance_mm: spec.tolerance_mm,
+            min_void_mm: spec.min_void_mm,
+        })
     }
 
     /// Its surface, oriented outward as a body of air; without triangles where the wall leaves nothing.
@@ -166,14 +181,21 @@ impl Cavity {
     pub fn without(&self, solid: &TriMesh) -> Result<Self, VoidError> {
         let body = self.body.subtract(&Csg::of_mesh(solid)?)?;
         let mesh = body.to_mesh()?;
-        Ok(Self { body, bvh: Bvh::new(mesh.iter_corners()), mesh, ..*self })
+        Ok(Self {
+            body,
+            bvh: Bvh::new(mesh.iter_corners()),
+            mesh,
+            ..*self
+        })
     }
 }
 
 /// The void with the slivers closed up, or turned, that the rounding of a file would fold: no point of its surface moves by
 /// more than 2e-5 mm but at folds that are left then ([`unfolded`]).
 pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
-    Ok(Solid::new(unfolded(&Csg::of_solid(void)?.without_slivers().to_mesh()?))?)
+    Ok(Solid::new(unfolded(
+        &Csg::of_solid(void)?.without_slivers().to_mesh()?,
+    ))?)
 }
 
 #[cfg(test)]
@@ -193,11 +215,21 @@ mod tests {
     const TOLERANCE_MM: f64 = 0.021;
 
     fn spec(wall_mm: f64, keeps: &[Keep]) -> CavitySpec<'_> {
-        CavitySpec { wall_mm, tolerance_mm: TOLERANCE_MM, keeps, min_void_mm: 0.0 }
+        CavitySpec {
+            wall_mm,
+            tolerance_mm: TOLERANCE_MM,
+            keeps,
+            min_void_mm: 0.0,
+        }
     }
 
     fn cavity_of(mesh: &TriMesh, spec: &CavitySpec) -> Cavity {
-        Cavity::extract(&Solid::new(mesh.clone()).unwrap(), spec, &Progress::silent()).unwrap()
+        Cavity::extract(
+            &Solid::new(mesh.clone()).unwrap(),
+            spec,
+            &Progress::silent(),
+        )
+        .unwrap()
     }
 
     /// The cavity, after the promises that hold for every cavity have been checked.
@@ -218,12 +250,20 @@ mod tests {
         let mut order: Vec<usize> = (0..corners.len()).collect();
         order.sort_by(|&i, &j| boxes[i].min.x.total_cmp(&boxes[j].min.x));
         for (k, &i) in order.iter().enumerate() {
-            for &j in order[k + 1..].iter().take_while(|&&j| boxes[j].min.x <= boxes[i].max.x) {
-                let shared = mesh.triangles()[i].iter().any(|v| mesh.triangles()[j].contains(v));
-                let apart =
-                    (0..3).any(|a| boxes[i].min[a] > boxes[j].max[a] || boxes[j].min[a] > boxes[i].max[a]);
+            for &j in order[k + 1..]
+                .iter()
+                .take_while(|&&j| boxes[j].min.x <= boxes[i].max.x)
+            {
+                let shared = mesh.triangles()[i]
+                    .iter()
+                    .any(|v| mesh.triangles()[j].contains(v));
+                let apart = (0..3).any(|a| {
+                    boxes[i].min[a] > boxes[j].max[a] || boxes[j].min[a] > boxes[i].max[a]
+                });
                 assert!(
-                    shared || apart || triangle_triangle_distance_squared(&corners[i], &corners[j]) > 0.0,
+                    shared
+                        || apart
+                        || triangle_triangle_distance_squared(&corners[i], &corners[j]) > 0.0,
                     "triangles {:?} and {:?} meet",
                     corners[i],
                     corners[j]
@@ -258,7 +298,16 @@ mod tests {
     fn samples(mesh: &TriMesh) -> Vec<Point> {
         let of = |t: [Point; 3]| {
             let [a, b, c] = t.map(|p| p.coords);
-            [a, b, c, (a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0, (a + b + c) / 3.0].map(Point::from)
+            [
+                a,
+                b,
+                c,
+                (a + b) / 2.0,
+                (b + c) / 2.0,
+                (c + a) / 2.0,
+                (a + b + c) / 3.0,
+            ]
+            .map(Point::from)
         };
         mesh.iter_corners().flat_map(of).collect()
     }
@@ -266,22 +315,49 @@ mod tests {
     #[test]
     fn parts_about_points_are_those_of_the_boxes_bodies_that_hold_them_or_come_nearest() {
         // The cavity of a U of two arms 10 mm wide and 10 mm apart: a box about both holds a body of each.
-        let arms = [[0, 1, 0], [0, 2, 0], [0, 3, 0], [2, 1, 0], [2, 2, 0], [2, 3, 0]];
-        let u = cells(&[&[[0, 0, 0], [1, 0, 0], [2, 0, 0]][..], &arms].concat(), 10.0);
+        let arms = [
+            [0, 1, 0],
+            [0, 2, 0],
+            [0, 3, 0],
+            [2, 1, 0],
+            [2, 2, 0],
+            [2, 3, 0],
+        ];
+        let u = cells(
+            &[&[[0, 0, 0], [1, 0, 0], [2, 0, 0]][..], &arms].concat(),
+            10.0,
+        );
         let cavity = cavity_of(u.mesh(), &spec(1.0, &[]));
         let about = |places: &[(Point, Aabb)]| cavity.parts_about(places).unwrap();
-        let upper = Aabb { min: Point::new(-5.0, 20.0, -5.0), max: Point::new(35.0, 50.0, 15.0) };
+        let upper = Aabb {
+            min: Point::new(-5.0, 20.0, -5.0),
+            max: Point::new(35.0, 50.0, 15.0),
+        };
         let left = about(&[(Point::new(5.0, 30.0, 5.0), upper)]);
         let arm_mm3 = 8.0 * 19.0 * 8.0;
-        assert!((signed_volume(&left) / arm_mm3 - 1.0).abs() < 0.01, "{}", signed_volume(&left));
+        assert!(
+            (signed_volume(&left) / arm_mm3 - 1.0).abs() < 0.01,
+            "{}",
+            signed_volume(&left)
+        );
         assert!(left.aabb().max.x < 10.0);
         // Beside the other arm, in its wall.
         let right = about(&[(Point::new(29.5, 30.0, 5.0), upper)]);
         assert!(right.aabb().min.x > 20.0);
-        let both = about(&[(Point::new(5.0, 30.0, 5.0), upper), (Point::new(25.0, 30.0, 5.0), upper)]);
+        let both = about(&[
+            (Point::new(5.0, 30.0, 5.0), upper),
+            (Point::new(25.0, 30.0, 5.0), upper),
+        ]);
         assert!((signed_volume(&both) - signed_volume(&left) - signed_volume(&right)).abs() < 1e-6);
-        let nowhere = Aabb { min: Point::new(12.0, 20.0, 0.0), max: Point::new(18.0, 30.0, 9.0) };
-        assert!(about(&[(Point::new(15.0, 25.0, 5.0), nowhere)]).triangles().is_empty());
+        let nowhere = Aabb {
+            min: Point::new(12.0, 20.0, 0.0),
+            max: Point::new(18.0, 30.0, 9.0),
+        };
+        assert!(
+            about(&[(Point::new(15.0, 25.0, 5.0), nowhere)])
+                .triangles()
+                .is_empty()
+        );
     }
 
     #[test]
@@ -292,7 +368,10 @@ mod tests {
         // The model's own facets lie up to r θ²/8 = 0.004 mm inside the ball of radius 5 (θ = 90°/32 … 1.4 × that).
         for p in samples(cavity.mesh()) {
             let radius = (p - center).norm();
-            assert!((3.985 - TOLERANCE_MM..=4.0 + TOLERANCE_MM).contains(&radius), "{radius}");
+            assert!(
+                (3.985 - TOLERANCE_MM..=4.0 + TOLERANCE_MM).contains(&radius),
+                "{radius}"
+            );
         }
     }
 
@@ -300,23 +379,43 @@ mod tests {
     fn the_cavity_of_a_box_is_a_box_with_flat_faces_and_edges_cut_by_less_than_a_tenth() {
         let cavity = sound_cavity(&block([0.0; 3], [8.0, 7.0, 6.0]), &spec(1.0, &[]));
         let inner = MeshDistance::new(&block([1.0; 3], [7.0, 6.0, 5.0]));
-        let depths: Vec<f64> = samples(cavity.mesh()).iter().map(|p| inner.signed(p)).collect();
+        let depths: Vec<f64> = samples(cavity.mesh())
+            .iter()
+            .map(|p| inner.signed(p))
+            .collect();
         assert!(depths.iter().all(|&d| d > -0.01 && d < 0.25), "{depths:?}");
         let volume = signed_volume(cavity.mesh());
         // 6·5·4 less the edges' chops (perimeter 60 mm by at most 0.4² / 2) and faces drawn 0.006 deeper.
-        assert!(volume < 120.0 && volume > 120.0 - 60.0 * 0.08 - 148.0 * 0.021, "{volume}");
+        assert!(
+            volume < 120.0 && volume > 120.0 - 60.0 * 0.08 - 148.0 * 0.021,
+            "{volume}"
+        );
     }
 
     #[test]
     fn the_wall_is_kept_along_an_inward_edge() {
-        let model = prism(&[[4.0, 4.0], [0.0, 4.0], [0.0, 0.0], [8.0, 0.0], [8.0, 4.0]], 6.0);
-        let l_shape = prism(&[[4.0, 4.0], [4.0, 8.0], [0.0, 8.0], [0.0, 0.0], [8.0, 0.0], [8.0, 4.0]], 6.0);
+        let model = prism(
+            &[[4.0, 4.0], [0.0, 4.0], [0.0, 0.0], [8.0, 0.0], [8.0, 4.0]],
+            6.0,
+        );
+        let l_shape = prism(
+            &[
+                [4.0, 4.0],
+                [4.0, 8.0],
+                [0.0, 8.0],
+                [0.0, 0.0],
+                [8.0, 0.0],
+                [8.0, 4.0],
+            ],
+            6.0,
+        );
         assert!(signed_volume(&l_shape) > signed_volume(&model));
         let cavity = sound_cavity(&l_shape, &spec(1.0, &[]));
         let distance = MeshDistance::new(&l_shape);
         // Beside the edge at (4, 4) the surface is a cylinder of the wall's radius.
-        let near_edge =
-            samples(cavity.mesh()).into_iter().filter(|p| p.x > 3.0 && p.x < 4.0 && p.y < 4.0 && p.y > 3.0);
+        let near_edge = samples(cavity.mesh())
+            .into_iter()
+            .filter(|p| p.x > 3.0 && p.x < 4.0 && p.y < 4.0 && p.y > 3.0);
         let mut count = 0;
         for p in near_edge.filter(|p| p.z > 2.0 && p.z < 4.0) {
             assert!((distance.signed(&p) - 1.0).abs() < TOLERANCE_MM, "{p}");
@@ -356,7 +455,11 @@ mod tests {
     fn keeps_are_left_alone_and_met_within_tolerance() {
         let keeps = [
             Keep::ball(Point::new(5.0, 5.0, 0.0), 3.0),
-            Keep { from: Point::new(2.0, 2.0, 4.0), to: Point::new(6.0, 3.0, 9.0), radius_mm: 1.2 },
+            Keep {
+                from: Point::new(2.0, 2.0, 4.0),
+                to: Point::new(6.0, 3.0, 9.0),
+                radius_mm: 1.2,
+            },
         ];
         let cavity = sound_cavity(&block([0.0; 3], [10.0; 3]), &spec(1.0, &keeps));
         for keep in keeps {
@@ -372,7 +475,11 @@ mod tests {
 
     #[test]
     fn overlapping_input_still_gives_a_sound_cavity() {
-        let two = ball(Point::new(0.0, 0.0, 0.0), 4.0, 4).joined(&ball(Point::new(4.3, 0.1, 0.2), 4.0, 4));
+        let two = ball(Point::new(0.0, 0.0, 0.0), 4.0, 4).joined(&ball(
+            Point::new(4.3, 0.1, 0.2),
+            4.0,
+            4,
+        ));
         sound_cavity(&two, &spec(1.0, &[]));
     }
 
@@ -380,8 +487,9 @@ mod tests {
     fn lengths_that_are_not_positive_are_refused_by_name() {
         let model = Solid::new(block([0.0; 3], [8.0; 3])).unwrap();
         for wall_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let error =
-                Cavity::extract(&model, &spec(wall_mm, &[]), &Progress::silent()).map(|_| ()).unwrap_err();
+            let error = Cavity::extract(&model, &spec(wall_mm, &[]), &Progress::silent())
+                .map(|_| ())
+                .unwrap_err();
             assert!(error.to_string().contains("the wall"), "{error}");
         }
     }
@@ -391,7 +499,9 @@ mod tests {
         let progress = Progress::silent();
         progress.cancel();
         let model = Solid::new(block([0.0; 3], [8.0; 3])).unwrap();
-        let error = Cavity::extract(&model, &spec(1.0, &[]), &progress).map(|_| ()).unwrap_err();
+        let error = Cavity::extract(&model, &spec(1.0, &[]), &progress)
+            .map(|_| ())
+            .unwrap_err();
         assert_eq!(error, VoidError::Cancelled);
     }
 
@@ -400,7 +510,10 @@ mod tests {
     /// A box's cavity and a frame in its middle, tilted.
     fn setting() -> (Cavity, Frame) {
         let cavity = cavity_of(&block([0.0; 3], [14.0, 12.0, 10.0]), &spec(1.0, &[]));
-        (cavity, Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::new(0.2, 0.3, 1.0)))
+        (
+            cavity,
+            Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::new(0.2, 0.3, 1.0)),
+        )
     }
 
     /// The voids of a quadric: sound, within the cavity, and on its positive side but for the tolerance.
@@ -417,29 +530,54 @@ mod tests {
                 // Within half a millimetre of a singular point (the second derivatives are at most 2) the surface is
                 // drawn coarsely; elsewhere half the tolerance times the slope, a little more for its own change.
                 let is_singular = slope < 1.0;
-                assert!(is_singular || value >= -0.55 * TOLERANCE_MM * slope, "{p}: {value} {slope}");
+                assert!(
+                    is_singular || value >= -0.55 * TOLERANCE_MM * slope,
+                    "{p}: {value} {slope}"
+                );
             }
         }
-        voids.bodies.iter().map(|body| signed_volume(body.mesh())).collect()
+        voids
+            .bodies
+            .iter()
+            .map(|body| signed_volume(body.mesh()))
+            .collect()
     }
 
     #[test]
     fn all_and_nothing_are_the_cavity_and_nothing() {
         let (cavity, frame) = setting();
         assert_eq!(
-            cavity.void_bodies(&EVERYTHING, &frame).unwrap().bodies[0].mesh().triangles().len(),
+            cavity.void_bodies(&EVERYTHING, &frame).unwrap().bodies[0]
+                .mesh()
+                .triangles()
+                .len(),
             cavity.mesh().triangles().len()
         );
         let nothing = Quadric(EVERYTHING.0.map(|g| -g));
-        assert!(cavity.void_bodies(&nothing, &frame).unwrap().bodies.is_empty());
-        assert!(cavity.void_bodies(&Quadric([0.0; 10]), &frame).unwrap().bodies.is_empty());
+        assert!(
+            cavity
+                .void_bodies(&nothing, &frame)
+                .unwrap()
+                .bodies
+                .is_empty()
+        );
+        assert!(
+            cavity
+                .void_bodies(&Quadric([0.0; 10]), &frame)
+                .unwrap()
+                .bodies
+                .is_empty()
+        );
     }
 
     #[test]
     fn a_plane_through_the_middle_halves_the_cavity() {
         let (cavity, frame) = setting();
-        let volumes =
-            sound_voids(&cavity, &frame, Quadric([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]));
+        let volumes = sound_voids(
+            &cavity,
+            &frame,
+            Quadric([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        );
         let half = signed_volume(cavity.mesh()) / 2.0;
         // The cavity is point-symmetric about the middle but for its tolerance on 592 mm² of surface.
         assert!((volumes[0] - half).abs() < 1.0, "{volumes:?}");
@@ -452,11 +590,18 @@ mod tests {
         let volumes = sound_voids(&cavity, &frame, inside);
         let exact = 4.0 / 3.0 * std::f64::consts::PI * 27.0;
         // Half the tolerance on 113 mm² of sphere.
-        assert!((volumes[0] - exact).abs() < 113.1 * 0.5 * TOLERANCE_MM, "{volumes:?}");
-        let voids = cavity.void_bodies(&Quadric(inside.0.map(|g| -g)), &frame).unwrap();
+        assert!(
+            (volumes[0] - exact).abs() < 113.1 * 0.5 * TOLERANCE_MM,
+            "{volumes:?}"
+        );
+        let voids = cavity
+            .void_bodies(&Quadric(inside.0.map(|g| -g)), &frame)
+            .unwrap();
         assert_eq!(voids.bodies.len(), 1);
         assert!((voids.emptied_mm3 - volumes[0]).abs() < 113.1 * TOLERANCE_MM);
-        assert!((signed_volume(voids.bodies[0].mesh()) - signed_volume(cavity.mesh())).abs() < 1e-9);
+        assert!(
+            (signed_volume(voids.bodies[0].mesh()) - signed_volume(cavity.mesh())).abs() < 1e-9
+        );
     }
 
     #[test]
@@ -479,20 +624,36 @@ mod tests {
             assert!(volumes.len() >= count, "{g:?}: {volumes:?}");
             let sum: f64 = volumes.iter().chain(&rest).sum();
             // Both sides are drawn within half the tolerance, on less than 400 mm² of quadric.
-            assert!((sum - whole).abs() < 400.0 * 2.0 * 0.5 * TOLERANCE_MM, "{g:?}: {sum} {whole}");
+            assert!(
+                (sum - whole).abs() < 400.0 * 2.0 * 0.5 * TOLERANCE_MM,
+                "{g:?}: {sum} {whole}"
+            );
         }
     }
 
     #[test]
     fn voids_too_thin_for_the_minimum_opening_are_left_solid_and_counted() {
         let model = block([0.0; 3], [14.0, 12.0, 10.0]);
-        let cavity = cavity_of(&model, &CavitySpec { min_void_mm: 2.0, ..spec(1.0, &[]) });
+        let cavity = cavity_of(
+            &model,
+            &CavitySpec {
+                min_void_mm: 2.0,
+                ..spec(1.0, &[])
+            },
+        );
         let frame = Frame::with_axis(Point::new(7.0, 6.0, 5.0), &Vector::z());
         let slab = |half: f64| Quadric([half * half, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0]);
         let thin = cavity.void_bodies(&slab(0.7), &frame).unwrap();
         assert_eq!((thin.bodies.len(), thin.refused.len()), (0, 1));
-        assert!((thin.refused_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0, "{}", thin.refused_mm3());
-        assert_eq!(cavity.void_bodies(&slab(1.3), &frame).unwrap().bodies.len(), 1);
+        assert!(
+            (thin.refused_mm3() - 12.0 * 10.0 * 1.4).abs() < 5.0,
+            "{}",
+            thin.refused_mm3()
+        );
+        assert_eq!(
+            cavity.void_bodies(&slab(1.3), &frame).unwrap().bodies.len(),
+            1
+        );
     }
 
     #[test]
@@ -504,7 +665,10 @@ mod tests {
         let lost = signed_volume(cavity.mesh()) - signed_volume(rest.mesh());
         // The slab grown by 0.3 mm on all sides: its volume, its faces' 196 mm² times 0.3, and a little at its edges;
         // the surface may sag by 0.4 of the margin.
-        assert!(lost > 40.0 + 196.0 * 0.3 * 0.6 && lost < 40.0 + 196.0 * 0.3 + 10.0, "{lost}");
+        assert!(
+            lost > 40.0 + 196.0 * 0.3 * 0.6 && lost < 40.0 + 196.0 * 0.3 + 10.0,
+            "{lost}"
+        );
         let voids = rest.void_bodies(&EVERYTHING, &frame).unwrap();
         assert!(MeshDistance::new(&thin).min_distance_to(voids.bodies[0].mesh()) > 0.1);
     }
@@ -514,15 +678,24 @@ mod tests {
         let model = ball(Point::new(1.0, 2.0, 3.0), 6.0, 3);
         let keeps = [Keep::ball(Point::new(1.0, 2.0, -3.0), 2.0)];
         let with_threads = |n| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .unwrap();
             pool.install(|| {
                 let cavity = cavity_of(&model, &spec(1.0, &keeps));
                 let quadric = Quadric([-3.0, 0.2, 0.1, 0.0, 0.0, 0.3, 0.0, 1.0, 0.7, -0.2]);
-                (cavity.mesh().clone(), cavity.void_bodies(&quadric, &Frame::identity()).unwrap())
+                (
+                    cavity.mesh().clone(),
+                    cavity.void_bodies(&quadric, &Frame::identity()).unwrap(),
+                )
             })
         };
         let bits = |mesh: &TriMesh| -> Vec<u64> {
-            mesh.vertices().iter().flat_map(|p| [p.x, p.y, p.z].map(f64::to_bits)).collect()
+            mesh.vertices()
+                .iter()
+                .flat_map(|p| [p.x, p.y, p.z].map(f64::to_bits))
+                .collect()
         };
         let (one, two) = (with_threads(1), with_threads(2));
         assert_eq!(bits(&one.0), bits(&two.0));

@@ -70,17 +70,35 @@ impl Nodes {
     }
 
     /// Makes ready every corner of the leaves' tetrahedra, and gives their numbers for each leaf.
-    pub fn prepare(&mut self, tree: &Octree, leaves: &[(u32, Links)], field: &impl Field) -> Vec<Numbers> {
-        let needs: Vec<(u64, Vec<Need>)> = leaves.par_iter().map(|entry| needs_of(tree, entry)).collect();
+    pub fn prepare(
+        &mut self,
+        tree: &Octree,
+        leaves: &[(u32, Links)],
+        field: &impl Field,
+    ) -> Vec<Numbers> {
+        let needs: Vec<(u64, Vec<Need>)> = leaves
+            .par_iter()
+            .map(|entry| needs_of(tree, entry))
+            .collect();
         let mut fresh: Vec<Need> = Vec::new();
         let mut shrunk: Vec<u32> = Vec::new();
         let mut numbers = Vec::with_capacity(needs.len());
         for (used, needs) in needs {
-            let numbered = needs.iter().map(|need| self.meet(need, &mut fresh, &mut shrunk)).collect();
-            numbers.push(Numbers { used, numbers: numbered });
+            let numbered = needs
+                .iter()
+                .map(|need| self.meet(need, &mut fresh, &mut shrunk))
+                .collect();
+            numbers.push(Numbers {
+                used,
+                numbers: numbered,
+            });
         }
-        let made: Vec<Node> = fresh.par_iter().map(|need| make(tree, need, field)).collect();
-        self.positive.extend(made.iter().map(|node| node.raw.sample.is_positive()));
+        let made: Vec<Node> = fresh
+            .par_iter()
+            .map(|need| make(tree, need, field))
+            .collect();
+        self.positive
+            .extend(made.iter().map(|node| node.raw.sample.is_positive()));
         self.nodes.extend(made);
         self.replace(tree, shrunk, field);
         numbers
@@ -107,12 +125,18 @@ impl Nodes {
     fn replace(&mut self, tree: &Octree, mut numbers: Vec<u32>, field: &impl Field) {
         numbers.sort_unstable();
         numbers.dedup();
-        let placed: Vec<Known> =
-            numbers.par_iter().map(|&number| place(tree, self.node(number), field)).collect();
+        let placed: Vec<Known> = numbers
+            .par_iter()
+            .map(|&number| place(tree, self.node(number), field))
+            .collect();
         for (number, placed) in numbers.into_iter().zip(placed) {
             let node = &mut self.nodes[number as usize];
             if placed.at != node.placed.at {
-                *node = Node { placed, version: node.version + 1, ..*node };
+                *node = Node {
+                    placed,
+                    version: node.version + 1,
+                    ..*node
+                };
             }
         }
     }
@@ -123,7 +147,11 @@ fn needs_of(tree: &Octree, &(leaf, links): &(u32, Links)) -> (u64, Vec<Need>) {
     let used = links.used();
     let cell = tree.cell(leaf);
     let slots = (0..SLOTS).filter(|&slot| used >> slot & 1 == 1);
-    let need = |slot| Need { key: key(links.position(tree, cell, slot)), size: cell.size, leaf };
+    let need = |slot| Need {
+        key: key(links.position(tree, cell, slot)),
+        size: cell.size,
+        leaf,
+    };
     (used, slots.map(need).collect())
 }
 
@@ -131,8 +159,17 @@ fn make(tree: &Octree, need: &Need, field: &impl Field) -> Node {
     let position = grid(need.key);
     let raw = sampled(tree, need, field);
     let is_fixed = position.iter().any(|&c| c == 0 || c == tree.root_size());
-    let node = Node { raw, placed: raw, size: need.size, version: 0, is_fixed };
-    Node { placed: place(tree, &node, field), ..node }
+    let node = Node {
+        raw,
+        placed: raw,
+        size: need.size,
+        version: 0,
+        is_fixed,
+    };
+    Node {
+        placed: place(tree, &node, field),
+        ..node
+    }
 }
 
 /// The function at a corner; the leaf's own centre is known.
@@ -142,7 +179,10 @@ fn sampled(tree: &Octree, need: &Need, field: &impl Field) -> Known {
         return leaf.center;
     }
     let at = tree.point(grid(need.key));
-    Known { at, sample: field.sample(&at, &[leaf.center]) }
+    Known {
+        at,
+        sample: field.sample(&at, &[leaf.center]),
+    }
 }
 
 /// Where a corner is pushed: along the gradient, never across the surface.
@@ -155,7 +195,14 @@ fn place(tree: &Octree, node: &Node, field: &impl Field) -> Known {
     let side = if sample.is_positive() { 1.0 } else { -1.0 };
     let moved = at + sample.gradient * (side * clear_mm - sample.value);
     let there = field.sample(&moved, &[node.raw]);
-    if is_further(&there, &sample) { Known { at: moved, sample: there } } else { node.raw }
+    if is_further(&there, &sample) {
+        Known {
+            at: moved,
+            sample: there,
+        }
+    } else {
+        node.raw
+    }
 }
 
 fn is_further(there: &Sample, here: &Sample) -> bool {

@@ -86,14 +86,31 @@ impl Octree {
         let needed = aabb.size().max() / unit_mm;
         let mut size = FINEST_UNITS;
         while f64::from(size) < needed {
-            size = if size < ROOT_UNITS_MAX { size * 2 } else { return None };
+            size = if size < ROOT_UNITS_MAX {
+                size * 2
+            } else {
+                return None;
+            };
         }
         let half_mm = f64::from(size) * unit_mm / 2.0;
         let at = aabb.center();
         let origin = at - crate::geom::Vector::repeat(half_mm);
-        let center = Known { at, sample: field.sample(&at, &[]) };
-        let root = Cell { corner: [0; 3], size, is_free: false, center };
-        Some(Self { cells: vec![root], children: vec![0], origin, unit_mm })
+        let center = Known {
+            at,
+            sample: field.sample(&at, &[]),
+        };
+        let root = Cell {
+            corner: [0; 3],
+            size,
+            is_free: false,
+            center,
+        };
+        Some(Self {
+            cells: vec![root],
+            children: vec![0],
+            origin,
+            unit_mm,
+        })
     }
 
     /// All cells, parents before children; leaves and inner ones.
@@ -146,7 +163,8 @@ impl Octree {
 
     /// Whether the place of the cell's neighbour of the same size is divided.
     pub fn is_divided(&self, corner: Grid, size: i32) -> bool {
-        self.at(corner, size).is_some_and(|index| !self.is_leaf(index))
+        self.at(corner, size)
+            .is_some_and(|index| !self.is_leaf(index))
     }
 
     /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new leaves.
@@ -154,7 +172,10 @@ impl Octree {
         let mut fresh = vec![0];
         let mut made = Vec::new();
         while !fresh.is_empty() {
-            let coarse: Vec<u32> = fresh.into_iter().filter(|&i| self.is_too_coarse(i, field)).collect();
+            let coarse: Vec<u32> = fresh
+                .into_iter()
+                .filter(|&i| self.is_too_coarse(i, field))
+                .collect();
             fresh = self.split(&coarse, field);
             made.extend_from_slice(&fresh);
         }
@@ -186,7 +207,10 @@ impl Octree {
     fn balance(&mut self, mut fresh: Vec<u32>, field: &impl Field) -> Vec<u32> {
         let mut made = Vec::new();
         while !fresh.is_empty() {
-            let mut large: Vec<u32> = fresh.par_iter().flat_map_iter(|&i| self.too_large_beside(i)).collect();
+            let mut large: Vec<u32> = fresh
+                .par_iter()
+                .flat_map_iter(|&i| self.too_large_beside(i))
+                .collect();
             large.sort_unstable();
             large.dedup();
             fresh = self.split(&large, field);
@@ -201,7 +225,10 @@ impl Octree {
     pub fn widened(&self, cells: &[u32]) -> Vec<u32> {
         let around = |&i: &u32| {
             let cell = *self.cell(i);
-            NEIGHBOURS.iter().flat_map(move |&direction| self.touching(&cell, direction)).chain([i])
+            NEIGHBOURS
+                .iter()
+                .flat_map(move |&direction| self.touching(&cell, direction))
+                .chain([i])
         };
         let mut all: Vec<u32> = cells.par_iter().flat_map_iter(around).collect();
         all.sort_unstable();
@@ -212,7 +239,10 @@ impl Octree {
 
     /// The leaves that touch a cell from the side of `direction`.
     fn touching(&self, cell: &Cell, direction: Grid) -> Vec<u32> {
-        let mut stack: Vec<u32> = self.at(cell.neighbour_corner(direction), cell.size).into_iter().collect();
+        let mut stack: Vec<u32> = self
+            .at(cell.neighbour_corner(direction), cell.size)
+            .into_iter()
+            .collect();
         let mut found = Vec::new();
         while let Some(index) = stack.pop() {
             let children = self.children[index as usize];
@@ -254,10 +284,18 @@ impl Octree {
         let size = parent.size / 2;
         let corner = [0, 1, 2].map(|i| parent.corner[i] + (number >> i & 1) * size);
         let at = self.point(corner.map(|c| c + size / 2));
-        let center = Known { at, sample: field.sample(&at, &[parent.center]) };
+        let center = Known {
+            at,
+            sample: field.sample(&at, &[parent.center]),
+        };
         let radius_mm = self.length_mm(size) * CIRCUMRADIUS * FREE_RATIO;
         let is_free = parent.is_free || field.is_free(&center, radius_mm);
-        Cell { corner, size, is_free, center }
+        Cell {
+            corner,
+            size,
+            is_free,
+            center,
+        }
     }
 }
 

@@ -29,7 +29,14 @@ impl<'a> QuadricField<'a> {
         [coarse_mm, singular_mm]: [f64; 2],
     ) -> Self {
         let curvature = hessian(quadric).symmetric_eigenvalues().amax();
-        Self { quadric, frame, curvature, body, coarse_mm, singular_mm }
+        Self {
+            quadric,
+            frame,
+            curvature,
+            body,
+            coarse_mm,
+            singular_mm,
+        }
     }
 }
 
@@ -51,7 +58,11 @@ impl Field for QuadricField<'_> {
         } else {
             f64::INFINITY.copysign(value)
         };
-        let direction = if slope > 0.0 { gradient / slope } else { gradient };
+        let direction = if slope > 0.0 {
+            gradient / slope
+        } else {
+            gradient
+        };
         Sample::plain(distance, self.frame.direction_to_model(&direction))
     }
 
@@ -60,9 +71,13 @@ impl Field for QuadricField<'_> {
     }
 
     fn is_too_coarse(&self, center: &Known, size_mm: f64) -> bool {
-        let slope = self.quadric.gradient(&self.frame.to_local(&center.at)).norm();
+        let slope = self
+            .quadric
+            .gradient(&self.frame.to_local(&center.at))
+            .norm();
         let turns = self.curvature * size_mm > TURN_RATIO * slope;
-        size_mm > self.coarse_mm || (turns && size_mm > self.singular_mm && self.matters(&center.at, size_mm))
+        size_mm > self.coarse_mm
+            || (turns && size_mm > self.singular_mm && self.matters(&center.at, size_mm))
     }
 
     fn matters(&self, center: &Point, radius_mm: f64) -> bool {
@@ -87,7 +102,9 @@ mod tests {
         let field = QuadricField::new(&ball, &frame, &body, [1.0, 1.0]);
         for i in 0..200 {
             let radius = 0.05 * f64::from(i);
-            let value = field.sample(&(frame.origin + Vector::new(0.6, 0.0, 0.8) * radius), &[]).value;
+            let value = field
+                .sample(&(frame.origin + Vector::new(0.6, 0.0, 0.8) * radius), &[])
+                .value;
             assert!(value.abs() <= (radius - 5.0).abs() + 1e-12);
             assert_eq!(value > 0.0, radius > 5.0);
         }

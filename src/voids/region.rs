@@ -51,18 +51,34 @@ pub(super) fn positive_region(
     let sizes = [COARSE_MM, SINGULAR_MM];
     let field = QuadricField::new(quadric, frame, body, sizes);
     let at = aabb.center();
-    let center = Known { at, sample: field.sample(&at, &[]) };
+    let center = Known {
+        at,
+        sample: field.sample(&at, &[]),
+    };
     if aabb.is_empty() || field.is_free(&center, aabb.size().max() * CIRCUMRADIUS) {
         let is_all = !aabb.is_empty() && center.sample.is_positive();
-        return Ok(if is_all { Region::Everything } else { Region::Nothing });
+        return Ok(if is_all {
+            Region::Everything
+        } else {
+            Region::Nothing
+        });
     }
     let mesh = draw(&field, &aabb.inflated(MARGIN_MM), tolerance_mm)?;
     if mesh.triangles().is_empty() {
         return Ok(Region::Nothing);
     }
     let stray_mm = SIMPLIFY_RATIO * tolerance_mm;
-    let stray = Stray { outside_mm: stray_mm, inside_mm: stray_mm };
-    let simple = simplified(mesh, Rules { stray, allows: &|_| true })?;
+    let stray = Stray {
+        outside_mm: stray_mm,
+        inside_mm: stray_mm,
+    };
+    let simple = simplified(
+        mesh,
+        Rules {
+            stray,
+            allows: &|_| true,
+        },
+    )?;
     Ok(Region::Part(Box::new(Csg::of_mesh(&simple)?)))
 }
 
@@ -73,8 +89,10 @@ fn draw(field: &QuadricField, aabb: &Aabb, tolerance_mm: f64) -> Result<TriMesh,
         outside_mm: DRAW_RATIO * tolerance_mm,
         inside_mm: DRAW_RATIO * tolerance_mm,
     };
-    let mut extractor = Extractor::new(field, aabb, resolution)
-        .ok_or(VoidError::TooFine { size_mm: aabb.size().max(), finest_mm: resolution.finest_mm })?;
+    let mut extractor = Extractor::new(field, aabb, resolution).ok_or(VoidError::TooFine {
+        size_mm: aabb.size().max(),
+        finest_mm: resolution.finest_mm,
+    })?;
     let leaves = extractor.leaves();
     extractor.settle(leaves);
     Ok(extractor.mesh()?)

@@ -66,25 +66,40 @@ impl Roots {
     /// Finds anew the crossings of edges whose corners have moved.
     pub fn refresh(&mut self, nodes: &Nodes, field: &impl Field) {
         let stale = |root: &&Root| root.version != version(nodes, root.key);
-        let keys: Vec<VertexKey> = self.roots.iter().filter(stale).map(|root| root.key).collect();
+        let keys: Vec<VertexKey> = self
+            .roots
+            .iter()
+            .filter(stale)
+            .map(|root| root.key)
+            .collect();
         self.prepare(nodes, keys.into_iter(), field);
     }
 
     /// Finds the crossings of these edges that are new or whose corners have moved.
-    pub fn prepare(&mut self, nodes: &Nodes, keys: impl Iterator<Item = VertexKey>, field: &impl Field) {
+    pub fn prepare(
+        &mut self,
+        nodes: &Nodes,
+        keys: impl Iterator<Item = VertexKey>,
+        field: &impl Field,
+    ) {
         let mut wanted: Vec<(u32, VertexKey)> = Vec::new();
         let mut count = self.roots.len() as u32;
         for key in keys {
             let number = *self.index.entry(key).or_insert(count);
             let is_new = number == count;
             count += u32::from(is_new);
-            let is_stale =
-                self.roots.get(number as usize).is_some_and(|root| root.version != version(nodes, key));
+            let is_stale = self
+                .roots
+                .get(number as usize)
+                .is_some_and(|root| root.version != version(nodes, key));
             if is_new || is_stale {
                 wanted.push((number, key));
             }
         }
-        let found: Vec<Root> = wanted.par_iter().map(|&(_, key)| find(nodes, key, field)).collect();
+        let found: Vec<Root> = wanted
+            .par_iter()
+            .map(|&(_, key)| find(nodes, key, field))
+            .collect();
         for ((number, _), root) in wanted.into_iter().zip(found) {
             match self.roots.get_mut(number as usize) {
                 Some(stale) => *stale = root,
@@ -102,19 +117,34 @@ fn version(nodes: &Nodes, key: VertexKey) -> u32 {
 fn find(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
     let (a, b) = ends(key);
     let found = crossing(&nodes.node(a).placed, &nodes.node(b).placed, field);
-    Root { key, found, version: version(nodes, key) }
+    Root {
+        key,
+        found,
+        version: version(nodes, key),
+    }
 }
 
 /// The zero of the function on the segment between two points of different sign, by the Illinois method
 /// (Dowell & Jarratt, BIT 11, 1971).
 fn crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
-    let mut bracket = Bracket { low: (0.0, a.sample.value), high: (1.0, b.sample.value), kept: 0 };
-    let nearby = if a.sample.is_positive() { [*a, *b] } else { [*b, *a] };
+    let mut bracket = Bracket {
+        low: (0.0, a.sample.value),
+        high: (1.0, b.sample.value),
+        kept: 0,
+    };
+    let nearby = if a.sample.is_positive() {
+        [*a, *b]
+    } else {
+        [*b, *a]
+    };
     let mut found = *a;
     for _ in 0..STEPS_MAX {
         let t = bracket.secant().clamp(END_RATIO, 1.0 - END_RATIO);
         let at = a.at + (b.at - a.at) * t;
-        found = Known { at, sample: field.sample(&at, &nearby) };
+        found = Known {
+            at,
+            sample: field.sample(&at, &nearby),
+        };
         let is_low = found.sample.is_positive() == a.sample.is_positive();
         let is_at_end = (t <= END_RATIO && !is_low) || (t >= 1.0 - END_RATIO && is_low);
         if is_at_end || found.sample.value.abs() <= ROOT_TOLERANCE_MM {

@@ -16,7 +16,9 @@ pub fn ball(center: Point, radius: f64, depth: u32) -> TriMesh {
 /// The mesh of these triangles with equal corners joined.
 pub fn welded(triangles: impl Iterator<Item = [Point; 3]>) -> TriMesh {
     let vertices: Vec<Point> = triangles.flatten().collect();
-    let triangles = (0..vertices.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles = (0..vertices.len() as u32 / 3)
+        .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+        .collect();
     weld(&TriMesh::new(vertices, triangles).unwrap())
 }
 
@@ -45,9 +47,16 @@ pub fn revolved(outline: &[[f64; 2]], sides: usize) -> TriMesh {
     let mut triangles = Vec::new();
     for pair in outline.windows(2) {
         for k in 0..sides {
-            let [a, b, c, d] = [at(pair[0], k), at(pair[0], k + 1), at(pair[1], k + 1), at(pair[1], k)];
+            let [a, b, c, d] = [
+                at(pair[0], k),
+                at(pair[0], k + 1),
+                at(pair[1], k + 1),
+                at(pair[1], k),
+            ];
             triangles.extend(
-                [[a, b, c], [a, c, d]].into_iter().filter(|t| t[0] != t[1] && t[1] != t[2] && t[0] != t[2]),
+                [[a, b, c], [a, c, d]]
+                    .into_iter()
+                    .filter(|t| t[0] != t[1] && t[1] != t[2] && t[0] != t[2]),
             );
         }
     }

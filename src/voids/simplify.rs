@@ -23,8 +23,10 @@ pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshErr
         if failed.is_empty() {
             return Ok(simple);
         }
-        let corners =
-            failed.into_iter().flat_map(|i| simple.triangles()[i as usize]).map(|v| names[v as usize]);
+        let corners = failed
+            .into_iter()
+            .flat_map(|i| simple.triangles()[i as usize])
+            .map(|v| names[v as usize]);
         lock(&mesh, corners, &mut locked);
     }
     Ok(mesh)
@@ -39,15 +41,25 @@ impl Passed {
     /// and whatever they meet.
     fn failed(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
         let named = |t: &[u32; 3]| t.map(|v| names[v as usize]);
-        let is_new: Vec<bool> =
-            mesh.triangles().par_iter().map(|t| self.0.binary_search(&named(t)).is_err()).collect();
+        let is_new: Vec<bool> = mesh
+            .triangles()
+            .par_iter()
+            .map(|t| self.0.binary_search(&named(t)).is_err())
+            .collect();
         let mut failed = crossing_among(mesh, &is_new);
         let all = (0..mesh.triangles().len() as u32).into_par_iter();
-        failed.par_extend(all.filter(|&i| is_new[i as usize] && !(rules.allows)(&mesh.corners(i as usize))));
+        failed.par_extend(
+            all.filter(|&i| is_new[i as usize] && !(rules.allows)(&mesh.corners(i as usize))),
+        );
         let mut has_failed = vec![false; is_new.len()];
         failed.iter().for_each(|&i| has_failed[i as usize] = true);
-        self.0 =
-            mesh.triangles().iter().zip(has_failed).filter(|(_, bad)| !bad).map(|(t, _)| named(t)).collect();
+        self.0 = mesh
+            .triangles()
+            .iter()
+            .zip(has_failed)
+            .filter(|(_, bad)| !bad)
+            .map(|(t, _)| named(t))
+            .collect();
         self.0.par_sort_unstable();
         failed
     }
@@ -80,7 +92,10 @@ fn compacted(mesh: &TriMesh, triangles: Vec<[u32; 3]>) -> Result<(TriMesh, Vec<u
         }
         *new
     };
-    let triangles = triangles.into_iter().map(|t| t.map(&mut numbered)).collect();
+    let triangles = triangles
+        .into_iter()
+        .map(|t| t.map(&mut numbered))
+        .collect();
     let vertices = names.iter().map(|&v| mesh.vertices()[v as usize]).collect();
     Ok((TriMesh::new(vertices, triangles)?, names))
 }

@@ -14,9 +14,14 @@ const HALF_TURN: f64 = 0.5;
 
 /// The bodies of `parts` into which a ball of `min_void_mm` fits, and what was left out.
 pub(super) fn voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidError> {
-    let mut sized: Vec<(f64, TriMesh)> =
-        bodies(parts).into_iter().map(|body| (body.signed_volume_mm3(), body)).collect();
-    sized.sort_by(|a, b| b.0.total_cmp(&a.0).then_with(|| corner(&a.1).total_cmp(&corner(&b.1))));
+    let mut sized: Vec<(f64, TriMesh)> = bodies(parts)
+        .into_iter()
+        .map(|body| (body.signed_volume_mm3(), body))
+        .collect();
+    sized.sort_by(|a, b| {
+        b.0.total_cmp(&a.0)
+            .then_with(|| corner(&a.1).total_cmp(&corner(&b.1)))
+    });
     let kept: Vec<bool> = sized
         .par_iter()
         .map(|(volume, body)| {
@@ -26,7 +31,10 @@ pub(super) fn voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidErro
     let mut voids = Voids::default();
     let mut islands: Vec<TriMesh> = Vec::new();
     for ((_, body), is_kept) in sized.into_iter().zip(kept) {
-        if islands.iter().any(|island| winding_number(island, &body.vertices()[0]).abs() > HALF_TURN) {
+        if islands
+            .iter()
+            .any(|island| winding_number(island, &body.vertices()[0]).abs() > HALF_TURN)
+        {
             continue;
         }
         if is_kept {
@@ -37,7 +45,10 @@ pub(super) fn voids(parts: &TriMesh, min_void_mm: f64) -> Result<Voids, VoidErro
             voids.refused.push(body);
         }
     }
-    voids.emptied_mm3 = islands.iter().map(|island| island.signed_volume_mm3().abs()).sum();
+    voids.emptied_mm3 = islands
+        .iter()
+        .map(|island| island.signed_volume_mm3().abs())
+        .sum();
     Ok(voids)
 }
 
@@ -49,9 +60,15 @@ fn corner(body: &TriMesh) -> f64 {
 
 /// The body without what floats loose in it, and the surfaces of that.
 fn without_islands(body: &TriMesh) -> (TriMesh, Vec<TriMesh>) {
-    let (outward, inward): (Vec<_>, Vec<_>) =
-        shells(body).into_iter().partition(|shell| shell.signed_volume_mm3() > 0.0);
-    (outward.into_iter().fold(TriMesh::default(), |hull, shell| hull.joined(&shell)), inward)
+    let (outward, inward): (Vec<_>, Vec<_>) = shells(body)
+        .into_iter()
+        .partition(|shell| shell.signed_volume_mm3() > 0.0);
+    (
+        outward
+            .into_iter()
+            .fold(TriMesh::default(), |hull, shell| hull.joined(&shell)),
+        inward,
+    )
 }
 
 #[cfg(test)]
@@ -74,7 +91,9 @@ mod tests {
     #[test]
     fn a_void_in_what_floats_loose_is_emptied_with_it() {
         let center = Point::new(4.0, 4.0, 4.0);
-        let ring = ball(center, 3.0, 3).reversed().joined(&ball(center, 2.0, 3));
+        let ring = ball(center, 3.0, 3)
+            .reversed()
+            .joined(&ball(center, 2.0, 3));
         let voids = voids(&block([0.0; 3], [8.0; 3]).joined(&ring), 1.0).unwrap();
         assert_eq!(voids.bodies.len(), 1);
         assert!((voids.bodies[0].mesh().signed_volume_mm3() - 512.0).abs() < 1e-9);

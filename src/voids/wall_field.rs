@@ -42,16 +42,25 @@ impl WallField<'_> {
         let value = |keep: &Keep| {
             let offset = p - closest_on_segment(p, &keep.from, &keep.to);
             let distance = offset.norm();
-            (distance - keep.radius_mm - self.keep_margin_mm, offset / distance.max(f64::MIN_POSITIVE))
+            (
+                distance - keep.radius_mm - self.keep_margin_mm,
+                offset / distance.max(f64::MIN_POSITIVE),
+            )
         };
-        self.keeps.iter().map(value).min_by(|a, b| a.0.total_cmp(&b.0))
+        self.keeps
+            .iter()
+            .map(value)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
     }
 }
 
 impl Field for WallField<'_> {
     fn sample(&self, p: &Point, nearby: &[Known]) -> Sample {
         let mut hints = [NO_HINT; 2];
-        hints.iter_mut().zip(nearby).for_each(|(hint, known)| *hint = known.sample.hint);
+        hints
+            .iter_mut()
+            .zip(nearby)
+            .for_each(|(hint, known)| *hint = known.sample.hint);
         let Some(nearest) = self.surface.closest(p, f64::INFINITY, &hints) else {
             return Sample::plain(f64::NEG_INFINITY, Vector::zeros());
         };
@@ -64,7 +73,13 @@ impl Field for WallField<'_> {
             Some(keep) if keep.0 < wall.0 => keep,
             _ => wall,
         };
-        Sample { value, gradient, clearance_mm, inside, hint: nearest.hint }
+        Sample {
+            value,
+            gradient,
+            clearance_mm,
+            inside,
+            hint: nearest.hint,
+        }
     }
 
     fn is_free(&self, center: &Known, radius_mm: f64) -> bool {

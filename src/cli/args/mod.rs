@@ -87,7 +87,12 @@ pub struct InspectArgs {
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
     /// Tell what it could become with this wall [default: the printer's least; a hundredth of the size without a printer]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Printer")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        allow_hyphen_values = true,
+        help_heading = "Printer"
+    )]
     pub wall: Option<Length>,
     /// The model's size.
     #[command(flatten)]

@@ -42,7 +42,12 @@ pub struct PrepareArgs {
     #[arg(long, value_name = "ID", help_heading = "Printer")]
     pub material: Option<String>,
     /// Keep at least this wall, rounded up to whole pixels or lines [default: the printer's least]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Printer")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        allow_hyphen_values = true,
+        help_heading = "Printer"
+    )]
     pub wall: Option<Length>,
 
     /// What the object is to do
@@ -50,18 +55,38 @@ pub struct PrepareArgs {
     pub goal: Option<GoalKind>,
     /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to spin about) or
     /// auto (the best of all) [default: z]
-    #[arg(long, value_name = "AXIS", allow_hyphen_values = true, help_heading = "Goal")]
+    #[arg(
+        long,
+        value_name = "AXIS",
+        allow_hyphen_values = true,
+        help_heading = "Goal"
+    )]
     pub up: Option<Up>,
     /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm [default: lowest]
-    #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
+    #[arg(
+        long,
+        value_name = "POINT",
+        allow_hyphen_values = true,
+        help_heading = "Goal"
+    )]
     pub contact: Option<Contact>,
     /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm [default: center]
-    #[arg(long, value_name = "POINT", allow_hyphen_values = true, help_heading = "Goal")]
+    #[arg(
+        long,
+        value_name = "POINT",
+        allow_hyphen_values = true,
+        help_heading = "Goal"
+    )]
     pub spin_point: Option<SpinPoint>,
     /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
     /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]. The weights
     /// of Spin-It's functional may follow it, that of a low centre first: spin-it:γc,γI [default: 1,1]
-    #[arg(long, value_name = "OBJECTIVE", allow_hyphen_values = true, help_heading = "Goal")]
+    #[arg(
+        long,
+        value_name = "OBJECTIVE",
+        allow_hyphen_values = true,
+        help_heading = "Goal"
+    )]
     pub objective: Option<Objective>,
     /// How a rotor runs.
     #[command(flatten)]
@@ -81,7 +106,12 @@ pub struct PrepareArgs {
     #[arg(long, value_parser = words::<Solver>(Solver::WORDS), help_heading = "Method")]
     pub solver: Option<Solver>,
     /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Method")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        allow_hyphen_values = true,
+        help_heading = "Method"
+    )]
     pub pitch: Option<Length>,
     /// How it is cut and joined.
     #[command(flatten)]
@@ -205,10 +235,19 @@ impl PrepareArgs {
     fn new_job(self) -> Result<Job, ArgsError> {
         let goal = self.goal()?;
         let path = self.model.ok_or(ArgsError::Missing("MODEL"))?;
-        let model = ModelChoice { path, sha256: None, scaling: self.scaling.scaling() };
+        let model = ModelChoice {
+            path,
+            sha256: None,
+            scaling: self.scaling.scaling(),
+        };
         let printer = chosen_printer(self.printer, self.material, &model.path)?;
         let default = Job::new(model, printer, goal);
-        let (cut, plan) = self.cutting.cut.map(CutArg::order).transpose()?.unwrap_or((default.cut, None));
+        let (cut, plan) = self
+            .cutting
+            .cut
+            .map(CutArg::order)
+            .transpose()?
+            .unwrap_or((default.cut, None));
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
@@ -253,12 +292,17 @@ impl ScalingArgs {
 
 fn replayed(job: Job, model: Option<PathBuf>) -> Job {
     let path = model.unwrap_or(job.model.path);
-    Job { model: ModelChoice { path, ..job.model }, ..job }
+    Job {
+        model: ModelChoice { path, ..job.model },
+        ..job
+    }
 }
 
 /// `<model>-kit` in the current folder.
 fn default_out(model: &Path) -> PathBuf {
-    let mut name = model.file_stem().map_or_else(|| OsString::from("model"), ToOwned::to_owned);
+    let mut name = model
+        .file_stem()
+        .map_or_else(|| OsString::from("model"), ToOwned::to_owned);
     name.push("-kit");
     PathBuf::from(name)
 }

@@ -28,17 +28,31 @@ fn the_definition_of_the_arguments_is_consistent() {
 
 #[test]
 fn hardware_and_the_weights_of_the_functional_reach_the_job() {
-    let top =
-        request(&format!("{PREPARE} --tip 4mmx12mmx5mm --stem 5x30 --objective spin-it:0.5,2")).job.goal;
-    assert_eq!(top.objective, Objective::SpinIt { gamma_c: 0.5, gamma_i: 2.0 });
+    let top = request(&format!(
+        "{PREPARE} --tip 4mmx12mmx5mm --stem 5x30 --objective spin-it:0.5,2"
+    ))
+    .job
+    .goal;
+    assert_eq!(
+        top.objective,
+        Objective::SpinIt {
+            gamma_c: 0.5,
+            gamma_i: 2.0
+        }
+    );
     let hardware = top.hardware.unwrap();
-    assert_eq!((hardware.tip.unwrap().to_string(), hardware.axle), ("4mmx12mmx5mm".to_owned(), None));
+    assert_eq!(
+        (hardware.tip.unwrap().to_string(), hardware.axle),
+        ("4mmx12mmx5mm".to_owned(), None)
+    );
     assert_eq!(request(PREPARE).job.goal.hardware, None);
 }
 
 #[test]
 fn the_readme_command_makes_the_job_it_says() {
-    let request = request(&format!("{PREPARE} --up z --contact center --size 100mm --wall 1mm"));
+    let request = request(&format!(
+        "{PREPARE} --up z --contact center --size 100mm --wall 1mm"
+    ));
     let job = &request.job;
     assert_eq!(job.model.path, Path::new("models/elephant.obj"));
     assert_eq!(job.model.scaling, Scaling::Size("100mm".parse().unwrap()));
@@ -46,16 +60,28 @@ fn the_readme_command_makes_the_job_it_says() {
     assert_eq!(job.goal.contact, Some(Contact::Center));
     assert_eq!(job.goal.objective, Objective::CriticalSpeed);
     assert_eq!(job.wall.unwrap().mm(), 1.0);
-    assert_eq!((request.out.as_path(), request.force), (Path::new("elephant-kit"), false));
+    assert_eq!(
+        (request.out.as_path(), request.force),
+        (Path::new("elephant-kit"), false)
+    );
 }
 
 #[test]
 fn what_is_not_said_gets_the_documented_default() {
     let job = request(PREPARE).job;
     assert_eq!(job.model.scaling, Scaling::Unit(ModelUnit::Mm));
-    assert_eq!((job.goal.up, job.goal.contact, job.goal.spin_point), (Up::Z, Some(Contact::Lowest), None));
-    assert_eq!((job.wall, job.pitch, job.printer.material), (None, None, None));
-    assert_eq!((job.solver, job.cut, job.format), (Solver::Quadric, CutMode::Auto, PartFormat::Both));
+    assert_eq!(
+        (job.goal.up, job.goal.contact, job.goal.spin_point),
+        (Up::Z, Some(Contact::Lowest), None)
+    );
+    assert_eq!(
+        (job.wall, job.pitch, job.printer.material),
+        (None, None, None)
+    );
+    assert_eq!(
+        (job.solver, job.cut, job.format),
+        (Solver::Quadric, CutMode::Auto, PartFormat::Both)
+    );
 }
 
 #[test]
@@ -74,11 +100,17 @@ fn everything_that_can_be_said_arrives_in_the_job() {
                 --objective dominance --scale 2.5 --wall 0.1cm --pitch 0.2 --solver quadric --cut never --out k --force --format stl";
     let request = request(line);
     let job = &request.job;
-    assert_eq!((job.printer.id.as_str(), job.printer.material.as_deref()), ("my.toml", Some("pla")));
+    assert_eq!(
+        (job.printer.id.as_str(), job.printer.material.as_deref()),
+        ("my.toml", Some("pla"))
+    );
     assert_eq!(job.goal.spin_point, Some(SpinPoint::At([-1.0, 2.0, 3.0])));
     assert_eq!(job.goal.objective, Objective::Dominance);
     assert_eq!(job.model.scaling, Scaling::Factor(2.5));
-    assert_eq!((job.wall.unwrap().mm(), job.pitch.unwrap().mm()), (1.0, 0.2));
+    assert_eq!(
+        (job.wall.unwrap().mm(), job.pitch.unwrap().mm()),
+        (1.0, 0.2)
+    );
     assert_eq!((job.cut, request.force), (CutMode::Never, true));
     assert_eq!(request.out, Path::new("k"));
 }
@@ -122,7 +154,10 @@ fn bad_arguments_are_refused_with_exit_code_2_and_clear_words() {
 fn what_must_be_said_is_asked_for() {
     for (line, says) in [
         ("equipoise prepare m.stl --printer prusa-mk4", "--goal"),
-        ("equipoise prepare --printer prusa-mk4 --goal top", "<MODEL>"),
+        (
+            "equipoise prepare --printer prusa-mk4 --goal top",
+            "<MODEL>",
+        ),
         (
             "equipoise prepare m.stl --printer prusa-mk4 --goal swim",
             "possible values: top, yoyo, stand, float, balance",
@@ -138,14 +173,31 @@ fn what_must_be_said_is_asked_for() {
 #[test]
 fn parts_of_a_goal_that_do_not_go_together_are_refused() {
     for (arguments, says) in [
-        ("--goal stand --objective spin-it", "use toppling-angle or lowest-center"),
-        ("--goal yoyo --contact lowest", "a contact point goes with the goal top, not with yoyo"),
-        ("--goal stand --spin-point center", "a spin point goes with the goal yoyo or balance"),
-        ("--goal stand --waterline 30mm", "a liquid or waterline goes with the goal float"),
-        ("--goal top --speed 3000", "a speed, grade or bore goes with the goal balance"),
+        (
+            "--goal stand --objective spin-it",
+            "use toppling-angle or lowest-center",
+        ),
+        (
+            "--goal yoyo --contact lowest",
+            "a contact point goes with the goal top, not with yoyo",
+        ),
+        (
+            "--goal stand --spin-point center",
+            "a spin point goes with the goal yoyo or balance",
+        ),
+        (
+            "--goal stand --waterline 30mm",
+            "a liquid or waterline goes with the goal float",
+        ),
+        (
+            "--goal top --speed 3000",
+            "a speed, grade or bore goes with the goal balance",
+        ),
     ] {
         let line = format!("equipoise prepare m.stl --printer prusa-mk4 {arguments}");
-        let Command::Prepare(args) = parse(&line).unwrap().command else { panic!("{line}") };
+        let Command::Prepare(args) = parse(&line).unwrap().command else {
+            panic!("{line}")
+        };
         let error = args.request().unwrap_err().to_string();
         assert!(error.contains(says), "{arguments}: {error}");
     }
@@ -156,18 +208,31 @@ fn without_a_printer_the_shops_own_is_taken_and_where_there_is_none_it_is_asked_
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("m.stl");
     let line = format!("equipoise prepare {} --goal top", model.display());
-    let Command::Prepare(args) = parse(&line).unwrap().command else { panic!("{line}") };
+    let Command::Prepare(args) = parse(&line).unwrap().command else {
+        panic!("{line}")
+    };
     // A user who runs the tests may have defaults of his own.
     match args.request() {
         Err(error) => assert!(error.to_string().contains("equipoise.toml"), "{error}"),
         Ok(request) => assert!(!request.job.printer.id.is_empty()),
     }
-    std::fs::write(folder.path().join("equipoise.toml"), "printer = \"prusa-mk4\"\nmaterial = \"asa\"\n")
-        .unwrap();
+    std::fs::write(
+        folder.path().join("equipoise.toml"),
+        "printer = \"prusa-mk4\"\nmaterial = \"asa\"\n",
+    )
+    .unwrap();
     let printer = request(&line).job.printer;
-    assert_eq!((printer.id.as_str(), printer.material.as_deref()), ("prusa-mk4", Some("asa")));
-    let printer = request(&format!("{line} --printer objet-connex350")).job.printer;
-    assert_eq!((printer.id.as_str(), printer.material), ("objet-connex350", None));
+    assert_eq!(
+        (printer.id.as_str(), printer.material.as_deref()),
+        ("prusa-mk4", Some("asa"))
+    );
+    let printer = request(&format!("{line} --printer objet-connex350"))
+        .job
+        .printer;
+    assert_eq!(
+        (printer.id.as_str(), printer.material),
+        ("objet-connex350", None)
+    );
 }
 
 #[test]
@@ -178,18 +243,30 @@ fn a_job_is_replayed_and_its_model_may_lie_elsewhere() {
     std::fs::write(&path, original.to_toml().unwrap()).unwrap();
     let path = path.to_str().unwrap();
     let again = request(&format!("equipoise prepare --job {path} --out again"));
-    assert_eq!((again.job, again.out.as_path()), (original.clone(), Path::new("again")));
+    assert_eq!(
+        (again.job, again.out.as_path()),
+        (original.clone(), Path::new("again"))
+    );
     let moved = request(&format!("equipoise prepare other/b.obj --job {path}"));
     assert_eq!(moved.job.model.path, Path::new("other/b.obj"));
-    assert_eq!((moved.job.wall, moved.out.as_path()), (original.wall, Path::new("b-kit")));
+    assert_eq!(
+        (moved.job.wall, moved.out.as_path()),
+        (original.wall, Path::new("b-kit"))
+    );
 }
 
 #[test]
 fn global_flags_stand_before_or_after_the_command() {
-    for line in ["equipoise -q --threads 2 --json printers", "equipoise printers --json --threads 2 -q"] {
+    for line in [
+        "equipoise -q --threads 2 --json printers",
+        "equipoise printers --json --threads 2 -q",
+    ] {
         let global = parse(line).unwrap().global;
         assert!(global.quiet && global.json, "{line}");
         assert_eq!(global.threads, Some(2));
     }
-    assert_eq!(parse("equipoise inspect a.stl -vv").unwrap().global.verbose, 2);
+    assert_eq!(
+        parse("equipoise inspect a.stl -vv").unwrap().global.verbose,
+        2
+    );
 }

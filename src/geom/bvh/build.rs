@@ -23,16 +23,32 @@ struct Item {
 }
 
 pub(super) fn build(triangles: Vec<[Point; 3]>) -> Bvh {
-    let mut items: Vec<Item> = triangles.iter().enumerate().map(|(id, corners)| item(id, corners)).collect();
-    let nodes = if items.is_empty() { Vec::new() } else { subtree(&mut items, 0) };
+    let mut items: Vec<Item> = triangles
+        .iter()
+        .enumerate()
+        .map(|(id, corners)| item(id, corners))
+        .collect();
+    let nodes = if items.is_empty() {
+        Vec::new()
+    } else {
+        subtree(&mut items, 0)
+    };
     let ids: Vec<u32> = items.iter().map(|item| item.id).collect();
     let corners = ids.iter().map(|&id| triangles[id as usize]).collect();
-    Bvh { nodes, corners, ids }
+    Bvh {
+        nodes,
+        corners,
+        ids,
+    }
 }
 
 fn item(id: usize, corners: &[Point; 3]) -> Item {
     let aabb = Aabb::of_points(corners);
-    Item { aabb, center: aabb.center(), id: id as u32 }
+    Item {
+        aabb,
+        center: aabb.center(),
+        id: id as u32,
+    }
 }
 
 /// The tree over `items`, whose first triangle is number `first` of the whole; large halves at the same time.
@@ -42,11 +58,17 @@ fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
         subdivide(items, first, &mut nodes);
         return nodes;
     }
-    let aabb = items.iter().fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
+    let aabb = items
+        .iter()
+        .fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
     let middle = partition(items);
     let (left, right) = items.split_at_mut(middle);
     let (left, right) = rayon::join(|| subtree(left, first), || subtree(right, first + middle));
-    nodes.push(Node { aabb, first: 1 + left.len() as u32, count: 0 });
+    nodes.push(Node {
+        aabb,
+        first: 1 + left.len() as u32,
+        count: 0,
+    });
     append_shifted(&mut nodes, &left);
     append_shifted(&mut nodes, &right);
     nodes
@@ -55,15 +77,30 @@ fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
 /// Appends a tree whose inner nodes name their right children from its own root on.
 fn append_shifted(nodes: &mut Vec<Node>, tree: &[Node]) {
     let base = nodes.len() as u32;
-    let shift = |node: &Node| if node.count == 0 { node.first + base } else { node.first };
-    nodes.extend(tree.iter().map(|node| Node { first: shift(node), ..*node }));
+    let shift = |node: &Node| {
+        if node.count == 0 {
+            node.first + base
+        } else {
+            node.first
+        }
+    };
+    nodes.extend(tree.iter().map(|node| Node {
+        first: shift(node),
+        ..*node
+    }));
 }
 
 /// Appends the tree over `items`, whose first triangle is number `first` of the whole.
 fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
-    let aabb = items.iter().fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
+    let aabb = items
+        .iter()
+        .fold(Aabb::EMPTY, |sum, item| sum.union(&item.aabb));
     let index = nodes.len();
-    nodes.push(Node { aabb, first: first as u32, count: items.len() as u32 });
+    nodes.push(Node {
+        aabb,
+        first: first as u32,
+        count: items.len() as u32,
+    });
     if items.len() <= LEAF_SIZE {
         return;
     }
@@ -77,10 +114,13 @@ fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
 
 /// Reorders the items in two parts and gives the size of the first.
 fn partition(items: &mut [Item]) -> usize {
-    let centers = items.iter().fold(Aabb::EMPTY, |sum, item| sum.grown_over(&item.center));
+    let centers = items
+        .iter()
+        .fold(Aabb::EMPTY, |sum, item| sum.grown_over(&item.center));
     let axis = centers.size().imax();
     let (low, extent) = (centers.min[axis], centers.size()[axis]);
-    let bin_of = |item: &Item| (((item.center[axis] - low) / extent * BINS as f64) as usize).min(BINS - 1);
+    let bin_of =
+        |item: &Item| (((item.center[axis] - low) / extent * BINS as f64) as usize).min(BINS - 1);
     if let Some(split) = (extent > 0.0).then(|| best_split(items, bin_of)).flatten() {
         let mut ordered: Vec<Item> = Vec::with_capacity(items.len());
         ordered.extend(items.iter().filter(|item| bin_of(item) < split));

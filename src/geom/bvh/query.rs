@@ -37,7 +37,10 @@ impl Bvh {
     /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]); they save time and change the answer only
     /// among triangles equally near up to rounding.
     pub fn closest(&self, p: &Point, limit_mm: f64, hints: &[u32]) -> Option<Nearest> {
-        let mut search = Search { best: limit_mm * limit_mm, found: None };
+        let mut search = Search {
+            best: limit_mm * limit_mm,
+            found: None,
+        };
         for &hint in hints.iter().filter(|&&hint| hint != NO_HINT) {
             search.offer(p, self, hint as usize);
         }
@@ -71,13 +74,20 @@ impl Bvh {
         let aabb = Aabb::of_points(corners);
         let limit_squared = limit_mm.max(0.0).powi(2);
         let bound = |other: &Aabb| {
-            let is_apart = gap_squared(&aabb, other) >= limit_squared || probe.bound(other) >= limit_mm;
+            let is_apart =
+                gap_squared(&aabb, other) >= limit_squared || probe.bound(other) >= limit_mm;
             if is_apart { f64::INFINITY } else { 0.0 }
         };
         self.visit(
             false,
             bound,
-            |hit| if *hit { f64::NEG_INFINITY } else { f64::MIN_POSITIVE },
+            |hit| {
+                if *hit {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::MIN_POSITIVE
+                }
+            },
             |hit, slot| *hit = *hit || probe.is_within(&self.corners[slot], limit_mm),
         )
     }
@@ -104,8 +114,20 @@ impl Bvh {
         let inverse = along.map(f64::recip);
         self.visit(
             false,
-            |aabb| if entered_box(a, &inverse, aabb).is_some() { 0.0 } else { f64::INFINITY },
-            |&is_crossed| if is_crossed { f64::NEG_INFINITY } else { f64::INFINITY },
+            |aabb| {
+                if entered_box(a, &inverse, aabb).is_some() {
+                    0.0
+                } else {
+                    f64::INFINITY
+                }
+            },
+            |&is_crossed| {
+                if is_crossed {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::INFINITY
+                }
+            },
             |is_crossed, slot| {
                 *is_crossed = *is_crossed || crossed_at(a, &along, &self.corners[slot]).is_some();
             },
@@ -132,11 +154,21 @@ impl Bvh {
 
     /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's numbers and with their
     /// corners, until it breaks off; in an order that depends on the tree alone.
-    pub fn visit_overlapping(&self, aabb: &Aabb, mut see: impl FnMut(u32, &[Point; 3]) -> ControlFlow<()>) {
+    pub fn visit_overlapping(
+        &self,
+        aabb: &Aabb,
+        mut see: impl FnMut(u32, &[Point; 3]) -> ControlFlow<()>,
+    ) {
         _ = self.visit(
             ControlFlow::Continue(()),
             |other| gap_squared(aabb, other),
-            |flow| if flow.is_break() { f64::NEG_INFINITY } else { f64::MIN_POSITIVE },
+            |flow| {
+                if flow.is_break() {
+                    f64::NEG_INFINITY
+                } else {
+                    f64::MIN_POSITIVE
+                }
+            },
             |flow, slot| {
                 let corners = &self.corners[slot];
                 if flow.is_continue() && gap_squared(aabb, &Aabb::of_points(corners)) <= 0.0 {
@@ -153,7 +185,13 @@ impl Bvh {
     pub fn winding(&self, p: &Point) -> i32 {
         self.visit(
             0,
-            |aabb| if is_above(p, aabb) { 0.0 } else { f64::INFINITY },
+            |aabb| {
+                if is_above(p, aabb) {
+                    0.0
+                } else {
+                    f64::INFINITY
+                }
+            },
             |_| f64::INFINITY,
             |winding, slot| *winding += crossing(p, &self.corners[slot]),
         )
@@ -184,8 +222,16 @@ impl Bvh {
             }
             let left = (index + 1, bound(&self.nodes[index as usize + 1].aabb));
             let right = (node.first, bound(&self.nodes[node.first as usize].aabb));
-            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
-            stack.extend([far, near].into_iter().filter(|child| child.1 < limit(&state)));
+            let (near, far) = if left.1 <= right.1 {
+                (left, right)
+            } else {
+                (right, left)
+            };
+            stack.extend(
+                [far, near]
+                    .into_iter()
+                    .filter(|child| child.1 < limit(&state)),
+            );
         }
         state
     }
@@ -200,7 +246,9 @@ struct Search {
 impl Search {
     #[inline]
     fn offer(&mut self, p: &Point, bvh: &Bvh, slot: usize) {
-        let Some(corners) = bvh.corners.get(slot) else { return };
+        let Some(corners) = bvh.corners.get(slot) else {
+            return;
+        };
         let candidate = closest_on_triangle(p, corners);
         let distance_squared = (candidate.point - p).norm_squared();
         if distance_squared < self.best {
@@ -210,13 +258,14 @@ impl Search {
     }
 
     fn nearest(self, bvh: &Bvh) -> Option<Nearest> {
-        self.found.map(|(slot, TrianglePoint { point, feature })| Nearest {
-            distance_squared: self.best,
-            point,
-            triangle: bvh.ids[slot],
-            feature,
-            hint: slot as u32,
-        })
+        self.found
+            .map(|(slot, TrianglePoint { point, feature })| Nearest {
+                distance_squared: self.best,
+                point,
+                triangle: bvh.ids[slot],
+                feature,
+                hint: slot as u32,
+            })
     }
 }
 
@@ -234,7 +283,11 @@ impl<'a> Probe<'a> {
 
     /// A lower bound of the distance to a box.
     fn bound(&self, aabb: &Aabb) -> f64 {
-        let nearest = self.center.coords.sup(&aabb.min.coords).inf(&aabb.max.coords);
+        let nearest = self
+            .center
+            .coords
+            .sup(&aabb.min.coords)
+            .inf(&aabb.max.coords);
         self.bound_from(self.center.coords - nearest)
     }
 
@@ -300,7 +353,11 @@ fn crossed_at(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> Option<f64> 
 
 /// Whether the ray from `p` along +z may meet the box.
 fn is_above(p: &Point, aabb: &Aabb) -> bool {
-    aabb.max.z >= p.z && aabb.min.x <= p.x && p.x <= aabb.max.x && aabb.min.y <= p.y && p.y <= aabb.max.y
+    aabb.max.z >= p.z
+        && aabb.min.x <= p.x
+        && p.x <= aabb.max.x
+        && aabb.min.y <= p.y
+        && p.y <= aabb.max.y
 }
 
 /// +1 or −1 if the ray from `p` along +z leaves or enters through the triangle, else 0.
@@ -308,13 +365,32 @@ fn is_above(p: &Point, aabb: &Aabb) -> bool {
 /// The projected triangle's winding about `p` by half-open edge crossings, so that triangles sharing an edge
 /// share no ray and miss none.
 fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
-    let winding: i32 = (0..3).map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3])).sum();
+    let winding: i32 = (0..3)
+        .map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3]))
+        .sum();
     if winding == 0 {
         return 0;
     }
-    let [a, b, c] = corners.map(|v| robust::Coord3D { x: v.x, y: v.y, z: v.z });
-    let below = robust::orient3d(a, b, c, robust::Coord3D { x: p.x, y: p.y, z: p.z });
-    if below * f64::from(winding) > 0.0 { winding } else { 0 }
+    let [a, b, c] = corners.map(|v| robust::Coord3D {
+        x: v.x,
+        y: v.y,
+        z: v.z,
+    });
+    let below = robust::orient3d(
+        a,
+        b,
+        c,
+        robust::Coord3D {
+            x: p.x,
+            y: p.y,
+            z: p.z,
+        },
+    );
+    if below * f64::from(winding) > 0.0 {
+        winding
+    } else {
+        0
+    }
 }
 
 /// The crossing of the ray from `p` along +x, in the plane, with an edge: +1 upward, −1 downward.
@@ -335,7 +411,11 @@ mod tests {
 
     /// Deterministic numbers in [0, 1): the fractional parts of multiples of irrational numbers.
     fn noise(index: usize, axis: usize) -> f64 {
-        let step = [0.754_877_666_246_693, 0.569_840_290_998_053, 0.430_159_709_001_947][axis];
+        let step = [
+            0.754_877_666_246_693,
+            0.569_840_290_998_053,
+            0.430_159_709_001_947,
+        ][axis];
         (index as f64 * step * (1.0 + 0.1 * axis as f64)).fract()
     }
 
@@ -347,7 +427,9 @@ mod tests {
     fn a_segment_crosses_the_triangles_that_its_ends_lie_on_two_sides_of() {
         let bvh = Bvh::new(soup(300));
         let brute = |a: &Point, b: &Point| {
-            soup(300).iter().any(|corners| segment_triangle_distance_squared(a, b, corners) < 1e-24)
+            soup(300)
+                .iter()
+                .any(|corners| segment_triangle_distance_squared(a, b, corners) < 1e-24)
         };
         let answers: Vec<bool> = (0..400)
             .map(|i| {
@@ -363,7 +445,11 @@ mod tests {
         (0..count)
             .map(|i| {
                 let a = noise_point(3 * i, 10.0);
-                [a, a + noise_point(3 * i + 1, 1.0).coords, a - noise_point(3 * i + 2, 1.0).coords]
+                [
+                    a,
+                    a + noise_point(3 * i + 1, 1.0).coords,
+                    a - noise_point(3 * i + 2, 1.0).coords,
+                ]
             })
             .collect()
     }
@@ -392,7 +478,11 @@ mod tests {
         let bvh = Bvh::new(soup(50));
         let far = Point::new(100.0, 0.0, 0.0);
         assert!(bvh.closest(&far, 50.0, &[]).is_none());
-        assert!(Bvh::new(Vec::new()).closest(&far, f64::INFINITY, &[]).is_none());
+        assert!(
+            Bvh::new(Vec::new())
+                .closest(&far, f64::INFINITY, &[])
+                .is_none()
+        );
     }
 
     #[test]
@@ -401,7 +491,11 @@ mod tests {
         let bvh = Bvh::new(triangles.clone());
         for i in 0..200 {
             let a = noise_point(11 * i + 3, 14.0);
-            let t = [a, a + noise_point(11 * i + 4, 2.0).coords, a - noise_point(11 * i + 5, 2.0).coords];
+            let t = [
+                a,
+                a + noise_point(11 * i + 4, 2.0).coords,
+                a - noise_point(11 * i + 5, 2.0).coords,
+            ];
             let brute = triangles
                 .iter()
                 .map(|s| triangle_triangle_distance_squared(&t, s))
@@ -426,9 +520,14 @@ mod tests {
         let bvh = Bvh::new(triangles.clone());
         for i in 0..100 {
             let low = noise_point(13 * i + 1, 10.0);
-            let aabb = Aabb { min: low, max: low + noise_point(13 * i + 2, 3.0).coords };
+            let aabb = Aabb {
+                min: low,
+                max: low + noise_point(13 * i + 2, 3.0).coords,
+            };
             let overlaps = |t: &[Point; 3]| gap_squared(&aabb, &Aabb::of_points(t)) <= 0.0;
-            let brute: Vec<u32> = (0..300).filter(|&t| overlaps(&triangles[t as usize])).collect();
+            let brute: Vec<u32> = (0..300)
+                .filter(|&t| overlaps(&triangles[t as usize]))
+                .collect();
             let (mut seen, mut shown) = (Vec::new(), 0);
             bvh.visit_overlapping(&aabb, |t, corners| {
                 assert_eq!(*corners, triangles[t as usize]);
@@ -439,7 +538,11 @@ mod tests {
             assert_eq!(seen, brute);
             bvh.visit_overlapping(&aabb, |_, _| {
                 shown += 1;
-                if shown < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+                if shown < 3 {
+                    ControlFlow::Continue(())
+                } else {
+                    ControlFlow::Break(())
+                }
             });
             assert_eq!(shown, brute.len().min(3));
         }
@@ -449,14 +552,27 @@ mod tests {
     fn a_ray_through_edges_and_corners_is_counted_once() {
         let top = Point::new(0.0, 0.0, 1.0);
         let bottom = Point::new(0.0, 0.0, -1.0);
-        let ring = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Point::new(x, y, 0.0));
-        let octahedron =
-            (0..4).flat_map(|i| [[ring[i], ring[(i + 1) % 4], top], [ring[(i + 1) % 4], ring[i], bottom]]);
+        let ring =
+            [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Point::new(x, y, 0.0));
+        let octahedron = (0..4).flat_map(|i| {
+            [
+                [ring[i], ring[(i + 1) % 4], top],
+                [ring[(i + 1) % 4], ring[i], bottom],
+            ]
+        });
         let bvh = Bvh::new(octahedron);
-        for inside in [Point::origin(), Point::new(0.5, 0.0, 0.1), Point::new(0.0, -0.25, -0.5)] {
+        for inside in [
+            Point::origin(),
+            Point::new(0.5, 0.0, 0.1),
+            Point::new(0.0, -0.25, -0.5),
+        ] {
             assert_eq!(bvh.winding(&inside), 1, "{inside}");
         }
-        for outside in [Point::new(0.0, 0.0, -2.0), Point::new(0.0, 0.0, 2.0), Point::new(1.0, 0.0, -0.5)] {
+        for outside in [
+            Point::new(0.0, 0.0, -2.0),
+            Point::new(0.0, 0.0, 2.0),
+            Point::new(1.0, 0.0, -0.5),
+        ] {
             assert_eq!(bvh.winding(&outside), 0, "{outside}");
         }
     }

@@ -36,7 +36,12 @@ impl<'a> Judge<'a> {
         let best = solve(&world.problem(), &Settings::default(), &Progress::silent());
         let emptied = crate::interior::Emptied::where_positive(&world.columns, &best.quadric);
         let density = moments_and_derivative(&world.columns, &best.quadric).1[(0, 0)];
-        Self { world, best, emptied, density }
+        Self {
+            world,
+            best,
+            emptied,
+            density,
+        }
     }
 
     fn volume(&self) -> f64 {
@@ -46,7 +51,14 @@ impl<'a> Judge<'a> {
     /// R
     fn regret(&self, found: &Found) -> f64 {
         let more = found.moments - self.best.moments;
-        self.best.quadric.0.iter().zip(more.0).map(|(q, s)| q * s).sum::<f64>() / self.volume()
+        self.best
+            .quadric
+            .0
+            .iter()
+            .zip(more.0)
+            .map(|(q, s)| q * s)
+            .sum::<f64>()
+            / self.volume()
     }
 
     /// What whole cells of this height lose at most: a cell that the surface cuts at a slope k is kept or emptied
@@ -54,7 +66,10 @@ impl<'a> Judge<'a> {
     fn loss_of_cells(&self, height_mm: f64) -> f64 {
         let columns = &self.world.columns;
         let is_inside = |column: usize, z: f64| {
-            columns.intervals_of(column).iter().any(|[bottom, top]| *bottom < z && z < *top)
+            columns
+                .intervals_of(column)
+                .iter()
+                .any(|[bottom, top]| *bottom < z && z < *top)
         };
         let slope = |column: usize, z: f64| {
             let [x, y] = columns.centers[column];
@@ -63,7 +78,9 @@ impl<'a> Judge<'a> {
         let of_column = |column: usize| {
             let pieces = self.emptied.pieces_of(column).iter();
             let ends = pieces.flat_map(|piece| [piece.bottom_mm, piece.top_mm]);
-            ends.filter(|&z| is_inside(column, z)).map(|z| slope(column, z)).sum::<f64>()
+            ends.filter(|&z| is_inside(column, z))
+                .map(|z| slope(column, z))
+                .sum::<f64>()
         };
         let slopes: f64 = (0..columns.len()).map(of_column).sum();
         let area_mm2 = columns.pitch_mm[0] * columns.pitch_mm[1];
@@ -73,8 +90,13 @@ impl<'a> Judge<'a> {
 
 /// Every method, and how much its cells may lose beside what the optimiser leaves.
 fn methods() -> Vec<(Box<dyn Method>, f64)> {
-    let octree =
-        ByOctree { levels: crate::interior::Levels { inner: 3, boundary: 4 }, ..ByOctree::default() };
+    let octree = ByOctree {
+        levels: crate::interior::Levels {
+            inner: 3,
+            boundary: 4,
+        },
+        ..ByOctree::default()
+    };
     vec![
         (Box::new(ByQuadric::default()), 0.0),
         (Box::new(ByRays::default()), 0.0),
@@ -87,7 +109,10 @@ fn methods() -> Vec<(Box<dyn Method>, f64)> {
 
 fn hold_together(world: &World) {
     let judge = Judge::of(world);
-    let is_smoothed = matches!(world.goal.objective, Objective::CriticalSpeed | Objective::Dominance);
+    let is_smoothed = matches!(
+        world.goal.objective,
+        Objective::CriticalSpeed | Objective::Dominance
+    );
     let slack = UNDONE + if is_smoothed { SMOOTHED } else { 0.0 };
     for (method, cells) in methods() {
         let found = method.find(&world.problem(), &Progress::silent()).unwrap();
@@ -108,12 +133,21 @@ fn hold_together(world: &World) {
             found.iterations,
             found.variables,
         );
-        let residual = found.rounding.map_or(found.residual, |rounding| rounding.residual_before);
-        assert!(matches!(found.outcome, Outcome::Optimal | Outcome::Converged), "{says}");
+        let residual = found
+            .rounding
+            .map_or(found.residual, |rounding| rounding.residual_before);
+        assert!(
+            matches!(found.outcome, Outcome::Optimal | Outcome::Converged),
+            "{says}"
+        );
         assert!(residual <= Accuracy::default().residual, "{says}");
         let drawn = world.fixed - found.emptied.moments(&world.columns);
         assert!(
-            drawn.0.iter().zip(found.moments.0).all(|(a, b)| (a - b).abs() < 1e-9 * world.fixed.0[9]),
+            drawn
+                .0
+                .iter()
+                .zip(found.moments.0)
+                .all(|(a, b)| (a - b).abs() < 1e-9 * world.fixed.0[9]),
             "{says}"
         );
         assert!(regret >= -1e-12, "{says}");
@@ -123,7 +157,10 @@ fn hold_together(world: &World) {
 }
 
 fn spin_it(gamma_c: f64) -> Objective {
-    Objective::SpinIt { gamma_c, gamma_i: 1.0 }
+    Objective::SpinIt {
+        gamma_c,
+        gamma_i: 1.0,
+    }
 }
 
 #[test]
@@ -145,7 +182,10 @@ fn all_methods_find_the_same_top_by_spin_its_functional() {
 
 #[test]
 fn all_methods_find_the_same_slowest_top() {
-    hold_together(&worlds::egg_on_its_side_at(Objective::CriticalSpeed, PITCH_MM));
+    hold_together(&worlds::egg_on_its_side_at(
+        Objective::CriticalSpeed,
+        PITCH_MM,
+    ));
 }
 
 #[test]
@@ -158,12 +198,19 @@ fn where_the_constraints_cannot_be_met_none_says_that_they_are() {
     let mut world = worlds::egg_at(spin_it(0.0), PITCH_MM);
     let shift = crate::geom::Vector::new(-6.0, 0.0, 0.0);
     world.fixed = world.fixed.translated(&shift);
-    world.columns.centers.iter_mut().for_each(|center| center[0] += shift.x);
+    world
+        .columns
+        .centers
+        .iter_mut()
+        .for_each(|center| center[0] += shift.x);
     world.goal.solid = world.fixed;
     for (method, _) in methods() {
         let found = method.find(&world.problem(), &Progress::silent()).unwrap();
         assert!(
-            matches!(found.outcome, Outcome::Impossible | Outcome::ConstraintsMissed),
+            matches!(
+                found.outcome,
+                Outcome::Impossible | Outcome::ConstraintsMissed
+            ),
             "{:?}",
             found.outcome
         );
@@ -175,7 +222,10 @@ fn one_thread_and_three_give_the_same_bits() {
     let world = worlds::egg_at(spin_it(0.0), PITCH_MM);
     for (method, _) in methods() {
         let with = |threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(threads)
+                .build()
+                .unwrap();
             pool.install(|| method.find(&world.problem(), &Progress::silent()).unwrap())
         };
         assert_eq!(with(1), with(3), "{}", method.name());
@@ -188,17 +238,28 @@ fn a_cancelled_run_says_so() {
     progress.cancel();
     let world = worlds::egg_at(spin_it(0.0), PITCH_MM);
     for (method, _) in methods() {
-        assert_eq!(method.find(&world.problem(), &progress).unwrap().outcome, Outcome::Cancelled);
+        assert_eq!(
+            method.find(&world.problem(), &progress).unwrap().outcome,
+            Outcome::Cancelled
+        );
     }
 }
 
 #[test]
 fn with_nothing_to_empty_the_papers_methods_refuse_by_name() {
     let mut world = worlds::bottle();
-    world.columns = crate::interior::Columns { starts: vec![0], ..Default::default() };
+    world.columns = crate::interior::Columns {
+        starts: vec![0],
+        ..Default::default()
+    };
     for (method, _) in methods().into_iter().skip(1) {
         let refused = method.find(&world.problem(), &Progress::silent());
-        assert_eq!(refused, Err(MethodError::NothingToEmpty { method: method.name() }));
+        assert_eq!(
+            refused,
+            Err(MethodError::NothingToEmpty {
+                method: method.name()
+            })
+        );
     }
 }
 
@@ -209,7 +270,13 @@ fn what_floats_or_runs_true_is_not_for_the_papers_methods() {
         for world in &worlds {
             let (method_word, kind) = (method.name(), world.goal.kind);
             let refused = method.find(&world.problem(), &Progress::silent());
-            assert_eq!(refused, Err(MethodError::NotItsGoal { method: method_word, kind }));
+            assert_eq!(
+                refused,
+                Err(MethodError::NotItsGoal {
+                    method: method_word,
+                    kind
+                })
+            );
         }
     }
 }

@@ -59,7 +59,12 @@ struct Pair {
 ///
 /// Each step goes along the quasi-Newton direction of the numbers that are free (Bertsekas 1982), cut off at the bounds.
 pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> Place {
-    let mut place = Place { value: 0.0, slope: vec![0.0; x.len()], x, evaluations: 1 };
+    let mut place = Place {
+        value: 0.0,
+        slope: vec![0.0; x.len()],
+        x,
+        evaluations: 1,
+    };
     place.value = function.evaluate(&place.x, &mut place.slope);
     let mut pairs = VecDeque::with_capacity(MEMORY + 1);
     let mut values = VecDeque::from([place.value]);
@@ -98,29 +103,46 @@ fn has_stalled(values: &mut VecDeque<f64>, value: f64) -> bool {
 
 /// The length of the step x → P(x − slope), which vanishes where no small change is better.
 fn projected_slope(place: &Place, weights: &[f64]) -> f64 {
-    let squares = place.x.iter().zip(&place.slope).zip(weights).map(|((x, slope), weight)| {
-        let moved = x - (x - slope).clamp(0.0, 1.0);
-        weight * moved * moved
-    });
+    let squares = place
+        .x
+        .iter()
+        .zip(&place.slope)
+        .zip(weights)
+        .map(|((x, slope), weight)| {
+            let moved = x - (x - slope).clamp(0.0, 1.0);
+            weight * moved * moved
+        });
     squares.sum::<f64>().sqrt()
 }
 
 /// The weights, zero for the numbers that are on a bound and pushed against it.
 fn free_weights(place: &Place, weights: &[f64], near: f64) -> Vec<f64> {
-    let is_held = |x: f64, slope: f64| (x <= near && slope > 0.0) || (x >= 1.0 - near && slope < 0.0);
+    let is_held =
+        |x: f64, slope: f64| (x <= near && slope > 0.0) || (x >= 1.0 - near && slope < 0.0);
     let free = place.x.iter().zip(&place.slope).zip(weights);
-    free.map(|((&x, &slope), &weight)| if is_held(x, slope) { 0.0 } else { weight }).collect()
+    free.map(|((&x, &slope), &weight)| if is_held(x, slope) { 0.0 } else { weight })
+        .collect()
 }
 
 /// −H·slope over the free numbers, zero for the others: the two-loop recursion (Nocedal, "Updating quasi-Newton matrices
 /// with limited storage", Math. Comput. 35, 1980), all products over the free numbers alone.
 fn newton_direction(slope: &[f64], pairs: &VecDeque<Pair>, free: &[f64]) -> Vec<f64> {
-    let mut direction: Vec<f64> =
-        slope.iter().zip(free).map(|(slope, &weight)| if weight > 0.0 { -slope } else { 0.0 }).collect();
-    let curved: Vec<(&Pair, f64, f64)> = pairs.iter().filter_map(|pair| curvature(pair, free)).collect();
+    let mut direction: Vec<f64> = slope
+        .iter()
+        .zip(free)
+        .map(|(slope, &weight)| if weight > 0.0 { -slope } else { 0.0 })
+        .collect();
+    let curved: Vec<(&Pair, f64, f64)> = pairs
+        .iter()
+        .filter_map(|pair| curvature(pair, free))
+        .collect();
     let Some((_, bend, turning)) = curved.last() else {
-        let longest = direction.iter().fold(0.0, |longest: f64, d| longest.max(d.abs()));
-        direction.iter_mut().for_each(|d| *d *= FIRST_STEP / longest.max(f64::MIN_POSITIVE));
+        let longest = direction
+            .iter()
+            .fold(0.0, |longest: f64, d| longest.max(d.abs()));
+        direction
+            .iter_mut()
+            .for_each(|d| *d *= FIRST_STEP / longest.max(f64::MIN_POSITIVE));
         return direction;
     };
     let mut parts = Vec::with_capacity(curved.len());
@@ -134,7 +156,11 @@ fn newton_direction(slope: &[f64], pairs: &VecDeque<Pair>, free: &[f64]) -> Vec<
         let other = dot(&pair.turn, &direction, free) / bend;
         add(&mut direction, part - other, &pair.step);
     }
-    direction.iter_mut().zip(free).filter(|(_, weight)| **weight == 0.0).for_each(|(d, _)| *d = 0.0);
+    direction
+        .iter_mut()
+        .zip(free)
+        .filter(|(_, weight)| **weight == 0.0)
+        .for_each(|(d, _)| *d = 0.0);
     direction
 }
 
@@ -171,7 +197,11 @@ fn line_search(
         }
         // The parabola through the value, its slope and the trial has its least here.
         let least = 0.5 * promised / (promised - gain);
-        length *= if least.is_finite() { least.clamp(SHORTEST_CUT, LONGEST_CUT) } else { SHORTEST_CUT };
+        length *= if least.is_finite() {
+            least.clamp(SHORTEST_CUT, LONGEST_CUT)
+        } else {
+            SHORTEST_CUT
+        };
     }
     None
 }
@@ -179,12 +209,21 @@ fn line_search(
 /// What the slope says a move gains.
 fn promised_gain(from: &Place, x: &[f64], weights: &[f64]) -> f64 {
     let moves = from.x.iter().zip(x).zip(&from.slope).zip(weights);
-    moves.map(|(((from, to), slope), weight)| weight * slope * (from - to)).sum()
+    moves
+        .map(|(((from, to), slope), weight)| weight * slope * (from - to))
+        .sum()
 }
 
 fn remember(pairs: &mut VecDeque<Pair>, from: &Place, to: &Place) {
-    let mut pair = if pairs.len() == MEMORY { pairs.pop_front() } else { None }
-        .unwrap_or_else(|| Pair { step: vec![0.0; from.x.len()], turn: vec![0.0; from.x.len()] });
+    let mut pair = if pairs.len() == MEMORY {
+        pairs.pop_front()
+    } else {
+        None
+    }
+    .unwrap_or_else(|| Pair {
+        step: vec![0.0; from.x.len()],
+        turn: vec![0.0; from.x.len()],
+    });
     subtract(&mut pair.step, &to.x, &from.x);
     subtract(&mut pair.turn, &to.slope, &from.slope);
     pairs.push_back(pair);
@@ -196,14 +235,21 @@ const LANES: usize = 8;
 /// Σ weight·a·b
 fn dot(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
-    let chunks = a.chunks_exact(LANES).zip(b.chunks_exact(LANES)).zip(weights.chunks_exact(LANES));
+    let chunks = a
+        .chunks_exact(LANES)
+        .zip(b.chunks_exact(LANES))
+        .zip(weights.chunks_exact(LANES));
     for ((a, b), w) in chunks {
         for (lane, sum) in lanes.iter_mut().enumerate() {
             *sum += a[lane] * b[lane] * w[lane];
         }
     }
     let rest = a.len() / LANES * LANES;
-    let tail = a[rest..].iter().zip(&b[rest..]).zip(&weights[rest..]).map(|((a, b), w)| a * b * w);
+    let tail = a[rest..]
+        .iter()
+        .zip(&b[rest..])
+        .zip(&weights[rest..])
+        .map(|((a, b), w)| a * b * w);
     lanes.iter().sum::<f64>() + tail.sum::<f64>()
 }
 
@@ -214,7 +260,9 @@ fn add(a: &mut [f64], factor: f64, b: &[f64]) {
 
 /// out = a − b
 fn subtract(out: &mut [f64], a: &[f64], b: &[f64]) {
-    out.iter_mut().zip(a.iter().zip(b)).for_each(|(out, (a, b))| *out = a - b);
+    out.iter_mut()
+        .zip(a.iter().zip(b))
+        .for_each(|(out, (a, b))| *out = a - b);
 }
 
 #[cfg(test)]
@@ -259,7 +307,11 @@ mod tests {
     }
 
     fn descended(bowl: &Bowl) -> Place {
-        let limits = Limits { slope: 1e-9, evaluations: 2000, progress: &Progress::silent() };
+        let limits = Limits {
+            slope: 1e-9,
+            evaluations: 2000,
+            progress: &Progress::silent(),
+        };
         descend(bowl, vec![0.5; bowl.middle.len()], &limits)
     }
 
@@ -267,10 +319,18 @@ mod tests {
     fn numbers_that_do_not_touch_each_other_end_as_low_as_their_middles_cut_off_at_the_bounds() {
         let bowl = Bowl::new(203, 0.0);
         let place = descended(&bowl);
-        let cut: Vec<f64> = bowl.middle.iter().map(|middle| middle.clamp(0.0, 1.0)).collect();
+        let cut: Vec<f64> = bowl
+            .middle
+            .iter()
+            .map(|middle| middle.clamp(0.0, 1.0))
+            .collect();
         let least = bowl.evaluate(&cut, &mut vec![0.0; cut.len()]);
         // It ends when thirty steps gain 1e-8 of the value; what is left is of the order of a few times that.
-        assert!(place.value >= least && place.value <= least * (1.0 + 1e-6), "{} {least}", place.value);
+        assert!(
+            place.value >= least && place.value <= least * (1.0 + 1e-6),
+            "{} {least}",
+            place.value
+        );
     }
 
     #[test]
@@ -281,7 +341,11 @@ mod tests {
         assert!(place.x.iter().all(|x| (0.0..=1.0).contains(x)));
         // Within δ of the least of a function that curves no more than L, the slope is at most √(2Lδ); here L ≤ 32 + 2·40
         // and δ ≤ 1e-6 of a value of order one.
-        assert!(projected_slope(&place, &bowl.weights) < 0.015, "{}", projected_slope(&place, &bowl.weights));
+        assert!(
+            projected_slope(&place, &bowl.weights) < 0.015,
+            "{}",
+            projected_slope(&place, &bowl.weights)
+        );
         assert!(place.value < bowl.evaluate(&vec![0.5; 203], &mut vec![0.0; 203]));
     }
 

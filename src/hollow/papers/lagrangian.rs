@@ -37,7 +37,11 @@ pub(super) struct Start {
 
 impl From<Vec<f64>> for Start {
     fn from(x: Vec<f64>) -> Self {
-        Self { x, known: None, smoothing: 0.0 }
+        Self {
+            x,
+            known: None,
+            smoothing: 0.0,
+        }
     }
 }
 
@@ -71,11 +75,13 @@ impl Function for Lagrangian<'_> {
         let s = self.target.left(&self.choice.moments(x));
         let (value, gradient) = self.target.at(&s);
         let misses = self.target.misses(&s);
-        self.choice.derivative(x, &self.quadric(gradient, &misses), slope);
+        self.choice
+            .derivative(x, &self.quadric(gradient, &misses), slope);
         // Emptying takes moments away, so the quadric enters with the opposite sign.
         let volume_mm3 = self.target.scale().volume_mm3;
         slope.iter_mut().for_each(|slope| *slope /= -volume_mm3);
-        let constraints = self.multipliers.dot(&misses) + 0.5 * self.penalty * misses.norm_squared();
+        let constraints =
+            self.multipliers.dot(&misses) + 0.5 * self.penalty * misses.norm_squared();
         value + constraints + self.roughness(x, slope)
     }
 }
@@ -83,7 +89,10 @@ impl Function for Lagrangian<'_> {
 impl Lagrangian<'_> {
     /// g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: what a grain of material adds to the whole, over its volume.
     fn quadric(&self, gradient: Vector10, misses: &DVector<f64>) -> Quadric {
-        let pull = self.target.rows().tr_mul(&(&self.multipliers + misses * self.penalty));
+        let pull = self
+            .target
+            .rows()
+            .tr_mul(&(&self.multipliers + misses * self.penalty));
         let scale = self.target.scale();
         scale.quadric_to_mm(&((gradient + as_vector10(&pull)) * scale.volume_mm3))
     }
@@ -113,22 +122,34 @@ pub(super) fn minimise(
     start: Start,
     (accuracy, progress): (&Accuracy, &Progress),
 ) -> Optimum {
-    let (multipliers, penalty) =
-        start.known.unwrap_or_else(|| (DVector::zeros(target.rows().nrows()), FIRST_PENALTY));
-    let mut lagrangian = Lagrangian { target, choice, multipliers, penalty, smoothing: start.smoothing };
+    let (multipliers, penalty) = start
+        .known
+        .unwrap_or_else(|| (DVector::zeros(target.rows().nrows()), FIRST_PENALTY));
+    let mut lagrangian = Lagrangian {
+        target,
+        choice,
+        multipliers,
+        penalty,
+        smoothing: start.smoothing,
+    };
     let (mut x, mut evaluations, mut slope) = (start.x, 0, FIRST_SLOPE);
     let (mut last_residual, mut last_value) = (f64::INFINITY, f64::INFINITY);
     let mut has_converged = false;
     for _ in 0..ROUNDS {
         let left = accuracy.evaluations.saturating_sub(evaluations);
-        let limits = Limits { slope: slope.max(accuracy.slope), evaluations: left, progress };
+        let limits = Limits {
+            slope: slope.max(accuracy.slope),
+            evaluations: left,
+            progress,
+        };
         let place = descend(&lagrangian, x, &limits);
         evaluations += place.evaluations;
         x = place.x;
         let s = target.left(&choice.moments(&x));
         let (misses, value) = (target.misses(&s), target.at(&s).0);
         let residual = misses.amax();
-        let is_settled = slope <= accuracy.slope || (last_value - value).abs() <= SETTLED_RATIO * value.abs();
+        let is_settled =
+            slope <= accuracy.slope || (last_value - value).abs() <= SETTLED_RATIO * value.abs();
         has_converged = residual <= accuracy.residual && is_settled;
         if has_converged || evaluations >= accuracy.evaluations || progress.is_cancelled() {
             break;

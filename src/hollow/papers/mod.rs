@@ -57,7 +57,11 @@ pub struct Accuracy {
 
 impl Default for Accuracy {
     fn default() -> Self {
-        Self { residual: 1e-6, slope: 1e-4, evaluations: 20_000 }
+        Self {
+            residual: 1e-6,
+            slope: 1e-4,
+            evaluations: 20_000,
+        }
     }
 }
 
@@ -83,9 +87,14 @@ fn found(problem: &Problem, target: &Target, choice: &dyn Choice, optimum: &Opti
 
 fn outcome(optimum: &Optimum, residual: f64) -> Outcome {
     match optimum {
-        Optimum { is_cancelled: true, .. } => Outcome::Cancelled,
+        Optimum {
+            is_cancelled: true, ..
+        } => Outcome::Cancelled,
         _ if residual > MISSED_RESIDUAL => Outcome::ConstraintsMissed,
-        Optimum { has_converged: true, .. } => Outcome::Converged,
+        Optimum {
+            has_converged: true,
+            ..
+        } => Outcome::Converged,
         _ => Outcome::Unfinished,
     }
 }

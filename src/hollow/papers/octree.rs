@@ -25,8 +25,18 @@ pub struct ByOctree {
 
 impl Default for ByOctree {
     fn default() -> Self {
-        let accuracy = Accuracy { evaluations: EVALUATIONS_A_ROUND, ..Accuracy::default() };
-        Self { accuracy, levels: Levels { inner: 5, boundary: 6 }, smoothing: 1e-5 }
+        let accuracy = Accuracy {
+            evaluations: EVALUATIONS_A_ROUND,
+            ..Accuracy::default()
+        };
+        Self {
+            accuracy,
+            levels: Levels {
+                inner: 5,
+                boundary: 6,
+            },
+            smoothing: 1e-5,
+        }
     }
 }
 
@@ -45,22 +55,44 @@ impl Method for ByOctree {
     fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
         let target = Target::new(self.name(), problem)?;
         let mut octree = Octree::of(problem.columns, self.levels);
-        let mut start = Start { smoothing: self.smoothing, ..Start::from(octree.nothing()) };
+        let mut start = Start {
+            smoothing: self.smoothing,
+            ..Start::from(octree.nothing())
+        };
         let mut evaluations = 0;
         for _ in 0..SPLITTINGS_A_LEVEL * octree.finest_level() {
             let optimum = minimise(&target, &octree, start, (&self.accuracy, progress));
             evaluations += optimum.evaluations;
             let refined = octree.refined(&optimum.x, FRACTION_TOLERANCE);
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
-                return Ok(rounded(problem, &target, &octree, Optimum { evaluations, ..optimum }));
+                return Ok(rounded(
+                    problem,
+                    &target,
+                    &octree,
+                    Optimum {
+                        evaluations,
+                        ..optimum
+                    },
+                ));
             };
-            start =
-                Start { x, known: Some((optimum.multipliers, optimum.penalty)), smoothing: self.smoothing };
+            start = Start {
+                x,
+                known: Some((optimum.multipliers, optimum.penalty)),
+                smoothing: self.smoothing,
+            };
             octree = finer;
         }
         let optimum = minimise(&target, &octree, start, (&self.accuracy, progress));
         evaluations += optimum.evaluations;
-        Ok(rounded(problem, &target, &octree, Optimum { evaluations, ..optimum }))
+        Ok(rounded(
+            problem,
+            &target,
+            &octree,
+            Optimum {
+                evaluations,
+                ..optimum
+            },
+        ))
     }
 }
 
@@ -72,9 +104,15 @@ fn rounded(problem: &Problem, target: &Target, octree: &Octree, optimum: Optimum
     let rounding = Rounding {
         value_before: value_of(problem, &exact),
         residual_before: target.residual(&exact),
-        fractional_ratio: shares.filter(|(x, _)| is_fractional(**x)).map(|(_, weight)| weight).sum(),
+        fractional_ratio: shares
+            .filter(|(x, _)| is_fractional(**x))
+            .map(|(_, weight)| weight)
+            .sum(),
     };
     let x = optimum.x.iter().map(|x| x.round()).collect();
     let found = found(problem, target, octree, &Optimum { x, ..optimum });
-    Found { rounding: Some(rounding), ..found }
+    Found {
+        rounding: Some(rounding),
+        ..found
+    }
 }

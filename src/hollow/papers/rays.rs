@@ -28,15 +28,36 @@ impl Method for ByRays {
     }
 
     fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
-        let (target, rays) = (Target::new(self.name(), problem)?, Rays::of(problem.columns));
-        let mut optimum = minimise(&target, &rays, Start::from(rays.nothing()), (&self.accuracy, progress));
+        let (target, rays) = (
+            Target::new(self.name(), problem)?,
+            Rays::of(problem.columns),
+        );
+        let mut optimum = minimise(
+            &target,
+            &rays,
+            Start::from(rays.nothing()),
+            (&self.accuracy, progress),
+        );
         for _ in 0..REOPENINGS {
             let reopened = rays.reopened(&optimum.x, &optimum.quadric);
-            let Some(x) = reopened.filter(|_| !optimum.is_cancelled) else { break };
+            let Some(x) = reopened.filter(|_| !optimum.is_cancelled) else {
+                break;
+            };
             let known = Some((optimum.multipliers, optimum.penalty));
-            let again =
-                minimise(&target, &rays, Start { x, known, smoothing: 0.0 }, (&self.accuracy, progress));
-            optimum = Optimum { evaluations: optimum.evaluations + again.evaluations, ..again };
+            let again = minimise(
+                &target,
+                &rays,
+                Start {
+                    x,
+                    known,
+                    smoothing: 0.0,
+                },
+                (&self.accuracy, progress),
+            );
+            optimum = Optimum {
+                evaluations: optimum.evaluations + again.evaluations,
+                ..again
+            };
         }
         Ok(found(problem, &target, &rays, &optimum))
     }

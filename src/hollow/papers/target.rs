@@ -61,9 +61,18 @@ impl<'a> Target<'a> {
         if problem.columns.is_empty() {
             return Err(MethodError::NothingToEmpty { method });
         }
-        let reach = Reach::new(problem.columns, &problem.fixed, Scale::of(&problem.goal.solid));
-        let mut target =
-            Self { goal: problem.goal, formula, reach, fixed: problem.fixed, rows: DMatrix::zeros(0, 10) };
+        let reach = Reach::new(
+            problem.columns,
+            &problem.fixed,
+            Scale::of(&problem.goal.solid),
+        );
+        let mut target = Self {
+            goal: problem.goal,
+            formula,
+            reach,
+            fixed: problem.fixed,
+            rows: DMatrix::zeros(0, 10),
+        };
         target.rows = target.constraints();
         Ok(target)
     }
@@ -95,7 +104,9 @@ impl<'a> Target<'a> {
     /// f and its gradient. Spin-It's functional is the square of the programme's ratio; the others are the ratio itself.
     pub fn at(&self, s: &Vector10) -> (f64, Vector10) {
         let (ratio, slope) = ratio_at(&self.programme(s), s);
-        let Objective::SpinIt { gamma_c, gamma_i } = self.goal.objective else { return (ratio, slope) };
+        let Objective::SpinIt { gamma_c, gamma_i } = self.goal.objective else {
+            return (ratio, slope);
+        };
         let (value, slope) = (gamma_i * ratio * ratio, slope * (2.0 * gamma_i * ratio));
         if gamma_c == 0.0 || self.goal.kind != GoalKind::Top {
             return (value, slope);
@@ -113,7 +124,9 @@ impl<'a> Target<'a> {
         match self.formula {
             Formula::TopFunctional => Programme::top_functional(&self.reach, height),
             Formula::TopDominance => Programme::top_dominance(&self.reach, height),
-            Formula::TopCriticalSpeed => Programme::top_critical_speed(&self.reach, height, [height; 2]),
+            Formula::TopCriticalSpeed => {
+                Programme::top_critical_speed(&self.reach, height, [height; 2])
+            }
             Formula::YoyoDominance => Programme::yoyo_dominance(&self.reach),
             Formula::YoyoFunctional => Programme::yoyo_functional(&self.reach),
             Formula::StandLowestCenter => Programme::stand_lowest_center(&self.reach),
@@ -140,7 +153,10 @@ fn ratio_at(programme: &Programme, s: &Vector10) -> (f64, Vector10) {
     let denominator = programme.denominator.dot(s);
     let ratio = (programme.numerator.dot(s) + length) / denominator;
     let rising = programme.numerator + as_vector10(&turning);
-    (ratio, (rising - programme.denominator * ratio) / denominator)
+    (
+        ratio,
+        (rising - programme.denominator * ratio) / denominator,
+    )
 }
 
 #[cfg(test)]
@@ -152,10 +168,17 @@ mod tests {
     use crate::units::STANDARD_GRAVITY_MM_S2;
 
     fn smooth_worlds() -> Vec<World> {
-        let spin_it = |gamma_c| Objective::SpinIt { gamma_c, gamma_i: 1.3 };
-        let tops = [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.8)].map(worlds::egg_on_its_side);
+        let spin_it = |gamma_c| Objective::SpinIt {
+            gamma_c,
+            gamma_i: 1.3,
+        };
+        let tops =
+            [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.8)].map(worlds::egg_on_its_side);
         let yoyos = [Objective::Dominance, spin_it(0.0)].map(worlds::egg);
-        tops.into_iter().chain(yoyos).chain([worlds::bottle()]).collect()
+        tops.into_iter()
+            .chain(yoyos)
+            .chain([worlds::bottle()])
+            .collect()
     }
 
     #[test]
@@ -168,7 +191,11 @@ mod tests {
             for i in 0..10 {
                 let step = Vector10::ith(i, 1e-6);
                 let difference = (target.at(&(s + step)).0 - target.at(&(s - step)).0) / 2e-6;
-                assert!((slope[i] - difference).abs() < 1e-6, "{i}: {} {difference}", slope[i]);
+                assert!(
+                    (slope[i] - difference).abs() < 1e-6,
+                    "{i}: {} {difference}",
+                    slope[i]
+                );
             }
         }
     }
@@ -197,6 +224,11 @@ mod tests {
     fn the_largest_over_the_edges_of_a_support_is_refused_by_name() {
         let world = worlds::blocks_on_a_slope();
         let refused = Target::new("rays", &world.problem()).err().unwrap();
-        assert!(refused.to_string().contains("rays cannot optimise `toppling-angle`"), "{refused}");
+        assert!(
+            refused
+                .to_string()
+                .contains("rays cannot optimise `toppling-angle`"),
+            "{refused}"
+        );
     }
 }

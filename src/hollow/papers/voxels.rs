@@ -23,7 +23,10 @@ impl Method for ByVoxels {
 
     fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
         let height_mm = problem.columns.pitch_mm[0].max(problem.columns.pitch_mm[1]);
-        let (target, voxels) = (Target::new(self.name(), problem)?, Voxels::of(problem.columns, height_mm));
+        let (target, voxels) = (
+            Target::new(self.name(), problem)?,
+            Voxels::of(problem.columns, height_mm),
+        );
         let start = Start::from(voxels.nothing());
         let optimum = minimise(&target, &voxels, start, (&self.accuracy, progress));
         Ok(found(problem, &target, &voxels, &optimum))

@@ -12,8 +12,13 @@ const PROBE_BYTES: usize = 4096;
 /// Whether the content begins like an ASCII STL file: the word solid in any case, and no zero byte nearby (a
 /// binary file that was cut off may begin with the word too, but its numbers hold zeros).
 pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
-    let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes).trim_ascii_start();
-    let begins = text.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
+    let text = bytes
+        .strip_prefix(BYTE_ORDER_MARK)
+        .unwrap_or(bytes)
+        .trim_ascii_start();
+    let begins = text
+        .get(..5)
+        .is_some_and(|word| word.eq_ignore_ascii_case(b"solid"));
     let ends = text.get(5).is_none_or(u8::is_ascii_whitespace);
     begins && ends && !bytes[..bytes.len().min(PROBE_BYTES)].contains(&0)
 }
@@ -21,7 +26,11 @@ pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
 /// The corners of the facets of all solids.
 pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
-    let mut reader = Reader { rest: text, line: 1, facet: 0 };
+    let mut reader = Reader {
+        rest: text,
+        line: 1,
+        facet: 0,
+    };
     let mut corners = Vec::new();
     while let Some(word) = reader.word() {
         reader.must_be(word, "solid")?;
@@ -85,22 +94,37 @@ impl<'a> Reader<'a> {
     fn number(&mut self) -> Result<f64, StlError> {
         let expected = "a coordinate";
         let word = self.word().ok_or_else(|| self.cut(expected))?;
-        let number = std::str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+        let number = std::str::from_utf8(word)
+            .ok()
+            .and_then(|word| word.parse().ok());
         number.ok_or_else(|| self.unexpected(word, expected))
     }
 
     fn unexpected(&self, word: &[u8], expected: &'static str) -> StlError {
         let found = String::from_utf8_lossy(&word[..word.len().min(MAX_QUOTED_BYTES)]).into_owned();
-        StlError::Unexpected { line: self.line, facet: self.facet, expected, found }
+        StlError::Unexpected {
+            line: self.line,
+            facet: self.facet,
+            expected,
+            found,
+        }
     }
 
     fn cut(&self, expected: &'static str) -> StlError {
-        StlError::Cut { line: self.line, facet: self.facet, expected }
+        StlError::Cut {
+            line: self.line,
+            facet: self.facet,
+            expected,
+        }
     }
 
     /// The next word, if any.
     fn word(&mut self) -> Option<&'a [u8]> {
-        let start = self.rest.iter().position(|b| !is_blank(*b)).unwrap_or(self.rest.len());
+        let start = self
+            .rest
+            .iter()
+            .position(|b| !is_blank(*b))
+            .unwrap_or(self.rest.len());
         self.line += self.rest[..start].iter().filter(|&&b| b == b'\n').count();
         let rest = &self.rest[start..];
         let end = rest.iter().position(|b| is_blank(*b)).unwrap_or(rest.len());
@@ -110,7 +134,11 @@ impl<'a> Reader<'a> {
 
     /// Drops the rest of the line: the name of a solid.
     fn skip_line(&mut self) {
-        let end = self.rest.iter().position(|&b| b == b'\n' || b == b'\r').unwrap_or(self.rest.len());
+        let end = self
+            .rest
+            .iter()
+            .position(|&b| b == b'\n' || b == b'\r')
+            .unwrap_or(self.rest.len());
         self.rest = &self.rest[end..];
     }
 }

@@ -14,7 +14,8 @@ pub(super) const TRIANGLE_BYTES: usize = 50;
 
 /// Whether the length of the file is the one its triangle count asks for.
 pub(crate) fn is_binary(bytes: &[u8]) -> bool {
-    promised(bytes).is_some_and(|count| bytes.len() - PREFIX_BYTES == count as usize * TRIANGLE_BYTES)
+    promised(bytes)
+        .is_some_and(|count| bytes.len() - PREFIX_BYTES == count as usize * TRIANGLE_BYTES)
 }
 
 /// The triangle count in the header, if there is one.
@@ -29,7 +30,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     if !is_binary(bytes) {
         let body = bytes.len() - PREFIX_BYTES;
         let (found, spare_bytes) = (body / TRIANGLE_BYTES, body % TRIANGLE_BYTES);
-        return Err(StlError::WrongLength { promised, found, spare_bytes });
+        return Err(StlError::WrongLength {
+            promised,
+            found,
+            spare_bytes,
+        });
     }
     read_triangles(bytes)
 }
@@ -38,8 +43,12 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
 fn read_triangles(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     let mut input = Cursor::new(bytes.to_vec());
     input.get_mut()[..HEADER_BYTES].fill(0);
-    let failed =
-        |facet: usize| move |error: std::io::Error| StlError::Facet { facet, reason: error.to_string() };
+    let failed = |facet: usize| {
+        move |error: std::io::Error| StlError::Facet {
+            facet,
+            reason: error.to_string(),
+        }
+    };
     let reader = stl_io::create_stl_reader(&mut input).map_err(failed(1))?;
     let mut corners = Vec::with_capacity(3 * (bytes.len() - PREFIX_BYTES) / TRIANGLE_BYTES);
     for (index, triangle) in reader.enumerate() {

@@ -88,18 +88,29 @@ pub enum StlError {
 /// there is at least one triangle. ASCII coordinates keep their double precision.
 pub fn decode(bytes: &[u8]) -> Result<TriMesh, StlError> {
     let is_ascii = !binary::is_binary(bytes) && ascii::is_ascii(bytes);
-    let corners = if is_ascii { ascii::decode(bytes)? } else { binary::decode(bytes)? };
+    let corners = if is_ascii {
+        ascii::decode(bytes)?
+    } else {
+        binary::decode(bytes)?
+    };
     if corners.is_empty() {
         return Err(StlError::NoTriangles);
     }
-    match corners.iter().position(|p| !p.coords.iter().all(|x| x.is_finite())) {
-        Some(corner) => Err(StlError::NotFinite { facet: corner / 3 + 1 }),
+    match corners
+        .iter()
+        .position(|p| !p.coords.iter().all(|x| x.is_finite()))
+    {
+        Some(corner) => Err(StlError::NotFinite {
+            facet: corner / 3 + 1,
+        }),
         None => Ok(soup(corners)),
     }
 }
 
 /// Three consecutive points make a triangle.
 fn soup(corners: Vec<Point>) -> TriMesh {
-    let triangles = (0..corners.len() as u32 / 3).map(|t| [3 * t, 3 * t + 1, 3 * t + 2]).collect();
+    let triangles = (0..corners.len() as u32 / 3)
+        .map(|t| [3 * t, 3 * t + 1, 3 * t + 2])
+        .collect();
     TriMesh::from_parts(corners, triangles)
 }

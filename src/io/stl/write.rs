@@ -25,8 +25,11 @@ pub struct WriteError {
 /// Triangles whose corners fall together in single precision are left out: their neighbours then meet along the edge
 /// that remains, so a closed mesh stays closed. The same mesh gives the same bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
 pub fn encode(mesh: &TriMesh, name: &str) -> Vec<u8> {
-    let triangles: Vec<[[f32; 3]; 3]> =
-        mesh.iter_corners().map(|corners| corners.map(rounded)).filter(has_three_corners).collect();
+    let triangles: Vec<[[f32; 3]; 3]> = mesh
+        .iter_corners()
+        .map(|corners| corners.map(rounded))
+        .filter(has_three_corners)
+        .collect();
     let mut bytes = Vec::with_capacity(PREFIX_BYTES + TRIANGLE_BYTES * triangles.len());
     bytes.extend(HEADER_START.bytes().chain(name.bytes()).take(HEADER_BYTES));
     bytes.resize(HEADER_BYTES, b' ');
@@ -52,11 +55,17 @@ fn has_three_corners(&[a, b, c]: &[[f32; 3]; 3]) -> bool {
 /// The unit normal of a triangle, or zero.
 fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(|p| Point::from(p.map(f64::from)));
-    let normal = (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_else(Vector::zeros);
+    let normal = (b - a)
+        .cross(&(c - a))
+        .try_normalize(0.0)
+        .unwrap_or_else(Vector::zeros);
     [normal.x, normal.y, normal.z].map(|x| x as f32 + 0.0)
 }
 
 /// Writes `mesh` to `path` as binary STL ([`encode`]), replacing a file that is there.
 pub fn write(path: &Path, mesh: &TriMesh, name: &str) -> Result<(), WriteError> {
-    std::fs::write(path, encode(mesh, name)).map_err(|source| WriteError { path: path.to_path_buf(), source })
+    std::fs::write(path, encode(mesh, name)).map_err(|source| WriteError {
+        path: path.to_path_buf(),
+        source,
+    })
 }

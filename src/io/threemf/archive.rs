@@ -20,7 +20,10 @@ impl<'a> Archive<'a> {
     /// Opens the archive in these bytes.
     pub fn open(bytes: &'a [u8]) -> Result<Self, ThreeMfError> {
         let zip = ZipArchive::new(Cursor::new(bytes)).map_err(damaged("the archive"))?;
-        Ok(Self { zip, left: FREE_BYTES + bytes.len() as u64 * Limit::Unpacked.most() })
+        Ok(Self {
+            zip,
+            left: FREE_BYTES + bytes.len() as u64 * Limit::Unpacked.most(),
+        })
     }
 
     /// The name of the part that holds the model: where the package's relationships lead, else where it usually is.
@@ -41,14 +44,22 @@ impl<'a> Archive<'a> {
     /// The text of a part.
     pub fn text(&mut self, part: &str) -> Result<String, ThreeMfError> {
         let mut file = match self.zip.by_name(part) {
-            Err(ZipError::FileNotFound) => return Err(ThreeMfError::NoModel { part: part.to_owned() }),
+            Err(ZipError::FileNotFound) => {
+                return Err(ThreeMfError::NoModel {
+                    part: part.to_owned(),
+                });
+            }
             file => file.map_err(damaged(part))?,
         };
         let mut bytes = Vec::new();
         let unpacked = file.by_ref().take(self.left + 1).read_to_end(&mut bytes);
         let unpacked = unpacked.map_err(|error| damaged(part)(error.into()))? as u64;
-        self.left =
-            self.left.checked_sub(unpacked).ok_or(ThreeMfError::TooMuch { limit: Limit::Unpacked })?;
+        self.left = self
+            .left
+            .checked_sub(unpacked)
+            .ok_or(ThreeMfError::TooMuch {
+                limit: Limit::Unpacked,
+            })?;
         let text = String::from_utf8(bytes);
         text.map_err(|_| xml_fault(part, 1, "its text is not UTF-8"))
     }
@@ -61,9 +72,16 @@ pub fn part_name(path: &str) -> String {
 
 /// A fault of a part's text.
 pub fn xml_fault(part: &str, line: usize, reason: &str) -> ThreeMfError {
-    ThreeMfError::Xml { part: part.to_owned(), line, reason: reason.to_owned() }
+    ThreeMfError::Xml {
+        part: part.to_owned(),
+        line,
+        reason: reason.to_owned(),
+    }
 }
 
 fn damaged(part: &str) -> impl Fn(ZipError) -> ThreeMfError {
-    move |error| ThreeMfError::Archive { part: part.to_owned(), reason: error.to_string() }
+    move |error| ThreeMfError::Archive {
+        part: part.to_owned(),
+        reason: error.to_string(),
+    }
 }

@@ -122,7 +122,9 @@ pub enum ThreeMfError {
         object: u32,
     },
     /// An item or a component names an object that does not exist.
-    #[error("{part}: there is no object {object} where one is to be placed; export the model again")]
+    #[error(
+        "{part}: there is no object {object} where one is to be placed; export the model again"
+    )]
     NoObject {
         /// Which file in the archive should have it.
         part: String,

@@ -51,5 +51,7 @@ pub fn decode_objects(bytes: &[u8]) -> Result<Vec<PlacedObject>, ThreeMfError> {
 /// All meshes of [`decode_objects`] in one.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ThreeMfError> {
     let objects = decode_objects(bytes)?;
-    Ok(objects.iter().fold(TriMesh::default(), |whole, object| whole.joined(&object.mesh)))
+    Ok(objects.iter().fold(TriMesh::default(), |whole, object| {
+        whole.joined(&object.mesh)
+    }))
 }

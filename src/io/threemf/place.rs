@@ -12,8 +12,13 @@ use crate::mesh::TriMesh;
 /// The objects that the model in that part builds.
 pub fn placed(archive: &mut Archive, root: &str) -> Result<Vec<PlacedObject>, ThreeMfError> {
     let models = models(archive, root)?;
-    let mut builder =
-        Builder { models: &models, path: Vec::new(), places: 0, triangles: 0, found: Vec::new() };
+    let mut builder = Builder {
+        models: &models,
+        path: Vec::new(),
+        places: 0,
+        triangles: 0,
+        found: Vec::new(),
+    };
     for item in models.get(root).iter().flat_map(|model| &model.items) {
         builder.place(root, item, &Transform::default())?;
     }
@@ -35,7 +40,9 @@ fn models(archive: &mut Archive, root: &str) -> Result<BTreeMap<String, Model>, 
         waiting.extend(references(&model).filter_map(|reference| reference.part.clone()));
         models.insert(part, model);
         if models.len() as u64 > Limit::Models.most() {
-            return Err(ThreeMfError::TooMuch { limit: Limit::Models });
+            return Err(ThreeMfError::TooMuch {
+                limit: Limit::Models,
+            });
         }
     }
     Ok(models)
@@ -43,10 +50,13 @@ fn models(archive: &mut Archive, root: &str) -> Result<BTreeMap<String, Model>, 
 
 /// Every place that a model speaks of.
 fn references(model: &Model) -> impl Iterator<Item = &Reference> {
-    let components = model.objects.values().flat_map(|object| match &object.content {
-        Content::Components(components) => components.as_slice(),
-        Content::Mesh(_) => &[],
-    });
+    let components = model
+        .objects
+        .values()
+        .flat_map(|object| match &object.content {
+            Content::Components(components) => components.as_slice(),
+            Content::Mesh(_) => &[],
+        });
     model.items.iter().chain(components)
 }
 
@@ -70,16 +80,25 @@ impl<'a> Builder<'a> {
     ) -> Result<(), ThreeMfError> {
         let unit_mm = self.models.get(part).map_or(1.0, |model| model.unit_mm);
         let (part, id) = (reference.part.as_deref().unwrap_or(part), reference.object);
-        let missing = || ThreeMfError::NoObject { part: part.to_owned(), object: id };
+        let missing = || ThreeMfError::NoObject {
+            part: part.to_owned(),
+            object: id,
+        };
         let model = self.models.get(part).ok_or_else(missing)?;
         let object = model.objects.get(&id).ok_or_else(missing)?;
         if self.path.contains(&(part, id)) {
-            return Err(ThreeMfError::Circle { part: part.to_owned(), object: id });
+            return Err(ThreeMfError::Circle {
+                part: part.to_owned(),
+                object: id,
+            });
         }
         within(Limit::Depth, self.path.len() as u64)?;
         self.places += 1;
         within(Limit::Places, self.places)?;
-        let inner = Transform { shift: reference.transform.shift * unit_mm, ..reference.transform };
+        let inner = Transform {
+            shift: reference.transform.shift * unit_mm,
+            ..reference.transform
+        };
         let map = inner.then(outer);
         if object.is_aside {
             return Ok(());
@@ -91,20 +110,34 @@ impl<'a> Builder<'a> {
     }
 
     /// Takes the object on top of the path, of a model in that unit.
-    fn take(&mut self, object: &'a Object, unit_mm: f64, map: &Transform) -> Result<(), ThreeMfError> {
-        let Some(&(part, id)) = self.path.last() else { return Ok(()) };
+    fn take(
+        &mut self,
+        object: &'a Object,
+        unit_mm: f64,
+        map: &Transform,
+    ) -> Result<(), ThreeMfError> {
+        let Some(&(part, id)) = self.path.last() else {
+            return Ok(());
+        };
         match &object.content {
-            Content::Components(components) => {
-                components.iter().try_for_each(|component| self.place(part, component, map))
-            }
+            Content::Components(components) => components
+                .iter()
+                .try_for_each(|component| self.place(part, component, map)),
             Content::Mesh(mesh) => {
                 self.triangles += mesh.triangles().len() as u64;
                 within(Limit::Triangles, self.triangles)?;
                 let mesh = laid(mesh, unit_mm, map);
-                if !mesh.vertices().iter().all(|p| p.coords.iter().all(|x| x.is_finite())) {
+                if !mesh
+                    .vertices()
+                    .iter()
+                    .all(|p| p.coords.iter().all(|x| x.is_finite()))
+                {
                     return Err(ThreeMfError::NotFinite { object: id });
                 }
-                self.found.push(PlacedObject { name: object.name.clone(), mesh });
+                self.found.push(PlacedObject {
+                    name: object.name.clone(),
+                    mesh,
+                });
                 Ok(())
             }
         }
@@ -114,9 +147,17 @@ impl<'a> Builder<'a> {
 /// The mesh in mm where the map puts it, turned outward again where the map mirrors it.
 fn laid(mesh: &TriMesh, unit_mm: f64, map: &Transform) -> TriMesh {
     let moved = mesh.map_vertices(|p| map.apply(&(p * unit_mm)));
-    if map.mirrors() { moved.reversed() } else { moved }
+    if map.mirrors() {
+        moved.reversed()
+    } else {
+        moved
+    }
 }
 
 fn within(limit: Limit, count: u64) -> Result<(), ThreeMfError> {
-    if count > limit.most() { Err(ThreeMfError::TooMuch { limit }) } else { Ok(()) }
+    if count > limit.most() {
+        Err(ThreeMfError::TooMuch { limit })
+    } else {
+        Ok(())
+    }
 }

@@ -70,14 +70,25 @@ const CONSORTIUM: &str = "http://schemas.microsoft.com/3dmanufacturing/";
 const ASIDE: [&str; 3] = ["support", "solidsupport", "other"];
 
 const fn wanted(element: &'static str, attribute: &'static str, expected: &'static str) -> Wanted {
-    Wanted { element, attribute, expected }
+    Wanted {
+        element,
+        attribute,
+        expected,
+    }
 }
 
-const UNIT: Wanted = wanted("model", "unit", "micron, millimeter, centimeter, inch, foot or meter");
+const UNIT: Wanted = wanted(
+    "model",
+    "unit",
+    "micron, millimeter, centimeter, inch, foot or meter",
+);
 const OBJECT_ID: Wanted = wanted("object", "id", "a number from 1 on");
 const REFERENCE_ID: Wanted = wanted("item or component", "objectid", "the number of an object");
-const TRANSFORM: Wanted =
-    wanted("item or component", "transform", "twelve finite numbers that do not flatten the object");
+const TRANSFORM: Wanted = wanted(
+    "item or component",
+    "transform",
+    "twelve finite numbers that do not flatten the object",
+);
 const COORDINATES: [Wanted; 3] = [
     wanted("vertex", "x", "a finite number"),
     wanted("vertex", "y", "a finite number"),
@@ -95,7 +106,10 @@ pub fn model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
     let root = scanner.next_tag()?.filter(|tag| tag.name() == "model");
     let root = root.ok_or_else(|| xml_fault(part, 1, "there is no <model> in it"))?;
     check_extensions(&root)?;
-    let mut model = Model { unit_mm: unit_mm(&root)?, ..Model::default() };
+    let mut model = Model {
+        unit_mm: unit_mm(&root)?,
+        ..Model::default()
+    };
     scanner.children(&root, |scanner, tag| match tag.name() {
         "resources" => scanner.children(&tag, |scanner, tag| match tag.name() {
             "object" => take_object(scanner, &tag, part, &mut model),
@@ -119,22 +133,34 @@ fn check_extensions(root: &Tag) -> Result<(), ThreeMfError> {
         let extension = declared.map_or(prefix, |(_, namespace)| namespace.as_str());
         let name = extension.strip_prefix(CONSORTIUM);
         if !name.is_some_and(|name| HARMLESS.iter().any(|harmless| name.starts_with(harmless))) {
-            return Err(ThreeMfError::Extension { extension: extension.to_owned() });
+            return Err(ThreeMfError::Extension {
+                extension: extension.to_owned(),
+            });
         }
     }
     Ok(())
 }
 
 fn unit_mm(root: &Tag) -> Result<f64, ThreeMfError> {
-    let Some(name) = root.get(UNIT.attribute)? else { return Ok(1.0) };
+    let Some(name) = root.get(UNIT.attribute)? else {
+        return Ok(1.0);
+    };
     let unit = UNITS.iter().find(|(unit, _)| *unit == name);
-    unit.map(|(_, mm)| *mm).ok_or_else(|| root.not(&UNIT, &name))
+    unit.map(|(_, mm)| *mm)
+        .ok_or_else(|| root.not(&UNIT, &name))
 }
 
-fn take_object(scanner: &mut Scanner, tag: &Tag, part: &str, model: &mut Model) -> Result<(), ThreeMfError> {
+fn take_object(
+    scanner: &mut Scanner,
+    tag: &Tag,
+    part: &str,
+    model: &mut Model,
+) -> Result<(), ThreeMfError> {
     let id = tag.number(&OBJECT_ID)?;
     let name = tag.get("name")?.unwrap_or_default().into_owned();
-    let is_aside = tag.get("type")?.is_some_and(|kind| ASIDE.contains(&kind.as_ref()));
+    let is_aside = tag
+        .get("type")?
+        .is_some_and(|kind| ASIDE.contains(&kind.as_ref()));
     let mut content = Content::Components(Vec::new());
     scanner.children(tag, |scanner, tag| {
         match tag.name() {
@@ -144,14 +170,28 @@ fn take_object(scanner: &mut Scanner, tag: &Tag, part: &str, model: &mut Model) 
         }
         Ok(())
     })?;
-    match model.objects.insert(id, Object { name, is_aside, content }) {
+    match model.objects.insert(
+        id,
+        Object {
+            name,
+            is_aside,
+            content,
+        },
+    ) {
         None => Ok(()),
-        Some(_) => Err(ThreeMfError::Twice { part: part.to_owned(), object: id }),
+        Some(_) => Err(ThreeMfError::Twice {
+            part: part.to_owned(),
+            object: id,
+        }),
     }
 }
 
 /// The objects that the elements of that name in the one that was opened place.
-fn references(scanner: &mut Scanner, opened: &Tag, element: &str) -> Result<Vec<Reference>, ThreeMfError> {
+fn references(
+    scanner: &mut Scanner,
+    opened: &Tag,
+    element: &str,
+) -> Result<Vec<Reference>, ThreeMfError> {
     let mut references = Vec::new();
     scanner.children(opened, |scanner, tag| {
         if tag.name() == element {
@@ -168,7 +208,11 @@ fn reference(tag: &Tag) -> Result<Reference, ThreeMfError> {
         None => Transform::default(),
     };
     let part = tag.prefixed("path")?.map(|path| part_name(&path));
-    Ok(Reference { part, object: tag.number(&REFERENCE_ID)?, transform })
+    Ok(Reference {
+        part,
+        object: tag.number(&REFERENCE_ID)?,
+        transform,
+    })
 }
 
 /// The triangles of a mesh, in the model's unit.
@@ -190,8 +234,17 @@ fn mesh(scanner: &mut Scanner, opened: &Tag, object: u32) -> Result<TriMesh, Thr
         _ => scanner.skip(&tag),
     })?;
     TriMesh::new(vertices, triangles).map_err(|error| {
-        let MeshError::IndexOutOfRange { triangle, vertex, vertices } = error;
-        ThreeMfError::IndexOutOfRange { object, triangle, vertex, vertices }
+        let MeshError::IndexOutOfRange {
+            triangle,
+            vertex,
+            vertices,
+        } = error;
+        ThreeMfError::IndexOutOfRange {
+            object,
+            triangle,
+            vertex,
+            vertices,
+        }
     })
 }
 

@@ -23,7 +23,9 @@ const BLOCK: &str = "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=
 fn zipped(files: &[(&str, &str)]) -> Vec<u8> {
     let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, text) in files {
-        archive.start_file(*name, SimpleFileOptions::default()).unwrap();
+        archive
+            .start_file(*name, SimpleFileOptions::default())
+            .unwrap();
         archive.write_all(text.as_bytes()).unwrap();
     }
     archive.finish().unwrap().into_inner()
@@ -58,7 +60,9 @@ fn solid(bytes: &[u8]) -> Solid {
 }
 
 fn message(bytes: &[u8]) -> String {
-    decode_model(bytes).expect_err("a bad file is refused").to_string()
+    decode_model(bytes)
+        .expect_err("a bad file is refused")
+        .to_string()
 }
 
 fn placed_ball(name: &str) -> (TriMesh, Object) {
@@ -68,8 +72,13 @@ fn placed_ball(name: &str) -> (TriMesh, Object) {
 }
 
 fn encoded(objects: &[Object], build: Build) -> Vec<u8> {
-    let package =
-        Package { title: "a <title>".into(), description: "&c.".into(), job: "j".into(), objects, build };
+    let package = Package {
+        title: "a <title>".into(),
+        description: "&c.".into(),
+        job: "j".into(),
+        objects,
+        build,
+    };
     package.encode().unwrap()
 }
 
@@ -80,15 +89,22 @@ fn a_written_package_holds_the_triangles_of_the_stl_file_of_the_same_mesh_bit_fo
     let objects = decode_objects(&bytes).unwrap();
     assert_eq!(objects[0].name, "P01 \"<&>\"");
     let back: Vec<_> = objects[0].mesh.iter_corners().collect();
-    let stl: Vec<_> = stl::decode(&stl::encode(&mesh, "")).unwrap().iter_corners().collect();
+    let stl: Vec<_> = stl::decode(&stl::encode(&mesh, ""))
+        .unwrap()
+        .iter_corners()
+        .collect();
     assert!(back == stl);
 }
 
 #[test]
 fn the_same_package_has_the_same_bytes_and_tells_nothing_of_when_it_was_made() {
     let (_, object) = placed_ball("P01");
-    let [first, second] = [(); 2]
-        .map(|()| encoded(std::slice::from_ref(&object), Build::Apart(vec![(0, Transform::default())])));
+    let [first, second] = [(); 2].map(|()| {
+        encoded(
+            std::slice::from_ref(&object),
+            Build::Apart(vec![(0, Transform::default())]),
+        )
+    });
     assert_eq!(first, second);
     // Bytes 10 to 14 of an entry are its time and day: the first that the format knows, 1980-01-01.
     assert_eq!(first[10..14], [0, 0, 0x21, 0]);
@@ -98,15 +114,24 @@ fn the_same_package_has_the_same_bytes_and_tells_nothing_of_when_it_was_made() {
 fn objects_lie_where_the_build_puts_them_apart_or_together() {
     let (mesh, object) = placed_ball("P01");
     let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-    let map = Transform { linear: turn, shift: Vector::new(10.0, -20.0, 30.5) };
+    let map = Transform {
+        linear: turn,
+        shift: Vector::new(10.0, -20.0, 30.5),
+    };
     let places = vec![(0, map), (0, Transform::shift(Vector::new(0.0, 0.0, 99.0)))];
-    for build in [Build::Apart(places.clone()), Build::Together("whole".into(), places.clone())] {
+    for build in [
+        Build::Apart(places.clone()),
+        Build::Together("whole".into(), places.clone()),
+    ] {
         let objects = decode_objects(&encoded(std::slice::from_ref(&object), build)).unwrap();
         assert_eq!(objects.len(), 2);
         for (found, (_, map)) in objects.iter().zip(&places) {
             let center = found.mesh.aabb().center();
             // The ball's coordinates are rounded to single precision, half a unit in the last place of 8.
-            assert!((center - map.apply(&mesh.aabb().center())).norm() < 1e-6, "{center}");
+            assert!(
+                (center - map.apply(&mesh.aabb().center())).norm() < 1e-6,
+                "{center}"
+            );
         }
     }
 }
@@ -115,8 +140,16 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
 fn objects_that_are_placed_nowhere_are_left_out() {
     let objects = ["P01", "P02"].map(|name| placed_ball(name).1);
     let one = encoded(&objects, Build::Apart(vec![(1, Transform::default())]));
-    let both = encoded(&objects, Build::Apart(vec![(0, Transform::default()), (1, Transform::default())]));
-    assert!(5 * one.len() < 3 * both.len(), "{} of {} bytes", one.len(), both.len());
+    let both = encoded(
+        &objects,
+        Build::Apart(vec![(0, Transform::default()), (1, Transform::default())]),
+    );
+    assert!(
+        5 * one.len() < 3 * both.len(),
+        "{} of {} bytes",
+        one.len(),
+        both.len()
+    );
     assert_eq!(decode_objects(&one).unwrap()[0].name, "P02");
 }
 
@@ -124,8 +157,14 @@ fn objects_that_are_placed_nowhere_are_left_out() {
 fn every_unit_is_turned_into_millimetres() {
     let build = "<item objectid=\"1\"/>";
     let volume = |unit: &str| {
-        let attributes = if unit.is_empty() { String::new() } else { format!("unit=\"{unit}\"") };
-        solid(&package(&attributes, &block(1), build)).mesh().signed_volume_mm3()
+        let attributes = if unit.is_empty() {
+            String::new()
+        } else {
+            format!("unit=\"{unit}\"")
+        };
+        solid(&package(&attributes, &block(1), build))
+            .mesh()
+            .signed_volume_mm3()
     };
     let sides = [
         ("", 1.0),
@@ -137,7 +176,10 @@ fn every_unit_is_turned_into_millimetres() {
         ("meter", 1e3),
     ];
     for (unit, mm) in sides {
-        assert!((volume(unit) / (6.0 * mm * mm * mm) - 1.0).abs() < 1e-12, "{unit}");
+        assert!(
+            (volume(unit) / (6.0 * mm * mm * mm) - 1.0).abs() < 1e-12,
+            "{unit}"
+        );
     }
 }
 
@@ -146,7 +188,8 @@ fn components_and_items_are_placed_through_all_their_transforms() {
     // A block, shifted by 5 in an assembly that is stretched twofold and shifted by 100, in centimetres.
     let inner = components("<component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/>");
     let resources = block(1) + &object(2, &inner);
-    let build = "<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 100 0 0\"/><item objectid=\"1\"/>";
+    let build =
+        "<item objectid=\"2\" transform=\"2 0 0 0 2 0 0 0 2 100 0 0\"/><item objectid=\"1\"/>";
     let objects = decode_objects(&package("unit=\"centimeter\"", &resources, build)).unwrap();
     let [far, near] = [0, 1].map(|i: usize| objects[i].mesh.aabb());
     assert!(
@@ -160,7 +203,14 @@ fn components_and_items_are_placed_through_all_their_transforms() {
 #[test]
 fn a_mirrored_place_is_turned_outward_again() {
     let build = "<item objectid=\"1\" transform=\"-1 0 0 0 1 0 0 0 1 0 0 0\"/>";
-    assert!((solid(&package("", &block(1), build)).mesh().signed_volume_mm3() - 6.0).abs() < 1e-12);
+    assert!(
+        (solid(&package("", &block(1), build))
+            .mesh()
+            .signed_volume_mm3()
+            - 6.0)
+            .abs()
+            < 1e-12
+    );
 }
 
 #[test]
@@ -171,7 +221,11 @@ fn objects_in_other_models_of_the_package_are_found_in_their_own_unit() {
     );
     let root = model_xml(production, &object(1, &inner), "<item objectid=\"1\"/>");
     let other = model_xml("unit=\"centimeter\"", &block(7), "");
-    let found = decode_objects(&zipped(&[(MODEL_PART, &root), ("3D/parts/a.model", &other)])).unwrap();
+    let found = decode_objects(&zipped(&[
+        (MODEL_PART, &root),
+        ("3D/parts/a.model", &other),
+    ]))
+    .unwrap();
     assert_eq!(found[0].mesh.aabb().max, Point::new(14.0, 20.0, 30.0));
     assert!(message(&zipped(&[(MODEL_PART, &root)])).contains("looked for 3D/parts/a.model"));
 }
@@ -179,28 +233,44 @@ fn objects_in_other_models_of_the_package_are_found_in_their_own_unit() {
 #[test]
 fn the_model_is_where_the_relationships_lead() {
     let text = model_xml("", &block(1), "<item objectid=\"1\"/>");
-    let rels =
-        format!("<Relationships><Relationship Target=\"/a/b.model\" Type=\"{MODEL_TYPE}\"/></Relationships>");
-    assert_eq!(solid(&zipped(&[("a/b.model", &text), ("_rels/.rels", &rels)])).mesh().triangles().len(), 12);
+    let rels = format!(
+        "<Relationships><Relationship Target=\"/a/b.model\" Type=\"{MODEL_TYPE}\"/></Relationships>"
+    );
+    assert_eq!(
+        solid(&zipped(&[("a/b.model", &text), ("_rels/.rels", &rels)]))
+            .mesh()
+            .triangles()
+            .len(),
+        12
+    );
 }
 
 #[test]
 fn supports_and_what_a_reader_may_ignore_are_left_out() {
     let support = object(2, BLOCK).replace("<object", "<object type=\"support\"");
-    let mesh =
-        BLOCK.replace("</mesh>", "<t:trianglesets><t:triangleset name=\"x\"/></t:trianglesets></mesh>");
-    let colors =
-        "<m:colorgroup id=\"9\"><m:color color=\"#FF0000\"/></m:colorgroup><!-- remark --><![CDATA[ x ]]>";
+    let mesh = BLOCK.replace(
+        "</mesh>",
+        "<t:trianglesets><t:triangleset name=\"x\"/></t:trianglesets></mesh>",
+    );
+    let colors = "<m:colorgroup id=\"9\"><m:color color=\"#FF0000\"/></m:colorgroup><!-- remark --><![CDATA[ x ]]>";
     let resources = format!("{colors}{support}{}", object(1, &mesh));
     let build = "<item objectid=\"2\"/><item objectid=\"1\" partnumber=\"7\"/>";
-    assert_eq!(decode_objects(&package("", &resources, build)).unwrap().len(), 1);
+    assert_eq!(
+        decode_objects(&package("", &resources, build))
+            .unwrap()
+            .len(),
+        1
+    );
     assert!(message(&package("", &support, "<item objectid=\"2\"/>")).contains("no triangles"));
 }
 
 /// Objects 1 to `levels`, each twice the one before it.
 fn doubled(levels: u32, content: &str) -> String {
     let twice = |id: u32| {
-        let inner = format!("<component objectid=\"{0}\"/><component objectid=\"{0}\"/>", id - 1);
+        let inner = format!(
+            "<component objectid=\"{0}\"/><component objectid=\"{0}\"/>",
+            id - 1
+        );
         object(id, &components(&inner))
     };
     object(1, content) + &(2..=levels).map(twice).collect::<String>()
@@ -210,37 +280,91 @@ fn doubled(levels: u32, content: &str) -> String {
 fn every_bad_package_is_refused_in_words_that_name_the_place_and_the_remedy() {
     let item = "<item objectid=\"1\"/>";
     let one = |change: &dyn Fn(String) -> String| package("", &change(block(1)), item);
-    let with = |from: &'static str, to: &'static str| one(&move |text: String| text.replacen(from, to, 1));
+    let with =
+        |from: &'static str, to: &'static str| one(&move |text: String| text.replacen(from, to, 1));
     let text = model_xml("", &block(1), item);
     let cases: Vec<(Vec<u8>, &str)> = vec![
-        (zipped(&[("word/document.xml", "<x/>")]), "no model in it (looked for 3D/3dmodel.model)"),
-        (zipped(&[(MODEL_PART, "")]), "there is no <model> in it"),
-        (zipped(&[(MODEL_PART, "<html></html>")]), "there is no <model> in it"),
-        (zipped(&[(MODEL_PART, &text[..text.len() - 20])]), "3D/3dmodel.model, line"),
-        (zipped(&[(MODEL_PART, &text.replace("<resources>", "<resources><a></b>"))]), "line 3: "),
         (
-            zipped(&[(MODEL_PART, &text.replacen("<model", "<!DOCTYPE x [<!ENTITY a \"aaaa\">]><model", 1))]),
+            zipped(&[("word/document.xml", "<x/>")]),
+            "no model in it (looked for 3D/3dmodel.model)",
+        ),
+        (zipped(&[(MODEL_PART, "")]), "there is no <model> in it"),
+        (
+            zipped(&[(MODEL_PART, "<html></html>")]),
+            "there is no <model> in it",
+        ),
+        (
+            zipped(&[(MODEL_PART, &text[..text.len() - 20])]),
+            "3D/3dmodel.model, line",
+        ),
+        (
+            zipped(&[(
+                MODEL_PART,
+                &text.replace("<resources>", "<resources><a></b>"),
+            )]),
+            "line 3: ",
+        ),
+        (
+            zipped(&[(
+                MODEL_PART,
+                &text.replacen("<model", "<!DOCTYPE x [<!ENTITY a \"aaaa\">]><model", 1),
+            )]),
             "line 2: it declares a document type",
         ),
-        (package("unit=\"furlong\"", &block(1), item), "<model> needs unit to be micron, millimeter"),
-        (with("x=\"1\"", "x=\"nan\""), "<vertex> needs x to be a finite number, found \"NaN\""),
-        (with("x=\"1\"", "x=\"1e999\""), "<vertex> needs x to be a finite number"),
+        (
+            package("unit=\"furlong\"", &block(1), item),
+            "<model> needs unit to be micron, millimeter",
+        ),
+        (
+            with("x=\"1\"", "x=\"nan\""),
+            "<vertex> needs x to be a finite number, found \"NaN\"",
+        ),
+        (
+            with("x=\"1\"", "x=\"1e999\""),
+            "<vertex> needs x to be a finite number",
+        ),
         (with("x=\"1\"", "x=\"&a;\""), "line 3: "),
-        (with("y=\"2\"", "w=\"2\""), "<vertex> needs y to be a finite number, found \"\""),
-        (with("v1=\"3\"", "v1=\"8\""), "object 1: triangle 10 names vertex 8, but there are 8 vertices"),
-        (with("v1=\"3\"", "v1=\"-1\""), "<triangle> needs v1 to be the number of a vertex, found \"-1\""),
-        (with("v1=\"3\"", "v1=\"4294967296\""), "<triangle> needs v1 to be the number of a vertex"),
+        (
+            with("y=\"2\"", "w=\"2\""),
+            "<vertex> needs y to be a finite number, found \"\"",
+        ),
+        (
+            with("v1=\"3\"", "v1=\"8\""),
+            "object 1: triangle 10 names vertex 8, but there are 8 vertices",
+        ),
+        (
+            with("v1=\"3\"", "v1=\"-1\""),
+            "<triangle> needs v1 to be the number of a vertex, found \"-1\"",
+        ),
+        (
+            with("v1=\"3\"", "v1=\"4294967296\""),
+            "<triangle> needs v1 to be the number of a vertex",
+        ),
         (package("", &(block(1) + &block(1)), item), "two objects 1"),
-        (package("", &block(1), "<item objectid=\"2\"/>"), "no object 2"),
+        (
+            package("", &block(1), "<item objectid=\"2\"/>"),
+            "no object 2",
+        ),
         (package("", &block(1), ""), "no triangles"),
         (package("", &object(1, ""), item), "no triangles"),
-        (package("", &block(1), "<item objectid=\"1\" transform=\"1 0 0\"/>"), "twelve finite numbers"),
         (
-            package("", &block(1), "<item objectid=\"1\" transform=\"0 0 0 0 0 0 0 0 0 0 0 0\"/>"),
+            package("", &block(1), "<item objectid=\"1\" transform=\"1 0 0\"/>"),
+            "twelve finite numbers",
+        ),
+        (
+            package(
+                "",
+                &block(1),
+                "<item objectid=\"1\" transform=\"0 0 0 0 0 0 0 0 0 0 0 0\"/>",
+            ),
             "twelve finite",
         ),
         (
-            package("", &object(1, &components(item).replace("item", "component")), item),
+            package(
+                "",
+                &object(1, &components(item).replace("item", "component")),
+                item,
+            ),
             "a component of itself",
         ),
         (
@@ -252,9 +376,18 @@ fn every_bad_package_is_refused_in_words_that_name_the_place_and_the_remedy() {
             ),
             "a component of itself",
         ),
-        (package("", &doubled(40, BLOCK), "<item objectid=\"40\"/>"), "more than 100000 places"),
-        (package("", &doubled(40, ""), "<item objectid=\"40\"/>"), "more than 100000 places"),
-        (package("", &doubled(80, ""), "<item objectid=\"80\"/>"), "nested more than 64 deep"),
+        (
+            package("", &doubled(40, BLOCK), "<item objectid=\"40\"/>"),
+            "more than 100000 places",
+        ),
+        (
+            package("", &doubled(40, ""), "<item objectid=\"40\"/>"),
+            "more than 100000 places",
+        ),
+        (
+            package("", &doubled(80, ""), "<item objectid=\"80\"/>"),
+            "nested more than 64 deep",
+        ),
         (
             package(
                 "xmlns:b=\"http://schemas.microsoft.com/3dmanufacturing/beamlattice/2017/02\" requiredextensions=\"b\"",
@@ -263,7 +396,10 @@ fn every_bad_package_is_refused_in_words_that_name_the_place_and_the_remedy() {
             ),
             "needs the extension http://schemas.microsoft.com/3dmanufacturing/beamlattice",
         ),
-        (package("requiredextensions=\"zz\"", &block(1), item), "needs the extension zz"),
+        (
+            package("requiredextensions=\"zz\"", &block(1), item),
+            "needs the extension zz",
+        ),
         (
             package(
                 "unit=\"meter\"",
@@ -275,7 +411,10 @@ fn every_bad_package_is_refused_in_words_that_name_the_place_and_the_remedy() {
     ];
     for (bytes, expected) in cases {
         let message = message(&bytes);
-        assert!(message.contains(expected), "{message:?} does not say {expected:?}");
+        assert!(
+            message.contains(expected),
+            "{message:?} does not say {expected:?}"
+        );
         assert!(message.contains("export"), "{message:?} names no remedy");
     }
 }
@@ -321,10 +460,18 @@ fn packages_and_models_with_random_bytes_changed_never_panic_and_never_give_what
     let inner = components(
         "<component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/><component objectid=\"1\"/>",
     );
-    let text = model_xml("unit=\"inch\"", &(block(1) + &object(2, &inner)), "<item objectid=\"2\"/>");
+    let text = model_xml(
+        "unit=\"inch\"",
+        &(block(1) + &object(2, &inner)),
+        "<item objectid=\"2\"/>",
+    );
     let archive = zipped(&[(MODEL_PART, &text)]);
     for round in 0..4000 {
-        let mut bytes = if round % 2 == 0 { archive.clone() } else { text.clone().into_bytes() };
+        let mut bytes = if round % 2 == 0 {
+            archive.clone()
+        } else {
+            text.clone().into_bytes()
+        };
         for _ in 0..1 + round % 5 {
             let at = xorshift(&mut state) % bytes.len();
             match xorshift(&mut state) % 3 {
@@ -337,7 +484,11 @@ fn packages_and_models_with_random_bytes_changed_never_panic_and_never_give_what
             bytes = zipped(&[(MODEL_PART, &String::from_utf8_lossy(&bytes))]);
         }
         if let Ok(mesh) = decode_model(&bytes) {
-            assert!(mesh.vertices().iter().all(|p| p.coords.iter().all(|x| x.is_finite())));
+            assert!(
+                mesh.vertices()
+                    .iter()
+                    .all(|p| p.coords.iter().all(|x| x.is_finite()))
+            );
             assert!(!mesh.triangles().is_empty());
         }
     }

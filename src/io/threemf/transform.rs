@@ -13,7 +13,10 @@ pub struct Transform {
 
 impl Default for Transform {
     fn default() -> Self {
-        Self { linear: Matrix::identity(), shift: Vector::zeros() }
+        Self {
+            linear: Matrix::identity(),
+            shift: Vector::zeros(),
+        }
     }
 }
 
@@ -24,7 +27,10 @@ const NUMBERS: usize = 12;
 impl Transform {
     /// The map without a turn.
     pub fn shift(shift: Vector) -> Self {
-        Self { shift, ..Self::default() }
+        Self {
+            shift,
+            ..Self::default()
+        }
     }
 
     /// Where the point goes.
@@ -34,7 +40,10 @@ impl Transform {
 
     /// This map, then `outer`.
     pub fn then(&self, outer: &Self) -> Self {
-        Self { linear: outer.linear * self.linear, shift: outer.linear * self.shift + outer.shift }
+        Self {
+            linear: outer.linear * self.linear,
+            shift: outer.linear * self.shift + outer.shift,
+        }
     }
 
     /// Whether it turns space inside out.
@@ -44,20 +53,32 @@ impl Transform {
 
     /// The twelve numbers of the format.
     pub(super) fn numbers(&self) -> [f64; NUMBERS] {
-        std::array::from_fn(|i| if i < 9 { self.linear[(i % 3, i / 3)] } else { self.shift[i - 9] })
+        std::array::from_fn(|i| {
+            if i < 9 {
+                self.linear[(i % 3, i / 3)]
+            } else {
+                self.shift[i - 9]
+            }
+        })
     }
 
     /// The map of the twelve numbers; none if there are not twelve finite ones, or if they flatten space.
     pub(super) fn parse(text: &str) -> Option<Self> {
-        let numbers: Vec<f64> =
-            text.split_ascii_whitespace().map(str::parse).collect::<Result<_, _>>().ok()?;
+        let numbers: Vec<f64> = text
+            .split_ascii_whitespace()
+            .map(str::parse)
+            .collect::<Result<_, _>>()
+            .ok()?;
         if numbers.len() != NUMBERS || !numbers.iter().all(|x| x.is_finite()) {
             return None;
         }
         let linear = Matrix::from_column_slice(&numbers[..9]);
         let determinant = linear.determinant();
         let is_sound = determinant.is_finite() && determinant != 0.0;
-        is_sound.then(|| Self { linear, shift: Vector::new(numbers[9], numbers[10], numbers[11]) })
+        is_sound.then(|| Self {
+            linear,
+            shift: Vector::new(numbers[9], numbers[10], numbers[11]),
+        })
     }
 }
 
@@ -73,8 +94,16 @@ mod tests {
     fn the_numbers_of_the_format_multiply_rows_from_the_left() {
         // (x, y, z, 1)·M with M's rows as they are written: x' = 1x + 4y + 7z + 10.
         let map = Transform::parse("1 2 3 4 5 6 7 8 10 10 11 12").unwrap();
-        assert_eq!(map.apply(&Point::new(1.0, 1.0, 1.0)), Point::new(22.0, 26.0, 31.0));
-        assert_eq!(map.numbers(), [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 10.0, 11.0, 12.0]);
+        assert_eq!(
+            map.apply(&Point::new(1.0, 1.0, 1.0)),
+            Point::new(22.0, 26.0, 31.0)
+        );
+        assert_eq!(
+            map.numbers(),
+            [
+                1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 10.0, 10.0, 11.0, 12.0
+            ]
+        );
     }
 
     #[test]
@@ -82,7 +111,10 @@ mod tests {
         let turn = Transform::parse("0 1 0 -1 0 0 0 0 1 5 0 0").unwrap();
         let stretch = Transform::parse("2 0 0 0 3 0 0 0 4 0 0 1").unwrap();
         let point = Point::new(1.0, 2.0, 3.0);
-        assert_eq!(stretch.then(&turn).apply(&point), turn.apply(&stretch.apply(&point)));
+        assert_eq!(
+            stretch.then(&turn).apply(&point),
+            turn.apply(&stretch.apply(&point))
+        );
         assert_ne!(stretch.then(&turn), turn.then(&stretch));
         assert_eq!(Transform::default().then(&turn), turn);
     }
@@ -97,9 +129,17 @@ mod tests {
             "1 0 0 0 1 0 0 0 1 0 0 0 0",
             "1 0 0 0 1 0 0 0 one 0 0 0",
         ];
-        for words in words.into_iter().map(str::to_owned).chain([text(flat), text([1e300; NUMBERS])]) {
+        for words in words
+            .into_iter()
+            .map(str::to_owned)
+            .chain([text(flat), text([1e300; NUMBERS])])
+        {
             assert_eq!(Transform::parse(&words), None, "{words}");
         }
-        assert!(Transform::parse("-1 0 0 0 1 0 0 0 1 0 0 0").unwrap().mirrors());
+        assert!(
+            Transform::parse("-1 0 0 0 1 0 0 0 1 0 0 0")
+                .unwrap()
+                .mirrors()
+        );
     }
 }

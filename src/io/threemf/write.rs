@@ -76,7 +76,11 @@ impl Object {
     /// that fall together become one, and triangles that lose a corner are left out, as in a binary STL file of the same
     /// mesh: both hold the same triangles in the same order.
     pub fn new(name: &str, color: [u8; 3], mesh: &TriMesh) -> Self {
-        Self { name: name.to_owned(), color, mesh_xml: mesh_xml(mesh) }
+        Self {
+            name: name.to_owned(),
+            color,
+            mesh_xml: mesh_xml(mesh),
+        }
     }
 }
 
@@ -84,22 +88,38 @@ impl Package<'_> {
     /// The bytes of the package: the same for the same input, on any machine.
     pub fn encode(&self) -> Result<Vec<u8>, PackageError> {
         let model = self.model_xml();
-        let parts =
-            [("[Content_Types].xml", content_types()), ("_rels/.rels", relationships()), (MODEL_PART, model)];
-        archive(&parts).map_err(|source| PackageError { title: self.title.clone(), source })
+        let parts = [
+            ("[Content_Types].xml", content_types()),
+            ("_rels/.rels", relationships()),
+            (MODEL_PART, model),
+        ];
+        archive(&parts).map_err(|source| PackageError {
+            title: self.title.clone(),
+            source,
+        })
     }
 
     fn model_xml(&self) -> String {
-        let is_placed = |(index, _): &(usize, &Object)| self.build.places().iter().any(|(at, _)| at == index);
-        let objects: String = self.objects.iter().enumerate().filter(is_placed).map(object_xml).collect();
+        let is_placed =
+            |(index, _): &(usize, &Object)| self.build.places().iter().any(|(at, _)| at == index);
+        let objects: String = self
+            .objects
+            .iter()
+            .enumerate()
+            .filter(is_placed)
+            .map(object_xml)
+            .collect();
         let (joined, build) = self.build_xml();
         let colors: String = self.objects.iter().map(color_xml).collect();
         let head = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en-US\" \
              xmlns=\"{CORE_NAMESPACE}\" xmlns:equipoise=\"{OUR_NAMESPACE}\">\n"
         );
-        let metadata: String =
-            self.metadata().iter().map(|(name, value)| metadata_xml(name, value)).collect();
+        let metadata: String = self
+            .metadata()
+            .iter()
+            .map(|(name, value)| metadata_xml(name, value))
+            .collect();
         format!(
             "{head}{metadata}<resources>\n<basematerials id=\"{COLORS_ID}\">{colors}</basematerials>\n{objects}{joined}\
              </resources>\n<build>{build}</build>\n</model>\n"
@@ -161,7 +181,10 @@ fn object_xml((index, object): (usize, &Object)) -> String {
 fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
     let place = |(index, map): &(usize, Transform)| {
         let numbers = map.numbers().map(|x| (x + 0.0).to_string()).join(" ");
-        format!("<{element} objectid=\"{}\" transform=\"{numbers}\"/>", object_id(*index))
+        format!(
+            "<{element} objectid=\"{}\" transform=\"{numbers}\"/>",
+            object_id(*index)
+        )
     };
     places.iter().map(place).collect()
 }
@@ -172,10 +195,18 @@ fn mesh_xml(mesh: &TriMesh) -> String {
     let mut xml = String::from("<mesh><vertices>");
     for p in mesh.vertices() {
         // Writing into a string cannot fail.
-        let _ = write!(xml, "<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>", p.x as f32, p.y as f32, p.z as f32);
+        let _ = write!(
+            xml,
+            "<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>",
+            p.x as f32, p.y as f32, p.z as f32
+        );
     }
     xml.push_str("</vertices>\n<triangles>");
-    for [a, b, c] in mesh.triangles().iter().filter(|[a, b, c]| a != b && b != c && c != a) {
+    for [a, b, c] in mesh
+        .triangles()
+        .iter()
+        .filter(|[a, b, c]| a != b && b != c && c != a)
+    {
         let _ = write!(xml, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>");
     }
     xml.push_str("</triangles></mesh>\n");

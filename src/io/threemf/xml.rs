@@ -49,15 +49,22 @@ pub enum Kind {
 impl<'a> Scanner<'a> {
     /// The tags of the text of that part.
     pub fn new(part: &'a str, text: &'a str) -> Self {
-        Self { part, text, reader: Reader::from_str(text) }
+        Self {
+            part,
+            text,
+            reader: Reader::from_str(text),
+        }
     }
 
     /// The next tag; none at the end of the text. A document type is refused: it could declare entities that grow without end.
     pub fn next_tag(&mut self) -> Result<Option<Tag<'a>>, ThreeMfError> {
         loop {
             let event = self.reader.read_event();
-            let place =
-                Place { part: self.part, text: self.text, offset: self.reader.buffer_position() as usize };
+            let place = Place {
+                part: self.part,
+                text: self.text,
+                offset: self.reader.buffer_position() as usize,
+            };
             let (kind, content) = match event.map_err(|error| place.fault(&error.to_string()))? {
                 Event::Start(start) => (Kind::Open, start),
                 Event::Empty(start) => (Kind::Empty, start),
@@ -66,7 +73,11 @@ impl<'a> Scanner<'a> {
                 Event::Eof => return Ok(None),
                 _ => continue,
             };
-            return Ok(Some(Tag { place, kind, content }));
+            return Ok(Some(Tag {
+                place,
+                kind,
+                content,
+            }));
         }
     }
 
@@ -103,7 +114,11 @@ impl<'a> Scanner<'a> {
 
     /// The text ends within an element.
     fn cut(&self) -> ThreeMfError {
-        let end = Place { part: self.part, text: self.text, offset: self.text.len() };
+        let end = Place {
+            part: self.part,
+            text: self.text,
+            offset: self.text.len(),
+        };
         end.fault("the text ends before its elements do")
     }
 }
@@ -120,7 +135,10 @@ impl Place<'_> {
     }
 
     fn document_type(&self) -> ThreeMfError {
-        ThreeMfError::DocumentType { part: self.part.to_owned(), line: self.line() }
+        ThreeMfError::DocumentType {
+            part: self.part.to_owned(),
+            line: self.line(),
+        }
     }
 }
 
@@ -149,7 +167,9 @@ impl Tag<'_> {
             let attribute = attribute.map_err(|error| self.place.fault(&error.to_string()))?;
             if is_wanted(attribute.key.into_inner()) {
                 let value = attribute.normalized_value(XmlVersion::Explicit1_0);
-                return value.map(Some).map_err(|error| self.place.fault(&error.to_string()));
+                return value
+                    .map(Some)
+                    .map_err(|error| self.place.fault(&error.to_string()));
             }
         }
         Ok(None)

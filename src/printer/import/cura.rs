@@ -20,7 +20,11 @@ const ENDING: &str = ".def.json";
 type Settings = BTreeMap<String, (Setting, String)>;
 
 /// Adds the machine of a definition to `all`.
-pub(super) fn read_definition(path: &Path, text: &str, all: &mut Imported) -> Result<(), ImportError> {
+pub(super) fn read_definition(
+    path: &Path,
+    text: &str,
+    all: &mut Imported,
+) -> Result<(), ImportError> {
     let mut settings = Settings::new();
     let name = collect(path, text, &mut settings, &mut Vec::new())?;
     let width = found(&settings, "line_width").or_else(|| nozzle(&settings));
@@ -46,21 +50,40 @@ fn found(settings: &Settings, key: &str) -> Option<Found<f64>> {
         Setting::Formula(formula) => (evaluated(formula, &named)?, format!(" = {formula}"), true),
     };
     let is_length = value.is_finite() && value > 0.0;
-    is_length.then(|| Found { value, source: format!("{file}, {key}{how}"), is_computed })
+    is_length.then(|| Found {
+        value,
+        source: format!("{file}, {key}{how}"),
+        is_computed,
+    })
 }
 
 /// The nozzle's diameter, which stands for a line's width where its formula is not understood.
 fn nozzle(settings: &Settings) -> Option<Found<f64>> {
     let nozzle = found(settings, "machine_nozzle_size")?;
-    let source = format!("{}, as the line width is a formula of another kind", nozzle.source);
-    Some(Found { source, is_computed: true, ..nozzle })
+    let source = format!(
+        "{}, as the line width is a formula of another kind",
+        nozzle.source
+    );
+    Some(Found {
+        source,
+        is_computed: true,
+        ..nozzle
+    })
 }
 
 fn build_volume(settings: &Settings) -> Option<Found<[f64; 3]>> {
     let side = |key: &str| found(settings, key);
-    let sides = [side("machine_width")?, side("machine_depth")?, side("machine_height")?];
+    let sides = [
+        side("machine_width")?,
+        side("machine_depth")?,
+        side("machine_height")?,
+    ];
     let source = format!("{}, machine_depth and machine_height", sides[0].source);
-    Some(Found { value: sides.map(|side| side.value), source, is_computed: false })
+    Some(Found {
+        value: sides.map(|side| side.value),
+        source,
+        is_computed: false,
+    })
 }
 
 /// Gathers the settings of a definition over those it inherits; gives its name.
@@ -70,10 +93,20 @@ fn collect(
     into: &mut Settings,
     way: &mut Vec<String>,
 ) -> Result<String, ImportError> {
-    let file = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+    let file = path
+        .file_name()
+        .map(|name| name.to_string_lossy().into_owned())
+        .unwrap_or_default();
     if way.contains(&file) {
-        let place = Place { file: file.clone(), line: 1, column: 1 };
-        return Err(ImportError::Cycle { place, way: way.join(" → ") + " → " + &file });
+        let place = Place {
+            file: file.clone(),
+            line: 1,
+            column: 1,
+        };
+        return Err(ImportError::Cycle {
+            place,
+            way: way.join(" → ") + " → " + &file,
+        });
     }
     way.push(file.clone());
     let definition = parsed(&file, text)?;
@@ -83,7 +116,10 @@ fn collect(
     }
     gather(&definition["settings"], &file, into);
     gather(&definition["overrides"], &file, into);
-    Ok(definition["name"].as_str().unwrap_or(file.trim_end_matches(ENDING)).to_owned())
+    Ok(definition["name"]
+        .as_str()
+        .unwrap_or(file.trim_end_matches(ENDING))
+        .to_owned())
 }
 
 fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
@@ -93,21 +129,37 @@ fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
         column,
         message,
     };
-    let value: Value =
-        serde_json::from_str(text).map_err(|error| fault(error.line(), error.column(), error.to_string()))?;
-    let is_definition =
-        value["inherits"].is_string() || value["settings"].is_object() || value["overrides"].is_object();
-    let none = || fault(1, 1, "it neither inherits nor has settings or overrides".to_owned());
-    if is_definition { Ok(value) } else { Err(none()) }
+    let value: Value = serde_json::from_str(text)
+        .map_err(|error| fault(error.line(), error.column(), error.to_string()))?;
+    let is_definition = value["inherits"].is_string()
+        || value["settings"].is_object()
+        || value["overrides"].is_object();
+    let none = || {
+        fault(
+            1,
+            1,
+            "it neither inherits nor has settings or overrides".to_owned(),
+        )
+    };
+    if is_definition {
+        Ok(value)
+    } else {
+        Err(none())
+    }
 }
 
 /// The numbers and formulas of settings, and of their children; a formula comes before its default value.
 fn gather(settings: &Value, file: &str, into: &mut Settings) {
     for (key, setting) in settings.as_object().into_iter().flatten() {
-        let formula = setting["value"].as_str().map(|text| Setting::Formula(text.to_owned()));
-        let number = setting["value"].as_f64().or_else(|| setting["default_value"].as_f64());
+        let formula = setting["value"]
+            .as_str()
+            .map(|text| Setting::Formula(text.to_owned()));
+        let number = setting["value"]
+            .as_f64()
+            .or_else(|| setting["default_value"].as_f64());
         // As in Cura: a default value does not undo the formula that a parent has given.
-        let holds = setting["value"].is_null() && matches!(into.get(key), Some((Setting::Formula(_), _)));
+        let holds =
+            setting["value"].is_null() && matches!(into.get(key), Some((Setting::Formula(_), _)));
         if let Some(found) = formula.or(number.map(Setting::Number)).filter(|_| !holds) {
             into.insert(key.clone(), (found, file.to_owned()));
         }
@@ -125,7 +177,11 @@ pub(super) fn read_material(file: &str, text: &str, all: &mut Imported) {
         .collect();
     let density = element(text, "density").and_then(first_number);
     all.materials.push(ImportedMaterial {
-        name: if words.is_empty() { file.to_owned() } else { words.join(" ") },
+        name: if words.is_empty() {
+            file.to_owned()
+        } else {
+            words.join(" ")
+        },
         technology: Technology::Filament,
         density_g_cm3: density.map(|value| Found {
             value,
@@ -147,7 +203,11 @@ pub(super) fn read_layer(file: &str, text: &str, all: &mut Imported) -> Result<(
     let values = Ini::parse(file, text)?.resolved("values", "")?;
     let found = |key: &str| {
         let value = first_number(values.get(key)?)?;
-        Some(Found { value, source: format!("{file}, {key}"), is_computed: false })
+        Some(Found {
+            value,
+            source: format!("{file}, {key}"),
+            is_computed: false,
+        })
     };
     for printer in &mut all.printers {
         printer.layer_mm = found("layer_height").or(printer.layer_mm.take());
@@ -189,16 +249,25 @@ mod tests {
             "[general]\nversion = 4\n[values]\nlayer_height = 0.06\nline_width = 0.35\n",
         )
         .unwrap();
-        let files =
-            ["five.def.json", "abs.xml.fdm_material", "fine.inst.cfg"].map(|file| folder.path().join(file));
+        let files = ["five.def.json", "abs.xml.fdm_material", "fine.inst.cfg"]
+            .map(|file| folder.path().join(file));
         let all = Imported::read(&files).unwrap();
         let five = all.printer(None).unwrap();
         assert_eq!(five.name, "Five");
-        assert_eq!(five.build_volume_mm.as_ref().unwrap().value, [330.0, 240.0, 300.0]);
-        assert_eq!(five.layer_mm.as_ref().unwrap().source, "fine.inst.cfg, layer_height");
+        assert_eq!(
+            five.build_volume_mm.as_ref().unwrap().value,
+            [330.0, 240.0, 300.0]
+        );
+        assert_eq!(
+            five.layer_mm.as_ref().unwrap().source,
+            "fine.inst.cfg, layer_height"
+        );
         assert_eq!(five.pixel_mm.as_ref().unwrap()[0].value, 0.35);
         assert_eq!(
-            (all.materials[0].name.as_str(), all.materials[0].density_g_cm3.as_ref().unwrap().value),
+            (
+                all.materials[0].name.as_str(),
+                all.materials[0].density_g_cm3.as_ref().unwrap().value
+            ),
             ("Ultimaker ABS", 1.1)
         );
     }
@@ -211,8 +280,14 @@ mod tests {
             let all = Imported::read(&[path.to_owned()]).unwrap();
             all.printer(None).unwrap().pixel_mm.clone().unwrap()[0].clone()
         };
-        assert!(width(&path).value == 0.35 && width(&path).is_computed, "{:?}", width(&path));
-        let odd = std::fs::read_to_string(&path).unwrap().replace("round(", "max(");
+        assert!(
+            width(&path).value == 0.35 && width(&path).is_computed,
+            "{:?}",
+            width(&path)
+        );
+        let odd = std::fs::read_to_string(&path)
+            .unwrap()
+            .replace("round(", "max(");
         std::fs::write(&path, odd).unwrap();
         assert!(
             width(&path).value == 0.4 && width(&path).source.contains("another kind"),
@@ -227,7 +302,10 @@ mod tests {
         for (text, words) in [
             ("{\n \"name\": }", "x.def.json:2:"),
             ("{}", "neither inherits nor has settings"),
-            (r#"{"inherits": "x", "settings": {}}"#, "x.def.json → x.def.json"),
+            (
+                r#"{"inherits": "x", "settings": {}}"#,
+                "x.def.json → x.def.json",
+            ),
         ] {
             let path = folder.path().join("x.def.json");
             std::fs::write(&path, text).unwrap();

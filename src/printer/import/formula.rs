@@ -12,16 +12,29 @@ pub(super) enum Setting {
 }
 
 /// The value of a formula; none where it has words, functions or operators besides those above, or refers to nothing.
-pub(super) fn evaluated<'a>(formula: &str, setting: &impl Fn(&str) -> Option<&'a Setting>) -> Option<f64> {
+pub(super) fn evaluated<'a>(
+    formula: &str,
+    setting: &impl Fn(&str) -> Option<&'a Setting>,
+) -> Option<f64> {
     value_of(formula, setting, 0)
 }
 
-fn value_of<'a>(formula: &str, setting: &impl Fn(&str) -> Option<&'a Setting>, depth: usize) -> Option<f64> {
+fn value_of<'a>(
+    formula: &str,
+    setting: &impl Fn(&str) -> Option<&'a Setting>,
+    depth: usize,
+) -> Option<f64> {
     let name = |name: &str| match setting(name)? {
         Setting::Number(number) => Some(*number),
-        Setting::Formula(formula) => (depth < MOST_DEPTH).then(|| value_of(formula, setting, depth + 1))?,
+        Setting::Formula(formula) => {
+            (depth < MOST_DEPTH).then(|| value_of(formula, setting, depth + 1))?
+        }
     };
-    let mut parser = Parser { rest: formula.trim_start_matches('='), name: &name, depth: 0 };
+    let mut parser = Parser {
+        rest: formula.trim_start_matches('='),
+        name: &name,
+        depth: 0,
+    };
     let value = parser.sum()?;
     (parser.peek().is_none() && value.is_finite()).then_some(value)
 }
@@ -99,7 +112,11 @@ impl Parser<'_, '_> {
             return None;
         }
         let value = self.sum()?;
-        let digits = if self.takes(',') { Some(self.sum()?) } else { digits.first().copied() };
+        let digits = if self.takes(',') {
+            Some(self.sum()?)
+        } else {
+            digits.first().copied()
+        };
         self.depth -= 1;
         let value = digits.map_or(value, |digits| {
             let scale = 10f64.powf(digits);
@@ -135,9 +152,18 @@ mod tests {
 
     #[test]
     fn what_is_not_understood_has_no_value() {
-        for formula in
-            ["", "1 +", "1 if x else 2", "extruderValue(0)", "circle", "1 / 0", "(1", "1)", "'a'", "unknown"]
-        {
+        for formula in [
+            "",
+            "1 +",
+            "1 if x else 2",
+            "extruderValue(0)",
+            "circle",
+            "1 / 0",
+            "(1",
+            "1)",
+            "'a'",
+            "unknown",
+        ] {
             assert_eq!(value(formula), None, "{formula}");
         }
         assert_eq!(value(&"(".repeat(10_000)), None);

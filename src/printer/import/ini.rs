@@ -28,7 +28,10 @@ pub(super) struct Ini {
 impl Ini {
     /// The sections of a text; a line that is none of section, key, comment or blank is refused with its place.
     pub fn parse(file: &str, text: &str) -> Result<Self, ImportError> {
-        let mut ini = Self { file: file.to_owned(), sections: BTreeMap::new() };
+        let mut ini = Self {
+            file: file.to_owned(),
+            sections: BTreeMap::new(),
+        };
         let mut current = (FLAT.to_owned(), FLAT.to_owned());
         for (index, line) in text.lines().enumerate() {
             let (line, number) = (line.trim_start_matches('\u{feff}').trim(), index + 1);
@@ -36,36 +39,57 @@ impl Ini {
                 continue;
             }
             if let Some(head) = line.strip_prefix('[') {
-                let name = head.strip_suffix(']').ok_or_else(|| ini.fault(number, "a section has no `]`"))?;
+                let name = head
+                    .strip_suffix(']')
+                    .ok_or_else(|| ini.fault(number, "a section has no `]`"))?;
                 current = split_name(name);
                 ini.sections.entry(current.clone()).or_default().line = number;
             } else {
                 let fault = || ini.fault(number, "neither a [section] nor `key = value`");
                 let (key, value) = line.split_once('=').ok_or_else(fault)?;
                 let section = ini.sections.entry(current.clone()).or_default();
-                section.values.insert(key.trim().to_owned(), value.trim().to_owned());
+                section
+                    .values
+                    .insert(key.trim().to_owned(), value.trim().to_owned());
             }
         }
         Ok(ini)
     }
 
     fn fault(&self, line: usize, problem: &'static str) -> ImportError {
-        ImportError::Line { place: Place { file: self.file.clone(), line, column: 1 }, problem }
+        ImportError::Line {
+            place: Place {
+                file: self.file.clone(),
+                line,
+                column: 1,
+            },
+            problem,
+        }
     }
 
     /// The names of the sections of a kind that a user sees: not those in asterisks, which only lend their keys.
     pub fn names(&self, kind: &str) -> Vec<&str> {
-        let of_kind = self.sections.keys().filter(|(of, _)| of == kind).map(|(_, name)| name.as_str());
+        let of_kind = self
+            .sections
+            .keys()
+            .filter(|(of, _)| of == kind)
+            .map(|(_, name)| name.as_str());
         of_kind.filter(|name| !name.starts_with('*')).collect()
     }
 
     /// The line a section begins at.
     pub fn line(&self, kind: &str, name: &str) -> usize {
-        self.sections.get(&(kind.to_owned(), name.to_owned())).map_or(1, |section| section.line)
+        self.sections
+            .get(&(kind.to_owned(), name.to_owned()))
+            .map_or(1, |section| section.line)
     }
 
     /// Every key of a section with what it inherits; its own and the later parents' come first.
-    pub fn resolved(&self, kind: &str, name: &str) -> Result<BTreeMap<String, String>, ImportError> {
+    pub fn resolved(
+        &self,
+        kind: &str,
+        name: &str,
+    ) -> Result<BTreeMap<String, String>, ImportError> {
         self.resolved_on_way(kind, name, &mut Vec::new())
     }
 
@@ -76,28 +100,43 @@ impl Ini {
         way: &mut Vec<String>,
     ) -> Result<BTreeMap<String, String>, ImportError> {
         let key = (kind.to_owned(), name.to_owned());
-        let Some(section) = self.sections.get(&key) else { return Err(self.no_section(kind, name)) };
+        let Some(section) = self.sections.get(&key) else {
+            return Err(self.no_section(kind, name));
+        };
         if way.iter().any(|on_way| on_way == name) {
             let way = way.join(" → ") + " → " + name;
-            return Err(ImportError::Cycle { place: self.place(section.line), way });
+            return Err(ImportError::Cycle {
+                place: self.place(section.line),
+                way,
+            });
         }
         way.push(name.to_owned());
         let mut values = BTreeMap::new();
         let parents = section.values.get(INHERITS).map_or("", String::as_str);
-        for parent in
-            parents.split(';').map(|parent| parent.trim().trim_matches('"')).filter(|p| !p.is_empty())
+        for parent in parents
+            .split(';')
+            .map(|parent| parent.trim().trim_matches('"'))
+            .filter(|p| !p.is_empty())
         {
             values.extend(self.resolved_on_way(kind, parent, way)?);
         }
         way.pop();
         values.extend(
-            section.values.iter().filter(|(key, _)| *key != INHERITS).map(|(k, v)| (k.clone(), v.clone())),
+            section
+                .values
+                .iter()
+                .filter(|(key, _)| *key != INHERITS)
+                .map(|(k, v)| (k.clone(), v.clone())),
         );
         Ok(values)
     }
 
     fn place(&self, line: usize) -> Place {
-        Place { file: self.file.clone(), line, column: 1 }
+        Place {
+            file: self.file.clone(),
+            line,
+            column: 1,
+        }
     }
 
     fn no_section(&self, kind: &str, name: &str) -> ImportError {
@@ -134,7 +173,11 @@ mod tests {
         let mine = ini.resolved("print", "Mine").unwrap();
         let pairs: Vec<(&str, &str)> = mine.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
         assert_eq!(pairs, [("a", "1"), ("b", "2"), ("c", "x = y")]);
-        assert_eq!(ini.names("print"), ["Mine"], "those in asterisks only lend their keys");
+        assert_eq!(
+            ini.names("print"),
+            ["Mine"],
+            "those in asterisks only lend their keys"
+        );
         assert_eq!(ini.resolved(FLAT, FLAT).unwrap()["key"], "flat");
     }
 
@@ -143,10 +186,18 @@ mod tests {
         for (text, words) in [
             ("a = 1\n[print:x\n", "t.ini:2:1: a section has no `]`"),
             ("a = 1\n\nwhat is this\n", "t.ini:3:1: neither a [section]"),
-            ("[print:a]\ninherits = b\n[print:b]\ninherits = a\n", "inherits from itself (a → b → a)"),
-            ("[print:a]\ninherits = Min\n[print:Mine]\n", "did you mean `Mine`?"),
+            (
+                "[print:a]\ninherits = b\n[print:b]\ninherits = a\n",
+                "inherits from itself (a → b → a)",
+            ),
+            (
+                "[print:a]\ninherits = Min\n[print:Mine]\n",
+                "did you mean `Mine`?",
+            ),
         ] {
-            let error = Ini::parse("t.ini", text).and_then(|ini| ini.resolved("print", "a")).unwrap_err();
+            let error = Ini::parse("t.ini", text)
+                .and_then(|ini| ini.resolved("print", "a"))
+                .unwrap_err();
             assert!(error.to_string().contains(words), "{error}");
         }
     }

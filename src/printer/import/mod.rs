@@ -172,7 +172,10 @@ impl Imported {
     pub fn read(paths: &[PathBuf]) -> Result<Self, ImportError> {
         let mut all = Self::default();
         for path in paths {
-            let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+            let name = path
+                .file_name()
+                .map(|name| name.to_string_lossy().into_owned())
+                .unwrap_or_default();
             let text = read_text(path)?;
             if name.ends_with(".ini") {
                 prusa::read(&name, &text, &mut all)?;
@@ -196,28 +199,43 @@ impl Imported {
         match (name, &self.printers[..]) {
             (_, []) => Err(ImportError::NoPrinter { files }),
             (None, [only]) => Ok(only),
-            (None, several) => Err(ImportError::SeveralPrinters { count: several.len(), files }),
-            (Some(name), known) => known.iter().find(|printer| printer.name == name).ok_or_else(|| {
-                let near = crate::toml_text::nearest(name, known.iter().map(|printer| printer.name.as_str()));
-                let listed = || "list what there is with --list".to_owned();
-                let remedy = near.map_or_else(listed, |near| format!("did you mean `{near}`?"));
-                ImportError::NoSection {
-                    file: files,
-                    kind: "printer".to_owned(),
-                    name: name.to_owned(),
-                    remedy,
-                }
+            (None, several) => Err(ImportError::SeveralPrinters {
+                count: several.len(),
+                files,
             }),
+            (Some(name), known) => known
+                .iter()
+                .find(|printer| printer.name == name)
+                .ok_or_else(|| {
+                    let near = crate::toml_text::nearest(
+                        name,
+                        known.iter().map(|printer| printer.name.as_str()),
+                    );
+                    let listed = || "list what there is with --list".to_owned();
+                    let remedy = near.map_or_else(listed, |near| format!("did you mean `{near}`?"));
+                    ImportError::NoSection {
+                        file: files,
+                        kind: "printer".to_owned(),
+                        name: name.to_owned(),
+                        remedy,
+                    }
+                }),
         }
     }
 }
 
 fn read_text(path: &Path) -> Result<String, ImportError> {
-    std::fs::read_to_string(path).map_err(|source| ImportError::Unreadable { path: path.to_owned(), source })
+    std::fs::read_to_string(path).map_err(|source| ImportError::Unreadable {
+        path: path.to_owned(),
+        source,
+    })
 }
 
 /// The number at the start of a slicer's value: of several by commas the first; none for `0`, `nil` and words.
 fn first_number(value: &str) -> Option<f64> {
     let first = value.split([',', ';']).next()?.trim();
-    first.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0)
+    first
+        .parse::<f64>()
+        .ok()
+        .filter(|number| number.is_finite() && *number > 0.0)
 }

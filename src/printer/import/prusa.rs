@@ -19,12 +19,22 @@ struct Preset {
 impl Preset {
     fn of(ini: &Ini, kind: &str, name: &str) -> Result<Self, ImportError> {
         let line = ini.line(kind, name);
-        let section = if kind == FLAT { String::new() } else { format!(" line {line} [{kind}:{name}]") };
-        Ok(Self { said: format!("{}{section}", ini.file), values: ini.resolved(kind, name)? })
+        let section = if kind == FLAT {
+            String::new()
+        } else {
+            format!(" line {line} [{kind}:{name}]")
+        };
+        Ok(Self {
+            said: format!("{}{section}", ini.file),
+            values: ini.resolved(kind, name)?,
+        })
     }
 
     fn word(&self, key: &str) -> Option<&str> {
-        self.values.get(key).map(|value| value.trim_matches('"')).filter(|value| !value.is_empty())
+        self.values
+            .get(key)
+            .map(|value| value.trim_matches('"'))
+            .filter(|value| !value.is_empty())
     }
 
     fn number(&self, key: &str) -> Option<Found<f64>> {
@@ -32,7 +42,11 @@ impl Preset {
     }
 
     fn found<T>(&self, value: T, key: &str) -> Found<T> {
-        Found { value, source: format!("{}, {key}", self.said), is_computed: false }
+        Found {
+            value,
+            source: format!("{}, {key}", self.said),
+            is_computed: false,
+        }
     }
 }
 
@@ -50,7 +64,11 @@ pub(super) fn read(file: &str, text: &str, all: &mut Imported) -> Result<(), Imp
     ] {
         for name in ini.names(kind) {
             let density_g_cm3 = Preset::of(&ini, kind, name)?.number(key);
-            all.materials.push(ImportedMaterial { name: name.to_owned(), technology, density_g_cm3 });
+            all.materials.push(ImportedMaterial {
+                name: name.to_owned(),
+                technology,
+                density_g_cm3,
+            });
         }
     }
     if ini.names("printer").is_empty() && !ini.names(FLAT).is_empty() {
@@ -61,13 +79,24 @@ pub(super) fn read(file: &str, text: &str, all: &mut Imported) -> Result<(), Imp
 
 /// The print settings a printer begins with; its own section where it names none.
 fn print_of(ini: &Ini, printer: &Preset) -> Result<Preset, ImportError> {
-    let resin = printer.word("default_sla_print_profile").map(|name| ("sla_print", name));
-    let lines = printer.word("default_print_profile").map(|name| ("print", name));
-    let chosen = if technology(printer) == Technology::Resin { resin } else { lines };
+    let resin = printer
+        .word("default_sla_print_profile")
+        .map(|name| ("sla_print", name));
+    let lines = printer
+        .word("default_print_profile")
+        .map(|name| ("print", name));
+    let chosen = if technology(printer) == Technology::Resin {
+        resin
+    } else {
+        lines
+    };
     let there = chosen.filter(|(kind, name)| ini.names(kind).contains(name));
     match there {
         Some((kind, name)) => Preset::of(ini, kind, name),
-        None => Ok(Preset { said: printer.said.clone(), values: BTreeMap::new() }),
+        None => Ok(Preset {
+            said: printer.said.clone(),
+            values: BTreeMap::new(),
+        }),
     }
 }
 
@@ -80,14 +109,23 @@ fn technology(printer: &Preset) -> Technology {
 
 /// An exported configuration: printer, print and material in one.
 fn read_flat(config: &Preset, all: &mut Imported) {
-    let name =
-        config.word("printer_settings_id").or(config.word("printer_model")).unwrap_or("Imported printer");
+    let name = config
+        .word("printer_settings_id")
+        .or(config.word("printer_model"))
+        .unwrap_or("Imported printer");
     let printer = imported_printer(name, config, config);
     let [key, id, fallback] = match printer.technology {
         Technology::Filament => ["filament_density", "filament_settings_id", "filament_type"],
-        Technology::Resin => ["material_density", "sla_material_settings_id", "material_type"],
+        Technology::Resin => [
+            "material_density",
+            "sla_material_settings_id",
+            "material_type",
+        ],
     };
-    let material = config.word(id).or(config.word(fallback)).unwrap_or("Imported material");
+    let material = config
+        .word(id)
+        .or(config.word(fallback))
+        .unwrap_or("Imported material");
     all.materials.push(ImportedMaterial {
         name: first_word(material).to_owned(),
         technology: printer.technology,
@@ -116,9 +154,14 @@ fn imported_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPri
             Technology::Resin => display(printer),
         },
         layer_mm: print.number("layer_height"),
-        layers_mm: [printer.number("min_layer_height"), printer.number("max_layer_height")],
+        layers_mm: [
+            printer.number("min_layer_height"),
+            printer.number("max_layer_height"),
+        ],
         build_volume_mm: build_volume(printer),
-        elephant_foot_mm: printer.number("elefant_foot_compensation").or_else(elephant_foot_mm),
+        elephant_foot_mm: printer
+            .number("elefant_foot_compensation")
+            .or_else(elephant_foot_mm),
         default_material: default_material.map(|name| first_word(name).to_owned()),
     }
 }
@@ -129,15 +172,25 @@ fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
     let nozzle = || {
         let nozzle = printer.number("nozzle_diameter")?;
         let source = format!("{}, × {AUTO_WIDTH_RATIO} as no width is set", nozzle.source);
-        Some(Found { value: AUTO_WIDTH_RATIO * nozzle.value, source, is_computed: true })
+        Some(Found {
+            value: AUTO_WIDTH_RATIO * nozzle.value,
+            source,
+            is_computed: true,
+        })
     };
-    let Some(word) = print.word(key) else { return nozzle() };
+    let Some(word) = print.word(key) else {
+        return nozzle();
+    };
     match word.strip_suffix('%') {
         None => print.number(key).or_else(nozzle),
         Some(percent) => {
             let layer = print.number("layer_height")?;
             let source = format!("{}, {word} of the layer", print.found((), key).source);
-            Some(Found { value: first_number(percent)? / 100.0 * layer.value, source, is_computed: true })
+            Some(Found {
+                value: first_number(percent)? / 100.0 * layer.value,
+                source,
+                is_computed: true,
+            })
         }
     }
 }
@@ -146,10 +199,20 @@ fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
 fn display(printer: &Preset) -> Option<[Found<f64>; 2]> {
     let pitch = |size: &str, pixels: &str| {
         let (length_mm, count) = (printer.number(size)?.value, printer.number(pixels)?.value);
-        let source = format!("{}, {length_mm} mm over {count}", printer.found((), pixels).source);
-        Some(Found { value: length_mm / count, source, is_computed: true })
+        let source = format!(
+            "{}, {length_mm} mm over {count}",
+            printer.found((), pixels).source
+        );
+        Some(Found {
+            value: length_mm / count,
+            source,
+            is_computed: true,
+        })
     };
-    Some([pitch("display_width", "display_pixels_x")?, pitch("display_height", "display_pixels_y")?])
+    Some([
+        pitch("display_width", "display_pixels_x")?,
+        pitch("display_height", "display_pixels_y")?,
+    ])
 }
 
 /// The box over the plate's outline, up to the greatest height.
@@ -204,14 +267,29 @@ mod tests {
         let all = bundle();
         let mine = all.printer(Some("Mine")).unwrap();
         let width = &mine.pixel_mm.as_ref().unwrap()[0];
-        assert!((width.value - 0.45).abs() < 1e-12 && width.is_computed, "{width:?}");
+        assert!(
+            (width.value - 0.45).abs() < 1e-12 && width.is_computed,
+            "{width:?}"
+        );
         let source = &mine.layer_mm.as_ref().unwrap().source;
-        let line = 1 + BUNDLE.lines().position(|line| line == "[print:Fine]").unwrap();
-        assert_eq!(*source, format!("b.ini line {line} [print:Fine], layer_height"));
-        assert_eq!(mine.build_volume_mm.as_ref().unwrap().value, [250.0, 210.0, 210.0]);
+        let line = 1 + BUNDLE
+            .lines()
+            .position(|line| line == "[print:Fine]")
+            .unwrap();
+        assert_eq!(
+            *source,
+            format!("b.ini line {line} [print:Fine], layer_height")
+        );
+        assert_eq!(
+            mine.build_volume_mm.as_ref().unwrap().value,
+            [250.0, 210.0, 210.0]
+        );
         assert_eq!(mine.elephant_foot_mm.as_ref().unwrap().value, 0.2);
         let wide = all.printer(Some("Wide")).unwrap();
-        assert!((wide.pixel_mm.as_ref().unwrap()[1].value - 0.9).abs() < 1e-12 && wide.layer_mm.is_none());
+        assert!(
+            (wide.pixel_mm.as_ref().unwrap()[1].value - 0.9).abs() < 1e-12
+                && wide.layer_mm.is_none()
+        );
     }
 
     #[test]
@@ -220,15 +298,25 @@ mod tests {
         let vat = all.printer(Some("Vat")).unwrap();
         let [x, y] = vat.pixel_mm.as_ref().unwrap();
         assert!((x.value - 0.04725).abs() < 1e-12 && (y.value - 0.04725).abs() < 1e-12);
-        assert_eq!(vat.build_volume_mm.as_ref().unwrap().value, [118.0, 66.0, 150.0]);
+        assert_eq!(
+            vat.build_volume_mm.as_ref().unwrap().value,
+            [118.0, 66.0, 150.0]
+        );
         assert_eq!(vat.technology, Technology::Resin);
     }
 
     #[test]
     fn a_density_of_zero_is_none() {
-        let densities: Vec<Option<f64>> =
-            bundle().materials.iter().map(|m| m.density_g_cm3.as_ref().map(|found| found.value)).collect();
-        assert_eq!(densities, [None, Some(1.24)], "in the order of their names: Odd, PLA");
+        let densities: Vec<Option<f64>> = bundle()
+            .materials
+            .iter()
+            .map(|m| m.density_g_cm3.as_ref().map(|found| found.value))
+            .collect();
+        assert_eq!(
+            densities,
+            [None, Some(1.24)],
+            "in the order of their names: Odd, PLA"
+        );
     }
 
     #[test]
@@ -239,7 +327,10 @@ mod tests {
                     printer_settings_id = Mini of mine\n";
         read("config.ini", text, &mut all).unwrap();
         let only = all.printer(None).unwrap();
-        assert_eq!((only.name.as_str(), only.pixel_mm.as_ref().unwrap()[0].value), ("Mini of mine", 0.45));
+        assert_eq!(
+            (only.name.as_str(), only.pixel_mm.as_ref().unwrap()[0].value),
+            ("Mini of mine", 0.45)
+        );
         assert_eq!(all.materials[0].name, "My PETG");
         assert_eq!(all.materials[0].density_g_cm3.as_ref().unwrap().value, 1.27);
     }
@@ -247,7 +338,17 @@ mod tests {
     #[test]
     fn a_choice_that_must_be_made_is_asked_for() {
         let all = bundle();
-        assert!(all.printer(None).unwrap_err().to_string().contains("there are 3 printers"));
-        assert!(all.printer(Some("Mime")).unwrap_err().to_string().contains("did you mean `Mine`?"));
+        assert!(
+            all.printer(None)
+                .unwrap_err()
+                .to_string()
+                .contains("there are 3 printers")
+        );
+        assert!(
+            all.printer(Some("Mime"))
+                .unwrap_err()
+                .to_string()
+                .contains("did you mean `Mine`?")
+        );
     }
 }

@@ -22,11 +22,21 @@ impl Imported {
             printer.technology.process()
         );
         if !materials.is_empty() {
-            let ids: Vec<String> = materials.iter().map(|(id, _)| format!("\"{id}\"")).collect();
+            let ids: Vec<String> = materials
+                .iter()
+                .map(|(id, _)| format!("\"{id}\""))
+                .collect();
             let default = printer.default_material.as_ref();
-            let default = materials.iter().find(|(_, material)| Some(&material.name) == default);
-            let default = default.or(materials.first()).map_or("", |(id, _)| id.as_str());
-            text += &format!("materials = [{}]\ndefault_material = \"{default}\"\n", ids.join(", "));
+            let default = materials
+                .iter()
+                .find(|(_, material)| Some(&material.name) == default);
+            let default = default
+                .or(materials.first())
+                .map_or("", |(id, _)| id.as_str());
+            text += &format!(
+                "materials = [{}]\ndefault_material = \"{default}\"\n",
+                ids.join(", ")
+            );
         }
         if let Some(volume) = &printer.build_volume_mm {
             text += &line("build_volume_mm", &format!("{:?}", volume.value), volume);
@@ -42,7 +52,10 @@ impl Imported {
     /// The materials of the printer's technology that have a density, with ids that no two share.
     fn named_materials(&self, printer: &ImportedPrinter) -> Vec<(String, &ImportedMaterial)> {
         let mut taken = BTreeSet::new();
-        let of_printer = self.materials.iter().filter(|material| material.technology == printer.technology);
+        let of_printer = self
+            .materials
+            .iter()
+            .filter(|material| material.technology == printer.technology);
         let weighed = of_printer.filter(|material| material.density_g_cm3.is_some());
         let mut named = Vec::new();
         for material in weighed {
@@ -65,8 +78,12 @@ fn numbers(printer: &ImportedPrinter) -> String {
     };
     // The slicer's bounds are left out where its own layer lies beyond them, as presets for other nozzles do.
     let layer = printer.layer_mm.as_ref().map(|layer| layer.value);
-    let least = printer.layers_mm[0].as_ref().filter(|least| layer.is_none_or(|layer| least.value <= layer));
-    let most = printer.layers_mm[1].as_ref().filter(|most| layer.is_none_or(|layer| most.value >= layer));
+    let least = printer.layers_mm[0]
+        .as_ref()
+        .filter(|least| layer.is_none_or(|layer| least.value <= layer));
+    let most = printer.layers_mm[1]
+        .as_ref()
+        .filter(|most| layer.is_none_or(|layer| most.value >= layer));
     let found = [
         (Quantity::PixelXMm, x),
         (Quantity::PixelYMm, y),
@@ -87,13 +104,21 @@ fn numbers(printer: &ImportedPrinter) -> String {
 
 fn material_table(id: &str, material: &ImportedMaterial) -> String {
     let density = material.density_g_cm3.as_ref();
-    let density =
-        density.map_or_else(String::new, |found| line("density_g_cm3", &found.value.to_string(), found));
-    format!("\n[[material]]\nid = \"{id}\"\nname = {}\n{density}", quoted(&material.name))
+    let density = density.map_or_else(String::new, |found| {
+        line("density_g_cm3", &found.value.to_string(), found)
+    });
+    format!(
+        "\n[[material]]\nid = \"{id}\"\nname = {}\n{density}",
+        quoted(&material.name)
+    )
 }
 
 fn line<T>(key: &str, value: &str, found: &Found<T>) -> String {
-    let sure = if found.is_computed { "computed" } else { "read" };
+    let sure = if found.is_computed {
+        "computed"
+    } else {
+        "read"
+    };
     let mut text = String::new();
     // Writing to a string does not fail.
     let _ = writeln!(
@@ -120,7 +145,11 @@ pub fn slug(name: &str) -> String {
         }
     }
     let slug = slug.trim_end_matches('-');
-    if slug.is_empty() { "material".to_owned() } else { slug.to_owned() }
+    if slug.is_empty() {
+        "material".to_owned()
+    } else {
+        slug.to_owned()
+    }
 }
 
 #[cfg(test)]
@@ -129,7 +158,11 @@ mod tests {
     use crate::printer::import::Technology;
 
     fn found<T>(value: T) -> Option<Found<T>> {
-        Some(Found { value, source: "a \"file\", key".into(), is_computed: false })
+        Some(Found {
+            value,
+            source: "a \"file\", key".into(),
+            is_computed: false,
+        })
     }
 
     fn imported() -> (Imported, ImportedPrinter) {
@@ -154,7 +187,13 @@ mod tests {
             material("PLA +", Some(1.25)),
             material("?", None),
         ];
-        (Imported { materials, ..Imported::default() }, printer)
+        (
+            Imported {
+                materials,
+                ..Imported::default()
+            },
+            printer,
+        )
     }
 
     #[test]
@@ -164,17 +203,35 @@ mod tests {
         let path = folder.path().join("mine.toml");
         std::fs::write(&path, all.to_toml(&printer, "mine")).unwrap();
         let mine = crate::printer::Printer::read(&path).unwrap();
-        assert_eq!((mine.name.as_str(), mine.pixel_x_mm.value), (printer.name.as_str(), 0.45));
+        assert_eq!(
+            (mine.name.as_str(), mine.pixel_x_mm.value),
+            (printer.name.as_str(), 0.45)
+        );
         assert_eq!(mine.pixel_x_mm.source, "a \"file\", key");
-        assert_eq!(mine.number(Quantity::LayerMostMm), None, "0.15 mm would contradict the layer");
+        assert_eq!(
+            mine.number(Quantity::LayerMostMm),
+            None,
+            "0.15 mm would contradict the layer"
+        );
         assert_eq!(mine.min_wall_mm.process_default_of.as_deref(), Some("fdm"));
-        let ids: Vec<&str> = mine.materials.iter().map(|material| material.id.as_str()).collect();
-        assert_eq!(ids, ["pla-2", "abs", "pla"], "the default first; what has no density is left out");
+        let ids: Vec<&str> = mine
+            .materials
+            .iter()
+            .map(|material| material.id.as_str())
+            .collect();
+        assert_eq!(
+            ids,
+            ["pla-2", "abs", "pla"],
+            "the default first; what has no density is left out"
+        );
     }
 
     #[test]
     fn names_become_ids() {
-        assert_eq!(slug("Prusament PLA @0.6 nozzle"), "prusament-pla-0-6-nozzle");
+        assert_eq!(
+            slug("Prusament PLA @0.6 nozzle"),
+            "prusament-pla-0-6-nozzle"
+        );
         assert_eq!(slug("***"), "material");
     }
 }

@@ -77,9 +77,14 @@ impl Patch {
             .fan
             .iter()
             .map(|&edge| {
-                ((self.points[self.end(edge) as usize] - self.points[v as usize]).norm_squared(), edge)
+                (
+                    (self.points[self.end(edge) as usize] - self.points[v as usize]).norm_squared(),
+                    edge,
+                )
             })
-            .filter(|&(squared, _)| squared <= length_mm * length_mm && squared > self.tried[v as usize])
+            .filter(|&(squared, _)| {
+                squared <= length_mm * length_mm && squared > self.tried[v as usize]
+            })
             .collect();
         self.tried[v as usize] = self.tried[v as usize].max(length_mm * length_mm);
         if near.is_empty() {
@@ -94,7 +99,10 @@ impl Patch {
             if self.is_link_simple(edge, scratch)
                 && self.make_fresh(edge, scratch)
                 && self.settle_points(rules.stray, scratch)
-                && scratch.fresh.iter().all(|fresh| fresh.is_inside() || (rules.allows)(&fresh.corners))
+                && scratch
+                    .fresh
+                    .iter()
+                    .all(|fresh| fresh.is_inside() || (rules.allows)(&fresh.corners))
             {
                 self.merge(edge, scratch);
                 return;
@@ -115,16 +123,24 @@ impl Patch {
     /// (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction", 1999).
     fn is_link_simple(&self, edge: u32, scratch: &mut Scratch) -> bool {
         let twin = self.twin[edge as usize];
-        let across = [self.start[last(edge) as usize], self.start[last(twin) as usize]];
+        let across = [
+            self.start[last(edge) as usize],
+            self.start[last(twin) as usize],
+        ];
         self.neighbours(self.end(edge), &mut scratch.others);
         scratch.ring.clear();
-        scratch.ring.extend(scratch.fan.iter().map(|&e| self.end(e)));
+        scratch
+            .ring
+            .extend(scratch.fan.iter().map(|&e| self.end(e)));
         let others = &scratch.others;
         let common = scratch.ring.iter().filter(|v| others.contains(v)).count();
         // Two locked vertices may be joined already, outside the patch.
         let is_locked = |v: u32| self.is_locked[v as usize];
         let may_double = is_locked(self.end(edge))
-            && scratch.ring.iter().any(|&v| is_locked(v) && v != self.end(edge) && !across.contains(&v));
+            && scratch
+                .ring
+                .iter()
+                .any(|&v| is_locked(v) && v != self.end(edge) && !across.contains(&v));
         common == 2
             && !may_double
             && !self.is_pinched[self.end(edge) as usize]
@@ -138,8 +154,13 @@ impl Patch {
         let target = self.points[self.end(edge) as usize];
         scratch.fresh.clear();
         for &leaving in scratch.fan.iter().filter(|&&e| !gone.contains(&(e / 3))) {
-            let rest = [next(leaving), last(leaving)].map(|e| self.points[self.start[e as usize] as usize]);
-            let old = [self.points[self.start[leaving as usize] as usize], rest[0], rest[1]];
+            let rest = [next(leaving), last(leaving)]
+                .map(|e| self.points[self.start[e as usize] as usize]);
+            let old = [
+                self.points[self.start[leaving as usize] as usize],
+                rest[0],
+                rest[1],
+            ];
             let corners = [target, rest[0], rest[1]];
             let (before, after) = (area_vector(&old), area_vector(&corners));
             let (old_length, length) = (before.norm(), after.norm());
@@ -152,7 +173,12 @@ impl Patch {
             }
             let normal = after / length;
             let outside_mm = normal.dot(&(target - old[0]));
-            scratch.fresh.push(Fresh { triangle: leaving / 3, corners, normal, outside_mm });
+            scratch.fresh.push(Fresh {
+                triangle: leaving / 3,
+                corners,
+                normal,
+                outside_mm,
+            });
         }
         true
     }
@@ -181,7 +207,10 @@ impl Patch {
         self.close_back(twin);
         self.leaving[u as usize] = to_u;
         self.leaving[v as usize] = NIL;
-        scratch.ring.iter().for_each(|&beside| self.tried[beside as usize] = -1.0);
+        scratch
+            .ring
+            .iter()
+            .for_each(|&beside| self.tried[beside as usize] = -1.0);
         for (&point, &owner) in scratch.points.iter().zip(&scratch.owners) {
             self.give(scratch.fresh[owner].triangle, point);
         }
@@ -190,7 +219,10 @@ impl Patch {
     /// Removes the triangle of `edge` (v → u, then a): what lay beyond a → v now borders what lay beyond u → a. Gives
     /// the half-edge from u to a.
     fn close(&mut self, edge: u32) -> u32 {
-        let (beyond_ua, beyond_av) = (self.twin[next(edge) as usize], self.twin[last(edge) as usize]);
+        let (beyond_ua, beyond_av) = (
+            self.twin[next(edge) as usize],
+            self.twin[last(edge) as usize],
+        );
         let a = self.start[last(edge) as usize];
         self.is_alive[(edge / 3) as usize] = false;
         self.join(beyond_ua, beyond_av);
@@ -200,7 +232,10 @@ impl Patch {
 
     /// Removes the triangle of `twin` (u → v, then b): what lay beyond v → b now borders what lay beyond b → u.
     fn close_back(&mut self, twin: u32) {
-        let (beyond_vb, beyond_bu) = (self.twin[next(twin) as usize], self.twin[last(twin) as usize]);
+        let (beyond_vb, beyond_bu) = (
+            self.twin[next(twin) as usize],
+            self.twin[last(twin) as usize],
+        );
         let b = self.start[last(twin) as usize];
         self.is_alive[(twin / 3) as usize] = false;
         self.join(beyond_vb, beyond_bu);
@@ -229,10 +264,17 @@ fn owner(p: &Point, fresh: &[Fresh], stray: Stray) -> Option<usize> {
     }
     let (squared, i, offset) = best;
     let is_inside = fresh.get(i)?.normal.dot(&offset) >= 0.0;
-    let limit_mm = if is_inside { stray.inside_mm } else { stray.outside_mm };
+    let limit_mm = if is_inside {
+        stray.inside_mm
+    } else {
+        stray.outside_mm
+    };
     (squared <= limit_mm * limit_mm).then_some(i)
 }
 
 fn longest_squared([a, b, c]: &[Point; 3]) -> f64 {
-    (b - a).norm_squared().max((c - b).norm_squared()).max((a - c).norm_squared())
+    (b - a)
+        .norm_squared()
+        .max((c - b).norm_squared())
+        .max((a - c).norm_squared())
 }

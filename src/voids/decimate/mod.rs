@@ -118,10 +118,22 @@ impl<'a> Decimation<'a> {
         let slabs = mesh.triangles().len().div_ceil(SLAB_TRIANGLES);
         let round = |number| {
             let axis = (longest + number) % 3;
-            let count = if number == 0 { slabs } else { slabs.div_ceil(LATER_SLABS) };
-            Round { axis, cuts_mm: quantiles(mesh.vertices(), axis, count), done: Vec::new() }
+            let count = if number == 0 {
+                slabs
+            } else {
+                slabs.div_ceil(LATER_SLABS)
+            };
+            Round {
+                axis,
+                cuts_mm: quantiles(mesh.vertices(), axis, count),
+                done: Vec::new(),
+            }
         };
-        Self { mesh, rules, rounds: (0..ROUNDS).map(round).collect() }
+        Self {
+            mesh,
+            rules,
+            rounds: (0..ROUNDS).map(round).collect(),
+        }
     }
 
     /// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
@@ -130,9 +142,15 @@ impl<'a> Decimation<'a> {
     /// depend on the number of threads, nor on earlier runs.
     pub fn run(&mut self, locked: &[bool]) -> Vec<[u32; 3]> {
         let triangles = self.mesh.triangles();
-        let parts =
-            Parts { triangles: triangles.to_vec(), points: Vec::new(), ends: vec![0; triangles.len()] };
-        let mut state = State { parts, is_open: vec![true; self.mesh.vertices().len()] };
+        let parts = Parts {
+            triangles: triangles.to_vec(),
+            points: Vec::new(),
+            ends: vec![0; triangles.len()],
+        };
+        let mut state = State {
+            parts,
+            is_open: vec![true; self.mesh.vertices().len()],
+        };
         for round in &mut self.rounds {
             let slabs = Slabs::new(&state, self.mesh.vertices(), round);
             let is_locked = |v: u32| locked[v as usize] || slabs.of_vertex[v as usize] == SEVERAL;
@@ -149,7 +167,10 @@ impl<'a> Decimation<'a> {
                     }
                     let mut patch = Patch::new(&state, self.mesh.vertices(), slab, &is_locked);
                     patch.decimate(self.rules);
-                    Done { before, after: patch.into_parts() }
+                    Done {
+                        before,
+                        after: patch.into_parts(),
+                    }
                 })
                 .collect();
             state = slabs.merged(&round.done);
@@ -161,7 +182,13 @@ impl<'a> Decimation<'a> {
 impl Done {
     /// No triangles, from no triangles.
     fn none() -> Self {
-        Self { before: Slab { parts: Parts::default(), corners: Vec::new() }, after: Parts::default() }
+        Self {
+            before: Slab {
+                parts: Parts::default(),
+                corners: Vec::new(),
+            },
+            after: Parts::default(),
+        }
     }
 }
 
@@ -169,7 +196,10 @@ impl Slab {
     fn new(state: &State, triangles: &[u32], is_locked: &impl Fn(u32) -> bool) -> Self {
         let mut parts = Parts::default();
         for &t in triangles {
-            parts.push(state.parts.triangles[t as usize], state.parts.points_of(t).iter().copied());
+            parts.push(
+                state.parts.triangles[t as usize],
+                state.parts.points_of(t).iter().copied(),
+            );
         }
         let flags = |&v: &u32| [is_locked(v), state.is_open[v as usize]];
         let corners = parts.triangles.iter().flatten().map(flags).collect();
@@ -199,7 +229,8 @@ const SEVERAL: u32 = u32::MAX - 1;
 
 impl Slabs {
     fn new(state: &State, vertices: &[Point], Round { axis, cuts_mm, .. }: &Round) -> Self {
-        let center = |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][*axis]).sum::<f64>() / 3.0;
+        let center =
+            |t: &[u32; 3]| t.iter().map(|&v| vertices[v as usize][*axis]).sum::<f64>() / 3.0;
         let triangles = &state.parts.triangles;
         let mut order: Vec<(f64, u32)> = triangles.iter().map(center).zip(0..).collect();
         order.par_sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -214,18 +245,27 @@ impl Slabs {
         for (number, slab) in (0..).zip(&slabs) {
             for v in slab.iter().flat_map(|&t| triangles[t as usize]) {
                 let seen = &mut of_vertex[v as usize];
-                *seen = if *seen == NONE || *seen == number { number } else { SEVERAL };
+                *seen = if *seen == NONE || *seen == number {
+                    number
+                } else {
+                    SEVERAL
+                };
             }
         }
-        Self { triangles: slabs, of_vertex }
+        Self {
+            triangles: slabs,
+            of_vertex,
+        }
     }
 
     /// What the slabs became, as one.
     fn merged(&self, done: &[Done]) -> State {
         let mut parts = Parts::default();
         done.iter().for_each(|done| parts.append(&done.after));
-        let mut state =
-            State { parts, is_open: self.of_vertex.iter().map(|&slab| slab == SEVERAL).collect() };
+        let mut state = State {
+            parts,
+            is_open: self.of_vertex.iter().map(|&slab| slab == SEVERAL).collect(),
+        };
         state.open_beside_seams();
         state
     }
@@ -235,8 +275,16 @@ impl State {
     /// Opens the vertices beside open ones: only now can they be merged into those.
     fn open_beside_seams(&mut self) {
         let beside = |t: &&[u32; 3]| t.iter().any(|&v| self.is_open[v as usize]);
-        let near: Vec<u32> = self.parts.triangles.iter().filter(beside).flatten().copied().collect();
-        near.into_iter().for_each(|v| self.is_open[v as usize] = true);
+        let near: Vec<u32> = self
+            .parts
+            .triangles
+            .iter()
+            .filter(beside)
+            .flatten()
+            .copied()
+            .collect();
+        near.into_iter()
+            .for_each(|v| self.is_open[v as usize] = true);
     }
 }
 
@@ -247,13 +295,23 @@ mod tests {
     use crate::mesh::Solid;
     use crate::voids::shapes::{ball, block, welded};
 
-    const STRAY: Stray = Stray { outside_mm: 0.01, inside_mm: 0.02 };
+    const STRAY: Stray = Stray {
+        outside_mm: 0.01,
+        inside_mm: 0.02,
+    };
 
-    const RULES: Rules = Rules { stray: STRAY, allows: &|_| true };
+    const RULES: Rules = Rules {
+        stray: STRAY,
+        allows: &|_| true,
+    };
 
     fn decimated_mesh(mesh: &TriMesh, locked: &[bool]) -> TriMesh {
         let triangles = Decimation::new(mesh, RULES).run(locked);
-        welded(triangles.iter().map(|t| t.map(|v| mesh.vertices()[v as usize])))
+        welded(
+            triangles
+                .iter()
+                .map(|t| t.map(|v| mesh.vertices()[v as usize])),
+        )
     }
 
     /// A box whose faces are cut into n × n squares.
@@ -267,12 +325,17 @@ mod tests {
             (0..n).flat_map(move |i| {
                 (0..n - i).flat_map(move |j| {
                     let up = [at(i, j), at(i + 1, j), at(i, j + 1)];
-                    let down = (j + 1 < n - i).then(|| [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
+                    let down =
+                        (j + 1 < n - i).then(|| [at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]);
                     std::iter::once(up).chain(down)
                 })
             })
         };
-        welded(block([0.0; 3], [8.0, 16.0, 4.0]).iter_corners().flat_map(fine))
+        welded(
+            block([0.0; 3], [8.0, 16.0, 4.0])
+                .iter_corners()
+                .flat_map(fine),
+        )
     }
 
     #[test]
@@ -280,7 +343,11 @@ mod tests {
         let fine = fine_block(16);
         let coarse = decimated_mesh(&fine, &vec![false; fine.vertices().len()]);
         Solid::new(coarse.clone()).unwrap();
-        assert!(coarse.triangles().len() < fine.triangles().len() / 20, "{}", coarse.triangles().len());
+        assert!(
+            coarse.triangles().len() < fine.triangles().len() / 20,
+            "{}",
+            coarse.triangles().len()
+        );
         // 640 mm² of surface moved by at most 0.02 mm.
         assert!((coarse.signed_volume_mm3() - 512.0).abs() < 640.0 * 0.02);
     }
@@ -293,7 +360,11 @@ mod tests {
         assert!(coarse.triangles().len() < fine.triangles().len() / 3);
         let bvh = Bvh::new(coarse.iter_corners());
         for p in fine.vertices() {
-            let distance = bvh.closest(p, f64::INFINITY, &[]).unwrap().distance_squared.sqrt();
+            let distance = bvh
+                .closest(p, f64::INFINITY, &[])
+                .unwrap()
+                .distance_squared
+                .sqrt();
             assert!(distance <= STRAY.inside_mm + 1e-9, "{distance}");
         }
     }
@@ -301,10 +372,18 @@ mod tests {
     #[test]
     fn locked_vertices_stay() {
         let fine = fine_block(8);
-        let locked: Vec<bool> =
-            fine.vertices().iter().map(|p| (p - Vector::new(8.0, 8.0, 2.0)).x >= 0.0).collect();
+        let locked: Vec<bool> = fine
+            .vertices()
+            .iter()
+            .map(|p| (p - Vector::new(8.0, 8.0, 2.0)).x >= 0.0)
+            .collect();
         let coarse = decimated_mesh(&fine, &locked);
-        for (p, _) in fine.vertices().iter().zip(&locked).filter(|(_, is_locked)| **is_locked) {
+        for (p, _) in fine
+            .vertices()
+            .iter()
+            .zip(&locked)
+            .filter(|(_, is_locked)| **is_locked)
+        {
             assert!(coarse.vertices().contains(p));
         }
     }
@@ -313,7 +392,10 @@ mod tests {
     fn one_thread_and_two_give_the_same_triangles() {
         let fine = ball(Point::origin(), 5.0, 7);
         let with_threads = |n| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .build()
+                .unwrap();
             pool.install(|| Decimation::new(&fine, RULES).run(&vec![false; fine.vertices().len()]))
         };
         assert_eq!(with_threads(1), with_threads(2));
@@ -323,7 +405,11 @@ mod tests {
     fn a_second_run_with_more_locked_is_what_a_first_one_would_be() {
         let fine = ball(Point::origin(), 5.0, 7);
         let none = vec![false; fine.vertices().len()];
-        let some: Vec<bool> = fine.vertices().iter().map(|p| p.x > 4.0 && p.y > 1.0).collect();
+        let some: Vec<bool> = fine
+            .vertices()
+            .iter()
+            .map(|p| p.x > 4.0 && p.y > 1.0)
+            .collect();
         let mut decimation = Decimation::new(&fine, RULES);
         let before = decimation.run(&none);
         let again = decimation.run(&some);

@@ -37,7 +37,11 @@ pub(super) fn next(edge: u32) -> u32 {
 }
 
 pub(super) fn last(edge: u32) -> u32 {
-    if edge.is_multiple_of(3) { edge + 2 } else { edge - 1 }
+    if edge.is_multiple_of(3) {
+        edge + 2
+    } else {
+        edge - 1
+    }
 }
 
 /// Twice the area vector of a triangle.
@@ -47,11 +51,22 @@ pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
 
 impl Patch {
     /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names must stay.
-    pub fn new(state: &State, vertices: &[Point], slab: &[u32], is_locked: &impl Fn(u32) -> bool) -> Self {
+    pub fn new(
+        state: &State,
+        vertices: &[Point],
+        slab: &[u32],
+        is_locked: &impl Fn(u32) -> bool,
+    ) -> Self {
         let corners = || slab.iter().flat_map(|&t| state.parts.triangles[t as usize]);
-        let removed =
-            || (0..).zip(slab).flat_map(|(i, &t)| state.parts.points_of(t).iter().map(move |&p| (i, p)));
-        let (names, numbers) = numbered(vertices.len(), corners().chain(removed().map(|(_, name)| name)));
+        let removed = || {
+            (0..)
+                .zip(slab)
+                .flat_map(|(i, &t)| state.parts.points_of(t).iter().map(move |&p| (i, p)))
+        };
+        let (names, numbers) = numbered(
+            vertices.len(),
+            corners().chain(removed().map(|(_, name)| name)),
+        );
         let local = |name: u32| numbers[name as usize];
         let start: Vec<u32> = corners().map(local).collect();
         let mut patch = Self {
@@ -62,7 +77,13 @@ impl Patch {
             is_pinched: vec![false; names.len()],
             tried: names
                 .iter()
-                .map(|&name| if state.is_open[name as usize] { -1.0 } else { f64::INFINITY })
+                .map(|&name| {
+                    if state.is_open[name as usize] {
+                        -1.0
+                    } else {
+                        f64::INFINITY
+                    }
+                })
                 .collect(),
             is_alive: vec![true; slab.len()],
             first_point: vec![NIL; slab.len()],
@@ -86,7 +107,11 @@ impl Patch {
         for v in 0..self.points.len() as u32 {
             if self.leaving[v as usize] != NIL {
                 let is_closed = self.fan(v, &mut fan);
-                let held = if is_closed { fan.len() } else { self.open_fan_size(v) };
+                let held = if is_closed {
+                    fan.len()
+                } else {
+                    self.open_fan_size(v)
+                };
                 self.is_pinched[v as usize] = held != named[v as usize];
             }
         }
@@ -172,7 +197,10 @@ fn numbered(count: usize, used: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<u32
     let mut numbers = vec![NIL; count];
     used.for_each(|name| numbers[name as usize] = 0);
     let mut names = Vec::new();
-    for (name, number) in (0..).zip(&mut numbers).filter(|(_, number)| **number != NIL) {
+    for (name, number) in (0..)
+        .zip(&mut numbers)
+        .filter(|(_, number)| **number != NIL)
+    {
         *number = names.len() as u32;
         names.push(name);
     }
@@ -186,7 +214,9 @@ fn twins(start: &[u32]) -> Vec<u32> {
         let (a, b) = (start[edge as usize], end(edge));
         (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
     };
-    let mut keyed: Vec<(u64, u32)> = (0..start.len() as u32).map(|edge| (key(edge), edge)).collect();
+    let mut keyed: Vec<(u64, u32)> = (0..start.len() as u32)
+        .map(|edge| (key(edge), edge))
+        .collect();
     keyed.sort_unstable();
     let mut twin = vec![NIL; start.len()];
     for pair in keyed.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
