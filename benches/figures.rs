@@ -16,18 +16,19 @@ use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
 
 use divan::{Bencher, black_box};
+use equipoise::base::units::Length;
+use equipoise::base::watch::Watch;
 use equipoise::goal::{Contact, GoalKind, Objective, Placement, Request, Up, place};
 use equipoise::hollow::{Problem, Settings, Solution, refine, solve};
 use equipoise::interior::Columns;
 use equipoise::io::stl;
 use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 use equipoise::mass::moments_of_mesh;
-use equipoise::mesh::{Solid, repair, scaled};
+use equipoise::mesh::{Solid, scaled};
 use equipoise::pipeline;
 use equipoise::printer::Printer;
-use equipoise::progress::Progress;
+use equipoise::repair::repair;
 use equipoise::shell::Shell;
-use equipoise::units::Length;
 use equipoise::voids::{Cavity, CavitySpec};
 
 /// The order of every figure: 100 mm, a wall of 1 mm, and the machine with the finest pixels of the built-in ones.
@@ -239,7 +240,7 @@ impl Scene {
     }
 
     fn columns(&self, pitch_mm: [f64; 2]) -> Columns {
-        Columns::of_shell(self.shell(), pitch_mm, &Progress::silent()).unwrap()
+        Columns::of_shell(self.shell(), pitch_mm, &Watch::silent()).unwrap()
     }
 
     fn problem<'a>(&'a self, columns: &'a Columns) -> Problem<'a> {
@@ -255,7 +256,7 @@ impl Scene {
         solve(
             &self.problem(columns),
             &Settings::default(),
-            &Progress::silent(),
+            &Watch::silent(),
         )
     }
 
@@ -264,7 +265,7 @@ impl Scene {
             &self.problem(columns),
             &Settings::default(),
             known,
-            &Progress::silent(),
+            &Watch::silent(),
         )
     }
 
@@ -289,7 +290,7 @@ impl Scene {
             keeps: &self.placement().keeps,
             min_void_mm: PRINTED_BY.min_opening_mm.value,
         };
-        Cavity::extract(self.solid(), &spec, &Progress::silent()).unwrap()
+        Cavity::extract(self.solid(), &spec, &Watch::silent()).unwrap()
     }
 
     fn cavity(&self) -> &Cavity {
@@ -373,5 +374,5 @@ fn void_bodies(bencher: Bencher, name: &str) {
 #[divan::bench(args = names(), sample_count = 1, sample_size = 1)]
 fn whole_prepare(bencher: Bencher, name: &str) {
     let job = scene(name).job();
-    bencher.bench(|| pipeline::run(black_box(&job), &Progress::silent()).unwrap());
+    bencher.bench(|| pipeline::run(black_box(&job), &Watch::silent()).unwrap());
 }

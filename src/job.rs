@@ -10,14 +10,12 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle, Solver};
 pub use filling::Filling;
 
-use crate::{
-    ballast::Order,
-    cut::CutOrder,
-    digest::sha256_hex,
-    goal::Request,
-    toml_text::{self, TextFault},
-    units::Length,
-};
+use crate::ballast::Order;
+use crate::base::digest::sha256_hex;
+use crate::base::toml_text::{self, TextFault};
+use crate::base::units::Length;
+use crate::cut::CutOrder;
+use crate::goal::Request;
 
 /// The version of `job.toml` that this program writes and reads.
 pub const JOB_SCHEMA: u32 = 1;

@@ -16,7 +16,7 @@
 //! use equipoise::goal::{GoalKind, Request};
 //! use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 //! use equipoise::pipeline::{Outcome, run};
-//! use equipoise::progress::Progress;
+//! use equipoise::base::watch::Watch;
 //! use equipoise::report::Existing;
 //!
 //! let model = ModelChoice {
@@ -26,7 +26,7 @@
 //! };
 //! let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
 //! let job = Job::new(model, printer, Request::new(GoalKind::Top));
-//! match run(&job, &Progress::silent())? {
+//! match run(&job, &Watch::silent())? {
 //!     Outcome::Prepared(prepared) => prepared.kit.write("top-kit".as_ref(), Existing::Keep)?,
 //!     Outcome::Impossible(why) => println!("{}", why.reason),
 //! }
@@ -37,10 +37,10 @@
 
 pub mod advice;
 pub mod ballast;
+pub mod base;
 pub mod cli;
 pub mod coupon;
 pub mod cut;
-pub mod digest;
 pub mod error;
 pub mod geom;
 pub mod goal;
@@ -54,11 +54,8 @@ pub mod mass;
 pub mod mesh;
 pub mod pipeline;
 pub mod printer;
-pub mod progress;
+pub mod repair;
 pub mod report;
 pub mod shell;
-pub mod toml_text;
-pub mod units;
 pub mod verify;
 pub mod voids;
-pub mod words;

@@ -21,11 +21,10 @@ use equipoise::cut::{
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
 use equipoise::mass::moments_of_mesh;
-use equipoise::mesh::{
-    Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, one_body, primitives, repair, weld,
-};
+use equipoise::mesh::{Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, primitives};
 use equipoise::pipeline::WrittenPart;
 use equipoise::printer::Cleaning;
+use equipoise::repair::{one_body, repair, weld};
 
 /// Cases of a usual test run.
 const CASES: u64 = 24;

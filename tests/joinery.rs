@@ -95,7 +95,7 @@ fn what_a_plan_keeps_solid_stays_so_and_the_kits_plan_makes_the_same_kit_again()
         equipoise::io::stl::decode(&std::fs::read(kit.join("hollowed.stl")).unwrap()).unwrap();
     let highest =
         |mesh: &equipoise::mesh::TriMesh| mesh.vertices().iter().map(|p| p.z).fold(0.0, f64::max);
-    let void = equipoise::mesh::shells(&equipoise::mesh::weld(&solid))
+    let void = equipoise::mesh::shells(&equipoise::repair::weld(&solid))
         .into_iter()
         .find(|shell| shell.signed_volume_mm3() < 0.0)
         .unwrap();

@@ -14,6 +14,8 @@
 #[path = "../examples/make_models/models.rs"]
 mod models;
 
+use equipoise::base::units::Length;
+use equipoise::base::watch::Watch;
 use equipoise::geom::{Point, Quadric};
 use equipoise::goal::{
     Contact, GoalKind, Objective, Placement, Request, SpinPoint, Up, Water, Waterline, place,
@@ -21,10 +23,9 @@ use equipoise::goal::{
 use equipoise::hollow::{Problem, Settings, Solution, Status, solve};
 use equipoise::interior::Columns;
 use equipoise::io::read_model;
-use equipoise::mesh::{Solid, weld};
-use equipoise::progress::Progress;
+use equipoise::mesh::Solid;
+use equipoise::repair::weld;
 use equipoise::shell::Shell;
-use equipoise::units::Length;
 
 const WALL_MM: f64 = 2.0;
 /// A wall at which a block stays much like a solid one.
@@ -67,13 +68,13 @@ impl Case {
         let placement = place(&solid, wall_mm, request).unwrap();
         let shell = Shell::new(&solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
         let columns =
-            Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Progress::silent()).unwrap();
+            Columns::of_shell(&shell, shell.coarse_pitch(COLUMNS), &Watch::silent()).unwrap();
         let problem = Problem {
             goal: &placement.goal,
             fixed: placement.goal.solid,
             columns: &columns,
         };
-        let solution = solve(&problem, &Settings::default(), &Progress::silent());
+        let solution = solve(&problem, &Settings::default(), &Watch::silent());
         Self {
             solid,
             placement,

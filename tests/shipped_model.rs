@@ -7,7 +7,8 @@ use std::path::Path;
 use equipoise::geom::{Point, Vector};
 use equipoise::io::read_model;
 use equipoise::mass::{Body, moments_of_mesh};
-use equipoise::mesh::{MeshFacts, Solid, TriMesh, weld};
+use equipoise::mesh::{MeshFacts, Solid, TriMesh};
+use equipoise::repair::weld;
 
 fn shipped() -> TriMesh {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models/tilted-ellipsoid.stl");

@@ -14,7 +14,9 @@ use std::sync::OnceLock;
 
 use equipoise::geom::{Matrix, Point, Vector};
 use equipoise::io::{decode_model, stl};
-use equipoise::mesh::{Csg, TriMesh, primitives::cylinder, weld};
+use equipoise::mesh::primitives::cylinder;
+use equipoise::mesh::{Csg, TriMesh};
+use equipoise::repair::weld;
 use serde_json::Value;
 
 /// A kit of the shipped model in two parts with pins, made once; the folder lives as long as the tests.

@@ -1,9 +1,9 @@
 //! Every goal: its time, gap and constraints at 100 columns a side from nothing, and from there at the finest printer's pitch.
 
 use anyhow::Result;
+use equipoise::base::watch::Watch;
 use equipoise::goal::{Contact, GoalKind, Objective, Request, SpinPoint, Up};
 use equipoise::hollow::{Problem, Settings, Solution, bound_over_heights, refine, solve};
-use equipoise::progress::Progress;
 
 use super::scene::{Scene, timed};
 
@@ -135,15 +135,15 @@ fn figures(scene: &Scene) -> Result<String> {
 }
 
 fn solved(problem: &Problem) -> Solution {
-    solve(problem, &Settings::default(), &Progress::silent())
+    solve(problem, &Settings::default(), &Watch::silent())
 }
 
 fn refined(problem: &Problem, known: &Solution) -> Solution {
-    refine(problem, &Settings::default(), known, &Progress::silent())
+    refine(problem, &Settings::default(), known, &Watch::silent())
 }
 
 fn over_heights(problem: &Problem, known: &Solution) -> Option<f64> {
-    bound_over_heights(problem, &Settings::default(), known, &Progress::silent())
+    bound_over_heights(problem, &Settings::default(), known, &Watch::silent())
 }
 
 /// The status without its proof.

@@ -2,9 +2,9 @@
 //! (Spin-It §5), all on the same columns.
 
 use anyhow::{Context, Result};
+use equipoise::base::watch::Watch;
 use equipoise::goal::{Contact, GoalKind, Objective, Request, Up};
 use equipoise::hollow::{ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, Problem};
-use equipoise::progress::Progress;
 
 use super::scene::{Scene, timed};
 
@@ -97,7 +97,7 @@ fn rows() -> Vec<Row> {
 }
 
 fn find(method: &dyn Method, problem: &Problem) -> Result<Found> {
-    Ok(method.find(problem, &Progress::silent())?)
+    Ok(method.find(problem, &Watch::silent())?)
 }
 
 /// By how much a void differs from the quadric's, in percent of that.

@@ -4,12 +4,13 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::{Context, Result};
+use equipoise::base::watch::Watch;
 use equipoise::goal::{Goal, Request, place};
 use equipoise::hollow::Problem;
 use equipoise::interior::Columns;
 use equipoise::io::read_model;
-use equipoise::mesh::{Solid, repair, scaled};
-use equipoise::progress::Progress;
+use equipoise::mesh::{Solid, scaled};
+use equipoise::repair::repair;
 use equipoise::shell::Shell;
 
 use super::models;
@@ -39,11 +40,7 @@ impl Scene {
     }
 
     pub fn columns(&self, pitch_mm: [f64; 2]) -> Result<Columns> {
-        Ok(Columns::of_shell(
-            &self.shell,
-            pitch_mm,
-            &Progress::silent(),
-        )?)
+        Ok(Columns::of_shell(&self.shell, pitch_mm, &Watch::silent())?)
     }
 
     /// Columns at the pitch at which the rays have about this many numbers, two for every stretch.

@@ -1,9 +1,9 @@
 //! Spin-It's teapot: by how much each objective divides its critical speed, beside what the paper reports.
 
 use anyhow::Result;
+use equipoise::base::watch::Watch;
 use equipoise::goal::{Figures, GoalKind, Objective, Request, Up, figures};
 use equipoise::hollow::{Settings, solve};
-use equipoise::progress::Progress;
 
 use super::scene::Scene;
 
@@ -56,7 +56,7 @@ pub fn print_table() -> Result<()> {
         let solution = solve(
             &scene.problem(&columns),
             &Settings::default(),
-            &Progress::silent(),
+            &Watch::silent(),
         );
         let [solid, hollowed] =
             [&scene.goal.solid, &solution.moments].map(|moments| figures(&scene.goal, moments));

@@ -4,12 +4,12 @@ use super::confirm::least_excess;
 use super::directions::rounded;
 use super::ground::{CONFIRMING_COLUMNS, Ground, Trial, problem};
 use super::remedy::{Kind, Remedy};
+use crate::base::units::{MM3_PER_CM3, show_mm};
+use crate::base::watch::Watch;
 use crate::geom::{Point, Quadric};
 use crate::goal::Placement;
 use crate::hollow::{Problem, Settings, least_ballast, solve};
 use crate::interior::{Columns, moments_where_positive};
-use crate::progress::Progress;
-use crate::units::{MM3_PER_CM3, show_mm};
 
 /// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between 7.7 and 7.9.
 const STEEL_G_CM3: f64 = 7.85;
@@ -67,12 +67,7 @@ fn bought(ground: &Ground) -> Option<Bought> {
             passes_per_ascent: PASSES,
             ..Settings::default()
         };
-        let ballast = least_ballast(
-            &question,
-            1.0 + excess_ratio,
-            &settings,
-            &Progress::silent(),
-        )?;
+        let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &Watch::silent())?;
         Some((placement, ballast))
     };
     let found = ground
@@ -105,7 +100,7 @@ fn confirmed(
         fixed: question.fixed + steel * excess_ratio,
         ..question
     };
-    let solution = solve(&weighted, &Settings::default(), &Progress::silent());
+    let solution = solve(&weighted, &Settings::default(), &Watch::silent());
     let trial = Trial {
         placement: placement.clone(),
         solution,

@@ -2,13 +2,13 @@
 
 use super::Case;
 use super::reached::Reached;
+use crate::base::watch::Watch;
 use crate::goal::{
     Hydrostatics, Placement, Request, Stock, Warning, Waterline, Weighed, place_weighed,
 };
 use crate::hollow::{Problem, Settings, Solution, solve, solve_on_model_columns};
 use crate::interior::{Columns, Depths};
 use crate::mass::moments_of_mesh;
-use crate::progress::Progress;
 use crate::shell::Shell;
 
 /// Samples of the depth that a search aims by. A third of them, and what is found strays by some per cent from what is
@@ -100,7 +100,7 @@ impl<'a> Ground<'a> {
         )
         .ok()?;
         let pitch_mm = shell.coarse_pitch(columns_a_side);
-        let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent()).ok()?;
+        let columns = Columns::of_shell(&shell, pitch_mm, &Watch::silent()).ok()?;
         Some((placement, columns))
     }
 
@@ -140,7 +140,7 @@ impl<'a> Ground<'a> {
             let solution = ask(
                 &problem(&placement, columns),
                 &Settings::default(),
-                &Progress::silent(),
+                &Watch::silent(),
             );
             Trial {
                 columns: columns.len(),
@@ -160,7 +160,7 @@ impl<'a> Ground<'a> {
 }
 
 /// A solver: for columns of the model or of the goal.
-type Ask = fn(&Problem, &Settings, &Progress) -> Solution;
+type Ask = fn(&Problem, &Settings, &Watch) -> Solution;
 
 /// The plain question: what of these columns is to be emptied for the goal.
 pub(super) fn problem<'p>(placement: &'p Placement, columns: &'p Columns) -> Problem<'p> {

@@ -5,10 +5,10 @@ use super::directions::lattice;
 use super::nearest::Nearest;
 use super::orientation::over_corners;
 use super::remedy::{Kind, Remedy};
+use crate::base::units::show_mm;
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::{Contact, Goal, GoalKind, Request, SpinPoint, Up};
 use crate::mass::{Body, Moments};
-use crate::units::show_mm;
 
 /// Directions of the lattice that are tried one after the other, the least tilt first: 20° apart.
 const FAR_DIRECTIONS: usize = 100;

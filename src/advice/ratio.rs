@@ -5,8 +5,8 @@ use super::confirm::least_excess;
 use super::directions::rounded;
 use super::ground::{Ground, Trial};
 use super::remedy::{Kind, Remedy};
+use crate::base::units::show_mm;
 use crate::goal::{Contact, Request, SpinPoint, Waterline};
-use crate::units::show_mm;
 
 /// How much thinner the wall may become, or the model larger, before nothing is advised: nobody prints an object twenty
 /// times as large as planned.

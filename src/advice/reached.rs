@@ -5,8 +5,8 @@ use std::fmt;
 use serde::Serialize;
 
 use super::ground::Trial;
+use crate::base::units::{show_mm, show_mm3};
 use crate::hollow::Figure;
-use crate::units::{show_mm, show_mm3};
 
 /// The best value of a figure, on the columns of one trial.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]

@@ -1,8 +1,8 @@
 //! What can be wrong with the catalogue of stock parts, or with an order from it.
 
+use crate::base::toml_text::TextFault;
 use crate::interior::BuildError;
 use crate::shell::ShellError;
-use crate::toml_text::TextFault;
 
 /// A part of a catalogue that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use crate::words::as_text;
+use crate::base::words::as_text;
 
 /// The most parts that are laid in. Each is a pocket that must be cut open, filled and glued; a dozen is an afternoon.
 pub const MOST_PARTS: u32 = 12;

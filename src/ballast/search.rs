@@ -4,13 +4,13 @@ use super::load::{Load, Placed};
 use super::rank::Rank;
 use super::sites::{Sites, Wish};
 use super::{BallastError, Fit, MOST_PARTS, Order, Part, catalogue, find};
+use crate::base::units::MM3_PER_CM3;
+use crate::base::watch::Watch;
 use crate::goal::Placement;
 use crate::hollow::{Problem, Settings, Solution, has_spare, least_ballast, solve};
 use crate::interior::Columns;
 use crate::mesh::Solid;
-use crate::progress::Progress;
 use crate::shell::Shell;
-use crate::units::MM3_PER_CM3;
 
 /// Columns a side while places are looked for: each place takes a solve.
 const SEARCHING_COLUMNS: usize = 60;
@@ -62,8 +62,7 @@ impl<'a> Search<'a> {
     pub fn new(shop: Shop<'a>) -> Result<Self, BallastError> {
         let Placement { goal, keeps, .. } = shop.placement;
         let shell = Shell::new(shop.solid, &goal.frame, shop.wall_mm, keeps)?;
-        let columns =
-            |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Progress::silent());
+        let columns = |side| Columns::of_shell(&shell, shell.coarse_pitch(side), &Watch::silent());
         let (coarse, fine) = (columns(SEARCHING_COLUMNS)?, columns(CONFIRMING_COLUMNS)?);
         let sites = Sites::new(shop.solid, shop.placement, shop.wall_mm, &fine);
         Ok(Self {
@@ -123,7 +122,7 @@ impl<'a> Search<'a> {
             fixed: goal.solid,
             columns: &self.coarse,
         };
-        let least = least_ballast(&problem, density_ratio, &settings, &Progress::silent())?;
+        let least = least_ballast(&problem, density_ratio, &settings, &Watch::silent())?;
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
 
@@ -198,7 +197,7 @@ impl<'a> Search<'a> {
             fixed,
             columns: &columns,
         };
-        let solution = solve(&problem, &Settings::default(), &Progress::silent());
+        let solution = solve(&problem, &Settings::default(), &Watch::silent());
         Found { load, solution }
     }
 
@@ -314,14 +313,13 @@ mod tests {
     fn bare(solid: &Solid, wall_mm: f64, request: Request) -> Solution {
         let placement = placed(solid, wall_mm, request);
         let shell = Shell::new(solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
-        let columns =
-            Columns::of_shell(&shell, shell.coarse_pitch(100), &Progress::silent()).unwrap();
+        let columns = Columns::of_shell(&shell, shell.coarse_pitch(100), &Watch::silent()).unwrap();
         let problem = Problem {
             goal: &placement.goal,
             fixed: placement.goal.solid,
             columns: &columns,
         };
-        solve(&problem, &Settings::default(), &Progress::silent())
+        solve(&problem, &Settings::default(), &Watch::silent())
     }
 
     #[test]

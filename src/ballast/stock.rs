@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{BallastError, StockFault};
+use crate::base::toml_text::{self, nearest};
+use crate::base::units::MM3_PER_CM3;
 use crate::mass::LumpShape;
 use crate::printer::Sure;
-use crate::toml_text::{self, nearest};
-use crate::units::MM3_PER_CM3;
 
 /// Where a part's sizes, or its mass, are from.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -32,10 +32,10 @@ const TELLING_SHARE: f64 = 0.2;
 /// The progress of a run: one bar on a terminal, else nothing.
 ///
 /// ```
-/// # use equipoise::{cli::{bars::Bars, show::Manner}, progress::Progress};
+/// # use equipoise::{cli::{bars::Bars, show::Manner}, progress::Watch};
 /// let bars = Bars::new(Manner::of_process(true, 0));
 /// let observer = bars.observer();
-/// let progress = Progress::observed(&observer);
+/// let progress = Watch::observed(&observer);
 /// progress.report("solve", 0.5);
 /// bars.finish();
 /// ```
@@ -149,7 +149,7 @@ impl Bars {
         Self { bar, course }
     }
 
-    /// What a [`Progress`](crate::progress::Progress) is to call: it advances the bar.
+    /// What a [`Watch`](crate::base::watch::Watch) is to call: it advances the bar.
     pub fn observer(&self) -> impl Fn(&str, f64) + Sync + 'static {
         let bars = self.clone();
         move |phase, done_ratio| bars.advance(phase, done_ratio)
@@ -200,7 +200,7 @@ fn drawn(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Progress;
+    use crate::base::watch::Watch;
 
     const SILENT: Manner = Manner {
         quiet: true,
@@ -230,7 +230,7 @@ mod tests {
             ..SILENT
         });
         let observer = bars.observer();
-        let progress = Progress::observed(&observer);
+        let progress = Watch::observed(&observer);
         for ratio in [0.0, 0.5, 2.0, f64::NAN, -1.0] {
             progress.report("solve", ratio);
         }

@@ -3,8 +3,8 @@
 use clap::Args;
 
 use super::args::factor;
+use crate::base::units::Length;
 use crate::goal::{Hardware, Liquid, Rod, Rotor, Water, Waterline};
-use crate::units::Length;
 
 /// How a rotor runs, for the goal balance.
 #[derive(Debug, Clone, Args)]

@@ -9,14 +9,15 @@ use super::args::InspectArgs;
 use super::prepare::Voice;
 use super::show::{say, table};
 use crate::advice::{Case, Prospect, prospects};
+use crate::base::units::{counted, show_mm};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request};
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
-use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, one_body, repair, scaled};
+use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
 use crate::printer::{Printer, ProfileError, WallError};
+use crate::repair::{one_body, repair};
 use crate::report::quantity;
-use crate::units::{counted, show_mm};
 
 /// Why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]

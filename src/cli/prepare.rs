@@ -8,9 +8,9 @@ use super::bars::Bars;
 use super::show::{Manner, say};
 use super::summary::{broken, details, ten_lines};
 use crate::advice::Remedy;
+use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::pipeline::{Failure, Impossible, Outcome, Prepared, run};
-use crate::progress::Progress;
 use crate::report::Existing;
 
 /// Why `prepare` could not run.
@@ -50,7 +50,7 @@ pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<E
     existing.allows(&request.out).map_err(Error::from)?;
     let bars = Bars::new(voice.manner);
     let observer = bars.observer();
-    let outcome = run(&request.job, &Progress::observed(&observer));
+    let outcome = run(&request.job, &Watch::observed(&observer));
     bars.finish();
     match outcome? {
         Outcome::Prepared(prepared) => {

@@ -10,10 +10,8 @@ use super::{
     profiles::{self, ProfilesError},
     show::table,
 };
-use crate::{
-    printer::{Printer, ProfileError, Quantity, Sourced, Sure},
-    units::{show_mm, show_percent},
-};
+use crate::base::units::{show_mm, show_percent};
+use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure};
 
 /// Why printers could not be told about.
 #[derive(Debug, thiserror::Error)]

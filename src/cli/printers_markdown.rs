@@ -3,10 +3,8 @@
 use std::collections::BTreeSet;
 
 use super::printers::show_pixel;
-use crate::{
-    printer::{Printer, Sourced, Sure},
-    units::show_mm,
-};
+use crate::base::units::show_mm;
+use crate::printer::{Printer, Sourced, Sure};
 
 /// What stands before the table in README.
 pub const BEGIN: &str = "<!-- equipoise printers list --markdown -->";

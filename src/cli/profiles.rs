@@ -6,13 +6,11 @@ use std::path::{Path, PathBuf};
 
 use super::args_printers::{CalibrateArgs, ImportArgs, NewArgs};
 use super::shop::today;
-use crate::{
-    coupon::CouponSet,
-    printer::{
-        CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity, calibrated,
-        import::{ImportError, Imported, slug},
-    },
-    units::{counted, show_percent},
+use crate::base::units::{counted, show_percent};
+use crate::coupon::CouponSet;
+use crate::printer::import::{ImportError, Imported, slug};
+use crate::printer::{
+    CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity, calibrated,
 };
 
 /// Why no profile was written.

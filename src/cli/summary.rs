@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::show::{GREEN, Manner, RED, paint, table, verdict};
+use crate::base::units::counted;
 use crate::report::{Checklist, Course, LogRow, PassRow, promise, quantity as figure};
-use crate::units::counted;
 use crate::verify::Check;
 
 /// Shares below this are not told by their number, %: nobody prints so exactly.

@@ -1,7 +1,7 @@
 //! Why no cut plan or no parts could be made.
 
+use crate::base::toml_text::TextFault;
 use crate::mesh::ClipError;
-use crate::toml_text::TextFault;
 
 /// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by their ids.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

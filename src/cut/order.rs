@@ -7,7 +7,7 @@ use super::{
     plan::{Cut, CutPlan, UncutFace, cut_id, tree_of},
     solid::SolidEnd,
 };
-use crate::toml_text::{self, TextFault};
+use crate::base::toml_text::{self, TextFault};
 
 /// The head of every written file.
 const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE

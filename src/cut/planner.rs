@@ -18,11 +18,9 @@ use super::{
     split::{Piece, check_no_cavity},
     tree::{CutTree, Limit},
 };
-use crate::{
-    geom::{Plane, Point, Vector},
-    mesh::{Hollowed, off_faces, off_vertices},
-    units::counted,
-};
+use crate::base::units::counted;
+use crate::geom::{Plane, Point, Vector};
+use crate::mesh::{Hollowed, off_faces, off_vertices};
 
 /// Terms of a score below this are not told.
 const SHOWN_PENALTY: f64 = 0.005;

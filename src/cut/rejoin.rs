@@ -10,10 +10,10 @@ use super::{
     split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
     tree::{CutTree, Limit},
 };
-use crate::{
-    geom::{Plane, Point},
-    mesh::{Csg, Hollowed, Solid, TriMesh, sewn, union_find::UnionFind},
-};
+use crate::geom::{Plane, Point};
+use crate::mesh::union_find::UnionFind;
+use crate::mesh::{Csg, Hollowed, Solid, TriMesh};
+use crate::repair::sewn;
 
 /// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same points but for
 /// rounding, and a wall lies between different mouths.

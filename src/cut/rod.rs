@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{error::CutError, pin_shape::PinSite};
+use crate::base::toml_text;
 use crate::geom::{Point, Vector};
 use crate::mass::RoundBar;
 use crate::printer::Sure;
-use crate::toml_text;
 
 /// A dowel of a plan: what it is cut from, and how long.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

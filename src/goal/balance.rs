@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::place::{GoalError, Site};
 use super::{Placement, SpinPoint};
+use crate::base::units::Length;
 use crate::geom::Point;
 use crate::shell::Keep;
-use crate::units::Length;
 
 /// Turns a minute where nothing is said.
 const DEFAULT_SPEED_RPM: f64 = 3000.0;

@@ -3,9 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Goal, GoalKind, Objective, support};
+use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{Body, Moments};
-use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// The figures of a body with respect to a goal; density cancels in every one of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

@@ -6,11 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::Placement;
 use super::place::{GoalError, Site};
+use crate::base::units::Length;
+use crate::base::words::{ChoiceError, as_text};
 use crate::geom::{Frame, Point};
 use crate::mass::submerged;
 use crate::mesh::{Solid, TriMesh};
-use crate::units::Length;
-use crate::words::{ChoiceError, as_text};
 
 /// Fresh water at 20 °C, g/cm³ (IAPWS-95 at 101.325 kPa).
 const WATER_G_CM3: f64 = 0.9982;

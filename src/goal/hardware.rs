@@ -5,8 +5,8 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 
 use super::GoalKind;
-use crate::units::Length;
-use crate::words::{ChoiceError, as_text};
+use crate::base::units::Length;
+use crate::base::words::{ChoiceError, as_text};
 
 /// The density of a rod where none is said, g/cm³: steel.
 pub const STEEL_G_CM3: f64 = 7.85;

@@ -5,7 +5,7 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 
 use super::{Contact, Hardware, HardwareError, Rotor, SpinPoint, Up, Water};
-use crate::words::{ChoiceError, as_text, choice, numbers};
+use crate::base::words::{ChoiceError, as_text, choice, numbers};
 
 choice! {
     /// What the object shall do.

@@ -4,8 +4,8 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
+use crate::base::words::{ChoiceError, as_text, numbers};
 use crate::geom::Vector;
-use crate::words::{ChoiceError, as_text, numbers};
 
 /// The direction of the model that becomes the spin axis or up.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

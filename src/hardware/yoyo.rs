@@ -3,11 +3,11 @@
 use super::bore::{Bore, SeatError, prism};
 use super::halves::{Halves, halves};
 use super::{FitError, Fitted, Kind, Piece, Workshop};
+use crate::base::units::MM3_PER_CM3;
 use crate::geom::Point;
 use crate::goal::Rod;
 use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
-use crate::units::MM3_PER_CM3;
 
 /// How deep an axle may go into each half where its length is not said, in its diameters, the first that there is room for.
 /// Deeper than two it only weighs on the axis, where that helps least; with less than half a diameter glue holds nothing.

@@ -8,8 +8,8 @@ use super::reach::Vector10;
 use super::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
 use super::status::{Obstacle, Status};
 use super::work::Work;
+use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
-use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
 const SOLE_OBSTACLE_RATIO: f64 = 0.95;

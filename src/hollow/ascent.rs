@@ -5,7 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::programme::{DualPoint, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
 use super::solution::Pass;
-use crate::progress::Progress;
+use crate::base::watch::Watch;
 
 /// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and the first steps
 /// overshoot to where the model is worthless; ten times more costs a pass an ascent.
@@ -179,7 +179,7 @@ pub(super) struct Budget<'a> {
     pub slack: Option<Slack>,
     pub passes: usize,
     pub first_damping: f64,
-    pub progress: &'a Progress<'a>,
+    pub watch: &'a Watch<'a>,
 }
 
 /// Climbs from a visit until residual and gap are within the budget's tolerance.
@@ -202,7 +202,7 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
         if here.is_within(budget.tolerance) {
             return done(End::Converged);
         }
-        if budget.progress.is_cancelled() {
+        if budget.watch.is_cancelled() {
             return done(End::Cancelled);
         }
         if reach.passes() >= last_pass {
@@ -480,13 +480,13 @@ mod tests {
         let (world, point) = world_and_point();
         let reach = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
         let programme = Programme::yoyo_dominance(&reach);
-        let progress = Progress::silent();
+        let watch = Watch::silent();
         let budget = Budget {
             tolerance: 1e-9,
             slack: None,
             passes: 60,
             first_damping: COLD_DAMPING,
-            progress: &progress,
+            watch: &watch,
         };
         let start = Visit::new(&reach, &programme, programme.cold_start(&reach));
         let best = climb(&reach, &programme, start, budget);

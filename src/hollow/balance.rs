@@ -69,11 +69,11 @@ mod tests {
     use super::super::worlds::{self, World};
     use super::super::{Figure, Settings, Solution, refine, solve as solved};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::mass::Moments;
-    use crate::progress::Progress;
 
     fn solution(world: &World) -> Solution {
-        solved(&world.problem(), &Settings::default(), &Progress::silent())
+        solved(&world.problem(), &Settings::default(), &Watch::silent())
     }
 
     /// ‖(U_A, U_B)‖/M in mm, from the definition.
@@ -200,7 +200,7 @@ mod tests {
             &world.problem(),
             &Settings::default(),
             &known,
-            &Progress::silent(),
+            &Watch::silent(),
         );
         assert!(
             again.status == Status::Solved && again.passes <= 8,

@@ -11,9 +11,9 @@ use super::reach::{Heavy, Vector10};
 use super::settings::Settings;
 use super::solution::{Figure, Solution};
 use super::work::Work;
+use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
-use crate::progress::Progress;
 
 /// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an ascent starts with; far
 /// smaller, the cost is lost beside the tolerance of its value.
@@ -68,10 +68,10 @@ pub fn least_ballast(
     problem: &Problem,
     density_ratio: f64,
     settings: &Settings,
-    progress: &Progress,
+    watch: &Watch,
 ) -> Option<Ballast> {
     let bench = |price| {
-        Work::new(problem, settings, progress).with(Heavy {
+        Work::new(problem, settings, watch).with(Heavy {
             density_ratio,
             price,
         })
@@ -326,7 +326,7 @@ mod tests {
             &world.problem(),
             density_ratio,
             &Settings::default(),
-            &Progress::silent(),
+            &Watch::silent(),
         )
     }
 
@@ -392,7 +392,7 @@ mod tests {
     fn a_stump_is_made_a_top_by_steel_around_its_middle() {
         let world = worlds::stump(14.0);
         let hollowed =
-            super::super::solve(&world.problem(), &Settings::default(), &Progress::silent());
+            super::super::solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert!(hollowed.status.is_impossible());
         let found = ballast(&world, 7.0).unwrap();
         let filled = moments_where_positive(&world.columns, &found.filled);
@@ -403,7 +403,7 @@ mod tests {
             fixed,
             columns: &rest,
         };
-        let solution = super::super::solve(&problem, &Settings::default(), &Progress::silent());
+        let solution = super::super::solve(&problem, &Settings::default(), &Watch::silent());
         assert!(solution.is_usable(), "{:?}", solution.status);
         assert!(found.bound_mm3 > 0.98 * found.volume_mm3);
     }

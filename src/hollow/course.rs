@@ -6,8 +6,8 @@ use super::problem::Problem;
 use super::settings::Settings;
 use super::solution::{Figure, Pass, Solution};
 use super::work::Work;
+use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
-use crate::progress::Progress;
 
 /// Heights at which a top's speed is found: fewer draw corners, more cost an ascent each.
 const HEIGHTS: usize = 33;
@@ -32,8 +32,8 @@ pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> T
     else {
         return TopCourse::default();
     };
-    let progress = Progress::silent();
-    let work = Work::new(problem, settings, &progress);
+    let watch = Watch::silent();
+    let work = Work::new(problem, settings, &watch);
     let Ok(heights) = Heights::new(&work, Objective::CriticalSpeed) else {
         return TopCourse::default();
     };
@@ -78,7 +78,7 @@ mod tests {
     fn the_optimum_is_the_least_of_the_curve_over_heights_and_where_the_ascent_ends() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let (problem, settings) = (world.problem(), Settings::default());
-        let known = solve(&problem, &settings, &Progress::silent());
+        let known = solve(&problem, &settings, &Watch::silent());
         let course = top_course(&problem, &settings, &known);
         let (value, bound) = (known.certificate.value, known.certificate.bound);
         assert!(
@@ -109,7 +109,7 @@ mod tests {
             gamma_i: 1.0,
         });
         let (problem, settings) = (world.problem(), Settings::default());
-        let known = solve(&problem, &settings, &Progress::silent());
+        let known = solve(&problem, &settings, &Watch::silent());
         assert_eq!(
             top_course(&problem, &settings, &known),
             TopCourse::default()

@@ -229,8 +229,8 @@ mod tests {
     use super::super::work::Work;
     use super::super::{Settings, worlds};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::goal::Objective;
-    use crate::progress::Progress;
 
     #[test]
     fn a_true_claim_is_proved_and_a_false_one_is_refuted() {
@@ -243,9 +243,9 @@ mod tests {
             },
         ] {
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) =
-                (Settings::default(), Progress::silent(), world.problem());
-            let work = Work::new(&problem, &settings, &progress);
+            let (settings, watch, problem) =
+                (Settings::default(), Watch::silent(), world.problem());
+            let work = Work::new(&problem, &settings, &watch);
             let heights = Heights::new(&work, objective).unwrap();
             let bottom = heights.bottom_from(heights.range[1]).unwrap();
             let best = bottom.sample.climb.best.value;

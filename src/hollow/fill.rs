@@ -9,11 +9,11 @@
 //! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same equations.
 
 use super::{Problem, Settings, Solution, refine, solve};
+use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::Goal;
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
-use crate::progress::Progress;
 
 /// What is in the voids.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -58,12 +58,7 @@ impl Fill {
 
     /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution is in the print's own
     /// moments and its void is where the quadric is positive, like one with air; the certificate is for this filling.
-    pub fn solve(
-        &self,
-        problem: &Problem,
-        known: Option<&Solution>,
-        progress: &Progress,
-    ) -> Solution {
+    pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);
         let whole = if self.is_heavier() {
@@ -79,8 +74,8 @@ impl Fill {
         };
         let settings = Settings::default();
         let solution = match known.filter(|known| known.is_usable()) {
-            Some(known) => refine(&problem, &settings, known, progress),
-            None => solve(&problem, &settings, progress),
+            Some(known) => refine(&problem, &settings, known, watch),
+            None => solve(&problem, &settings, watch),
         };
         solution.stretched(weight, self.is_heavier())
     }
@@ -104,7 +99,7 @@ mod tests {
 
     fn filled(world: &World, density_ratio: f64) -> Solution {
         let fill = Fill::new(density_ratio).unwrap();
-        fill.solve(&world.problem(), None, &Progress::silent())
+        fill.solve(&world.problem(), None, &Watch::silent())
     }
 
     #[test]
@@ -113,11 +108,11 @@ mod tests {
             gamma_c: 0.0,
             gamma_i: 1.0,
         });
-        let air = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let air = solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert_eq!(filled(&world, 0.0), air);
         assert_eq!(
             Fill::AIR
-                .solve(&world.problem(), Some(&air), &Progress::silent())
+                .solve(&world.problem(), Some(&air), &Watch::silent())
                 .status,
             air.status
         );

@@ -78,12 +78,12 @@ mod tests {
     use super::super::worlds::{self, World};
     use super::super::{Figure, Settings, Solution, refine, solve as solved};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::geom::Point;
     use crate::interior::moments_where_positive;
-    use crate::progress::Progress;
 
     fn solution(world: &World) -> Solution {
-        solved(&world.problem(), &Settings::default(), &Progress::silent())
+        solved(&world.problem(), &Settings::default(), &Watch::silent())
     }
 
     #[test]
@@ -119,7 +119,7 @@ mod tests {
             &world.problem(),
             &Settings::default(),
             &got,
-            &Progress::silent(),
+            &Watch::silent(),
         );
         assert!(
             again.status == Status::Solved && again.passes <= 10,

@@ -306,17 +306,17 @@ mod tests {
     use super::super::work::Work;
     use super::super::{Settings, worlds};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::goal::Objective;
-    use crate::progress::Progress;
 
     #[test]
     fn a_true_claim_is_proved_to_the_last_digits_and_a_false_one_is_not() {
         for (gamma_c, gamma_i) in [(1.0, 1.0), (0.3, 1.2)] {
             let objective = Objective::SpinIt { gamma_c, gamma_i };
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) =
-                (Settings::default(), Progress::silent(), world.problem());
-            let work = Work::new(&problem, &settings, &progress);
+            let (settings, watch, problem) =
+                (Settings::default(), Watch::silent(), world.problem());
+            let work = Work::new(&problem, &settings, &watch);
             let heights = Heights::new(&work, objective).unwrap();
             let bottom = heights.bottom_from(heights.range[1]).unwrap();
             for (share, expected) in [
@@ -345,9 +345,8 @@ mod tests {
             gamma_i: 1.3,
         };
         let world = worlds::rings(objective);
-        let (settings, progress, problem) =
-            (Settings::default(), Progress::silent(), world.problem());
-        let work = Work::new(&problem, &settings, &progress);
+        let (settings, watch, problem) = (Settings::default(), Watch::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &watch);
         let heights = Heights {
             work: &work,
             objective,

@@ -198,7 +198,7 @@ impl<'a> Heights<'a> {
 mod tests {
     use super::super::{Settings, worlds};
     use super::*;
-    use crate::progress::Progress;
+    use crate::base::watch::Watch;
 
     #[test]
     fn the_slope_by_the_height_is_that_of_finite_differences() {
@@ -208,9 +208,9 @@ mod tests {
         };
         for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.8)] {
             let world = worlds::egg_on_its_side(objective);
-            let (settings, progress, problem) =
-                (Settings::default(), Progress::silent(), world.problem());
-            let work = Work::new(&problem, &settings, &progress);
+            let (settings, watch, problem) =
+                (Settings::default(), Watch::silent(), world.problem());
+            let work = Work::new(&problem, &settings, &watch);
             let heights = Heights::new(&work, objective).unwrap();
             let [low, high] = heights.range;
             let (height, step) = (0.6 * low + 0.4 * high, 3e-3 * (high - low));
@@ -228,9 +228,8 @@ mod tests {
     #[test]
     fn no_interior_that_is_balanced_has_its_centre_outside_the_range() {
         let world = worlds::rings(Objective::CriticalSpeed);
-        let (settings, progress, problem) =
-            (Settings::default(), Progress::silent(), world.problem());
-        let work = Work::new(&problem, &settings, &progress);
+        let (settings, watch, problem) = (Settings::default(), Watch::silent(), world.problem());
+        let work = Work::new(&problem, &settings, &watch);
         let [low, high] = Heights::range(&work)
             .unwrap()
             .map(|height| work.to_mm(height));

@@ -4,18 +4,18 @@ use super::problem::Problem;
 use super::settings::Settings;
 use super::solution::{Figure, Solution};
 use super::status::Status;
+use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
 use crate::interior::Emptied;
 use crate::mass::Moments;
-use crate::progress::Progress;
 
 /// A way to find what to empty.
 pub trait Method: Sync {
     /// A word for it.
     fn name(&self) -> &'static str;
 
-    /// What it finds for a problem. Cancelling `progress` ends it after the step at hand.
-    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError>;
+    /// What it finds for a problem. Cancelling `watch` ends it after the step at hand.
+    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError>;
 }
 
 /// What a method found.
@@ -116,8 +116,8 @@ impl Method for ByQuadric {
         "quadric"
     }
 
-    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
-        let solution = super::solve(problem, &self.settings, progress);
+    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
+        let solution = super::solve(problem, &self.settings, watch);
         Ok(Found {
             outcome: outcome_of(&solution),
             figure: solution.certificate.figure,

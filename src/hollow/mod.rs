@@ -114,7 +114,7 @@
 //!
 //! # Use
 //! ```
-//! # use equipoise::{geom::Point, goal, hollow, interior::Columns, mesh::{Solid, TriMesh}, progress::Progress};
+//! # use equipoise::{geom::Point, goal, hollow, interior::Columns, mesh::{Solid, TriMesh}, base::watch::Watch};
 //! # let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -10.0 } else { 10.0 });
 //! # let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 //! # let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
@@ -123,7 +123,7 @@
 //! # let columns = Columns { pitch_mm: [18.0, 18.0], centers: vec![[0.0, 0.0]], starts: vec![0, 1], intervals: vec![[1.0, 19.0]] };
 //! let placed = goal::place(&solid, 1.0, &goal::Request::new(goal::GoalKind::Stand))?;
 //! let problem = hollow::Problem { goal: &placed.goal, fixed: placed.goal.solid, columns: &columns };
-//! let solution = hollow::solve(&problem, &hollow::Settings::default(), &Progress::silent());
+//! let solution = hollow::solve(&problem, &hollow::Settings::default(), &Watch::silent());
 //! assert_eq!(solution.status, hollow::Status::Solved);
 //! assert!(solution.certificate.gap_ratio.abs() < 1e-6);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -165,8 +165,8 @@ mod work;
 mod worlds;
 mod yoyo;
 
+use crate::base::watch::Watch;
 use crate::goal::GoalKind;
-use crate::progress::Progress;
 
 pub use ballast::{Ballast, has_spare, least_ballast};
 pub use course::{TopCourse, top_course};
@@ -185,23 +185,19 @@ use work::Work;
 /// The best interior, or the proof that none will do, from nothing.
 ///
 /// At 100 columns a side: a top takes seven to fifteen passes, and for its proof over all heights a dozen more that need no
-/// derivative, one whose lever is weighed too about two hundred of those; the others take five to ten. Cancelling `progress` ends it after
+/// derivative, one whose lever is weighed too about two hundred of those; the others take five to ten. Cancelling `watch` ends it after
 /// the pass at hand, with [`Status::Cancelled`].
-pub fn solve(problem: &Problem, settings: &Settings, progress: &Progress) -> Solution {
-    rayon::scope(|_| answer_of(problem, Work::new(problem, settings, progress)))
+pub fn solve(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
+    rayon::scope(|_| answer_of(problem, Work::new(problem, settings, watch)))
 }
 
 /// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
 /// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
-pub fn solve_on_model_columns(
-    problem: &Problem,
-    settings: &Settings,
-    progress: &Progress,
-) -> Solution {
+pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| {
         answer_of(
             problem,
-            Work::new(problem, settings, progress).on_model_columns(),
+            Work::new(problem, settings, watch).on_model_columns(),
         )
     })
 }
@@ -222,13 +218,8 @@ fn answer_of(problem: &Problem, work: Work) -> Solution {
 ///
 /// Takes three to seven passes. Its certificate is for these columns and moments; a top's bound over all heights is not
 /// proved anew ([`bound_over_heights`] does that). Where `known` is of no use it solves from nothing.
-pub fn refine(
-    problem: &Problem,
-    settings: &Settings,
-    known: &Solution,
-    progress: &Progress,
-) -> Solution {
-    rayon::scope(|_| refined(problem, settings, known, progress))
+pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
+    rayon::scope(|_| refined(problem, settings, known, watch))
 }
 
 /// What no interior of a top can beat, whatever the height of its centre, on columns for which a solution is known: in the
@@ -241,13 +232,13 @@ pub fn bound_over_heights(
     problem: &Problem,
     settings: &Settings,
     known: &Solution,
-    progress: &Progress,
+    watch: &Watch,
 ) -> Option<f64> {
     if problem.goal.kind != GoalKind::Top || !known.is_usable() {
         return None;
     }
     rayon::scope(|_| {
-        let work = Work::new(problem, settings, progress);
+        let work = Work::new(problem, settings, watch);
         let ratio = top::bound_near(&work, known.objective, &known.warm)?;
         let moments = work.reach.scale.moments_to_units(&known.moments);
         Some(Answer::figure_of_ratio(
@@ -259,16 +250,11 @@ pub fn bound_over_heights(
     })
 }
 
-fn refined(
-    problem: &Problem,
-    settings: &Settings,
-    known: &Solution,
-    progress: &Progress,
-) -> Solution {
+fn refined(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
     if !known.is_usable() {
-        return solve(problem, settings, progress);
+        return solve(problem, settings, watch);
     }
-    let work = Work::new(problem, settings, progress).warmed();
+    let work = Work::new(problem, settings, watch).warmed();
     let (objective, start) = (known.objective, Some(&known.warm.point));
     let answer = match problem.goal.kind {
         GoalKind::Top => top::refine(&work, objective, &known.warm),
@@ -279,7 +265,7 @@ fn refined(
         GoalKind::Balance => Some(balance::solve(&work, problem.goal.objective, start)),
     };
     answer.map_or_else(
-        || solve(problem, settings, progress),
+        || solve(problem, settings, watch),
         |answer| answer.into_solution(work),
     )
 }
@@ -294,7 +280,7 @@ mod tests {
     use crate::mass::Moments;
 
     fn solved(world: &World) -> Solution {
-        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert_eq!(solution.status, Status::Solved, "{:?}", solution.log);
         assert!(
             solution.certificate.gap_ratio.abs() <= 1e-6 && solution.certificate.residual <= 1e-7
@@ -472,7 +458,7 @@ mod tests {
             &fine.problem(),
             &Settings::default(),
             &known,
-            &Progress::silent(),
+            &Watch::silent(),
         );
         assert_eq!(refined.status, Status::Solved);
         assert!(passes_of_search(&refined) <= 8, "{:?}", refined.log);
@@ -492,10 +478,10 @@ mod tests {
             let coarse = worlds::egg_on_its_side(objective);
             let fine = worlds::egg_on_its_side_at(objective, 0.25);
             let (problem, settings) = (fine.problem(), Settings::default());
-            let refined = refine(&problem, &settings, &solved(&coarse), &Progress::silent());
+            let refined = refine(&problem, &settings, &solved(&coarse), &Watch::silent());
             assert_eq!(refined.certificate.bound_over_heights, None);
             let bound =
-                bound_over_heights(&problem, &settings, &refined, &Progress::silent()).unwrap();
+                bound_over_heights(&problem, &settings, &refined, &Watch::silent()).unwrap();
             let value = refined.certificate.value;
             assert!(
                 bound <= value && bound >= (1.0 - 1.1e-6) * value,
@@ -514,7 +500,7 @@ mod tests {
             &world.problem(),
             &Settings::default(),
             &known,
-            &Progress::silent(),
+            &Watch::silent(),
         );
         assert!(
             corrected.status == Status::Solved && passes_of_search(&corrected) <= 6,
@@ -535,7 +521,7 @@ mod tests {
             .iter_mut()
             .for_each(|center| center[0] += shift.x);
         world.goal.solid = world.fixed;
-        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
         let Status::ConstraintsInfeasible {
             obstacle: Obstacle::Center,
             least_miss,
@@ -562,7 +548,7 @@ mod tests {
         let solution = solve(
             &worlds::tower().problem(),
             &Settings::default(),
-            &Progress::silent(),
+            &Watch::silent(),
         );
         let Status::UnstableForEveryInterior {
             least_ratio,
@@ -577,7 +563,7 @@ mod tests {
     #[test]
     fn a_long_yoyo_is_proved_not_dominant() {
         let world = worlds::long_egg();
-        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert!(
             matches!(solution.status, Status::NotDominant { least_ratio } if least_ratio > 1.0)
         );
@@ -592,7 +578,7 @@ mod tests {
             .support
             .iter_mut()
             .for_each(|corner| corner[0] -= 20.0);
-        let solution = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert!(
             matches!(solution.status, Status::CannotStand { greatest_angle_rad } if greatest_angle_rad < 0.0)
         );
@@ -638,7 +624,7 @@ mod tests {
             columns: &columns,
             ..world.problem()
         };
-        let turned = solve_on_model_columns(&problem, &Settings::default(), &Progress::silent());
+        let turned = solve_on_model_columns(&problem, &Settings::default(), &Watch::silent());
         let straight = solved(&world);
         assert_eq!(turned.status, Status::Solved);
         assert!((turned.certificate.value / straight.certificate.value - 1.0).abs() < 1e-7);
@@ -654,15 +640,15 @@ mod tests {
 
     #[test]
     fn a_cancelled_run_says_so() {
-        let progress = Progress::silent();
-        progress.cancel();
+        let watch = Watch::silent();
+        watch.cancel();
         for world in [
             worlds::rings(Objective::CriticalSpeed),
             worlds::egg(Objective::Dominance),
             worlds::bottle(),
         ] {
             assert_eq!(
-                solve(&world.problem(), &Settings::default(), &progress).status,
+                solve(&world.problem(), &Settings::default(), &watch).status,
                 Status::Cancelled
             );
         }
@@ -676,7 +662,7 @@ mod tests {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| solve(&world.problem(), &Settings::default(), &Progress::silent()))
+            pool.install(|| solve(&world.problem(), &Settings::default(), &Watch::silent()))
         };
         let (one, three): (Solution, Solution) = (with(1), with(3));
         assert_eq!(

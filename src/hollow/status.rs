@@ -270,9 +270,9 @@ impl Obstacle {
 mod tests {
     use super::super::{Settings, Solution, solve, worlds};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::goal::{Afloat, Objective, figures};
     use crate::interior::moments_where_positive;
-    use crate::progress::Progress;
 
     #[test]
     fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
@@ -364,7 +364,7 @@ mod tests {
                 metacenter_mm: 4.0,
                 ..afloat
             });
-            let status = solve(&world.problem(), &Settings::default(), &Progress::silent()).status;
+            let status = solve(&world.problem(), &Settings::default(), &Watch::silent()).status;
             // Even in x and y, so that the rows hold where the world itself is.
             for seed in 0..400 {
                 let Quadric([c, _, _, z, _, _, _, xx, _, zz]) = worlds::some_quadric(seed, 8.0);
@@ -427,7 +427,7 @@ mod tests {
                 passes_per_ascent: passes,
                 ..Settings::default()
             };
-            solve(&world.problem(), &settings, &Progress::silent())
+            solve(&world.problem(), &settings, &Watch::silent())
         };
         let ends: Vec<Solution> = (1..12).map(with).collect();
         let count = |is: fn(&Status) -> bool| ends.iter().filter(|end| is(&end.status)).count();

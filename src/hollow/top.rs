@@ -278,9 +278,9 @@ fn unstable(heights: Heights, tried: Found) -> Answer {
 mod tests {
     use super::super::{Settings, worlds};
     use super::*;
+    use crate::base::watch::Watch;
     use crate::geom::Quadric;
     use crate::interior::moments_where_positive;
-    use crate::progress::Progress;
 
     const OBJECTIVES: [Objective; 3] = [
         Objective::CriticalSpeed,
@@ -296,9 +296,8 @@ mod tests {
 
     fn with_work(objective: Objective, check: impl Fn(&worlds::World, &Work)) {
         let world = worlds::egg_on_its_side(objective);
-        let (settings, progress, problem) =
-            (Settings::default(), Progress::silent(), world.problem());
-        check(&world, &Work::new(&problem, &settings, &progress));
+        let (settings, watch, problem) = (Settings::default(), Watch::silent(), world.problem());
+        check(&world, &Work::new(&problem, &settings, &watch));
     }
 
     #[test]

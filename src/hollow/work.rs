@@ -12,15 +12,15 @@ use super::reach::{Heavy, Reach, Scale};
 use super::scout::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
 use super::settings::Settings;
 use super::solution::{LogRow, Stage};
+use crate::base::watch::Watch;
 use crate::goal::Goal;
-use crate::progress::Progress;
 
 /// What every search of one run shares.
 pub(super) struct Work<'a> {
     pub goal: &'a Goal,
     pub reach: Reach<'a>,
     pub settings: &'a Settings,
-    progress: &'a Progress<'a>,
+    watch: &'a Watch<'a>,
     first_damping: f64,
     /// How exact ascents are at most.
     pub tolerance: f64,
@@ -37,7 +37,7 @@ struct Aim {
 }
 
 impl<'a> Work<'a> {
-    pub fn new(problem: &Problem<'a>, settings: &'a Settings, progress: &'a Progress<'a>) -> Self {
+    pub fn new(problem: &Problem<'a>, settings: &'a Settings, watch: &'a Watch<'a>) -> Self {
         // The scale is the solid's own, so that dual points stay valid when `fixed` is corrected.
         let scale = Scale::of(&problem.goal.solid);
         let reach = Reach::new(problem.columns, &problem.fixed, scale);
@@ -47,7 +47,7 @@ impl<'a> Work<'a> {
             goal: problem.goal,
             reach,
             settings,
-            progress,
+            watch,
             first_damping,
             tolerance,
             prudence,
@@ -60,7 +60,7 @@ impl<'a> Work<'a> {
         let Self {
             goal,
             settings,
-            progress,
+            watch,
             first_damping,
             ..
         } = *self;
@@ -72,7 +72,7 @@ impl<'a> Work<'a> {
             goal,
             reach,
             settings,
-            progress,
+            watch,
             first_damping,
             tolerance,
             prudence,
@@ -183,7 +183,7 @@ impl<'a> Work<'a> {
             slack: aim.slack,
             passes: self.settings.passes_per_ascent,
             first_damping: aim.damping,
-            progress: self.progress,
+            watch: self.watch,
         }
     }
 

@@ -6,9 +6,9 @@ use rayon::prelude::*;
 
 use super::Columns;
 use super::row::{Reaching, Row};
-use crate::progress::Progress;
+use crate::base::units::show_mm;
+use crate::base::watch::Watch;
 use crate::shell::{Bins, Ruler, Shell};
-use crate::units::show_mm;
 
 /// The name of this phase in progress reports.
 const PHASE: &str = "columns";
@@ -53,11 +53,7 @@ impl Columns {
     /// The ends of every interval are exact up to rounding (about 1e-12 mm): points inside the solid, at least
     /// the wall from every triangle and outside every keep-solid region, on the vertical line through the
     /// column's centre. Columns with nothing to empty are left out. The same bits for any number of threads.
-    pub fn of_shell(
-        shell: &Shell,
-        pitch_mm: [f64; 2],
-        progress: &Progress,
-    ) -> Result<Self, BuildError> {
+    pub fn of_shell(shell: &Shell, pitch_mm: [f64; 2], watch: &Watch) -> Result<Self, BuildError> {
         let grid = Grid::over(shell, pitch_mm)?;
         let triangles = shell.bin_triangles(&grid.ys, ROWS_PER_BLOCK);
         let pieces = shell.bin_pieces(&grid.ys, ROWS_PER_BLOCK);
@@ -67,7 +63,7 @@ impl Columns {
             triangles,
             pieces,
         };
-        let blocks = sweep.run(progress)?;
+        let blocks = sweep.run(watch)?;
         Ok(sweep.grid.assemble(blocks))
     }
 }
@@ -145,16 +141,16 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     /// Every block of rows, in order.
-    fn run(&self, progress: &Progress) -> Result<Vec<Block>, BuildError> {
-        progress.report(PHASE, 0.0);
+    fn run(&self, watch: &Watch) -> Result<Vec<Block>, BuildError> {
+        watch.report(PHASE, 0.0);
         let blocks = self.grid.ys.len().div_ceil(ROWS_PER_BLOCK);
         let done = AtomicUsize::new(0);
         let sweep = |row: &mut Row, block| {
-            if progress.is_cancelled() {
+            if watch.is_cancelled() {
                 return Err(BuildError::Cancelled);
             }
             let swept = self.block(row, block);
-            progress.report(
+            watch.report(
                 PHASE,
                 (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64,
             );
@@ -210,7 +206,7 @@ mod tests {
     }
 
     fn columns_of(shell: &Shell, pitch_mm: f64) -> Columns {
-        Columns::of_shell(shell, [pitch_mm; 2], &Progress::silent()).unwrap()
+        Columns::of_shell(shell, [pitch_mm; 2], &Watch::silent()).unwrap()
     }
 
     fn volume(solid: &Solid, frame: &Frame, wall_mm: f64, pitch_mm: f64) -> f64 {
@@ -530,10 +526,10 @@ mod tests {
             1.0,
         );
         for pitch in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-9] {
-            let found = Columns::of_shell(&shell, [0.5, pitch], &Progress::silent());
+            let found = Columns::of_shell(&shell, [0.5, pitch], &Watch::silent());
             assert!(matches!(found, Err(BuildError::Pitch { .. })), "{pitch}");
         }
-        let stopped = Progress::silent();
+        let stopped = Watch::silent();
         stopped.cancel();
         assert_eq!(
             Columns::of_shell(&shell, [0.5; 2], &stopped),

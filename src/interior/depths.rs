@@ -184,9 +184,9 @@ fn positive_intervals(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::watch::Watch;
     use crate::geom::Frame;
     use crate::mesh::primitives::ball;
-    use crate::progress::Progress;
     use crate::shell::{Shell, fixtures};
 
     #[test]
@@ -213,7 +213,7 @@ mod tests {
         let depths = Depths::of_solid(&solid, 60_000);
         for wall_mm in [0.3, 1.0, 3.0] {
             let shell = Shell::new(&solid, &Frame::identity(), wall_mm, &[keep]).unwrap();
-            let exact = Columns::of_shell(&shell, [0.1, 0.1], &Progress::silent())
+            let exact = Columns::of_shell(&shell, [0.1, 0.1], &Watch::silent())
                 .unwrap()
                 .moments();
             let found = depths.columns(wall_mm, &[keep]).moments();

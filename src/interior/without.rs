@@ -81,15 +81,15 @@ impl<'a> Carver<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::watch::Watch;
     use crate::geom::{Frame, Point};
     use crate::mesh::primitives::{ball, cuboid};
-    use crate::progress::Progress;
     use crate::shell::{Shell, fixtures};
 
     fn cube_columns() -> Columns {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
         let shell = Shell::new(&solid, &Frame::identity(), 1.0, &[]).unwrap();
-        Columns::of_shell(&shell, [0.1, 0.2], &Progress::silent()).unwrap()
+        Columns::of_shell(&shell, [0.1, 0.2], &Watch::silent()).unwrap()
     }
 
     #[test]

@@ -7,7 +7,8 @@ use super::read::{ContentError, decode_model};
 use super::{ReadError, read_model, stl};
 use crate::geom::Point;
 use crate::mesh::primitives::{ball, cuboid};
-use crate::mesh::{Solid, TriMesh, repair, weld};
+use crate::mesh::{Solid, TriMesh};
+use crate::repair::{repair, weld};
 
 fn cube() -> TriMesh {
     cuboid(&Point::origin(), &Point::new(1.0, 2.0, 3.0))

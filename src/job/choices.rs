@@ -1,6 +1,6 @@
 //! The choices a job is made of besides its goal: each reads from and prints as the word used on the command line.
 
-use crate::words::choice;
+use crate::base::words::choice;
 
 choice! {
     /// The unit the numbers of a model file are in.
@@ -23,7 +23,7 @@ impl ModelUnit {
             Self::Mm => 1.0,
             Self::Cm => 10.0,
             Self::M => 1000.0,
-            Self::In => crate::units::MM_PER_INCH,
+            Self::In => crate::base::units::MM_PER_INCH,
         }
     }
 }

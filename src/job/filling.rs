@@ -4,7 +4,7 @@ use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use crate::words::as_text;
+use crate::base::words::as_text;
 
 /// A material that is poured into the voids, told by its density in g/cm³.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]

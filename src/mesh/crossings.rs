@@ -65,7 +65,7 @@ fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
 }
 
 /// Whether two triangles pass through each other or overlap in one plane.
-pub(super) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
+pub(crate) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let b_sides = b.map(|p| side(a, &p));
     if b_sides == [0; 3] {
         return overlap_in_plane(a, b);
@@ -155,7 +155,7 @@ mod tests {
     use super::*;
     use crate::geom::Vector;
     use crate::mesh::primitives::{ball, cuboid, torus};
-    use crate::mesh::weld;
+    use crate::repair::weld;
 
     fn unit_cube() -> TriMesh {
         cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0))

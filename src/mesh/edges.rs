@@ -4,7 +4,7 @@ use super::TriMesh;
 
 /// One side of a triangle, filed under the undirected edge it lies on.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) struct Side {
+pub(crate) struct Side {
     /// The smaller vertex index of the edge.
     pub low: u32,
     /// The larger vertex index of the edge (equal to `low` when a triangle repeats a corner).
@@ -35,7 +35,7 @@ fn next_corner(id: u32) -> u32 {
 
 /// What the sides on one edge say about it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum EdgeKind {
+pub(crate) enum EdgeKind {
     /// Two triangles that run along it in opposite directions.
     Paired,
     /// One triangle only: the rim of a hole.
@@ -50,7 +50,7 @@ pub(super) enum EdgeKind {
 
 /// Every side of a mesh, sorted by edge.
 #[derive(Debug, Clone)]
-pub(super) struct EdgeTable(Vec<Side>);
+pub(crate) struct EdgeTable(Vec<Side>);
 
 impl EdgeTable {
     /// The table of `mesh`, in time linear in its triangles: a counting sort by the smaller vertex, then a
@@ -98,7 +98,7 @@ impl EdgeTable {
 }
 
 /// What these sides of one edge say about it.
-pub(super) fn edge_kind(sides: &[Side]) -> EdgeKind {
+pub(crate) fn edge_kind(sides: &[Side]) -> EdgeKind {
     match sides {
         [side, ..] if side.low == side.high => EdgeKind::Collapsed,
         [_] => EdgeKind::Open,

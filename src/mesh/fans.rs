@@ -6,7 +6,7 @@ use super::union_find::UnionFind;
 
 /// Which fan each triangle corner belongs to.
 #[derive(Debug, Clone)]
-pub(super) struct Fans {
+pub(crate) struct Fans {
     /// The fan of corner 3 · triangle + corner.
     of_corner: Vec<u32>,
     /// How many fans there are.
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
     use crate::geom::{Point, Vector};
     use crate::mesh::primitives::cuboid;
-    use crate::mesh::weld;
+    use crate::repair::weld;
 
     fn fans(mesh: &TriMesh) -> Fans {
         Fans::of(mesh, &EdgeTable::of(mesh))

@@ -10,7 +10,7 @@ use crate::geom::{Aabb, Point};
 
 /// The connected pieces of a mesh.
 #[derive(Debug, Clone)]
-pub(super) struct Shells {
+pub(crate) struct Shells {
     /// The shell of each triangle.
     of_triangle: Vec<u32>,
     /// The triangles of each shell, ascending.
@@ -93,12 +93,12 @@ impl Shells {
 }
 
 /// Whether the two triangles on an edge of this kind belong to one shell.
-pub(super) fn joins(kind: EdgeKind) -> bool {
+pub(crate) fn joins(kind: EdgeKind) -> bool {
     matches!(kind, EdgeKind::Paired | EdgeKind::Misoriented)
 }
 
 /// The box about these triangles.
-pub(super) fn shell_box(mesh: &TriMesh, triangles: &[u32]) -> Aabb {
+pub(crate) fn shell_box(mesh: &TriMesh, triangles: &[u32]) -> Aabb {
     let corners = triangles.iter().flat_map(|&t| mesh.corners(t as usize));
     corners.fold(Aabb::EMPTY, |aabb, corner| aabb.grown_over(&corner))
 }

@@ -2,9 +2,9 @@
 
 use super::{Failure, Impossible, Prepared, Setup, phase, setup::Model};
 use crate::advice::{Case, Remedy, best_orientation, remedies};
+use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Request, Up};
 use crate::printer::{Material, Printer, WallChoice};
-use crate::progress::Progress;
 use crate::report::quantity;
 use crate::verify::Check;
 
@@ -61,7 +61,7 @@ impl<'a> Means<'a> {
 }
 
 /// The answer that the goal is impossible, with what would help.
-pub fn advised(setup: &Setup, impossible: Impossible, progress: &Progress) -> Impossible {
+pub fn advised(setup: &Setup, impossible: Impossible, progress: &Watch) -> Impossible {
     if setup.job.fill.is_some() {
         // The searches know of air only.
         return impossible;
@@ -139,7 +139,7 @@ const HINTS: [(&str, &str); 8] = [
 const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
 
 /// A kit with the reason why it fails and what helps, where it does.
-pub fn after(setup: &Setup, prepared: Prepared, progress: &Progress) -> Prepared {
+pub fn after(setup: &Setup, prepared: Prepared, progress: &Watch) -> Prepared {
     if prepared.passes() {
         return prepared;
     }

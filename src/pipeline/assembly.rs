@@ -16,6 +16,7 @@ use super::{
     tuning::defect_ratio,
     written::WrittenPart,
 };
+use crate::base::watch::Watch;
 use crate::cut::{
     self, CutError, CutPlan, GoalAxis, PinSettings, PlanRequest, PosePreference, parts_and_faces,
 };
@@ -23,7 +24,6 @@ use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
 use crate::printer::{Grid, PrintPose, Quantity};
-use crate::progress::Progress;
 use crate::report::HeightProof;
 use crate::verify::{PartEvidence, assembly_moments};
 
@@ -71,7 +71,7 @@ impl Assembly {
         setup: &Setup,
         solved: Solved,
         lengths: Lengths,
-        (progress, watch): (&Progress, &mut Stopwatch),
+        (progress, watch): (&Watch, &mut Stopwatch),
     ) -> Result<Self, Error> {
         progress.report(phase::SHELL, 0.0);
         let value_before_cleaning = solved.solution.certificate.value;

@@ -2,8 +2,8 @@
 
 use super::{Error, Impossible, Setup, Solved, phase, stopwatch::Stopwatch};
 use crate::ballast::{Fit, Load, Order, Search, Shop};
+use crate::base::watch::Watch;
 use crate::cut::Seat;
-use crate::progress::Progress;
 
 /// A setup, and what is solved on it; or why it cannot be.
 pub type Answer = Result<Solved, Impossible>;
@@ -11,7 +11,7 @@ pub type Answer = Result<Solved, Impossible>;
 /// The answer without ballast, or with that which the job orders; the setup then carries it.
 pub fn solved(
     setup: Setup,
-    progress: &Progress,
+    progress: &Watch,
     watch: &mut Stopwatch,
 ) -> Result<(Setup, Answer), Error> {
     match setup.job.ballast {
@@ -26,7 +26,7 @@ pub fn solved(
 
 fn without(
     setup: Setup,
-    progress: &Progress,
+    progress: &Watch,
     watch: &mut Stopwatch,
 ) -> Result<(Setup, Answer), Error> {
     let answer = Solved::of(&setup, progress, watch)?;
@@ -37,7 +37,7 @@ fn without(
 fn loaded(
     setup: Setup,
     known: Option<Impossible>,
-    progress: &Progress,
+    progress: &Watch,
     watch: &mut Stopwatch,
 ) -> Result<(Setup, Answer), Error> {
     progress.report(phase::SOLVE, 0.0);

@@ -5,8 +5,9 @@ use std::collections::BTreeMap;
 use super::{joining::joined, rows::Sheet, tuner::inside};
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{Body, Moments};
+use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{TriMesh, weld};
+use crate::repair::weld;
 use crate::report::{PartRow, TurnRow};
 
 /// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no layer is thinner than this.

@@ -1,10 +1,10 @@
 //! The hardware of a run: put in before anything is solved, and told of afterwards.
 
 use super::{Error, Setup, stopwatch::Stopwatch, written::WrittenPart};
+use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::hardware::{Allowances, Fitted, Kind, Piece, fitted};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, bodies, winding_number};
-use crate::units::{MM3_PER_CM3, show_mm};
 use crate::verify::Hardware;
 
 /// The setup with its hardware put in, where the job has any: from then on the model is the one with the sockets, and the

@@ -1,10 +1,10 @@
 //! What joins the parts and is not printed: dowels, and the films of glue.
 
 use super::Setup;
+use crate::base::units::MM3_PER_CM3;
 use crate::cut::{CutPlan, JointNote, Label, LabelStyle, PinSite};
 use crate::mass::Moments;
 use crate::printer::Quantity;
-use crate::units::MM3_PER_CM3;
 use crate::verify::{GlueFilm, Hardware, Mark};
 
 /// The moments of dowels and films of glue as so much of the print's material, model frame.

@@ -8,13 +8,13 @@ use super::printer_rows;
 use super::rows::{self, Sheet};
 use super::void_rows;
 use super::{Assembly, Error, Prepared, Setup, phase, stopwatch::Stopwatch};
+use crate::base::digest::sha256_hex;
+use crate::base::watch::Watch;
 use crate::cut::{CutOrder, CutPlan};
-use crate::digest::sha256_hex;
 use crate::geom::Parting;
 use crate::io::stl;
 use crate::job::JobError;
-use crate::mesh::weld;
-use crate::progress::Progress;
+use crate::repair::weld;
 use crate::report::{
     Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page,
 };
@@ -35,7 +35,7 @@ const CUTS: &str = "cuts.toml";
 pub fn prepared(
     setup: &Setup,
     assembly: &Assembly,
-    progress: &Progress,
+    progress: &Watch,
     mut watch: Stopwatch,
 ) -> Result<Prepared, Error> {
     progress.report(phase::VERIFY, 0.0);

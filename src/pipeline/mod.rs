@@ -38,9 +38,9 @@ pub use setup::{Model, Setup};
 pub use solving::Solved;
 pub use written::WrittenPart;
 
+use crate::base::watch::Watch;
 pub use crate::error::Error;
 use crate::job::Job;
-use crate::progress::Progress;
 use stopwatch::Stopwatch;
 
 /// The names of the phases that a run reports, in their order.
@@ -70,7 +70,7 @@ const NO_BOSSES: &str = "bosses around pins would break a promise of the kit: no
 /// Runs a job to its end: a kit and its checklist, or the proof that the goal cannot be met.
 ///
 /// Nothing is written; [`Prepared::kit`] is in memory. The same job gives the same bytes on any number of threads.
-pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
+pub fn run(job: &Job, progress: &Watch) -> Result<Outcome, Error> {
     let mut watch = Stopwatch::start();
     let setup = Setup::of(job, progress)?;
     watch.lap(phase::LOAD);
@@ -96,7 +96,7 @@ pub fn run(job: &Job, progress: &Progress) -> Result<Outcome, Error> {
 fn bossed_or_plain(
     setup: &Setup,
     solved: Solved,
-    progress: &Progress,
+    progress: &Watch,
     mut watch: Stopwatch,
 ) -> Result<Prepared, Error> {
     let is_ordered = setup

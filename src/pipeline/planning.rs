@@ -8,9 +8,9 @@ use super::{
     stopwatch::Stopwatch,
     tuner::{Tuner, Voids},
 };
+use crate::base::units::counted;
 use crate::cut::{CutPlan, PlanRequest, SolidEnd, beyond};
 use crate::job::CutMode;
-use crate::units::counted;
 
 /// How often voids are given up beyond joints without pins: those of the cuts that are then made, too.
 const MAX_ENDS: usize = 3;

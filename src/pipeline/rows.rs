@@ -283,7 +283,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
             PartRow {
                 id: part.id.clone(),
                 file: written.file.clone(),
-                sha256: crate::digest::sha256_hex(&[&written.bytes]),
+                sha256: crate::base::digest::sha256_hex(&[&written.bytes]),
                 fingerprint: Some(Fingerprint::of(&written.read_back)),
                 triangles: facts.surface.triangles,
                 volume_mm3: facts.surface.volume_mm3,

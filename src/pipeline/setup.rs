@@ -3,17 +3,18 @@
 use super::Error;
 use super::advising::Means;
 use crate::ballast::Load;
+use crate::base::digest::sha256_hex;
+use crate::base::watch::Watch;
 use crate::cut::{Rod, rods};
-use crate::digest::sha256_hex;
 use crate::goal::{GoalKind, Placement, Request, Stock, place_made_of};
 use crate::hardware::Fitted;
 use crate::hollow::Fill;
 use crate::io;
 use crate::job::Job;
 use crate::mass::Moments;
-use crate::mesh::{Defects, Repairs, Solid, one_body, repair, scaled};
+use crate::mesh::{Defects, Solid, scaled};
 use crate::printer::{Material, Printer, WallChoice, leaves_room};
-use crate::progress::Progress;
+use crate::repair::{Repairs, one_body, repair};
 
 /// The model as it is used: closed, in mm.
 #[derive(Debug, Clone)]
@@ -63,7 +64,7 @@ pub struct Setup {
 
 impl Setup {
     /// Reads the model and the profiles and places the goal.
-    pub fn of(job: &Job, progress: &Progress) -> Result<Self, Error> {
+    pub fn of(job: &Job, progress: &Watch) -> Result<Self, Error> {
         progress.report(super::phase::LOAD, 0.0);
         let printer = Printer::find(&job.printer.id)?;
         let material = printer.material(job.printer.material.as_deref())?.clone();

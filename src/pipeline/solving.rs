@@ -1,13 +1,13 @@
 //! From coarse columns to the printer's own: the optimal quadric, or the proof that there is none.
 
 use super::{Error, Impossible, Setup, phase, stopwatch::Stopwatch};
+use crate::base::watch::Watch;
 use crate::goal::Objective;
 use crate::hollow::{
     Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, bound_over_heights, top_course,
 };
 use crate::interior::Columns;
 use crate::mass::Moments;
-use crate::progress::Progress;
 use crate::report::HeightProof;
 use crate::shell::Shell;
 
@@ -34,7 +34,7 @@ impl Solved {
     /// Solves coarse to fine; each level starts from the quadric of the one before.
     pub fn of(
         setup: &Setup,
-        progress: &Progress,
+        progress: &Watch,
         watch: &mut Stopwatch,
     ) -> Result<Result<Self, Impossible>, Error> {
         progress.report(phase::SOLVE, 0.0);
@@ -51,7 +51,7 @@ impl Solved {
         let first_to_tell = pitches.len().min(2) - 1;
         for (done, pitch_mm) in pitches.into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
-            let columns = Columns::of_shell(&shell, pitch_mm, &Progress::silent())?;
+            let columns = Columns::of_shell(&shell, pitch_mm, &Watch::silent())?;
             let columns = setup.load.carved(columns, &goal.frame);
             watch.lap("columns");
             let solution = solution_on(setup, &columns, level.as_ref(), setup.fixed());
@@ -95,7 +95,7 @@ impl Solved {
             &problem,
             &Settings::default(),
             &self.solution,
-            &Progress::silent(),
+            &Watch::silent(),
         );
         let proof = proved.map(|bound| HeightProof {
             pitch_mm: self.columns.pitch_mm[0],
@@ -175,7 +175,7 @@ fn solution_on(
     setup.fill.solve(
         &problem,
         from.map(|level| &level.solution),
-        &Progress::silent(),
+        &Watch::silent(),
     )
 }
 

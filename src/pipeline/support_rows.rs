@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use super::{Assembly, Setup, written::WrittenPart};
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::union_find::UnionFind;
-use crate::mesh::{MeshDistance, TriMesh, weld};
+use crate::mesh::{MeshDistance, TriMesh};
+use crate::repair::weld;
 use crate::report::SupportRow;
 use crate::verify::Peg;
 

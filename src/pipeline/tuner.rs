@@ -3,12 +3,12 @@
 use rayon::prelude::*;
 
 use super::{Error, Setup, Solved, tuning::defect_ratio};
+use crate::base::watch::Watch;
 use crate::cut::SolidEnd;
 use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
-use crate::progress::Progress;
 use crate::report::HeightProof;
 use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
@@ -68,7 +68,7 @@ pub struct Tuner<'a> {
 
 impl<'a> Tuner<'a> {
     /// Draws what may be emptied.
-    pub fn new(setup: &'a Setup, solved: Solved, progress: &Progress) -> Result<Self, Error> {
+    pub fn new(setup: &'a Setup, solved: Solved, progress: &Watch) -> Result<Self, Error> {
         let whole = Cavity::extract(&setup.model.solid, &cavity_spec(setup), progress)?;
         let cavity = setup
             .load

@@ -1,10 +1,10 @@
 //! The free waterline: the depth at which what floats is most stable.
 
 use super::{Error, Setup, solving::COARSE_COLUMNS, stopwatch::Stopwatch};
+use crate::base::watch::Watch;
 use crate::goal::{Afloat, Hydrostatics, Waterline};
 use crate::hollow::{Problem, Status, golden_section};
 use crate::interior::Columns;
-use crate::progress::Progress;
 use crate::shell::Shell;
 
 /// Waterlines of the coarse look. With fewer than 12 a narrow range in which it can be trimmed may be missed.
@@ -38,11 +38,7 @@ pub fn chosen(mut setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
             &goal.frame,
             water.liquid.density_g_cm3() / density,
         ),
-        columns: Columns::of_shell(
-            &shell,
-            shell.coarse_pitch(COARSE_COLUMNS),
-            &Progress::silent(),
-        )?,
+        columns: Columns::of_shell(&shell, shell.coarse_pitch(COARSE_COLUMNS), &Watch::silent())?,
     };
     let best = search.best();
     setup.placement.goal.afloat = Some(best);
@@ -91,7 +87,7 @@ impl Search<'_> {
             fixed: goal.solid,
             columns: &self.columns,
         };
-        let solution = self.setup.fill.solve(&problem, None, &Progress::silent());
+        let solution = self.setup.fill.solve(&problem, None, &Watch::silent());
         let rate = match solution.status {
             Status::Capsizes { greatest_gm_mm } => (false, greatest_gm_mm),
             Status::CannotTrim {

@@ -4,7 +4,8 @@ use super::Error;
 use crate::cut::Part;
 use crate::geom::Vector;
 use crate::io::stl;
-use crate::mesh::{Crossings, TriMesh, unfolded, weld};
+use crate::mesh::{Crossings, TriMesh};
+use crate::repair::{unfolded, weld};
 use crate::verify::{PartEvidence, Pose};
 
 /// Writings that are tried until a part's file is free of folds: as it is, without folds at the same place, and at other

@@ -9,8 +9,8 @@ use super::{
     Quantity,
     profile::{ProfileText, Reader},
 };
-use crate::toml_text::TextFault;
-use crate::units::MM3_PER_CM3;
+use crate::base::toml_text::TextFault;
+use crate::base::units::MM3_PER_CM3;
 
 /// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any table of statistics).
 const STUDENT_T: [f64; 9] = [

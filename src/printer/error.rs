@@ -2,7 +2,7 @@
 
 use std::{fmt, path::PathBuf};
 
-use crate::toml_text::{Place, TextFault};
+use crate::base::toml_text::{Place, TextFault};
 
 /// Why there is no printer of that name or in that file.
 #[derive(Debug, thiserror::Error)]
@@ -232,7 +232,7 @@ fn shown(value: f64) -> String {
 
 /// "did you mean `x`?", or the whole list when nothing is near.
 pub(super) fn suggestion(word: &str, known: &[&str]) -> String {
-    match crate::toml_text::nearest(word, known.iter().copied()) {
+    match crate::base::toml_text::nearest(word, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("use one of {}", known.join(", ")),
     }

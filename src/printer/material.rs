@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Sourced, Sure};
-use crate::units::MM3_PER_CM3;
+use crate::base::units::MM3_PER_CM3;
 
 /// A material.
 #[derive(Debug, Clone, PartialEq, Serialize)]

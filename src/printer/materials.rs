@@ -9,7 +9,7 @@ use super::{
     library::{Library, by_id, ids},
     profile::{MaterialText, Reader},
 };
-use crate::toml_text::TextFault;
+use crate::base::toml_text::TextFault;
 
 /// The materials of the profile, its default first: those it lists or inherits, and its own.
 pub(super) fn materials(

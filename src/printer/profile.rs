@@ -9,10 +9,8 @@ use super::{
     Corner, ExcludedCorner, Fault, Grid, Material, PrintPose, Problem, Quantity, SizedWall,
     Sourced, Support, Sure,
 };
-use crate::{
-    toml_text::{self, Place, TextFault},
-    units::MM_PER_INCH,
-};
+use crate::base::toml_text::{self, Place, TextFault};
+use crate::base::units::MM_PER_INCH;
 
 /// Sides of a build volume that can be meant, mm. Below it centimetres were given, above it micrometres.
 const BUILD_VOLUME_MM: RangeInclusive<f64> = 10.0..=10_000.0;

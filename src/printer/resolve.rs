@@ -13,7 +13,8 @@ use super::{
     materials::materials,
     profile::{ProfileText, Reader},
 };
-use crate::{digest::sha256_hex, toml_text::TextFault};
+use crate::base::digest::sha256_hex;
+use crate::base::toml_text::TextFault;
 
 /// The printer that `profile` describes, with what it inherits; or everything that is wrong with it. What is missing is told once
 /// what is there is right.

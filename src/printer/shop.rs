@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 use super::library::{BUILT_IN, PROFILE_ENDING, by_id};
-use crate::toml_text::{self, TextFault};
+use crate::base::toml_text::{self, TextFault};
 
 /// What the file is called, wherever it stands.
 pub const SHOP_FILE: &str = "equipoise.toml";

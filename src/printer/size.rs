@@ -1,7 +1,7 @@
 //! Whether a model has a size that this printer can make a hollow kit of.
 
 use super::Printer;
-use crate::units::show_mm;
+use crate::base::units::show_mm;
 
 /// How many times as long as its longest side a build volume may be exceeded by a model. Cuts open voids, and halve a model
 /// once or twice on the way: below 2 kits that fit would be refused, above 8 runs take hours to end in parts that do not.

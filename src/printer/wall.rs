@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Grid, Printer, Sourced};
-use crate::units::show_mm;
+use crate::base::units::show_mm;
 
 /// How far beyond a whole number of steps a wall may lie and still count as that number, in steps.
 ///

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::weighing::left_inside;
 use super::words::quantity;
 use super::{Checklist, VoidRow};
-use crate::units::MM3_PER_CM3;
+use crate::base::units::MM3_PER_CM3;
 use crate::verify::Check;
 
 /// Less than this left solid changes no figure that is shown, mm³: where the figures differ, it is for solving again with pins

@@ -9,7 +9,7 @@ use super::running::{code, on_screen};
 use super::steps::step_names;
 use super::words::{self, extent, number, quantity};
 use super::{Checklist, Verdict};
-use crate::units::{MM3_PER_CM3, counted};
+use crate::base::units::{MM3_PER_CM3, counted};
 
 /// The cover.
 pub(super) fn cover(papers: &Papers, job: &JobId) -> Markup {

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use super::words::quantity;
 use super::{Checklist, PartRow};
+use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Aabb, Point, Vector};
-use crate::units::MM3_PER_CM3;
 use crate::verify::{Hardware, PartEvidence};
 
 /// The least cup that is warned of, mm³: a socket or a letter that holds less drips empty and sucks at nothing.

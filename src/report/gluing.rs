@@ -6,8 +6,8 @@ use super::joinery::{cut_list, films};
 use super::page::blank;
 use super::words::quantity;
 use super::{Checklist, JointRow};
+use crate::base::units::counted;
 use crate::goal::GoalKind;
-use crate::units::counted;
 
 /// So many pins let parts together one way only, where nothing else is to be minded of a joint.
 const ONE_WAY_PINS: usize = 2;

@@ -6,7 +6,7 @@ use super::figure::Picture;
 use super::page::{blank, file_name, mass_with_window};
 use super::words::{extent, quantity};
 use super::{Checklist, PartRow};
-use crate::units::{MM3_PER_CM3, counted};
+use crate::base::units::{MM3_PER_CM3, counted};
 
 /// How much of a hash is shown: enough to tell files apart by eye. The whole is at the end of the sheet.
 const SHORT_HASH: usize = 12;

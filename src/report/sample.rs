@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::geom::{Parting, Plane, Point, Vector};
-use crate::mesh::weld;
+use crate::repair::weld;
 use crate::verify::judge_tests::sound;
 use crate::verify::{
     Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,

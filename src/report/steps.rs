@@ -12,7 +12,7 @@ use super::trials::test;
 use super::weighing::{weigh_parts, weigh_whole};
 use super::words::{coordinates, quantity};
 use super::{BallastRow, Checklist};
-use crate::units::MM3_PER_CM3;
+use crate::base::units::MM3_PER_CM3;
 use crate::verify::FillOrder;
 
 /// The names of the steps in their order: print, clean, weigh the parts while they can still be cleaned, dry fit, fill the voids

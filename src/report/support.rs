@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::words::quantity;
 use super::{Checklist, PartRow};
-use crate::units::{MM2_PER_CM2, counted};
+use crate::base::units::{MM2_PER_CM2, counted};
 
 /// Below this height over the plate a length is told as lying on it, mm.
 const ON_PLATE_MM: f64 = 0.05;

@@ -13,7 +13,8 @@ use super::hatch::Hatch;
 use super::palette::{BALLAST, HARDWARE, hex, part_color};
 use super::picture::Color;
 use crate::geom::{Aabb, Vector};
-use crate::mesh::{Csg, TriMesh, weld};
+use crate::mesh::{Csg, TriMesh};
+use crate::repair::weld;
 
 /// What runs in the page.
 const SCRIPT: &str = include_str!("view.js");

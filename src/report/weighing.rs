@@ -5,7 +5,7 @@ use maud::{Markup, html};
 use super::Checklist;
 use super::page::{blank, mass_window, mass_with_window};
 use super::words::{number, quantity};
-use crate::units::MM3_PER_CM3;
+use crate::base::units::MM3_PER_CM3;
 
 /// Every part on the scales, while it can still be cleaned.
 pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {

@@ -10,7 +10,7 @@ use super::{
     kit::{HOLLOWED_FILE, read_file},
     pegs::Felt,
 };
-use crate::digest::sha256_hex;
+use crate::base::digest::sha256_hex;
 
 /// A file that is not as it was when the kit was made.
 #[derive(Debug, Clone, PartialEq)]

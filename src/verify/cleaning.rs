@@ -9,8 +9,9 @@ use super::shells::pieces;
 use super::{Check, Limit, Promise};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, Plane, Point, Vector};
-use crate::mesh::{TriMesh, area_mm2, spread_points, weld};
+use crate::mesh::{TriMesh, area_mm2, spread_points};
 use crate::printer::CleaningRule;
+use crate::repair::weld;
 
 /// What is within this of a void's surface is its wall, and what is within it of a cut lies in it, mm: a hundred steps of
 /// f32 coordinates at 100 mm, a tenth of the thinnest layer.

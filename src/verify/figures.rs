@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::{Afloat, Aim, FigureName, Hull, Support, Unbalance, WaterOrder};
+use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::geom::{Frame, Matrix};
 use crate::goal::GoalKind;
 use crate::mass::{Body, Moments};
-use crate::units::STANDARD_GRAVITY_MM_S2;
 
 /// Revolutions per minute in one radian per second.
 const RPM_PER_RAD_S: f64 = 60.0 / std::f64::consts::TAU;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::digest::sha256_hex;
+use crate::base::digest::sha256_hex;
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use serde::{Deserialize, Serialize};
 
 use super::Aim;
+use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Moments, RoundBar};
 use crate::mesh::{TriMesh, winding_number};
-use crate::units::MM3_PER_CM3;
 
 /// The ends of a rod are left out over so much, mm: they touch the bottoms of their sockets.
 const END_MM: f64 = 1e-3;

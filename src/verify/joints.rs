@@ -4,9 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::pegs::Felt;
 use super::{Check, Limit, Mark, PartEvidence, Promise};
+use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{FlatFace, Moments};
-use crate::units::MM3_PER_CM3;
 
 /// Triangles of a file this near to a joint's plane lie in it, mm: far above the rounding of files, far below a layer.
 const IN_PLANE_MM: f64 = 1e-3;

@@ -16,7 +16,8 @@ use super::{
 };
 use crate::goal::GoalKind;
 use crate::mass::moments_of_mesh;
-use crate::mesh::{TriMesh, weld};
+use crate::mesh::TriMesh;
+use crate::repair::weld;
 
 /// What lies before the judge: the promises, and the meshes as they were read back from the files.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::judge_tests::sound;
 use super::sheet::{stated, stated_before_rounding};
 use super::*;
-use crate::digest::sha256_hex;
+use crate::base::digest::sha256_hex;
 use crate::io::stl;
 
 /// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads, and its papers.

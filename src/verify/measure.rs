@@ -2,7 +2,8 @@
 
 use super::{Pose, Shells};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Crossings, Solid, TriMesh, weld};
+use crate::mesh::{Crossings, Solid, TriMesh};
+use crate::repair::weld;
 
 /// One part as it was read back.
 #[derive(Debug, Clone, PartialEq)]

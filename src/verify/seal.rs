@@ -6,7 +6,7 @@ use std::path::Path;
 use super::changes::{Change, FileChange};
 use super::kit::{CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, lies_within, read_file};
 use super::{Promise, VerifyError};
-use crate::digest::sha256_hex;
+use crate::base::digest::sha256_hex;
 
 /// The list over these files, a line each in their order: the hash, two blanks, the path.
 pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String {

@@ -5,9 +5,9 @@ use serde_json::{Map, Value, json};
 use super::{
     Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells,
 };
+use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
-use crate::mesh::weld;
-use crate::units::MM3_PER_CM3;
+use crate::repair::weld;
 
 /// A number of the checklist may differ by this share of the largest number beside it. Both are exact integrals of the same
 /// triangles, which another machine rounds by 1e-12; above 1e-5 a tenth of a gram could be taken off a heavy part unseen.

@@ -6,9 +6,9 @@ use super::field::Resolution;
 use super::simplify::simplified;
 use super::wall_field::WallField;
 use super::{CavitySpec, VoidError};
+use crate::base::watch::Watch;
 use crate::geom::{Bvh, Point};
 use crate::mesh::{Solid, TriMesh};
-use crate::progress::Progress;
 use crate::shell::Keep;
 
 /// The surface is drawn this much deeper than the wall, mm, so that chords over inward curves may sag a little:
@@ -104,7 +104,7 @@ fn keep_distance(keep: &Keep, corners: &[Point; 3]) -> f64 {
 pub(super) fn extract(
     solid: &Solid,
     spec: &CavitySpec,
-    progress: &Progress,
+    watch: &Watch,
 ) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(solid.mesh().iter_corners());
     let limits = Limits {
@@ -113,7 +113,7 @@ pub(super) fn extract(
     };
     for attempt in 0..ATTEMPTS {
         let bias_mm = BIAS_MM + DEEPER_MM * attempt as f64;
-        if let Some(drawn) = draw(&limits, bias_mm, progress)? {
+        if let Some(drawn) = draw(&limits, bias_mm, watch)? {
             let stray = Stray {
                 outside_mm: SIMPLE_OUTSIDE_MM,
                 inside_mm: SIMPLE_INSIDE_RATIO * spec.tolerance_mm,
@@ -135,7 +135,7 @@ pub(super) fn extract(
 
 /// The surface at the wall's distance plus the bias, refined until no triangle breaks the limits; `None` if that
 /// cannot be had.
-fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<TriMesh>, VoidError> {
+fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>, VoidError> {
     let spec = limits.spec;
     let coarse_mm = COARSE_RATIO * spec.wall_mm;
     let field = WallField {
@@ -158,8 +158,8 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
     })?;
     let mut dirty = extractor.leaves();
     for round in 0..CHECK_ROUNDS {
-        progress.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
-        stop_if_cancelled(progress)?;
+        watch.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
+        stop_if_cancelled(watch)?;
         let drawn = extractor.settle(dirty);
         let refused = extractor.refused_leaves(&drawn, |corners| {
             limits.allow(corners, bias_mm, DRAWN_LACK_MM)
@@ -175,8 +175,8 @@ fn draw(limits: &Limits, bias_mm: f64, progress: &Progress) -> Result<Option<Tri
 /// The name under which the extraction reports its progress.
 const PHASE: &str = "cavity";
 
-fn stop_if_cancelled(progress: &Progress) -> Result<(), VoidError> {
-    if progress.is_cancelled() {
+fn stop_if_cancelled(watch: &Watch) -> Result<(), VoidError> {
+    if watch.is_cancelled() {
         Err(VoidError::Cancelled)
     } else {
         Ok(())

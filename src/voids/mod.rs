@@ -21,11 +21,12 @@ mod split;
 mod table;
 mod wall_field;
 
+use crate::base::watch::Watch;
 use crate::geom::{Aabb, Bvh, Frame, Point, Quadric};
 use crate::mesh::{
-    ClipError, Csg, Defects, MeshDistance, MeshError, Solid, TriMesh, bodies, primitives, unfolded,
+    ClipError, Csg, Defects, MeshDistance, MeshError, Solid, TriMesh, bodies, primitives,
 };
-use crate::progress::Progress;
+use crate::repair::unfolded;
 use crate::shell::Keep;
 pub use grow::grown;
 use region::Region;
@@ -120,11 +121,7 @@ pub struct Cavity {
 
 impl Cavity {
     /// The region of `solid` farther from its surface than the wall and outside the keeps. It may be empty.
-    pub fn extract(
-        solid: &Solid,
-        spec: &CavitySpec,
-        progress: &Progress,
-    ) -> Result<Self, VoidError> {
+    pub fn extract(solid: &Solid, spec: &CavitySpec, watch: &Watch) -> Result<Self, VoidError> {
         for (name, value_mm) in [
             ("the wall", spec.wall_mm),
             ("the tolerance", spec.tolerance_mm),
@@ -133,7 +130,7 @@ impl Cavity {
                 return Err(VoidError::NotPositive { name, value_mm });
             }
         }
-        let mesh = cavity::extract(solid, spec, progress)?;
+        let mesh = cavity::extract(solid, spec, watch)?;
         let (body, bvh) = rayon::join(|| Csg::of_mesh(&mesh), || Bvh::new(mesh.iter_corners()));
         Ok(Self {
             body: body?,
@@ -224,12 +221,7 @@ mod tests {
     }
 
     fn cavity_of(mesh: &TriMesh, spec: &CavitySpec) -> Cavity {
-        Cavity::extract(
-            &Solid::new(mesh.clone()).unwrap(),
-            spec,
-            &Progress::silent(),
-        )
-        .unwrap()
+        Cavity::extract(&Solid::new(mesh.clone()).unwrap(), spec, &Watch::silent()).unwrap()
     }
 
     /// The cavity, after the promises that hold for every cavity have been checked.
@@ -487,7 +479,7 @@ mod tests {
     fn lengths_that_are_not_positive_are_refused_by_name() {
         let model = Solid::new(block([0.0; 3], [8.0; 3])).unwrap();
         for wall_mm in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            let error = Cavity::extract(&model, &spec(wall_mm, &[]), &Progress::silent())
+            let error = Cavity::extract(&model, &spec(wall_mm, &[]), &Watch::silent())
                 .map(|_| ())
                 .unwrap_err();
             assert!(error.to_string().contains("the wall"), "{error}");
@@ -496,10 +488,10 @@ mod tests {
 
     #[test]
     fn a_cancelled_run_stops() {
-        let progress = Progress::silent();
-        progress.cancel();
+        let watch = Watch::silent();
+        watch.cancel();
         let model = Solid::new(block([0.0; 3], [8.0; 3])).unwrap();
-        let error = Cavity::extract(&model, &spec(1.0, &[]), &progress)
+        let error = Cavity::extract(&model, &spec(1.0, &[]), &watch)
             .map(|_| ())
             .unwrap_err();
         assert_eq!(error, VoidError::Cancelled);

@@ -1,7 +1,8 @@
 //! Bodies with known offsets, for the tests of this room.
 
 use crate::geom::Point;
-use crate::mesh::{TriMesh, primitives, weld};
+use crate::mesh::{TriMesh, primitives};
+use crate::repair::weld;
 
 /// The box from `min` to `max`.
 pub fn block(min: [f64; 3], max: [f64; 3]) -> TriMesh {

@@ -15,7 +15,8 @@ use clap_complete::Shell;
 pub use prepare::{ArgsError, PrepareArgs, Request, ScalingArgs};
 
 use super::args_printers::{CouponArgs, PrintersArgs};
-use crate::{units::Length, words::ChoiceError};
+use crate::base::units::Length;
+use crate::base::words::ChoiceError;
 
 const EXIT_CODES: &str = "\
 LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.

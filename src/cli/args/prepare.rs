@@ -16,12 +16,10 @@ use super::{
     },
     EXIT_CODES, factor, words,
 };
-use crate::{
-    goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up},
-    job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver},
-    printer::ShopError,
-    units::Length,
-};
+use crate::base::units::Length;
+use crate::goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up};
+use crate::job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver};
+use crate::printer::ShopError;
 
 /// What must be given, and what may be.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> [--printer <ID|FILE>] [OPTIONS]

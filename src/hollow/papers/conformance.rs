@@ -33,7 +33,7 @@ struct Judge<'a> {
 
 impl<'a> Judge<'a> {
     fn of(world: &'a World) -> Self {
-        let best = solve(&world.problem(), &Settings::default(), &Progress::silent());
+        let best = solve(&world.problem(), &Settings::default(), &Watch::silent());
         let emptied = crate::interior::Emptied::where_positive(&world.columns, &best.quadric);
         let density = moments_and_derivative(&world.columns, &best.quadric).1[(0, 0)];
         Self {
@@ -115,7 +115,7 @@ fn hold_together(world: &World) {
     );
     let slack = UNDONE + if is_smoothed { SMOOTHED } else { 0.0 };
     for (method, cells) in methods() {
-        let found = method.find(&world.problem(), &Progress::silent()).unwrap();
+        let found = method.find(&world.problem(), &Watch::silent()).unwrap();
         let (regret, loss) = (judge.regret(&found), judge.loss_of_cells(PITCH_MM));
         let differs = found.emptied.difference_mm3(&judge.emptied, &world.columns);
         let band = (2.0 * regret.max(0.0) * judge.volume() * judge.density).sqrt();
@@ -205,7 +205,7 @@ fn where_the_constraints_cannot_be_met_none_says_that_they_are() {
         .for_each(|center| center[0] += shift.x);
     world.goal.solid = world.fixed;
     for (method, _) in methods() {
-        let found = method.find(&world.problem(), &Progress::silent()).unwrap();
+        let found = method.find(&world.problem(), &Watch::silent()).unwrap();
         assert!(
             matches!(
                 found.outcome,
@@ -226,7 +226,7 @@ fn one_thread_and_three_give_the_same_bits() {
                 .num_threads(threads)
                 .build()
                 .unwrap();
-            pool.install(|| method.find(&world.problem(), &Progress::silent()).unwrap())
+            pool.install(|| method.find(&world.problem(), &Watch::silent()).unwrap())
         };
         assert_eq!(with(1), with(3), "{}", method.name());
     }
@@ -234,12 +234,12 @@ fn one_thread_and_three_give_the_same_bits() {
 
 #[test]
 fn a_cancelled_run_says_so() {
-    let progress = Progress::silent();
-    progress.cancel();
+    let watch = Watch::silent();
+    watch.cancel();
     let world = worlds::egg_at(spin_it(0.0), PITCH_MM);
     for (method, _) in methods() {
         assert_eq!(
-            method.find(&world.problem(), &progress).unwrap().outcome,
+            method.find(&world.problem(), &watch).unwrap().outcome,
             Outcome::Cancelled
         );
     }
@@ -253,7 +253,7 @@ fn with_nothing_to_empty_the_papers_methods_refuse_by_name() {
         ..Default::default()
     };
     for (method, _) in methods().into_iter().skip(1) {
-        let refused = method.find(&world.problem(), &Progress::silent());
+        let refused = method.find(&world.problem(), &Watch::silent());
         assert_eq!(
             refused,
             Err(MethodError::NothingToEmpty {
@@ -269,7 +269,7 @@ fn what_floats_or_runs_true_is_not_for_the_papers_methods() {
     for (method, _) in methods().into_iter().skip(1) {
         for world in &worlds {
             let (method_word, kind) = (method.name(), world.goal.kind);
-            let refused = method.find(&world.problem(), &Progress::silent());
+            let refused = method.find(&world.problem(), &Watch::silent());
             assert_eq!(
                 refused,
                 Err(MethodError::NotItsGoal {

@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use crate::progress::Progress;
+use crate::base::watch::Watch;
 
 /// Steps whose curvature is remembered. Fewer than 5 slow it down; more than 20 cost more than they tell.
 const MEMORY: usize = 10;
@@ -37,7 +37,7 @@ pub(super) struct Limits<'a> {
     /// The projected slope at which to end.
     pub slope: f64,
     pub evaluations: usize,
-    pub progress: &'a Progress<'a>,
+    pub watch: &'a Watch<'a>,
 }
 
 /// Where a descent came to.
@@ -68,7 +68,7 @@ pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> 
     place.value = function.evaluate(&place.x, &mut place.slope);
     let mut pairs = VecDeque::with_capacity(MEMORY + 1);
     let mut values = VecDeque::from([place.value]);
-    while place.evaluations < limits.evaluations && !limits.progress.is_cancelled() {
+    while place.evaluations < limits.evaluations && !limits.watch.is_cancelled() {
         let projected = projected_slope(&place, function.weights());
         if projected <= limits.slope {
             break;
@@ -310,7 +310,7 @@ mod tests {
         let limits = Limits {
             slope: 1e-9,
             evaluations: 2000,
-            progress: &Progress::silent(),
+            watch: &Watch::silent(),
         };
         descend(bowl, vec![0.5; bowl.middle.len()], &limits)
     }

@@ -6,9 +6,9 @@ use super::super::reach::Vector10;
 use super::Accuracy;
 use super::descent::{Function, Limits, descend};
 use super::target::{Target, as_vector10};
+use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::interior::Choice;
-use crate::progress::Progress;
 
 /// The first penalty, where f and As are of order one. A hundred times less, and the first rounds stray far; a hundred
 /// times more, and f hardly shows beside it.
@@ -120,7 +120,7 @@ pub(super) fn minimise(
     target: &Target,
     choice: &dyn Choice,
     start: Start,
-    (accuracy, progress): (&Accuracy, &Progress),
+    (accuracy, watch): (&Accuracy, &Watch),
 ) -> Optimum {
     let (multipliers, penalty) = start
         .known
@@ -140,7 +140,7 @@ pub(super) fn minimise(
         let limits = Limits {
             slope: slope.max(accuracy.slope),
             evaluations: left,
-            progress,
+            watch,
         };
         let place = descend(&lagrangian, x, &limits);
         evaluations += place.evaluations;
@@ -151,7 +151,7 @@ pub(super) fn minimise(
         let is_settled =
             slope <= accuracy.slope || (last_value - value).abs() <= SETTLED_RATIO * value.abs();
         has_converged = residual <= accuracy.residual && is_settled;
-        if has_converged || evaluations >= accuracy.evaluations || progress.is_cancelled() {
+        if has_converged || evaluations >= accuracy.evaluations || watch.is_cancelled() {
             break;
         }
         lagrangian.multipliers += misses * lagrangian.penalty;
@@ -169,6 +169,6 @@ pub(super) fn minimise(
         penalty: lagrangian.penalty,
         evaluations,
         has_converged,
-        is_cancelled: progress.is_cancelled(),
+        is_cancelled: watch.is_cancelled(),
     }
 }

@@ -5,8 +5,8 @@ use super::super::problem::Problem;
 use super::lagrangian::{Optimum, Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
+use crate::base::watch::Watch;
 use crate::interior::{Choice, Levels, Octree};
-use crate::progress::Progress;
 
 /// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform Laplacian to keep it smooth,
 /// and after each solution fractional leaves split and siblings that agree merged, until what is fractional is of the
@@ -52,7 +52,7 @@ impl Method for ByOctree {
         "octree"
     }
 
-    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
+    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
         let target = Target::new(self.name(), problem)?;
         let mut octree = Octree::of(problem.columns, self.levels);
         let mut start = Start {
@@ -61,7 +61,7 @@ impl Method for ByOctree {
         };
         let mut evaluations = 0;
         for _ in 0..SPLITTINGS_A_LEVEL * octree.finest_level() {
-            let optimum = minimise(&target, &octree, start, (&self.accuracy, progress));
+            let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
             evaluations += optimum.evaluations;
             let refined = octree.refined(&optimum.x, FRACTION_TOLERANCE);
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
@@ -82,7 +82,7 @@ impl Method for ByOctree {
             };
             octree = finer;
         }
-        let optimum = minimise(&target, &octree, start, (&self.accuracy, progress));
+        let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
         evaluations += optimum.evaluations;
         Ok(rounded(
             problem,

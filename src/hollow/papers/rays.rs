@@ -5,8 +5,8 @@ use super::super::problem::Problem;
 use super::lagrangian::{Optimum, Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
+use crate::base::watch::Watch;
 use crate::interior::{Choice, Rays};
-use crate::progress::Progress;
 
 /// How often vanished segments may open again. With none, values ended up to 3e-4 above the best; the gain soon falls.
 const REOPENINGS: usize = 4;
@@ -27,7 +27,7 @@ impl Method for ByRays {
         "rays"
     }
 
-    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
+    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
         let (target, rays) = (
             Target::new(self.name(), problem)?,
             Rays::of(problem.columns),
@@ -36,7 +36,7 @@ impl Method for ByRays {
             &target,
             &rays,
             Start::from(rays.nothing()),
-            (&self.accuracy, progress),
+            (&self.accuracy, watch),
         );
         for _ in 0..REOPENINGS {
             let reopened = rays.reopened(&optimum.x, &optimum.quadric);
@@ -52,7 +52,7 @@ impl Method for ByRays {
                     known,
                     smoothing: 0.0,
                 },
-                (&self.accuracy, progress),
+                (&self.accuracy, watch),
             );
             optimum = Optimum {
                 evaluations: optimum.evaluations + again.evaluations,

@@ -164,8 +164,8 @@ mod tests {
     use super::super::super::method::value_of;
     use super::super::super::worlds::{self, World};
     use super::*;
+    use crate::base::units::STANDARD_GRAVITY_MM_S2;
     use crate::goal::to_rpm;
-    use crate::units::STANDARD_GRAVITY_MM_S2;
 
     fn smooth_worlds() -> Vec<World> {
         let spin_it = |gamma_c| Objective::SpinIt {

@@ -5,8 +5,8 @@ use super::super::problem::Problem;
 use super::lagrangian::{Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
+use crate::base::watch::Watch;
 use crate::interior::{Choice, Voxels};
-use crate::progress::Progress;
 
 /// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing is rounded: the voxels
 /// that the surface of the void cuts keep their shares.
@@ -21,14 +21,14 @@ impl Method for ByVoxels {
         "voxels"
     }
 
-    fn find(&self, problem: &Problem, progress: &Progress) -> Result<Found, MethodError> {
+    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
         let height_mm = problem.columns.pitch_mm[0].max(problem.columns.pitch_mm[1]);
         let (target, voxels) = (
             Target::new(self.name(), problem)?,
             Voxels::of(problem.columns, height_mm),
         );
         let start = Start::from(voxels.nothing());
-        let optimum = minimise(&target, &voxels, start, (&self.accuracy, progress));
+        let optimum = minimise(&target, &voxels, start, (&self.accuracy, watch));
         Ok(found(problem, &target, &voxels, &optimum))
     }
 }

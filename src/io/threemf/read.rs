@@ -7,9 +7,9 @@ use super::{
     archive::{part_name, xml_fault},
     xml::{Scanner, Tag, Wanted},
 };
+use crate::base::units::MM_PER_INCH;
 use crate::geom::Point;
 use crate::mesh::{MeshError, TriMesh};
-use crate::units::MM_PER_INCH;
 
 /// What one part of a package says.
 #[derive(Debug, Default)]

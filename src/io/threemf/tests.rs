@@ -7,8 +7,9 @@ use zip::{ZipWriter, write::SimpleFileOptions};
 use super::*;
 use crate::geom::{Matrix, Point, Vector};
 use crate::io::{decode_model, stl};
+use crate::mesh::Solid;
 use crate::mesh::primitives::{ball, cuboid};
-use crate::mesh::{Solid, weld};
+use crate::repair::weld;
 
 /// A block of one by two by three.
 const BLOCK: &str = "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"2\" z=\"0\"/>\

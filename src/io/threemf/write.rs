@@ -8,7 +8,8 @@ use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
 use super::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS, Transform};
 use crate::geom::Point;
-use crate::mesh::{TriMesh, weld};
+use crate::mesh::TriMesh;
+use crate::repair::weld;
 
 /// A package to be written.
 #[derive(Debug, Clone)]

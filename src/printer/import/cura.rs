@@ -11,7 +11,7 @@ use super::{
     ini::Ini,
     read_text,
 };
-use crate::toml_text::Place;
+use crate::base::toml_text::Place;
 
 /// How a definition's file ends.
 const ENDING: &str = ".def.json";

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::ImportError;
-use crate::toml_text::{Place, nearest};
+use crate::base::toml_text::{Place, nearest};
 
 /// What the kind of a file without sections is called: a configuration that a slicer has exported.
 pub(super) const FLAT: &str = "";

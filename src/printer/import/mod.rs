@@ -13,7 +13,7 @@ pub use write::slug;
 
 use std::path::{Path, PathBuf};
 
-use crate::toml_text::Place;
+use crate::base::toml_text::Place;
 
 /// Why nothing can be taken over.
 #[derive(Debug, thiserror::Error)]
@@ -207,7 +207,7 @@ impl Imported {
                 .iter()
                 .find(|printer| printer.name == name)
                 .ok_or_else(|| {
-                    let near = crate::toml_text::nearest(
+                    let near = crate::base::toml_text::nearest(
                         name,
                         known.iter().map(|printer| printer.name.as_str()),
                     );

@@ -1,8 +1,8 @@
 //! Orientation: neighbours agree, solids face outward, cavities inward.
 
-use super::TriMesh;
-use super::edges::{EdgeTable, Side, edge_kind};
-use super::shells::{Shells, joins};
+use crate::mesh::TriMesh;
+use crate::mesh::edges::{EdgeTable, Side, edge_kind};
+use crate::mesh::shells::{Shells, joins};
 
 /// Turns triangles until neighbours across an edge agree, shell by shell, the larger part of a shell giving the
 /// direction (the first triangle where the parts are equal).

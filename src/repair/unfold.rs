@@ -4,9 +4,9 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use super::TriMesh;
-use super::crossings::cross;
 use crate::geom::{Aabb, Bvh, Point, Vector};
+use crate::mesh::TriMesh;
+use crate::mesh::crossings::cross;
 
 /// Only triangles lower than this, and their neighbours, are looked at, mm: rounding to single precision moves a corner at 300 mm by 1.5e-5 mm,
 /// and folds what is a few times lower than it is moved; far more takes time to look at for nothing.

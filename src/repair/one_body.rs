@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use super::edges::EdgeTable;
-use super::shells::{Shells, shell_box};
-use super::{Crossings, Solid, TriMesh};
 use crate::geom::Point;
+use crate::mesh::edges::EdgeTable;
+use crate::mesh::shells::{Shells, shell_box};
+use crate::mesh::{Crossings, Solid, TriMesh};
 
 /// How many shells are named; a scan with more crumbs than that is cleaned as a whole.
 const NAMED_SHELLS: usize = 12;

@@ -1,6 +1,6 @@
 //! Values that are read from and printed as words: the macros that make them, and what is said of any other word.
 
-use crate::toml_text::nearest;
+use crate::base::toml_text::nearest;
 
 /// A text that is none of the words, or not the numbers, that were asked for.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -75,12 +75,12 @@ macro_rules! choice {
         }
 
         impl std::str::FromStr for $name {
-            type Err = $crate::words::ChoiceError;
+            type Err = $crate::base::words::ChoiceError;
 
             fn from_str(text: &str) -> Result<Self, Self::Err> {
                 match text {
                     $($word => Ok(Self::$value),)+
-                    _ => Err($crate::words::ChoiceError::unknown($what, text, Self::WORDS)),
+                    _ => Err($crate::base::words::ChoiceError::unknown($what, text, Self::WORDS)),
                 }
             }
         }

@@ -3,12 +3,12 @@
 use std::collections::HashSet;
 use std::fmt;
 
-use super::TriMesh;
-use super::edges::{EdgeKind, EdgeTable, edge_kind};
-use super::fans::Fans;
 use super::orient::{agreeing, outward};
 use super::unstitch::unstitched;
 use super::weld::{weld, weld_open_edges, without_unused_vertices};
+use crate::mesh::TriMesh;
+use crate::mesh::edges::{EdgeKind, EdgeTable, edge_kind};
+use crate::mesh::fans::Fans;
 
 /// How far apart, relative to the diagonal of the bounding box, two rims may be to be welded. Below about 1e-7
 /// the last digit of a file in single precision keeps seams open; above 1e-5 (1 µm on a 100 mm model) details a

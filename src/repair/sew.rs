@@ -1,9 +1,9 @@
 //! Sewing: pieces that lie rim to rim become one surface, even where one rim has a corner that the other lacks.
 
-use super::TriMesh;
-use super::edges::{EdgeKind, EdgeTable, Side};
 use super::weld::weld_open_edges;
 use crate::geom::Point;
+use crate::mesh::TriMesh;
+use crate::mesh::edges::{EdgeKind, EdgeTable, Side};
 
 /// The same triangles with rims that lie on each other joined: corners on rims within `tolerance_mm` of each other
 /// become one, and an edge of a rim that passes within `tolerance_mm` of corners of a rim is divided at them.

@@ -1,9 +1,9 @@
 //! Edges at which four or more triangles meet, taken apart into edges of two.
 
-use super::TriMesh;
-use super::edges::{EdgeTable, Side};
-use super::fans::Fans;
 use crate::geom::Vector;
+use crate::mesh::TriMesh;
+use crate::mesh::edges::{EdgeTable, Side};
+use crate::mesh::fans::Fans;
 
 /// What two neighbouring triangles around a crowded edge have between them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -79,8 +79,9 @@ fn around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
 mod tests {
     use super::*;
     use crate::geom::{Point, Vector};
+    use crate::mesh::Solid;
     use crate::mesh::primitives::cuboid;
-    use crate::mesh::{Solid, weld};
+    use crate::repair::weld;
 
     fn unit_cube() -> TriMesh {
         cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0))

@@ -2,10 +2,10 @@
 
 use std::collections::HashMap;
 
-use super::TriMesh;
-use super::edges::{EdgeKind, EdgeTable};
-use super::union_find::UnionFind;
 use crate::geom::Point;
+use crate::mesh::TriMesh;
+use crate::mesh::edges::{EdgeKind, EdgeTable};
+use crate::mesh::union_find::UnionFind;
 
 /// The same triangles with one vertex for each place: vertices whose three coordinates are equal numbers
 /// become one (−0.0 and 0.0 are equal; NaN equals its own bits).

@@ -1,4 +1,4 @@
-//! Progress of a long run: named phases reported to the caller, and a flag by which the caller stops it.
+//! Watch of a long run: named phases reported to the caller, and a flag by which the caller stops it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,13 +7,13 @@ pub type Observer = dyn Fn(&str, f64) + Sync;
 
 /// What a long run tells its caller, and how the caller stops it.
 ///
-/// The library never prints: the command line draws bars from these calls, tests pass [`Progress::silent`].
-pub struct Progress<'a> {
+/// The library never prints: the command line draws bars from these calls, tests pass [`Watch::silent`].
+pub struct Watch<'a> {
     observer: Option<&'a Observer>,
     cancelled: AtomicBool,
 }
 
-impl<'a> Progress<'a> {
+impl<'a> Watch<'a> {
     /// Reports nothing.
     pub fn silent() -> Self {
         Self {
