@@ -1,8 +1,9 @@
-//! The figures the design holds, stage by stage: `cargo bench`, or `cargo bench -- NAME` for one of them.
+//! The figures the design holds, stage by stage: `cargo bench`, or `cargo bench -- NAME` for one of
+//! them.
 //!
-//! What is held, on two cores and 100 mm models with a wall of 1 mm: the solve at 100 columns a side in 30 ms and at the
-//! printer's own pitch in 3 s; the whole of `prepare` in 10 s for 12 000 triangles (elephant) and in 15 s and 2 GiB for
-//! 86 000 (armadillo).
+//! What is held, on two cores and 100 mm models with a wall of 1 mm: the solve at 100 columns a
+//! side in 30 ms and at the printer's own pitch in 3 s; the whole of `prepare` in 10 s for 12 000
+//! triangles (elephant) and in 15 s and 2 GiB for 86 000 (armadillo).
 
 #![allow(
     clippy::unwrap_used,
@@ -31,7 +32,8 @@ use equipoise::repair::repair;
 use equipoise::shell::Shell;
 use equipoise::voids::{Cavity, CavitySpec};
 
-/// The order of every figure: 100 mm, a wall of 1 mm, and the machine with the finest pixels of the built-in ones.
+/// The order of every figure: 100 mm, a wall of 1 mm, and the machine with the finest pixels of the
+/// built-in ones.
 const SIZE_MM: f64 = 100.0;
 const WALL_MM: f64 = 1.0;
 const PRINTER: &str = "objet-connex350";

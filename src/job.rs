@@ -23,9 +23,11 @@ pub const JOB_SCHEMA: u32 = 1;
 /// The head of every written `job.toml`.
 const REMARK: &str = "# Replays the run: equipoise prepare --job job.toml\n\n";
 
-/// Everything that decides the bytes of a kit, apart from the version of the program and of its built-in profiles.
+/// Everything that decides the bytes of a kit, apart from the version of the program and of its
+/// built-in profiles.
 ///
-/// The number of threads, the folder written to and what is shown on the way are not part of it: they decide nothing.
+/// The number of threads, the folder written to and what is shown on the way are not part of it:
+/// they decide nothing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
@@ -92,7 +94,8 @@ pub enum Scaling {
 }
 
 impl Scaling {
-    /// What the file's numbers are multiplied by, for a model whose longest side is `longest_side` of them (positive).
+    /// What the file's numbers are multiplied by, for a model whose longest side is `longest_side`
+    /// of them (positive).
     pub fn factor(self, longest_side: f64) -> f64 {
         match self {
             Self::Unit(unit) => unit.mm(),
@@ -202,7 +205,8 @@ impl Job {
         Ok(Self::from_toml(&path.to_string_lossy(), &text)?)
     }
 
-    /// The job that `text` says, which messages call `file`. Reads back what [`Job::to_toml`] wrote, to the bit.
+    /// The job that `text` says, which messages call `file`. Reads back what [`Job::to_toml`]
+    /// wrote, to the bit.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
         toml_text::read(file, text)
     }

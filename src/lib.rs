@@ -1,15 +1,18 @@
-//! Equipoise hollows a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
+//! Equipoise hollows a 3D model so that its printed, glued parts spin, stand, float or run true as
+//! asked.
 //!
-//! A mesh, a printer and a goal go in; a kit comes out: parts that can be printed, cleaned and glued, and a job sheet
-//! that says what to do and what to measure. The void is provably the best there is: whatever the goal, the optimal
-//! void is the region that may be emptied, cut by one quadric ([`guide::theory`]), and every solution carries its
-//! certificate.
+//! A mesh, a printer and a goal go in; a kit comes out: parts that can be printed, cleaned and
+//! glued, and a job sheet that says what to do and what to measure. The void is provably the best
+//! there is: whatever the goal, the optimal void is the region that may be emptied, cut by one
+//! quadric ([`guide::theory`]), and every solution carries its certificate.
 //!
 //! # The way through
-//! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall, pitch and material, [`shell`] keeps
-//! the wall, [`interior`] holds what may be emptied as exact columns, [`hollow`] solves, [`advice`] says
-//! what helps where that is impossible, [`voids`] draws the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without knowing how it was made, [`report`] puts
-//! the kit together; [`coupon`] lets a shop measure what its printer does; [`pipeline::run`] is that line.
+//! [`io`] reads, [`mesh`] checks and repairs, [`goal`] places the aim, [`printer`] gives wall,
+//! pitch and material, [`shell`] keeps the wall, [`interior`] holds what may be emptied as exact
+//! columns, [`hollow`] solves, [`advice`] says what helps where that is impossible, [`voids`] draws
+//! the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without
+//! knowing how it was made, [`report`] puts the kit together; [`coupon`] lets a shop measure what
+//! its printer does; [`pipeline::run`] is that line.
 //!
 //! # Example
 //! ```no_run

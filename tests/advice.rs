@@ -1,4 +1,5 @@
-//! What is advised, as a user types it: remedies that give a kit, the best axis, and what a model could become.
+//! What is advised, as a user types it: remedies that give a kit, the best axis, and what a model
+//! could become.
 
 #![allow(
     clippy::unwrap_used,

@@ -9,10 +9,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Who may see whom: a room and everything it may import. A new arrow is a decision, written down here.
+/// Who may see whom: a room and everything it may import. A new arrow is a decision, written down
+/// here.
 ///
-/// base → geom → mesh → repair → io | shell → mass → goal | printer → interior → hollow → ballast → job | voids → cut →
-/// report → pipeline → cli. `verify` sees nothing of shell, interior, hollow, voids and cut: the judge does not know the accused.
+/// base → geom → mesh → repair → io | shell → mass → goal | printer → interior → hollow → ballast →
+/// job | voids → cut → report → pipeline → cli. `verify` sees nothing of shell, interior, hollow,
+/// voids and cut: the judge does not know the accused.
 const ARROWS: &[(&str, &[&str])] = &[
     ("base", &[]),
     ("geom", &["base"]),

@@ -224,7 +224,8 @@ fn a_missing_file_is_said_to_be_missing() {
     assert!(said.contains("no such file"), "{said}");
 }
 
-/// Runs `prepare` on the shipped model with more arguments; gives what it said on the standard error.
+/// Runs `prepare` on the shipped model with more arguments; gives what it said on the standard
+/// error.
 fn refused_arguments(more: &[&str]) -> String {
     let model = concat!(
         env!("CARGO_MANIFEST_DIR"),

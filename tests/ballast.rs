@@ -1,4 +1,5 @@
-//! Ballast as a user orders it: an impossible rotor becomes a kit, and a lie about its ballast is found.
+//! Ballast as a user orders it: an impossible rotor becomes a kit, and a lie about its ballast is
+//! found.
 
 #![allow(
     clippy::unwrap_used,
@@ -26,7 +27,8 @@ fn block(folder: &Path) -> PathBuf {
     path
 }
 
-/// Turns it about an axis 3 mm above its middle: further than hollowing behind a wall of 3 mm brings its centre.
+/// Turns it about an axis 3 mm above its middle: further than hollowing behind a wall of 3 mm
+/// brings its centre.
 fn prepare(model: &Path, out: &Path, more: &[&str]) -> Output {
     let usual = [
         "--json",

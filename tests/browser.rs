@@ -1,5 +1,5 @@
-//! The job sheet in a real browser with the network off: no rule of accessibility is broken, and its view does what its controls
-//! say.
+//! The job sheet in a real browser with the network off: no rule of accessibility is broken, and
+//! its view does what its controls say.
 
 #![allow(
     clippy::unwrap_used,
@@ -21,8 +21,8 @@ const CHECK: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/browser/check.js
 /// The largest page that is still quick to mail and to open, bytes.
 const LARGEST: u64 = 5_000_000;
 
-/// The folder with puppeteer-core and axe-core, `EQUIPOISE_BROWSER_TOOLS`, and a Chromium; none where one of them or Node is
-/// missing.
+/// The folder with puppeteer-core and axe-core, `EQUIPOISE_BROWSER_TOOLS`, and a Chromium; none
+/// where one of them or Node is missing.
 fn browser() -> Option<[OsString; 2]> {
     let runs = |program: &str| {
         Command::new(program)

@@ -1,5 +1,5 @@
-//! Kits for every process, as a user makes them: each void open and clean by the process's rule; and what that costs where the
-//! rule is hard to keep.
+//! Kits for every process, as a user makes them: each void open and clean by the process's rule;
+//! and what that costs where the rule is hard to keep.
 
 #![allow(
     clippy::unwrap_used,

@@ -9,20 +9,23 @@ use boolmesh::prelude::{Manifold, OpType, compute_boolean};
 use equipoise::geom::{Frame, Plane, Point, Vector};
 use equipoise::mesh::{Csg, TriMesh, primitives};
 
-/// Both engines compute vertices in f64 to about 1e-14 of the coordinates; volumes of bodies with 1e4 vertices then
-/// agree to far better than this, and a lost sliver of a triangle (1e-6) does not.
+/// Both engines compute vertices in f64 to about 1e-14 of the coordinates; volumes of bodies with
+/// 1e4 vertices then agree to far better than this, and a lost sliver of a triangle (1e-6) does
+/// not.
 const AGREEMENT_RATIO: f64 = 1e-9;
 
 /// How many poses are tried.
 const POSES: u32 = 6;
 
-/// The `index`-th of an even sequence of numbers in 0..1: multiples of a power of the plastic number (Roberts, 2018).
+/// The `index`-th of an even sequence of numbers in 0..1: multiples of a power of the plastic
+/// number (Roberts, 2018).
 fn even(index: u32, axis: i32) -> f64 {
     const PLASTIC: f64 = 1.324_717_957_244_746;
     (0.5 + f64::from(index) / PLASTIC.powi(axis)).fract()
 }
 
-/// The mesh turned and moved so that it lies somewhere else, and in general position, for every index.
+/// The mesh turned and moved so that it lies somewhere else, and in general position, for every
+/// index.
 fn posed(mesh: &TriMesh, index: u32) -> TriMesh {
     let number = |axis| 2.0 * even(index + 1, axis) - 1.0;
     let direction = Vector::new(number(1), number(2), number(3) + 2.0);

@@ -1,8 +1,9 @@
-//! Random cuts of random bodies at random sizes with random pins: every part a solid as written, no pin lost, nothing gained
-//! and nothing lost.
+//! Random cuts of random bodies at random sizes with random pins: every part a solid as written, no
+//! pin lost, nothing gained and nothing lost.
 //!
-//! By default a few cases on bodies of our own. `EQUIPOISE_SOAK_CASES=500 EQUIPOISE_SOAK_MODELS=folder` takes more, on the closed
-//! meshes of a folder too; `EQUIPOISE_SOAK_FIRST=n` begins at case n.
+//! By default a few cases on bodies of our own. `EQUIPOISE_SOAK_CASES=500
+//! EQUIPOISE_SOAK_MODELS=folder` takes more, on the closed meshes of a folder too;
+//! `EQUIPOISE_SOAK_FIRST=n` begins at case n.
 
 #![allow(
     clippy::unwrap_used,
@@ -175,7 +176,8 @@ fn voids(dice: &mut Dice, outer: &TriMesh, wall_mm: f64) -> Vec<Solid> {
     balls.into_iter().map(ball).collect()
 }
 
-/// One to three cuts: at random, along an axis, through a void, or through a corner of the mesh to be nasty.
+/// One to three cuts: at random, along an axis, through a void, or through a corner of the mesh to
+/// be nasty.
 fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
     let count = 1 + dice.below(3);
     let cut = |i: usize| {
@@ -215,7 +217,8 @@ fn side(dice: &mut Dice, cuts: usize) -> CutSide {
     }
 }
 
-/// Makes one case and holds its parts to what must be true; the number of parts and pins, or why there are none.
+/// Makes one case and holds its parts to what must be true; the number of parts and pins, or why
+/// there are none.
 fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
     let mut dice = Dice(case.wrapping_mul(0x1234_5678_9abc_def1));
     let (name, mesh) = &bodies[dice.below(bodies.len())];

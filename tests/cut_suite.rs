@@ -1,8 +1,10 @@
-//! Twenty-two interiors of one to eight voids whose least number of cuts is known: the planner finds it for every one.
+//! Twenty-two interiors of one to eight voids whose least number of cuts is known: the planner
+//! finds it for every one.
 //!
-//! A plane opens a ball by the asked disc where it passes near enough to its middle, so whether one plane opens some balls
-//! is whether their middles lie between two planes near each other: the width of a set of points, which is found here by
-//! trying every pair of edges. The least number of planes follows by trying every way of sharing the balls out.
+//! A plane opens a ball by the asked disc where it passes near enough to its middle, so whether one
+//! plane opens some balls is whether their middles lie between two planes near each other: the
+//! width of a set of points, which is found here by trying every pair of edges. The least number of
+//! planes follows by trying every way of sharing the balls out.
 
 #![allow(
     clippy::unwrap_used,
@@ -77,8 +79,8 @@ fn beads(middles: &[[f64; 3]], radius: f64) -> Vec<Solid> {
         .collect()
 }
 
-/// The least distance of two parallel planes that hold all points between them: of the pairs that touch a corner and three
-/// others, or two edges; nothing for points of a line.
+/// The least distance of two parallel planes that hold all points between them: of the pairs that
+/// touch a corner and three others, or two edges; nothing for points of a line.
 fn width(points: &[Point]) -> f64 {
     let edges: Vec<Vector> = (0..points.len())
         .flat_map(|i| (0..i).map(move |j| (i, j)))
@@ -93,7 +95,8 @@ fn width(points: &[Point]) -> f64 {
     normals.map(thickness).reduce(f64::min).unwrap_or(0.0)
 }
 
-/// The fewest planes of which each passes within `reach` of some of the middles, and together of all: by exhaustion.
+/// The fewest planes of which each passes within `reach` of some of the middles, and together of
+/// all: by exhaustion.
 fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
     let all = (1usize << middles.len()) - 1;
     let members = |set: usize| (0..middles.len()).filter(move |i| set >> i & 1 == 1);
@@ -116,8 +119,8 @@ fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
     least[all]
 }
 
-/// Holds the planner to the fewest planes for beads in a block. The number is the same with a tenth less and a tenth more of
-/// reach, so that the facets of the balls decide nothing.
+/// Holds the planner to the fewest planes for beads in a block. The number is the same with a tenth
+/// less and a tenth more of reach, so that the facets of the balls decide nothing.
 fn assert_least(name: &str, expected: usize, middles: &[[f64; 3]], radius: f64) {
     let reach = (radius * radius - OPENING_MM * OPENING_MM / 4.0).sqrt();
     for reach in [0.9 * reach, 1.1 * reach] {
@@ -331,8 +334,8 @@ fn one_cut_opens_a_ring_a_flat_box_over_two_pearls_and_two_shafts_that_cross() {
 
 #[test]
 fn two_cuts_open_a_ring_about_a_pearl_far_over_it_and_one_beside() {
-    // The ring lies flat; a plane through both pearls, which stand over and beside it, meets it too: one cut. A third pearl
-    // off that plane and off the ring's own needs a second.
+    // The ring lies flat; a plane through both pearls, which stand over and beside it, meets it
+    // too: one cut. A third pearl off that plane and off the ring's own needs a second.
     let ring = || solid(primitives::torus(20.0, 4.0, 48, 24));
     let two = beads(&[[0.0, 0.0, 34.0], [0.0, 36.0, 20.0]], 2.0);
     assert_eq!(planned(block(), [vec![ring()], two].concat()), (1, 0));

@@ -1,4 +1,5 @@
-//! Rotors and floating things as a user makes them: kits that keep their promises, and proofs where there can be none.
+//! Rotors and floating things as a user makes them: kits that keep their promises, and proofs where
+//! there can be none.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! Yo-yos on an axle and tops on a tip, as a user makes them; and the claim that a quadric for each half is optimal.
+//! Yo-yos on an axle and tops on a tip, as a user makes them; and the claim that a quadric for each
+//! half is optimal.
 
 #![allow(
     clippy::unwrap_used,
@@ -96,8 +97,8 @@ fn a_checklist_that_lies_about_its_hardware_is_found_out() {
 
 #[test]
 fn a_top_with_a_tip_and_a_stem_keeps_its_promises_and_a_denser_tip_costs_speed() {
-    // Mass on the axis adds to g s_z and to the moments across it, and nothing to the one about it: for every hollowing
-    // ω² = g s_z/(I_c − I_b) grows, and so does the least of all.
+    // Mass on the axis adds to g s_z and to the moments across it, and nothing to the one about it:
+    // for every hollowing ω² = g s_z/(I_c − I_b) grows, and so does the least of all.
     let folder = tempfile::tempdir().unwrap();
     let speed = |name: &str, tip: &str| {
         let goal = [

@@ -1,4 +1,5 @@
-//! A judge in another language, with nothing of ours, finds in a kit's files what the checklist promises.
+//! A judge in another language, with nothing of ours, finds in a kit's files what the checklist
+//! promises.
 
 #![allow(
     clippy::unwrap_used,
@@ -18,7 +19,8 @@ const MODEL: &str = concat!(
 const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
 const JUDGE_3MF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_3mf.py");
 
-/// The Python to judge with: `EQUIPOISE_JUDGE_PYTHON`, or `python3`; none where it lacks the judge's packages.
+/// The Python to judge with: `EQUIPOISE_JUDGE_PYTHON`, or `python3`; none where it lacks the
+/// judge's packages.
 fn python() -> Option<OsString> {
     python_with("numpy, rtree, scipy, shapely, trimesh")
 }

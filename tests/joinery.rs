@@ -1,4 +1,5 @@
-//! How parts are joined, as a user sees it: bosses where walls are too thin for pins, dowels, films of glue, engraved ids.
+//! How parts are joined, as a user sees it: bosses where walls are too thin for pins, dowels, films
+//! of glue, engraved ids.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,4 +1,5 @@
-//! The program as a user runs it: kits, their verdicts, replay, and the same bytes on any number of threads.
+//! The program as a user runs it: kits, their verdicts, replay, and the same bytes on any number of
+//! threads.
 
 #![allow(
     clippy::unwrap_used,
@@ -155,7 +156,8 @@ fn an_existing_kit_is_replaced_only_with_force(kit: &Path) {
     assert_ne!(files(kit), before);
 }
 
-/// At so coarse a pitch there is one level of columns only, whose proof must count as that of finer ones does.
+/// At so coarse a pitch there is one level of columns only, whose proof must count as that of finer
+/// ones does.
 #[test]
 fn an_impossible_goal_is_proved_on_the_coarsest_columns_too() {
     let folder = tempfile::tempdir().unwrap();
@@ -187,7 +189,8 @@ fn an_impossible_goal_is_proved_on_the_coarsest_columns_too() {
 fn an_impossible_goal_is_an_answer_with_the_reason_and_remedies_and_writes_nothing() {
     let folder = tempfile::tempdir().unwrap();
     let out = folder.path().join("kit");
-    // What a wall of 12 mm leaves to be emptied is too little to bring the centre of mass over the contact.
+    // What a wall of 12 mm leaves to be emptied is too little to bring the centre of mass over the
+    // contact.
     let usual = [
         "prepare",
         ELLIPSOID,

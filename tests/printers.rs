@@ -1,4 +1,5 @@
-//! Profiles as a shop meets them: a slicer's bundle taken over, coupons sliced, a profile of its own calibrated and used.
+//! Profiles as a shop meets them: a slicer's bundle taken over, coupons sliced, a profile of its
+//! own calibrated and used.
 
 #![allow(
     clippy::unwrap_used,
@@ -31,8 +32,8 @@ fn said(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned() + &String::from_utf8_lossy(&output.stderr)
 }
 
-/// The values of a key by preset, found by a reader of our own that knows nothing of the program's: own keys, then those of
-/// the parents from the last to the first.
+/// The values of a key by preset, found by a reader of our own that knows nothing of the program's:
+/// own keys, then those of the parents from the last to the first.
 fn values(text: &str, kind: &str, key: &str) -> BTreeMap<String, String> {
     let mut sections: BTreeMap<&str, Vec<(&str, &str)>> = BTreeMap::new();
     let mut current = "";
@@ -265,7 +266,8 @@ fn a_shop_makes_a_profile_weighs_coupons_and_prepares_with_it_by_default() {
     files_are_larger_by_the_shrinkage_and_judged_at_nominal_size(folder.path(), &sheet);
 }
 
-/// The part files make up for the shrinkage that the profile states, and the kit is still judged by the parts' own size.
+/// The part files make up for the shrinkage that the profile states, and the kit is still judged by
+/// the parts' own size.
 fn files_are_larger_by_the_shrinkage_and_judged_at_nominal_size(
     folder: &Path,
     sheet: &serde_json::Value,
@@ -407,8 +409,9 @@ fn a_slicer_takes_every_coupon_without_repair() {
     }
 }
 
-/// Whether a row of the sheet's table must be whole: along the coarser of x and y for walls, pins and sockets (on pixels that are
-/// not square the finer cannot be too), and along z for lengths and depths. Walls are counted in layers as they come.
+/// Whether a row of the sheet's table must be whole: along the coarser of x and y for walls, pins
+/// and sockets (on pixels that are not square the finer cannot be too), and along z for lengths and
+/// depths. Walls are counted in layers as they come.
 fn must_be_whole(row: &serde_json::Value, coarser: &str) -> bool {
     let [what, along] = ["what", "along"].map(|key| row[key].as_str().unwrap());
     let is_peg = what.starts_with("pin") || what.starts_with("socket");

@@ -1,4 +1,5 @@
-//! Proofs of impossibility, held against the model itself: its triangles and a grid of points, no columns and no roots.
+//! Proofs of impossibility, held against the model itself: its triangles and a grid of points, no
+//! columns and no roots.
 
 #![allow(
     clippy::unwrap_used,
@@ -30,14 +31,17 @@ use equipoise::shell::Shell;
 const WALL_MM: f64 = 2.0;
 /// A wall at which a block stays much like a solid one.
 const THICK_WALL_MM: f64 = 25.0;
-/// The long axis of the cuboid, which is askew by 3° about x and then 2° about y: its moment is the least.
+/// The long axis of the cuboid, which is askew by 3° about x and then 2° about y: its moment is the
+/// least.
 const LONG_AXIS: [f64; 3] = [0.999_391, 0.001_826, -0.034_852];
 /// Columns a side of what is solved.
 const COLUMNS: usize = 100;
-/// The distance of the grid's points for our own models and for large ones. A sum over them is exact to about the cells that the surface and the wall cut, with
-/// random signs: some 13 000 of them are wrong by a third of a cell each, 2e-3 of the volume together.
+/// The distance of the grid's points for our own models and for large ones. A sum over them is
+/// exact to about the cells that the surface and the wall cut, with random signs: some 13 000 of
+/// them are wrong by a third of a cell each, 2e-3 of the volume together.
 const STEP_MM: f64 = 2.5;
-/// The distance for a part whose sides are but some 10 mm thick, so that the shell of 1 mm is more than half of it.
+/// The distance for a part whose sides are but some 10 mm thick, so that the shell of 1 mm is more
+/// than half of it.
 const FINE_STEP_MM: f64 = 1.0;
 /// What the grid's integrals of q may be wrong by, as a part of ∫|q|.
 const GRID_RATIO: f64 = 4e-3;
@@ -84,8 +88,9 @@ impl Case {
         }
     }
 
-    /// The least that the integral of a quadric over any interior can be, and ∫|q| over the solid: every grid point inside
-    /// counts, but one that is at least a wall from every triangle and outside of what is kept only where q < 0.
+    /// The least that the integral of a quadric over any interior can be, and ∫|q| over the solid:
+    /// every grid point inside counts, but one that is at least a wall from every triangle and
+    /// outside of what is kept only where q < 0.
     fn least_integral(&self, quadric: &Quadric) -> [f64; 2] {
         let frame = &self.placement.goal.frame;
         let triangles: Vec<[Point; 3]> = self
@@ -131,7 +136,8 @@ impl Case {
                 .all(|keep| keep.distance_mm(&in_model) > 0.0)
     }
 
-    /// Whether the grid says of a quadric what the proof does: no interior's integral is below `level`.
+    /// Whether the grid says of a quadric what the proof does: no interior's integral is below
+    /// `level`.
     fn assert_separates(&self, quadric: &Quadric, level: f64) {
         let [least, size] = self.least_integral(quadric);
         assert!(least >= level - GRID_RATIO * size, "{least} {level} {size}");
@@ -140,7 +146,8 @@ impl Case {
         assert!(self.least_integral(&opposite)[0] < -0.1 * size);
     }
 
-    /// The solution's quadric with a ratio of `by` more or less of the denominator e, given over mm in the goal's frame.
+    /// The solution's quadric with a ratio of `by` more or less of the denominator e, given over mm
+    /// in the goal's frame.
     fn shifted(&self, by: f64, denominator: [(usize, f64); 2], degree: i32) -> Quadric {
         let solid = &self.placement.goal.solid.0;
         let length_mm = ((solid[7] + solid[8] + solid[9]) / solid[0]).sqrt();
@@ -235,12 +242,14 @@ fn a_yoyo_that_cannot_be_dominant_is_not_on_a_grid_either() {
     let Status::NotDominant { least_ratio } = case.solution.status else {
         panic!("{:?}", case.solution.status)
     };
-    // λ_max − 1·I_zz > 0 for every interior; the quadric itself is that of λ_max − least_ratio·I_zz.
+    // λ_max − 1·I_zz > 0 for every interior; the quadric itself is that of λ_max −
+    // least_ratio·I_zz.
     let at_one = case.shifted(least_ratio - 1.0, [(7, 1.0), (8, 1.0)], 2);
     case.assert_separates(&at_one, 0.0);
 }
 
-/// Real models beside the checkout, for which the acceptance table expects that hollowing alone cannot do.
+/// Real models beside the checkout, for which the acceptance table expects that hollowing alone
+/// cannot do.
 const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
 
 /// A shared model, 100 mm long, with a wall of 1 mm; none where the shared models are not there.
@@ -315,7 +324,8 @@ fn what_weighs_more_than_the_water_it_displaces_does_so_on_a_grid_too() {
     };
     let [lightest, _] = case.least_integral(&Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
     let displaced_mm3 = case.placement.goal.afloat.unwrap().material_mm3;
-    // The shell is 2 mm of some 44: a cell cut at random is a third of it wrong, 1e-2 of the shell together.
+    // The shell is 2 mm of some 44: a cell cut at random is a third of it wrong, 1e-2 of the shell
+    // together.
     assert!(
         (lightest / displaced_mm3 / least_ratio - 1.0).abs() < 3e-2,
         "{lightest} {displaced_mm3} {least_ratio}"

@@ -1,4 +1,5 @@
-//! A real slicer takes every part of a kit as it is: PrusaSlicer finds nothing to repair and measures the same volume.
+//! A real slicer takes every part of a kit as it is: PrusaSlicer finds nothing to repair and
+//! measures the same volume.
 
 #![allow(
     clippy::unwrap_used,
@@ -18,7 +19,8 @@ const MODEL: &str = concat!(
     "/examples/models/tilted-ellipsoid.stl"
 );
 
-/// The slicer sums single-precision tetrahedra: up to 4e-6 on parts that were cut elsewhere, 3e-6 on ours.
+/// The slicer sums single-precision tetrahedra: up to 4e-6 on parts that were cut elsewhere, 3e-6
+/// on ours.
 const VOLUME_RATIO: f64 = 1e-5;
 
 /// What the slicer prints only of a mesh that it had to repair; its exit code is 0 all the same.
@@ -66,7 +68,8 @@ fn objects_sliced(file: &Path) -> Option<Vec<Said>> {
     Some(objects)
 }
 
-/// Asserts that the slicer takes a part and agrees with the checklist on its triangles and its volume.
+/// Asserts that the slicer takes a part and agrees with the checklist on its triangles and its
+/// volume.
 fn assert_taken(part: &Value, said: &Said) {
     let number = |key: &str| said[key].parse::<f64>().unwrap();
     assert_eq!(said["manifold"], "yes", "{said:?}");

@@ -1,4 +1,5 @@
-//! `verify` tells what became of a kit's files: saved again, changed, scaled, mirrored, exchanged, replaced, missing.
+//! `verify` tells what became of a kit's files: saved again, changed, scaled, mirrored, exchanged,
+//! replaced, missing.
 
 #![allow(
     clippy::unwrap_used,
@@ -19,7 +20,8 @@ use equipoise::mesh::{Csg, TriMesh};
 use equipoise::repair::weld;
 use serde_json::Value;
 
-/// A kit of the shipped model in two parts with pins, made once; the folder lives as long as the tests.
+/// A kit of the shipped model in two parts with pins, made once; the folder lives as long as the
+/// tests.
 fn made() -> &'static Path {
     static MADE: OnceLock<PathBuf> = OnceLock::new();
     MADE.get_or_init(|| {
@@ -121,7 +123,8 @@ fn a_scaled_part_is_told_with_its_scale() {
     kit.write(0, &mapped(&kit.mesh(0), Matrix::identity() * 1.02));
     kit.must_tell(0, "was scaled to 102.000 % of its size");
     let (_, said) = kit.verified();
-    // The cause stands first, with its remedy; what follows from it is one line, and no intact file is blamed.
+    // The cause stands first, with its remedy; what follows from it is one line, and no intact file
+    // is blamed.
     let lines: Vec<&str> = said.lines().collect();
     assert!(
         lines[0].starts_with("FAIL parts/") && lines[1].starts_with("  remedy: "),
@@ -196,7 +199,8 @@ fn a_changed_byte_is_told_and_a_corner_moved_by_it_too() {
     let kit = Kit::new();
     let path = kit.folder.join(kit.file(0));
     let whole = fs::read(&path).unwrap();
-    // A byte of the header changes no triangle; the highest byte of a coordinate's fraction moves a corner.
+    // A byte of the header changes no triangle; the highest byte of a coordinate's fraction moves a
+    // corner.
     for (at, words) in [
         (70, "was saved again: other bytes, the same triangles"),
         (84 + 12 + 1, "was changed a little"),

@@ -1,4 +1,5 @@
-//! Makes the models that the documentation and the tests speak of, by code alone, as binary STL in mm:
+//! Makes the models that the documentation and the tests speak of, by code alone, as binary STL in
+//! mm:
 //!
 //! ```text
 //! cargo run --example make_models -- OUTDIR

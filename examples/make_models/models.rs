@@ -42,14 +42,16 @@ pub fn solid(make: Maker) -> Result<Solid, Defects> {
 fn tilted_ellipsoid() -> TriMesh {
     let axes = Matrix::from_diagonal(&Vector::new(50.0, 40.0, 44.0));
     let tilt = turned_about(Vector::y(), 20.0) * turned_about(Vector::x(), 8.0);
-    // The point of the unit ball that the map sends lowest; the ball has a vertex on its own −z axis.
+    // The point of the unit ball that the map sends lowest; the ball has a vertex on its own −z
+    // axis.
     let lowest = -(axes * tilt.transpose() * Vector::z());
     let on_lowest = Frame::with_axis(Point::origin(), &-lowest);
     unit_ball().map_vertices(|p| tilt * axes * on_lowest.to_model(p))
 }
 
-/// A heart on its tip, one lobe larger than the other: each upright line through a ball is lifted by the
-/// distance from the middle plane (rounded off there), which can make no two points of it meet.
+/// A heart on its tip, one lobe larger than the other: each upright line through a ball is lifted
+/// by the distance from the middle plane (rounded off there), which can make no two points of it
+/// meet.
 fn asymmetric_heart() -> TriMesh {
     const LIFT: f64 = 0.75;
     const ROUNDING: f64 = 0.15;
@@ -93,7 +95,8 @@ fn yoyo_cuboid() -> TriMesh {
 fn three_spheres() -> TriMesh {
     /// Centre (x, z) and radius of each ball.
     const BALLS: [(f64, f64, f64); 3] = [(0.0, 0.9, 1.0), (1.1, 2.3, 1.0), (2.4, 3.5, 1.0)];
-    /// Each ball gives its slices from here to there, as angles from its lowest point; straight necks lie between.
+    /// Each ball gives its slices from here to there, as angles from its lowest point; straight
+    /// necks lie between.
     const SLICES_DEG: (f64, f64) = (18.0, 150.0);
     let ring = |(x, z, radius): (f64, f64, f64), step: i32| {
         let angle =
@@ -138,8 +141,8 @@ impl Ring {
     }
 }
 
-/// The body whose slices are these, lowest first, flat below and above. Since each slice is one patch seen
-/// from its own centre, the surface cannot cross itself.
+/// The body whose slices are these, lowest first, flat below and above. Since each slice is one
+/// patch seen from its own centre, the surface cannot cross itself.
 fn stacked(rings: &[Ring]) -> TriMesh {
     let n = RING_CORNERS as u32;
     let (bottom, top) = (rings.len() as u32 * n, rings.len() as u32 * n + 1);

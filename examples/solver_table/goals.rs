@@ -1,4 +1,5 @@
-//! Every goal: its time, gap and constraints at 100 columns a side from nothing, and from there at the finest printer's pitch.
+//! Every goal: its time, gap and constraints at 100 columns a side from nothing, and from there at
+//! the finest printer's pitch.
 
 use anyhow::Result;
 use equipoise::base::watch::Watch;

@@ -1,5 +1,6 @@
-//! The solver's figures as Markdown: the papers' tables beside the quadric, every goal at 100 columns a side and at the
-//! printers' finest pitch, and Spin-It's teapot, in one run on one machine:
+//! The solver's figures as Markdown: the papers' tables beside the quadric, every goal at 100
+//! columns a side and at the printers' finest pitch, and Spin-It's teapot, in one run on one
+//! machine:
 //!
 //! ```text
 //! cargo run --release --example solver_table

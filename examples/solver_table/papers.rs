@@ -1,5 +1,5 @@
-//! The papers' tables beside the quadric: rays (Wu et al. 2016, Table 1), voxels (their Table 2) and the octree of level 9
-//! (Spin-It §5), all on the same columns.
+//! The papers' tables beside the quadric: rays (Wu et al. 2016, Table 1), voxels (their Table 2)
+//! and the octree of level 9 (Spin-It §5), all on the same columns.
 
 use anyhow::{Context, Result};
 use equipoise::base::watch::Watch;
@@ -11,11 +11,13 @@ use super::scene::{Scene, timed};
 /// Columns along the longest side for an octree of level 9.
 const LEVEL_9: usize = 512;
 
-/// Runs of which the shortest counts: the quadric's take milliseconds, which another program easily doubles.
+/// Runs of which the shortest counts: the quadric's take milliseconds, which another program easily
+/// doubles.
 const QUADRIC_RUNS: usize = 9;
 const RAYS_RUNS: usize = 3;
 
-/// The shortest time that Wu et al. report for 4000 to 9000 variables, on their machine of 2016, s; their longest is 4 s.
+/// The shortest time that Wu et al. report for 4000 to 9000 variables, on their machine of 2016, s;
+/// their longest is 4 s.
 const PUBLISHED_S: f64 = 0.5;
 const PUBLISHED_VARIABLES: std::ops::RangeInclusive<usize> = 3900..=9100;
 
@@ -115,7 +117,8 @@ fn shown(value: f64) -> String {
     }
 }
 
-/// How many times the quadric's time Wu et al.'s own program took at least for as many rays; empty where they report none.
+/// How many times the quadric's time Wu et al.'s own program took at least for as many rays; empty
+/// where they report none.
 fn published(method: &dyn Method, found: &Found, best_s: f64) -> String {
     let is_reported =
         method.name() == ByRays::default().name() && PUBLISHED_VARIABLES.contains(&found.variables);

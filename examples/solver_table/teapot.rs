@@ -1,4 +1,5 @@
-//! Spin-It's teapot: by how much each objective divides its critical speed, beside what the paper reports.
+//! Spin-It's teapot: by how much each objective divides its critical speed, beside what the paper
+//! reports.
 
 use anyhow::Result;
 use equipoise::base::watch::Watch;
@@ -10,7 +11,8 @@ use super::scene::Scene;
 /// Columns a side.
 const COLUMNS: usize = 400;
 
-/// What is minimised, how Spin-It calls it, and by how much its solution divides the critical speed.
+/// What is minimised, how Spin-It calls it, and by how much its solution divides the critical
+/// speed.
 const ROWS: [(Objective, &str, &str); 4] = [
     (
         Objective::SpinIt {

@@ -11,13 +11,16 @@ use crate::goal::Placement;
 use crate::hollow::{Problem, Settings, least_ballast, solve};
 use crate::interior::{Columns, moments_where_positive};
 
-/// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between 7.7 and 7.9.
+/// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between
+/// 7.7 and 7.9.
 const STEEL_G_CM3: f64 = 7.85;
-/// Columns a side of the search, which takes thousands of passes; the steel found on them is weighed on finer ones.
+/// Columns a side of the search, which takes thousands of passes; the steel found on them is
+/// weighed on finer ones.
 const SEARCHING_COLUMNS: usize = 60;
 /// Passes an ascent may take: with a price to pay it bends more sharply than without.
 const PASSES: usize = 150;
-/// Halvings of the level at which a region has a given volume; what is left is far below what can be weighed.
+/// Halvings of the level at which a region has a given volume; what is left is far below what can
+/// be weighed.
 const LEVEL_ROUNDS: usize = 40;
 
 /// Steel in the interior, and the solve with it.
@@ -86,7 +89,8 @@ fn bought(ground: &Ground) -> Option<Bought> {
     })
 }
 
-/// The plain question with the steel as a part of what is fixed, where nothing may be emptied any more.
+/// The plain question with the steel as a part of what is fixed, where nothing may be emptied any
+/// more.
 fn confirmed(
     placement: &Placement,
     columns: &Columns,
@@ -114,7 +118,8 @@ fn confirmed(
     })
 }
 
-/// The region of a quadric at the level at which it has this volume in the columns, mm³; none if all of them have less.
+/// The region of a quadric at the level at which it has this volume in the columns, mm³; none if
+/// all of them have less.
 fn grown(columns: &Columns, quadric: Quadric, volume_mm3: f64) -> Option<Quadric> {
     let raised = |level: f64| {
         let mut raised = quadric;

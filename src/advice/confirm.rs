@@ -5,7 +5,8 @@ const FIRST_EXCESS: f64 = 0.01;
 /// The last: a third more. What would need more was found on samples too coarse to mean anything.
 const LAST_EXCESS: f64 = 0.32;
 
-/// The least excess that `accepts`, to a per cent, with what it gave; none if a third is not enough.
+/// The least excess that `accepts`, to a per cent, with what it gave; none if a third is not
+/// enough.
 ///
 /// Excesses double until one is accepted, then the last two are bisected.
 pub(super) fn least_excess<T>(accepts: impl Fn(f64) -> Option<T>) -> Option<T> {

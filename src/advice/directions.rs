@@ -2,11 +2,13 @@
 
 use crate::geom::Vector;
 
-/// Decimals of a printed direction: 0.004°, which moves nothing on a model of a metre by a tenth of a millimetre.
+/// Decimals of a printed direction: 0.004°, which moves nothing on a model of a metre by a tenth of
+/// a millimetre.
 const DECIMALS: i32 = 4;
 
-/// So many directions spread evenly over the sphere, along a spiral whose turns are the golden section apart (Vogel, "A
-/// better way to construct the sunflower head", Math. Biosci. 44, 1979, on the sphere).
+/// So many directions spread evenly over the sphere, along a spiral whose turns are the golden
+/// section apart (Vogel, "A better way to construct the sunflower head", Math. Biosci. 44, 1979, on
+/// the sphere).
 pub(super) fn lattice(count: usize) -> Vec<Vector> {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let direction = |i: usize| {
@@ -51,7 +53,8 @@ mod tests {
 
     #[test]
     fn every_direction_has_one_of_the_lattice_near_it() {
-        // 200 discs that cover the sphere without overlap would each have the radius acos(1 − 2/200) = 8.1°.
+        // 200 discs that cover the sphere without overlap would each have the radius acos(1 −
+        // 2/200) = 8.1°.
         let known = lattice(200);
         let limit = (2.0 * 8.1_f64).to_radians().cos();
         assert!(

@@ -8,16 +8,17 @@ use crate::geom::{Point, Vector};
 use crate::goal::Up;
 use crate::mesh::{Csg, TriMesh};
 
-/// Faces that are tried at most, the largest first. The hull of a scan has thousands, but nothing stands on a sliver.
+/// Faces that are tried at most, the largest first. The hull of a scan has thousands, but nothing
+/// stands on a sliver.
 const MOST_FACES: usize = 48;
 /// A face smaller than this part of the model's longest side squared is nothing to stand on.
 const LEAST_AREA_RATIO: f64 = 1e-3;
-/// Faces whose normals differ by less than this are one: cos 2°. The support is taken from all vertices near the floor
-/// anyway.
+/// Faces whose normals differ by less than this are one: cos 2°. The support is taken from all
+/// vertices near the floor anyway.
 const SAME_FACE_COSINE: f64 = 0.9994;
 
-/// The directions that are up when the solid rests on a face of its convex hull, the largest face first, to the
-/// decimals they are printed with.
+/// The directions that are up when the solid rests on a face of its convex hull, the largest face
+/// first, to the decimals they are printed with.
 pub(super) fn resting_directions(mesh: &TriMesh) -> Vec<Vector> {
     let Ok(hull) = Csg::convex_hull(mesh.vertices()).and_then(|hull| hull.to_mesh()) else {
         return Vec::new();
@@ -53,7 +54,8 @@ fn merged_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
         .collect()
 }
 
-/// The face nearest to the one it is to stand on, by the angle the model is turned, that lets it stand.
+/// The face nearest to the one it is to stand on, by the angle the model is turned, that lets it
+/// stand.
 pub(super) fn remedy(ground: &Ground, up: &Vector) -> Remedy {
     let mut faces = resting_directions(ground.case.solid.mesh());
     faces.retain(|face| is_new(&[*up], face, SAME_FACE_COSINE));

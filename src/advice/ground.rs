@@ -11,13 +11,15 @@ use crate::interior::{Columns, Depths};
 use crate::mass::moments_of_mesh;
 use crate::shell::Shell;
 
-/// Samples of the depth that a search aims by. A third of them, and what is found strays by some per cent from what is
-/// confirmed; three times as many cost as much more a trial and are no nearer than the confirming solve asks for.
+/// Samples of the depth that a search aims by. A third of them, and what is found strays by some
+/// per cent from what is confirmed; three times as many cost as much more a trial and are no nearer
+/// than the confirming solve asks for.
 pub(super) const FINE_SAMPLES: usize = 40_000;
 /// Samples for a first look at many axes.
 pub(super) const COARSE_SAMPLES: usize = 8_000;
-/// Columns a side of the confirming solve. A run proves on four times as many that a goal is impossible; at 100 an answer
-/// at the very border may be another than there, at 400 the advice on a large mesh takes three times as long.
+/// Columns a side of the confirming solve. A run proves on four times as many that a goal is
+/// impossible; at 100 an answer at the very border may be another than there, at 400 the advice on
+/// a large mesh takes three times as long.
 pub(super) const CONFIRMING_COLUMNS: usize = 200;
 
 /// Waterlines that are tried where what floats leaves it free.
@@ -77,14 +79,16 @@ impl<'a> Ground<'a> {
             .is_some_and(|trial| trial.is_possible())
     }
 
-    /// The same question put to exact columns, with nothing known from before; none unless the answer is yes.
+    /// The same question put to exact columns, with nothing known from before; none unless the
+    /// answer is yes.
     pub fn confirmed(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
         let (placement, columns) = self.exact(request, wall_mm, CONFIRMING_COLUMNS)?;
         self.best(&placement, &columns, solve)
             .filter(Trial::is_possible)
     }
 
-    /// A request placed, with the exact columns of what may then be emptied, so many along the longer side.
+    /// A request placed, with the exact columns of what may then be emptied, so many along the
+    /// longer side.
     pub fn exact(
         &self,
         request: &Request,
@@ -113,7 +117,8 @@ impl<'a> Ground<'a> {
         place_weighed(&self.weighed, &stock, request).ok()
     }
 
-    /// The placement as it is, or, for what floats at a line that is left free, at several lines over its height.
+    /// The placement as it is, or, for what floats at a line that is left free, at several lines
+    /// over its height.
     pub fn at_its_lines(&self, placement: &Placement) -> Vec<Placement> {
         let water = self
             .case

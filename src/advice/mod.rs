@@ -1,22 +1,26 @@
-//! Advice: what would make an impossible goal possible, which way up is best, and what a model could become at all.
+//! Advice: what would make an impossible goal possible, which way up is best, and what a model
+//! could become at all.
 //!
 //! # Remedies
-//! Where the solver proves that no hollowing meets a goal, something has to give: the size, the wall, the contact or spin
-//! point, the axis, the face it stands on, or the material, by ballast. [`remedies`] asks the same solver how little is
-//! enough, and confirms every answer by a solve on exact columns with the very numbers that are printed. A [`Remedy`]
-//! carries that number, what to type, and what the goal then reaches; or says that this way leads nowhere.
+//! Where the solver proves that no hollowing meets a goal, something has to give: the size, the
+//! wall, the contact or spin point, the axis, the face it stands on, or the material, by ballast.
+//! [`remedies`] asks the same solver how little is enough, and confirms every answer by a solve on
+//! exact columns with the very numbers that are printed. A [`Remedy`] carries that number, what to
+//! type, and what the goal then reaches; or says that this way leads nowhere.
 //!
 //! # Which way up
-//! [`best_orientation`] tries a lattice of axes over the sphere (for a standing object the faces of its convex hull) and
-//! refines the best; [`prospects`] lists what a model could become along its own and the coordinate axes.
+//! [`best_orientation`] tries a lattice of axes over the sphere (for a standing object the faces of
+//! its convex hull) and refines the best; [`prospects`] lists what a model could become along its
+//! own and the coordinate axes.
 //!
 //! # How it is quick enough
-//! Hundreds of trials cannot each build a wall. One pass samples the depth below the surface; any wall is a level set of
-//! it ([`crate::interior::Depths`]), and any frame is a linear map of the moments
-//! ([`crate::hollow::solve_on_model_columns`]). A trial then costs a few milliseconds.
+//! Hundreds of trials cannot each build a wall. One pass samples the depth below the surface; any
+//! wall is a level set of it ([`crate::interior::Depths`]), and any frame is a linear map of the
+//! moments ([`crate::hollow::solve_on_model_columns`]). A trial then costs a few milliseconds.
 //!
-//! The files, in reading order: `ground` what a trial is · `ratio` size and wall · `moves`, `nearest` contact and axis ·
-//! `footing` the faces to stand on · `ballast` · `remedy` the values and their words · `orientation` and `prospects`.
+//! The files, in reading order: `ground` what a trial is · `ratio` size and wall · `moves`,
+//! `nearest` contact and axis · `footing` the faces to stand on · `ballast` · `remedy` the values
+//! and their words · `orientation` and `prospects`.
 
 mod ballast;
 mod confirm;
@@ -65,11 +69,11 @@ pub struct Case<'a> {
     pub greatest_size_mm: f64,
 }
 
-/// What would make an impossible goal possible: a remedy for each way there is, in a fixed order, also those that lead
-/// nowhere. Empty where the goal cannot be placed.
+/// What would make an impossible goal possible: a remedy for each way there is, in a fixed order,
+/// also those that lead nowhere. Empty where the goal cannot be placed.
 ///
-/// Costs some hundred trials and a few exact solves: about a second on 10 000 triangles, a few on 100 000. The same
-/// remedies for any number of threads.
+/// Costs some hundred trials and a few exact solves: about a second on 10 000 triangles, a few on
+/// 100 000. The same remedies for any number of threads.
 pub fn remedies(case: &Case) -> Vec<Remedy> {
     let ground = Ground::new(*case, FINE_SAMPLES);
     let Some(asked) = ground.trial(&case.request, case.wall_mm) else {

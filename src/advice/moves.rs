@@ -26,8 +26,8 @@ pub(super) enum Part {
 
 /// Requests about the one that was asked for: a step of zero is that one.
 ///
-/// A step is in the coordinates of the goal's frame: mm for a point; for the axis the direction across it towards which
-/// it tilts, as long as the angle in rad.
+/// A step is in the coordinates of the goal's frame: mm for a point; for the axis the direction
+/// across it towards which it tilts, as long as the angle in rad.
 #[derive(Debug, Clone)]
 pub(super) struct Moves {
     pub part: Part,
@@ -37,7 +37,8 @@ pub(super) struct Moves {
     pub limit: f64,
     /// Steps to look towards first.
     pub seeds: Vec<Vector>,
-    /// Steps to try besides, as far as they are shorter than what that leads to; the shortest first.
+    /// Steps to try besides, as far as they are shorter than what that leads to; the shortest
+    /// first.
     pub far: Vec<Vector>,
 }
 
@@ -113,7 +114,8 @@ impl Moves {
         }
     }
 
-    /// The same tilts with the contact below the centre of mass; none where it is there already, or for what has none.
+    /// The same tilts with the contact below the centre of mass; none where it is there already, or
+    /// for what has none.
     pub fn over_the_center(&self) -> Option<Self> {
         let is_other =
             self.part == Part::Axis && self.request.contact.is_some_and(|c| c != Contact::Center);
@@ -222,7 +224,8 @@ impl Moves {
     }
 }
 
-/// The steps that tilt the axis onto the solid's axis of the largest moment: in both senses, or in the nearer one.
+/// The steps that tilt the axis onto the solid's axis of the largest moment: in both senses, or in
+/// the nearer one.
 fn tilts_to_principal(has_sense: bool, solid: &Moments) -> Vec<Vector> {
     let axis: Vector = Body::new(solid, 1.0).principal().axes.column(2).into();
     let nearer = if axis.z < 0.0 { -axis } else { axis };

@@ -1,4 +1,5 @@
-//! The nearest step that makes a goal possible: along a ray to the border, then round it by its tangents.
+//! The nearest step that makes a goal possible: along a ray to the border, then round it by its
+//! tangents.
 
 use rayon::prelude::*;
 
@@ -19,10 +20,11 @@ const PRECISION_OF_LIMIT: f64 = 1e-3;
 const MOST_TANGENTS: usize = 5;
 /// A tangent that shortens the step by less than this part ends the search.
 const WORTHWHILE_RATIO: f64 = 0.99;
-/// The part of the longest step by which a place is moved to see how the proof changes: small against any step that is
-/// advised, large against rounding.
+/// The part of the longest step by which a place is moved to see how the proof changes: small
+/// against any step that is advised, large against rounding.
 const PROBE_OF_LIMIT: f64 = 1e-4;
-/// Decimals of a printed point, in mm: at 1e-3 the rounding of its height already counts as a gap to the model.
+/// Decimals of a printed point, in mm: at 1e-3 the rounding of its height already counts as a gap
+/// to the model.
 const POINT_DECIMALS: i32 = 4;
 
 /// The two ends of a stretch of a ray that the border of the possible crosses.
@@ -41,14 +43,17 @@ pub(super) struct Nearest {
     pub trial: Trial,
 }
 
-/// The shortest step found that makes the goal possible; none where no ray that was followed meets such a place.
+/// The shortest step found that makes the goal possible; none where no ray that was followed meets
+/// such a place.
 ///
-/// The shortest step |u| with φ(u) ≤ 0, where φ is what the proof of impossibility amounts to, points along −∇φ at its
-/// end (Karush, Kuhn and Tucker). The proof is the integral of a quadric over the interior it is least for; by the
-/// envelope theorem that interior may be held fast while the frame moves, so ∇φ costs no solve: the same moments are
-/// seen from frames moved a little. On the first rays (down the slope, towards where the solid itself is best, towards the
-/// nearest possible one of many places) the border is bisected; then each tangent of the border gives the ray to its foot,
-/// until the step no longer shortens. What is found is shortest among its neighbours, not proved so among all.
+/// The shortest step |u| with φ(u) ≤ 0, where φ is what the proof of impossibility amounts to,
+/// points along −∇φ at its end (Karush, Kuhn and Tucker). The proof is the integral of a quadric
+/// over the interior it is least for; by the envelope theorem that interior may be held fast while
+/// the frame moves, so ∇φ costs no solve: the same moments are seen from frames moved a little. On
+/// the first rays (down the slope, towards where the solid itself is best, towards the nearest
+/// possible one of many places) the border is bisected; then each tangent of the border gives the
+/// ray to its foot, until the step no longer shortens. What is found is shortest among its
+/// neighbours, not proved so among all.
 pub(super) fn nearest(ground: &Ground, moves: &Moves) -> Option<Nearest> {
     let search = Search { ground, moves };
     let near = search.nearest_border();
@@ -84,7 +89,8 @@ impl Search<'_> {
         best
     }
 
-    /// The border on the ray to the first of the far places that is possible, if it is nearer than `limit`.
+    /// The border on the ray to the first of the far places that is possible, if it is nearer than
+    /// `limit`.
     fn far_border(&self, limit: f64) -> Option<Border> {
         let nearer: Vec<&Vector> = self
             .moves
@@ -117,7 +123,8 @@ impl Search<'_> {
         known.chain(down).collect()
     }
 
-    /// The direction in which the proof of impossibility at a step loses most; none where there is no proof.
+    /// The direction in which the proof of impossibility at a step loses most; none where there is
+    /// no proof.
     fn down(&self, step: &Vector) -> Option<Vector> {
         let trial = self
             .trial(step)

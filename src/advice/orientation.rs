@@ -12,20 +12,20 @@ use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Csg, TriMesh};
 
-/// Directions of the lattice: 16° apart. Fewer miss the narrow ranges in which a top stands over its contact; more cost
-/// some milliseconds each.
+/// Directions of the lattice: 16° apart. Fewer miss the narrow ranges in which a top stands over
+/// its contact; more cost some milliseconds each.
 const LATTICE: usize = 160;
 /// Directions nearer than this are one: cos 3°.
 const SAME_COSINE: f64 = 0.9986;
 /// How many of the best are refined, and how far apart they are: cos 10°.
 const STARTS: usize = 3;
 const APART_COSINE: f64 = 0.985;
-/// The first and the last tilt of a refinement, rad. The last is where the critical speed changes by less than its
-/// certificate on the coarse columns can tell.
+/// The first and the last tilt of a refinement, rad. The last is where the critical speed changes
+/// by less than its certificate on the coarse columns can tell.
 const FIRST_TILT: f64 = 0.14;
 const LAST_TILT: f64 = 0.008;
-/// How much higher than the lowest a corner may be to be tried, as a part of the longest side: hollowing shifts the centre
-/// of mass by some per cent of it.
+/// How much higher than the lowest a corner may be to be tried, as a part of the longest side:
+/// hollowing shifts the centre of mass by some per cent of it.
 const CORNER_SLACK_RATIO: f64 = 0.02;
 /// Ways to tilt from each place.
 const WAYS: usize = 6;
@@ -43,13 +43,15 @@ pub struct Orientation {
     pub possible: usize,
 }
 
-/// The axis on which the goal reaches most, over all directions; none where it is possible on none of those tried.
+/// The axis on which the goal reaches most, over all directions; none where it is possible on none
+/// of those tried.
 ///
-/// The contact follows by the request's own rule; where the lowest point allows no axis, it is put below the centre of mass,
-/// where a tip has to reach it. Tried are a lattice over the sphere (half of it for a yo-yo, whose axis
-/// has no sense), the coordinate axes, the solid's principal axes and, for a top on its lowest point, the directions in
-/// which a corner lies below the centre of mass; for a standing object the faces of its convex hull. The best few are
-/// refined by tilting less and less. Takes some hundred trials, about a second on 10 000 triangles.
+/// The contact follows by the request's own rule; where the lowest point allows no axis, it is put
+/// below the centre of mass, where a tip has to reach it. Tried are a lattice over the sphere (half
+/// of it for a yo-yo, whose axis has no sense), the coordinate axes, the solid's principal axes
+/// and, for a top on its lowest point, the directions in which a corner lies below the centre of
+/// mass; for a standing object the faces of its convex hull. The best few are refined by tilting
+/// less and less. Takes some hundred trials, about a second on 10 000 triangles.
 pub fn best_orientation(case: &Case) -> Option<Orientation> {
     let center = Request {
         contact: Some(Contact::Center),
@@ -221,8 +223,8 @@ pub(super) fn points_down(axis: &Vector) -> bool {
     first.is_some_and(|part| part < 0.0)
 }
 
-/// The directions from a corner of the convex hull to the centre of mass, where that corner is the lowest or nearly so: the
-/// solid all but balances on it, and hollowing has the least to do.
+/// The directions from a corner of the convex hull to the centre of mass, where that corner is the
+/// lowest or nearly so: the solid all but balances on it, and hollowing has the least to do.
 pub(super) fn over_corners(mesh: &TriMesh) -> Vec<Vector> {
     let center = moments_of_mesh(mesh).centroid();
     let hull = Csg::convex_hull(mesh.vertices())

@@ -33,9 +33,9 @@ pub struct Prospect {
     pub reason: String,
 }
 
-/// Which goals a model could meet with its wall: tops on their lowest point, else with the contact below
-/// the centre of mass, yo-yos about their centre of mass, and
-/// standing objects, along the coordinate axes and the solid's principal axes; those that cannot be placed are left out.
+/// Which goals a model could meet with its wall: tops on their lowest point, else with the contact
+/// below the centre of mass, yo-yos about their centre of mass, and standing objects, along the
+/// coordinate axes and the solid's principal axes; those that cannot be placed are left out.
 ///
 /// The request of the case is not read. Costs about thirty trials.
 pub fn prospects(case: &Case) -> Vec<Prospect> {

@@ -8,8 +8,8 @@ use super::remedy::{Kind, Remedy};
 use crate::base::units::show_mm;
 use crate::goal::{Contact, Request, SpinPoint, Waterline};
 
-/// How much thinner the wall may become, or the model larger, before nothing is advised: nobody prints an object twenty
-/// times as large as planned.
+/// How much thinner the wall may become, or the model larger, before nothing is advised: nobody
+/// prints an object twenty times as large as planned.
 const MOST_TIMES: f64 = 20.0;
 /// How nearly the greatest wall is found.
 const PRECISION_RATIO: f64 = 0.01;
@@ -18,8 +18,8 @@ const WALLS_PER_MM: f64 = 1e3;
 
 /// The least size at this wall and the greatest wall at this size.
 ///
-/// The wall that was found is confirmed by a solve; the size is rounded up and the wall down to what can be typed and
-/// printed, which lets still more be emptied.
+/// The wall that was found is confirmed by a solve; the size is rounded up and the wall down to
+/// what can be typed and printed, which lets still more be emptied.
 pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
     let case = &ground.case;
     let Some(thickest_mm) = greatest_wall(ground) else {
@@ -41,13 +41,13 @@ pub(super) fn remedies(ground: &Ground) -> Vec<Remedy> {
     }
 }
 
-/// The thickest wall, mm, at the present size that makes the goal possible, on samples; none if even a wall [`MOST_TIMES`]
-/// thinner does not.
+/// The thickest wall, mm, at the present size that makes the goal possible, on samples; none if
+/// even a wall [`MOST_TIMES`] thinner does not.
 ///
-/// A thinner wall lets more be emptied, and more choice never makes a goal impossible: possible and impossible walls are
-/// parted by one number, so bisection finds it. Goals do not know how large a millimetre is (with the wall and the contact
-/// scaled alike), so the same number is also by how much a larger model would do: only wall/size counts. The precision
-/// is one per cent.
+/// A thinner wall lets more be emptied, and more choice never makes a goal impossible: possible and
+/// impossible walls are parted by one number, so bisection finds it. Goals do not know how large a
+/// millimetre is (with the wall and the contact scaled alike), so the same number is also by how
+/// much a larger model would do: only wall/size counts. The precision is one per cent.
 fn greatest_wall(ground: &Ground) -> Option<f64> {
     let (request, wall_mm) = (&ground.case.request, ground.case.wall_mm);
     let halves = std::iter::successors(Some(0.5 * wall_mm), |wall| Some(0.5 * wall));
@@ -108,7 +108,8 @@ fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     Remedy::found(Kind::LeastSize, size_mm, [flags, words], trial)
 }
 
-/// What has to be typed besides so that places given in mm stay where they are on a model this many times as large.
+/// What has to be typed besides so that places given in mm stay where they are on a model this many
+/// times as large.
 fn scaled_places(request: &Request, times: f64) -> String {
     let point = |at: [f64; 3]| rounded(at.map(|coordinate| coordinate * times), 4);
     let contact = match request.contact {

@@ -1,4 +1,5 @@
-//! A remedy as a value: what to change, to what, what to type, and the solve that shows that it helps.
+//! A remedy as a value: what to change, to what, what to type, and the solve that shows that it
+//! helps.
 
 use serde::Serialize;
 
@@ -44,7 +45,8 @@ impl Kind {
     }
 }
 
-/// The solve that confirmed a remedy: from nothing, on exact columns, with the numbers that are printed.
+/// The solve that confirmed a remedy: from nothing, on exact columns, with the numbers that are
+/// printed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Confirmation {
     /// Columns along the longer side of the model, seen along the axis.
@@ -95,8 +97,8 @@ impl Remedy {
         self.confirmed.is_some()
     }
 
-    /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached and what a new place
-    /// warns of.
+    /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached
+    /// and what a new place warns of.
     pub(super) fn found(
         kind: Kind,
         amount: f64,

@@ -1,4 +1,5 @@
-//! What is advised helps, and a little less would not: every remedy is put to a fresh solve on exact columns.
+//! What is advised helps, and a little less would not: every remedy is put to a fresh solve on
+//! exact columns.
 
 use super::ground::{CONFIRMING_COLUMNS, Ground};
 use super::*;
@@ -10,7 +11,8 @@ use crate::mesh::{Csg, TriMesh};
 
 /// Samples of the grounds that tests ask for exact answers only.
 const FEW: usize = 100;
-/// How much less than what is advised must be too little: the border is found to a per cent, and two are given to spare.
+/// How much less than what is advised must be too little: the border is found to a per cent, and
+/// two are given to spare.
 const SHORT: f64 = 0.95;
 
 fn solid(mesh: TriMesh) -> Solid {
@@ -241,8 +243,8 @@ fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
     let up: Up = face.flags.strip_prefix("--up=").unwrap().parse().unwrap();
     assert!(is_possible(&case, &Request { up, ..case.request }, 3.0));
     let steel = of_kind(&found, Kind::LeastBallast);
-    // With its lower 15 mm filled the tower of 19.6 g has its centre 1.9 mm outside the edge, and steel acts on an arm of at
-    // most 17 mm, about half of that on the average: some grams.
+    // With its lower 15 mm filled the tower of 19.6 g has its centre 1.9 mm outside the edge, and
+    // steel acts on an arm of at most 17 mm, about half of that on the average: some grams.
     let mass_g = steel.amount.unwrap();
     assert!(steel.helps() && (1.0..8.0).contains(&mass_g), "{mass_g}");
     assert!(steel.flags.is_empty() && steel.words.contains("g of steel"));

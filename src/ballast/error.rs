@@ -54,7 +54,8 @@ pub enum StockFault {
     },
 }
 
-/// Why an order for ballast cannot be met. That no place or number of parts will do is an answer, not an error.
+/// Why an order for ballast cannot be met. That no place or number of parts will do is an answer,
+/// not an error.
 #[derive(Debug, thiserror::Error)]
 pub enum BallastError {
     /// A built-in catalogue is at fault.

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::words::as_text;
 
-/// The most parts that are laid in. Each is a pocket that must be cut open, filled and glued; a dozen is an afternoon.
+/// The most parts that are laid in. Each is a pocket that must be cut open, filled and glued; a
+/// dozen is an afternoon.
 pub const MOST_PARTS: u32 = 12;
 
 /// The ballast asked for. Reads from and prints as `none`, `auto`, `ID` or `IDxN`.

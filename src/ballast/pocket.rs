@@ -1,4 +1,5 @@
-//! The pocket of a stock part: a ball or a cylinder a little larger than the part, and the jacket of material around it.
+//! The pocket of a stock part: a ball or a cylinder a little larger than the part, and the jacket
+//! of material around it.
 
 use std::f64::consts::PI;
 
@@ -15,13 +16,15 @@ pub struct Fit {
     pub web_mm: f64,
 }
 
-/// Segments of a pocket's round. Its facets touch the round from outside, so the part has its clearance everywhere.
+/// Segments of a pocket's round. Its facets touch the round from outside, so the part has its
+/// clearance everywhere.
 const SEGMENTS: u32 = 64;
 /// Splits of the icosahedron that stands for a ball.
 const BALL_LEVEL: u32 = 3;
 /// The radius of that mesh's vertices over that of the largest ball inside it, and a little more.
 const BALL_STRETCH: f64 = 1.0046;
-/// A turn that leads no vertex into a plane through the centre along a coordinate axis: a cut there would leave slivers.
+/// A turn that leads no vertex into a plane through the centre along a coordinate axis: a cut there
+/// would leave slivers.
 const SKEW: Vector = Vector::new(0.27, 0.53, 0.81);
 /// The same about the axis of a cylinder, in segments.
 const SKEW_SEGMENTS: f64 = 0.37;
@@ -109,8 +112,8 @@ impl Pocket {
         beyond.max(0.0).hypot(aside.max(0.0)) + beyond.max(aside).min(0.0)
     }
 
-    /// Points that stand for it, and how far it reaches from each, mm: a ball's centre and radius; points of a cylinder's
-    /// rims and caps.
+    /// Points that stand for it, and how far it reaches from each, mm: a ball's centre and radius;
+    /// points of a cylinder's rims and caps.
     pub fn outline(&self) -> (Vec<Point>, f64) {
         let Some(half) = self.half_height_mm else {
             return (vec![self.center], self.radius_mm);
@@ -173,7 +176,8 @@ mod tests {
                 } else {
                     0.0
                 };
-            // Facets touch from outside; at rims the gap is measured across the corner's nearer face.
+            // Facets touch from outside; at rims the gap is measured across the corner's nearer
+            // face.
             assert!(
                 (0.2 - 1e-9..0.25).contains(&room_mm),
                 "{shape:?}: {room_mm}"

@@ -61,5 +61,6 @@ impl Rank {
     }
 }
 
-/// What is gained by less than this share is not worth another place: the solver's own gap is a thousandth of it.
+/// What is gained by less than this share is not worth another place: the solver's own gap is a
+/// thousandth of it.
 const GAIN_RATIO: f64 = 1e-4;

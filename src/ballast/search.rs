@@ -1,4 +1,5 @@
-//! The search for the parts and their places: one part after the other where it acts most, then each placed anew.
+//! The search for the parts and their places: one part after the other where it acts most, then
+//! each placed anew.
 
 use super::load::{Load, Placed};
 use super::rank::Rank;
@@ -16,14 +17,15 @@ use crate::shell::Shell;
 const SEARCHING_COLUMNS: usize = 60;
 /// Columns a side on which the places found are confirmed: as many as a run's first level.
 const CONFIRMING_COLUMNS: usize = 150;
-/// Passes an ascent of the least ballast may take: with a price to pay it bends more sharply than without.
+/// Passes an ascent of the least ballast may take: with a price to pay it bends more sharply than
+/// without.
 const PASSES: usize = 150;
 /// How much of the least mass that is proved on coarse columns is taken for sure.
 const SURE_RATIO: f64 = 0.9;
 /// How often each part is taken out and placed anew. The second sweep seldom finds anything.
 const SWEEPS: usize = 2;
-/// Shares of the way to the place that acts most. A part heavier than needed overshoots there; with less than an eighth of
-/// the way nothing is gained that the interior could not do as well.
+/// Shares of the way to the place that acts most. A part heavier than needed overshoots there; with
+/// less than an eighth of the way nothing is gained that the interior could not do as well.
 const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
 /// What ballast is looked for in.
 #[derive(Debug, Clone, Copy)]
@@ -73,8 +75,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The ballast that an order asks for; none where no number of the parts that fit makes the goal possible, or where
-    /// the parts asked for do not fit.
+    /// The ballast that an order asks for; none where no number of the parts that fit makes the
+    /// goal possible, or where the parts asked for do not fit.
     ///
     /// A number of parts that is asked for is laid in whether the goal becomes possible or not.
     pub fn of_order(&self, order: &Order) -> Result<Option<Found>, BallastError> {
@@ -108,7 +110,8 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The least mass of the ball's metal that any ballast must have, g; none where no amount of it does.
+    /// The least mass of the ball's metal that any ballast must have, g; none where no amount of it
+    /// does.
     fn least_g(&self, ball: &Part) -> Option<f64> {
         let metal_g_mm3 = ball.mass_g / ball.shape.volume_mm3();
         let density_ratio = metal_g_mm3 * MM3_PER_CM3 / self.shop.density_g_cm3;
@@ -126,7 +129,8 @@ impl<'a> Search<'a> {
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
 
-    /// So many of a part, if that makes the goal possible with something to spare, on finer columns too.
+    /// So many of a part, if that makes the goal possible with something to spare, on finer columns
+    /// too.
     fn possible(&self, part: &Part, count: u32) -> Option<Found> {
         let found = self.so_many(part, count)?;
         let fine = self.solved(found.load, &self.fine);
@@ -150,12 +154,13 @@ impl<'a> Search<'a> {
         Some(found)
     }
 
-    /// Each part taken out in turn and placed where it acts most on the answer at hand, or part of the way there; kept where
-    /// that gains.
+    /// Each part taken out in turn and placed where it acts most on the answer at hand, or part of
+    /// the way there; kept where that gains.
     fn exchanged(&self, part: &Part, mut found: Found) -> Found {
         for index in 0..found.load.parts.len() {
             let (before, rest) = (found.load.parts[index].clone(), found.load.without(index));
-            // With the prices of the answer at hand: the multipliers know what the other parts already do.
+            // With the prices of the answer at hand: the multipliers know what the other parts
+            // already do.
             let rest = Found {
                 load: rest,
                 solution: found.solution.clone(),
@@ -328,8 +333,9 @@ mod tests {
         assert!(bare(&solid, WALL_MM, request).status.is_impossible());
         let found = searched(&solid, WALL_MM, request, "auto").unwrap();
         assert!(found.solution.is_usable());
-        // In mm⁴ of the print: the block pulls down by 19200 · 3; all of the interior below the axis, 34 · 10 · 15 mm³ of it
-        // 7.5 mm down, is 38250 of it. A ball of diameter d, 7.83/1.2 times as dense, has its middle at most 27 − d/2 − 0.2 high.
+        // In mm⁴ of the print: the block pulls down by 19200 · 3; all of the interior below the
+        // axis, 34 · 10 · 15 mm³ of it 7.5 mm down, is 38250 of it. A ball of diameter d, 7.83/1.2
+        // times as dense, has its middle at most 27 − d/2 − 0.2 high.
         let missing = 19_200.0 * 3.0 - 34.0 * 10.0 * 15.0 * 7.5;
         let pull = |d: f64| std::f64::consts::PI / 6.0 * d.powi(3) * (7.83 / 1.2) * (8.8 - d / 2.0);
         let most = (1..=19)

@@ -11,13 +11,16 @@ use crate::mass::{Lump, Moments, moments_of_mesh};
 use crate::mesh::{MeshDistance, Solid};
 use crate::shell::Keep;
 
-/// Sites along the longer side of the model. Fewer miss narrow places; the best is refined to a fraction of the step anyway.
+/// Sites along the longer side of the model. Fewer miss narrow places; the best is refined to a
+/// fraction of the step anyway.
 const SITES_A_SIDE: f64 = 48.0;
 /// Places are refined down to steps of this, mm: a tenth of what a printer places.
 const FINEST_STEP_MM: f64 = 0.02;
-/// Refining ends after so many moves. Each halves the step or gains; few places take more than fifty.
+/// Refining ends after so many moves. Each halves the step or gains; few places take more than
+/// fifty.
 const MOST_MOVES: usize = 200;
-/// How much deeper than the wall asks a pocket is laid, mm: the measured wall is that of rounded vertices.
+/// How much deeper than the wall asks a pocket is laid, mm: the measured wall is that of rounded
+/// vertices.
 const SPARE_MM: f64 = 1e-3;
 
 /// The places of a model: points of what may be emptied, and how deep they lie.
@@ -75,7 +78,8 @@ impl<'a> Sites<'a> {
 
     /// The place where the part acts most; none where it does not fit.
     ///
-    /// All sites are put in the order of what they add; the first with room is refined by moves along the axes.
+    /// All sites are put in the order of what they add; the first with room is refined by moves
+    /// along the axes.
     pub fn best(&self, wish: &Wish) -> Option<Placed> {
         let stamps = self.stamps(wish);
         let costs = |stamp: usize| {
@@ -110,7 +114,8 @@ impl<'a> Sites<'a> {
         })
     }
 
-    /// The part in every direction it may have: a ball in one, the others along the axes of the goal's frame.
+    /// The part in every direction it may have: a ball in one, the others along the axes of the
+    /// goal's frame.
     fn stamps(&self, wish: &Wish) -> Vec<Stamp> {
         let axes = if wish.part.shape.is_ball() { 1 } else { 3 };
         let stamp = |i: usize| {
@@ -189,7 +194,8 @@ impl<'a> Sites<'a> {
                 || self.surface.min_distance_to(&pocket.mesh()) >= wall_mm)
     }
 
-    /// The place moved along the axes as long as that gains, in steps that halve where nothing does.
+    /// The place moved along the axes as long as that gains, in steps that halve where nothing
+    /// does.
     fn refined(&self, wish: &Wish, stamp: &Stamp, start: Point) -> Lump {
         let (mut best, mut step_mm) =
             ((stamp_cost(stamp, wish, &start), start), self.step_mm / 2.0);
@@ -211,8 +217,8 @@ impl<'a> Sites<'a> {
     }
 }
 
-/// What the part adds at a point of the goal frame: the part less its pocket; and what must stay solid around it where
-/// the void would have been.
+/// What the part adds at a point of the goal frame: the part less its pocket; and what must stay
+/// solid around it where the void would have been.
 fn stamp_cost(stamp: &Stamp, wish: &Wish, p: &Point) -> f64 {
     let moved = stamp.added.translated(&p.coords);
     let added: f64 = wish

@@ -217,7 +217,8 @@ mod tests {
     fn every_part_weighs_what_its_metal_does() {
         for part in catalogue().unwrap() {
             let density = part.mass_g / part.shape.volume_mm3() * MM3_PER_CM3;
-            // Zinc and nickel brass to copper; coins are thinner than their rims, nuts have chamfers and play.
+            // Zinc and nickel brass to copper; coins are thinner than their rims, nuts have
+            // chamfers and play.
             assert!((5.0..8.95).contains(&density), "{}: {density}", part.id);
         }
     }

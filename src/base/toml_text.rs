@@ -1,4 +1,5 @@
-//! TOML text read into plain data; every fault is told with its line, its column and the nearest known name.
+//! TOML text read into plain data; every fault is told with its line, its column and the nearest
+//! known name.
 
 use std::{fmt, ops::Range};
 
@@ -57,7 +58,8 @@ pub fn read<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, TextFault>
     })
 }
 
-/// The parser's message on one line; for an unknown name, the nearest of the expected ones is added.
+/// The parser's message on one line; for an unknown name, the nearest of the expected ones is
+/// added.
 fn explained(message: &str) -> String {
     let one_line = message
         .lines()
@@ -77,13 +79,14 @@ fn explained(message: &str) -> String {
 
 /// Share of a word's letters that may be wrong for a suggestion still to be likely.
 ///
-/// Above it unrelated names are suggested; below it two letters swapped in a short id (`pegt`) are missed.
+/// Above it unrelated names are suggested; below it two letters swapped in a short id (`pegt`) are
+/// missed.
 const MISSPELT_RATIO: f64 = 0.5;
 
 /// The one of `known` that `word` most likely stands for; none if nothing is near.
 ///
-/// Nearness is the number of letters to insert, delete or change (Levenshtein 1966); a known name that begins with the
-/// word counts as near. The first of equally near names wins.
+/// Nearness is the number of letters to insert, delete or change (Levenshtein 1966); a known name
+/// that begins with the word counts as near. The first of equally near names wins.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     known

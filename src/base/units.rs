@@ -28,9 +28,11 @@ const LENGTH_UNITS: [(&str, f64); 6] = [
     ("µm", 1e-3),
 ];
 
-/// A length as a person writes it: `100mm`, `4in`, `10cm`, `0.1m`, `42um`; without a unit, mm. Always positive and finite.
+/// A length as a person writes it: `100mm`, `4in`, `10cm`, `0.1m`, `42um`; without a unit, mm.
+/// Always positive and finite.
 ///
-/// In TOML and JSON it is written as a string with its unit and read from a string or from a number of mm.
+/// In TOML and JSON it is written as a string with its unit and read from a string or from a number
+/// of mm.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Length {
     mm: f64,

@@ -1,4 +1,5 @@
-//! Watch of a long run: named phases reported to the caller, and a flag by which the caller stops it.
+//! Watch of a long run: named phases reported to the caller, and a flag by which the caller stops
+//! it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -7,7 +8,8 @@ pub type Observer = dyn Fn(&str, f64) + Sync;
 
 /// What a long run tells its caller, and how the caller stops it.
 ///
-/// The library never prints: the command line draws bars from these calls, tests pass [`Watch::silent`].
+/// The library never prints: the command line draws bars from these calls, tests pass
+/// [`Watch::silent`].
 pub struct Watch<'a> {
     observer: Option<&'a Observer>,
     cancelled: AtomicBool,
@@ -22,7 +24,8 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Calls `observer(phase, done_ratio)` at the start of each phase (ratio 0) and as it advances (up to 1).
+    /// Calls `observer(phase, done_ratio)` at the start of each phase (ratio 0) and as it advances
+    /// (up to 1).
     pub fn observed(observer: &'a Observer) -> Self {
         Self {
             observer: Some(observer),

@@ -1,4 +1,5 @@
-//! Values that are read from and printed as words: the macros that make them, and what is said of any other word.
+//! Values that are read from and printed as words: the macros that make them, and what is said of
+//! any other word.
 
 use crate::base::toml_text::nearest;
 
@@ -24,7 +25,8 @@ pub enum ChoiceError {
 }
 
 impl ChoiceError {
-    /// The fault of a text that is none of the `known` words for a `what`; suggests the nearest of them.
+    /// The fault of a text that is none of the `known` words for a `what`; suggests the nearest of
+    /// them.
     pub fn unknown(what: &'static str, text: &str, known: &[&str]) -> Self {
         let remedy = match nearest(text, known.iter().copied()) {
             Some(word) => format!("did you mean `{word}`?"),
@@ -38,7 +40,8 @@ impl ChoiceError {
     }
 }
 
-/// So many numbers with commas between them, finite or not; none if they are not so many, or not numbers.
+/// So many numbers with commas between them, finite or not; none if they are not so many, or not
+/// numbers.
 pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Vec<f64> = text
         .split(',')
@@ -87,7 +90,8 @@ macro_rules! choice {
     };
 }
 
-/// Text in serde's files, through `FromStr` and `Display`; the type says `#[serde(try_from = "String", into = "String")]`.
+/// Text in serde's files, through `FromStr` and `Display`; the type says `#[serde(try_from =
+/// "String", into = "String")]`.
 macro_rules! as_text {
     ($($name:ident)+) => { $(
         impl TryFrom<String> for $name {

@@ -31,10 +31,11 @@ pub enum PrintersAction {
         /// The profile file
         file: PathBuf,
     },
-    /// Write a shop's own profile, that inherits from a printer or is taken over from a slicer's files
+    /// Write a shop's own profile, that inherits from a printer or is taken over from a slicer's
+    /// files
     New(NewArgs),
-    /// Take a printer, its materials and layers over from a slicer: PrusaSlicer and SuperSlicer .ini, Cura .def.json,
-    /// .xml.fdm_material and .inst.cfg
+    /// Take a printer, its materials and layers over from a slicer: PrusaSlicer and SuperSlicer
+    /// .ini, Cura .def.json, .xml.fdm_material and .inst.cfg
     Import(ImportArgs),
     /// Write what was measured on coupons into a shop's own profile, with the day and the lot
     Calibrate(CalibrateArgs),

@@ -1,4 +1,5 @@
-//! The progress of a run on a terminal: the stage at work, how far the whole has come, how fast, and how long it will take.
+//! The progress of a run on a terminal: the stage at work, how far the whole has come, how fast,
+//! and how long it will take.
 
 use std::{
     sync::{Arc, Mutex, PoisonError},
@@ -14,8 +15,9 @@ const BAR_STEPS: u64 = 1000;
 /// How often a bar is drawn anew while nothing is reported. Slower looks stuck, faster costs time.
 const TICK: Duration = Duration::from_millis(120);
 
-/// The phases of a run, what they do in a word or two, and about what share of its time each takes: measured on the elephant and
-/// the armadillo. Phases that are not listed take the place of the one before them.
+/// The phases of a run, what they do in a word or two, and about what share of its time each takes:
+/// measured on the elephant and the armadillo. Phases that are not listed take the place of the one
+/// before them.
 const STAGES: [(&str, &str, f64); 8] = [
     ("load", "reading the model", 0.02),
     ("columns", "measuring columns", 0.03),
@@ -100,8 +102,8 @@ impl Course {
         STAGES[..self.stage].iter().map(|(.., share)| share).sum()
     }
 
-    /// About how long the rest will take, s: the time so far over the share that is done, less what has gone by since; none while
-    /// too little is done to tell.
+    /// About how long the rest will take, s: the time so far over the share that is done, less what
+    /// has gone by since; none while too little is done to tell.
     fn left_s(&self, now: Instant) -> Option<f64> {
         let share = self.share();
         let known_s = if self.done_ratio > 0.0 {
@@ -251,7 +253,8 @@ mod tests {
 
     #[test]
     fn the_time_left_is_the_time_gone_by_over_what_is_done_and_nothing_is_told_too_early() {
-        // Halfway through cutting parts 0.55 + 0.11 of the run is done: after 33 s, 17 s are left of 50.
+        // Halfway through cutting parts 0.55 + 0.11 of the run is done: after 33 s, 17 s are left
+        // of 50.
         let (halfway, now) = course("parts", 0.5, 33);
         assert!((halfway.left_s(now).unwrap() - 17.0).abs() < 1e-6);
         assert!(halfway.left_words(now).contains("about 17 s left"));

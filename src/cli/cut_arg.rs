@@ -13,15 +13,16 @@ use crate::{
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Method")]
 pub struct CutArgs {
-    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in FILE says: the kit's
-    /// cuts.toml, edited [default: auto]
+    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in
+    /// FILE says: the kit's cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
-    /// Align the parts by pins that are printed with them (printed), or by dowels cut from stock rods (dowel) [default:
-    /// printed]
+    /// Align the parts by pins that are printed with them (printed), or by dowels cut from stock
+    /// rods (dowel) [default: printed]
     #[arg(long, value_name = "printed|dowel")]
     pub pins: Option<PinStyle>,
-    /// Sink the parts' ids into their cut faces where there is room (engraved), or not (none) [default: engraved]
+    /// Sink the parts' ids into their cut faces where there is room (engraved), or not (none)
+    /// [default: engraved]
     #[arg(long, value_name = "engraved|none")]
     pub ids: Option<IdStyle>,
 }

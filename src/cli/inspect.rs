@@ -69,7 +69,8 @@ struct Becoming {
     prospects: Vec<Prospect>,
 }
 
-/// A model whose longest side is shorter is no print but a wrong unit, mm: half of it would be wall.
+/// A model whose longest side is shorter is no print but a wrong unit, mm: half of it would be
+/// wall.
 const LEAST_SIZE_MM: f64 = 5.0;
 /// A model whose longest side is longer fits no printer, mm.
 const MOST_SIZE_MM: f64 = 2000.0;
@@ -89,8 +90,8 @@ struct Mass {
     dominance_ratio_by_axis: [f64; 3],
 }
 
-/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends as `prepare` ends with
-/// it, in [`Exit::CouldNotRun`].
+/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends as
+/// `prepare` ends with it, in [`Exit::CouldNotRun`].
 pub fn inspect(
     args: &InspectArgs,
     voice: Voice,

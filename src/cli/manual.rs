@@ -1,4 +1,5 @@
-//! `equipoise completions` and `equipoise man`: what shells and `man` want to know, made from the arguments themselves.
+//! `equipoise completions` and `equipoise man`: what shells and `man` want to know, made from the
+//! arguments themselves.
 
 use std::io::Write;
 

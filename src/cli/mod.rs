@@ -53,7 +53,8 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Runs the command on as many threads as it asks for, and prints what came of it on the standard output.
+/// Runs the command on as many threads as it asks for, and prints what came of it on the standard
+/// output.
 pub fn run(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
     let threads = cli.global.threads.map_or(0, usize::from);
     let pool = rayon::ThreadPoolBuilder::new()

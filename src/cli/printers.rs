@@ -1,4 +1,5 @@
-//! The command `printers`: the known printers listed, one shown with its sources, a profile checked.
+//! The command `printers`: the known printers listed, one shown with its sources, a profile
+//! checked.
 
 use std::io::{self, Write};
 
@@ -30,7 +31,8 @@ pub enum PrintersError {
     Json(#[from] serde_json::Error),
 }
 
-/// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as JSON.
+/// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as
+/// JSON.
 pub fn run(
     action: Option<PrintersAction>,
     json: bool,

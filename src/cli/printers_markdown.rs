@@ -59,7 +59,8 @@ fn walls(printer: &Printer) -> String {
     sized.chain([last]).collect::<Vec<_>>().join(", ")
 }
 
-/// Who vouches for the numbers that are neither the process's nor chosen: the first words of each source, once.
+/// Who vouches for the numbers that are neither the process's nor chosen: the first words of each
+/// source, once.
 fn sources(printer: &Printer) -> String {
     let numbers = printer
         .numbers()

@@ -1,4 +1,5 @@
-//! Where a shop's defaults are looked for, and what day it is: what the program asks of the machine it runs on.
+//! Where a shop's defaults are looked for, and what day it is: what the program asks of the machine
+//! it runs on.
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -25,7 +26,8 @@ pub fn chosen_printer(
     })
 }
 
-/// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the user's.
+/// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the
+/// user's.
 pub fn shop_folders(model: &Path) -> Vec<PathBuf> {
     let beside = model.parent().map(Path::to_owned);
     [PathBuf::from(".")]

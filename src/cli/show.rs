@@ -21,8 +21,9 @@ pub struct Manner {
 }
 
 impl Manner {
-    /// The manner for this process: bars on a terminal only; no colours where `NO_COLOR` is set to anything
-    /// (no-color.org), where the terminal is dumb, or where what is written does not go to one.
+    /// The manner for this process: bars on a terminal only; no colours where `NO_COLOR` is set to
+    /// anything (no-color.org), where the terminal is dumb, or where what is written does not go to
+    /// one.
     pub fn of_process(quiet: bool, verbose: u8) -> Self {
         let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
@@ -65,8 +66,8 @@ const REMEDY_MARK: &str = "; remedy: ";
 ///   remedy: check the path
 /// ```
 ///
-/// A remedy is what follows "; remedy: " in a message; in a message of several lines each keeps its own. A cause whose words
-/// its parent already said is left out.
+/// A remedy is what follows "; remedy: " in a message; in a message of several lines each keeps its
+/// own. A cause whose words its parent already said is left out.
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
     for cause in chain(error) {
@@ -139,7 +140,8 @@ pub fn verdict(passes: bool, is_coloured: bool) -> String {
 /// Blanks between the columns of a table.
 const COLUMN_GAP: usize = 2;
 
-/// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of colours take no room.
+/// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of
+/// colours take no room.
 pub fn table<Row: AsRef<[String]>>(rows: &[Row]) -> String {
     let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
     let widest = |column: usize| {

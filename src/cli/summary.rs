@@ -1,4 +1,5 @@
-//! What a person reads of a kit that was made: ten lines, or with `-v` every check and what the solver did.
+//! What a person reads of a kit that was made: ten lines, or with `-v` every check and what the
+//! solver did.
 
 use std::path::Path;
 
@@ -11,7 +12,8 @@ use crate::verify::Check;
 const SHOWN_PERCENT: f64 = 0.01;
 /// Shares above this say nothing of how far it is: the best value is next to zero, %.
 const FAR_PERCENT: f64 = 100.0;
-/// Lengths in mm and angles in degrees below this are told as less than it: nobody prints or balances so exactly.
+/// Lengths in mm and angles in degrees below this are told as less than it: nobody prints or
+/// balances so exactly.
 const SHOWN_OFF: f64 = 0.001;
 /// The order in which a person reads the solver's numbers.
 const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
@@ -44,7 +46,8 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         .flatten()
         .map(|(name, words)| [name.to_owned(), words])
         .collect();
-    // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in the way of a search.
+    // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in
+    // the way of a search.
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 

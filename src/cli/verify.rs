@@ -45,9 +45,11 @@ pub fn verify(
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
 }
 
-/// What became of the files first, then what is broken besides, then all that was judged, and the sum.
+/// What became of the files first, then what is broken besides, then all that was judged, and the
+/// sum.
 ///
-/// Where a file has another shape, what fails with it is named only: it follows from that. With `-v` it is told in full.
+/// Where a file has another shape, what fails with it is named only: it follows from that. With
+/// `-v` it is told in full.
 fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
     let causes = changes.iter().map(|change| {
         let label = paint("FAIL", RED, manner.is_output_coloured);

@@ -14,7 +14,8 @@ const FIN_HEIGHT_MM: f64 = 10.0;
 const FIN_LENGTH_MM: f64 = 15.0;
 /// Material and air between neighbours, mm.
 const GAP_MM: f64 = 4.0;
-/// How far bodies reach into each other or out of what they are cut from, mm, so that no faces coincide.
+/// How far bodies reach into each other or out of what they are cut from, mm, so that no faces
+/// coincide.
 const OVERLAP_MM: f64 = 0.5;
 /// The cut-off corner that marks the end where the smallest stand, mm.
 const MARK_MM: f64 = 3.0;
@@ -66,8 +67,8 @@ fn block(low: [f64; 3], high: [f64; 3]) -> Result<Csg, ClipError> {
     Csg::of_mesh(&primitives::cuboid(&Point::from(low), &Point::from(high)))
 }
 
-/// An upright round of this diameter between two heights about (x, y); `is_hole` puts the polygon around the circle, so that
-/// nothing of the gap is lost to its flats, else inside it.
+/// An upright round of this diameter between two heights about (x, y); `is_hole` puts the polygon
+/// around the circle, so that nothing of the gap is lost to its flats, else inside it.
 fn round(
     diameter_mm: f64,
     [x, y]: [f64; 2],

@@ -1,4 +1,5 @@
-//! Coupons: small parts that a shop prints, weighs and tries, so that its profile says what its own machine does.
+//! Coupons: small parts that a shop prints, weighs and tries, so that its profile says what its own
+//! machine does.
 
 mod bodies;
 mod sheet;

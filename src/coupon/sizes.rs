@@ -4,10 +4,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::printer::{Material, Printer};
 
-/// The side of a density coupon, mm: 8 cm³ weigh some 9 g, so that a balance of 0.01 g reads to a thousandth; much larger ones
-/// take hours to print.
+/// The side of a density coupon, mm: 8 cm³ weigh some 9 g, so that a balance of 0.01 g reads to a
+/// thousandth; much larger ones take hours to print.
 const DENSITY_SIDE_MM: f64 = 20.0;
-/// From one socket of the comb to the next, mm a side: what the issue of a fit turns on, and what a calliper can tell.
+/// From one socket of the comb to the next, mm a side: what the issue of a fit turns on, and what a
+/// calliper can tell.
 const CLEARANCE_STEP_MM: f64 = 0.05;
 /// How many steps the comb goes to either side of the profile's clearance.
 const CLEARANCE_STEPS: usize = 3;
@@ -61,8 +62,8 @@ pub struct CouponSet {
 }
 
 impl CouponSet {
-    /// The coupons of a printer and one of its materials. Density coupons, pins and walls are whole steps of its grid; the
-    /// comb's sockets are not, since their steps are what is tried.
+    /// The coupons of a printer and one of its materials. Density coupons, pins and walls are whole
+    /// steps of its grid; the comb's sockets are not, since their steps are what is tried.
     pub fn of(printer: &Printer, material: &Material) -> Self {
         let [x, y, z] =
             [&printer.pixel_x_mm, &printer.pixel_y_mm, &printer.layer_mm].map(|step| step.value);

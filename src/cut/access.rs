@@ -18,12 +18,14 @@ use crate::{
     mesh::{Hollowed, Solid},
 };
 
-/// More of the wall than asked must be in sight by this share, so that a judge who looks at other points, and voids solved
-/// for once more, still find enough. Less, and kits at the limit fail now and then; more costs cuts that nobody needs.
+/// More of the wall than asked must be in sight by this share, so that a judge who looks at other
+/// points, and voids solved for once more, still find enough. Less, and kits at the limit fail now
+/// and then; more costs cuts that nobody needs.
 const SIGHT_MARGIN_RATIO: f64 = 0.005;
 
-/// What of that margin must be left in the end: a judge who looks at other points and from more places finds up to 0.0045 less, and more
-/// than 0.0012 less in 2 of 104 voids (the acceptance table on four printers).
+/// What of that margin must be left in the end: a judge who looks at other points and from more
+/// places finds up to 0.0045 less, and more than 0.0012 less in 2 of 104 voids (the acceptance
+/// table on four printers).
 const LAST_MARGIN_RATIO: f64 = 0.002;
 
 /// How a void is opened.
@@ -35,15 +37,17 @@ pub struct VoidAccess {
     pub volume_mm3: f64,
     /// The ids of the cuts that pass through it.
     pub opened_by: Vec<String>,
-    /// The diameter of the largest disc that passes the widest mouth of its pieces; of the piece where that
-    /// is least, mm. Dimples in plain sight are not asked. 0 when the void stays closed.
+    /// The diameter of the largest disc that passes the widest mouth of its pieces; of the piece
+    /// where that is least, mm. Dimples in plain sight are not asked. 0 when the void stays closed.
     pub opening_mm: f64,
     /// The greatest distance of a point of its surface from the mouth of its piece, mm.
     pub depth_mm: f64,
-    /// The share of its wall that is in sight of the mouths of its own piece and within the tool's reach; of a sample of points.
+    /// The share of its wall that is in sight of the mouths of its own piece and within the tool's
+    /// reach; of a sample of points.
     pub sight_ratio: f64,
-    /// Whether every piece of it can be cleaned by the printer's rule. Of filament, too, the planner asks for sight: how parts will
-    /// lie, and so what needs no support, is settled after the cuts.
+    /// Whether every piece of it can be cleaned by the printer's rule. Of filament, too, the
+    /// planner asks for sight: how parts will lie, and so what needs no support, is settled after
+    /// the cuts.
     pub is_clean: bool,
 }
 
@@ -61,8 +65,8 @@ impl VoidAccess {
         }
     }
 
-    /// How far the void is from clean, mm²: 0 where it is; else the area that is missing in sight, and all of it where
-    /// something cannot get out. Areas are those of a ball of its volume.
+    /// How far the void is from clean, mm²: 0 where it is; else the area that is missing in sight,
+    /// and all of it where something cannot get out. Areas are those of a ball of its volume.
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
         let asked = asked_ratio(request);
         let closed = if self.is_clean {
@@ -73,8 +77,8 @@ impl VoidAccess {
         self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
     }
 
-    /// Whether it can be cleaned by the rule, with hardly any of the planner's margin left: for what is not solved for once more but to
-    /// make up for pins.
+    /// Whether it can be cleaned by the rule, with hardly any of the planner's margin left: for
+    /// what is not solved for once more but to make up for pins.
     pub fn is_clean_without_margin(&self, request: &PlanRequest, voids: usize) -> bool {
         let least = request.cleaning.sight_ratio + LAST_MARGIN_RATIO;
         let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
@@ -167,7 +171,8 @@ impl<'a> Opened<'a> {
         }
     }
 
-    /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at through them.
+    /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at
+    /// through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
         let pieces = self.chamber.split(self.tree)?;
         let met = |cut: &usize| {

@@ -9,7 +9,8 @@ use crate::mesh::TriMesh;
 const PLACES_PER_CUT: f64 = 6000.0;
 /// Places nearer together than this tell nothing new, mm.
 const MIN_PITCH_MM: f64 = 0.15;
-/// A pair of pins is at least this share of the widest possible distance apart: nearer ones align worse.
+/// A pair of pins is at least this share of the widest possible distance apart: nearer ones align
+/// worse.
 const SPREAD_RATIO: f64 = 0.5;
 /// How often it is looked whether bosses leave the voids open, each of which costs a boolean.
 const TRIED_OPENINGS: usize = 24;
@@ -70,8 +71,8 @@ pub(crate) fn grid(outline: &Outline) -> Vec<Point2> {
         .collect()
 }
 
-/// Pairs of sites that are far enough apart: those first that leave in sight what must be, or lack least; of these the cheapest,
-/// and of equally cheap ones the farthest.
+/// Pairs of sites that are far enough apart: those first that leave in sight what must be, or lack
+/// least; of these the cheapest, and of equally cheap ones the farthest.
 pub(crate) fn best_pairs(sites: &[Site], gap_mm: f64, view: &BossView) -> Vec<Pair> {
     let indices = || (0..sites.len()).flat_map(|i| (i + 1..sites.len()).map(move |j| [i, j]));
     let apart = |[i, j]: [usize; 2]| (sites[i].at - sites[j].at).norm();
@@ -94,8 +95,8 @@ pub(crate) fn best_pairs(sites: &[Site], gap_mm: f64, view: &BossView) -> Vec<Pa
     pairs
 }
 
-/// Which pairs of sites leave every void open, found with few looks: what closes one alone does so in every pair, and so do, most
-/// likely, the sites beside it.
+/// Which pairs of sites leave every void open, found with few looks: what closes one alone does so
+/// in every pair, and so do, most likely, the sites beside it.
 pub(crate) struct OpenPairs<'a> {
     view: &'a BossView<'a>,
     sites: &'a [Site],
@@ -166,7 +167,8 @@ mod tests {
     use crate::geom::{Plane, Vector};
     use crate::mesh::Hollowed;
 
-    /// Sites along x, each with its price, what it hides of the one void, and a boss that is a post or a lid.
+    /// Sites along x, each with its price, what it hides of the one void, and a boss that is a post
+    /// or a lid.
     fn sites(rows: &[(f64, f64, f64, bool)]) -> Vec<Site> {
         let site = |&(x, price, hides, is_lid): &(f64, f64, f64, bool)| {
             let side = if is_lid { 20.0 } else { 1.0 };

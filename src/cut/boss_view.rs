@@ -18,8 +18,9 @@ use crate::{
     mesh::{Hollowed, TriMesh, bodies},
 };
 
-/// Bosses are to leave so much more of a wall in sight than is asked: solving again moves the voids about them. Less, and
-/// more must be kept solid afterwards, which costs far more than a dearer place.
+/// Bosses are to leave so much more of a wall in sight than is asked: solving again moves the voids
+/// about them. Less, and more must be kept solid afterwards, which costs far more than a dearer
+/// place.
 const SPARE_RATIO: f64 = 0.01;
 
 /// The plain voids of a body as its cuts open them, before bosses stand in them.
@@ -75,7 +76,8 @@ impl<'a> BossView<'a> {
             .collect()
     }
 
-    /// How much less than asked is in sight, mm² of all walls, where so much of each is hidden by some bosses together.
+    /// How much less than asked is in sight, mm² of all walls, where so much of each is hidden by
+    /// some bosses together.
     pub(crate) fn lack_mm2(&self, hidden: &[&[f64]]) -> f64 {
         let lack = |(void, view): (usize, &View)| {
             let hidden: f64 = hidden.iter().map(|shares| shares[void]).sum();
@@ -131,7 +133,8 @@ impl<'a> View<'a> {
         self.lines.par_iter().filter(is_hidden).count() as f64 / self.lines.len().max(1) as f64
     }
 
-    /// Whether what bosses leave is opened by a disc as wide as needed in all its pieces but crumbs, which will be filled.
+    /// Whether what bosses leave is opened by a disc as wide as needed in all its pieces but
+    /// crumbs, which will be filled.
     fn stays_open(&self, bosses: &[TriMesh], tree: &CutTree) -> Result<bool, CutError> {
         let rest = self.chamber.without(bosses)?;
         let crumb_mm3 = PI / 6.0 * self.needed_mm.powi(3);
@@ -183,8 +186,8 @@ impl Convex {
             && self.faces.iter().all(|face| face.distance(p) <= near_mm)
     }
 
-    /// Whether it stands between two points: the part of the line in all half-spaces (Cyrus and Beck, "Generalized two- and
-    /// three-dimensional clipping", Computers & Graphics 3, 1978).
+    /// Whether it stands between two points: the part of the line in all half-spaces (Cyrus and
+    /// Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3, 1978).
     fn parts(&self, from: &Point, to: &Point) -> bool {
         let along = to - from;
         if self.distance_mm(from, &along) > self.radius_mm {
@@ -253,7 +256,8 @@ mod tests {
         let tree = level();
         let view = BossView::new(&body, &tree, &request).unwrap();
         let lid = cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]);
-        // Beneath the lid: walls 16 mm deep about 80 mm, and the floor; of all 40 mm about 80 mm, and two floors.
+        // Beneath the lid: walls 16 mm deep about 80 mm, and the floor; of all 40 mm about 80 mm,
+        // and two floors.
         let expected = (16.0 * 80.0 + 400.0) / (40.0 * 80.0 + 800.0);
         let hidden = view.hidden_by(lid.mesh());
         assert!((hidden[0] - expected).abs() < 0.02, "{hidden:?} {expected}");

@@ -1,7 +1,7 @@
 //! Bosses: material to be kept solid around pins, where the walls alone leave them no room.
 //!
-//! A site is as good as it is cheap. Near an optimum the objective changes, to first order, by the integral of the optimal
-//! quadric over what is filled, so that is the price of a boss.
+//! A site is as good as it is cheap. Near an optimum the objective changes, to first order, by the
+//! integral of the optimal quadric over what is filled, so that is the price of a boss.
 
 use std::f64::consts::{PI, TAU};
 
@@ -34,7 +34,8 @@ const PRICED_PLACES: usize = 300;
 const MARGIN_MM: f64 = 0.01;
 /// Sides of a boss.
 const SIDES: usize = 32;
-/// The turn of its corners about its axis, in sides, so that none lies in a plane of the model's axes.
+/// The turn of its corners about its axis, in sides, so that none lies in a plane of the model's
+/// axes.
 const ASKEW: f64 = 0.37;
 /// Rings and heights in which a boss's price is sampled.
 const PRICED_RINGS: [(f64, usize); 3] = [(0.0, 1), (0.5, 6), (0.9, 12)];
@@ -50,7 +51,8 @@ pub struct BossOrder<'a> {
     pub request: &'a PlanRequest,
     /// The plan of its cuts and pins.
     pub plan: &'a CutPlan,
-    /// The pins that a person ordered: they get bosses where they need them, and no other pins are looked for.
+    /// The pins that a person ordered: they get bosses where they need them, and no other pins are
+    /// looked for.
     pub ordered: Option<&'a [PinSite]>,
     /// Joints for which no bosses are looked for any more.
     pub given_up: &'a [JointName],
@@ -78,7 +80,8 @@ pub struct Boss {
     pub parts: [String; 2],
     /// Closed, facing outward, model frame, mm; it reaches into the wall.
     pub body: TriMesh,
-    /// Whether something of it is empty so far. A boss that is solid already is kept so when everything is solved again.
+    /// Whether something of it is empty so far. A boss that is solid already is kept so when
+    /// everything is solved again.
     pub is_new: bool,
 }
 
@@ -92,11 +95,13 @@ impl Boss {
     }
 }
 
-/// The pins, with bosses where they need them, of every joint that has not two pins that fit one way only; of ordered pins those of
-/// joints in which one stands in too little material. A joint for which there is no place has none of them. Where no place leaves every void open, one is taken that
-/// closes some: what it closes is to be kept solid.
+/// The pins, with bosses where they need them, of every joint that has not two pins that fit one
+/// way only; of ordered pins those of joints in which one stands in too little material. A joint
+/// for which there is no place has none of them. Where no place leaves every void open, one is
+/// taken that closes some: what it closes is to be kept solid.
 ///
-/// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from other pins.
+/// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from
+/// other pins.
 pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
         return Ok(Vec::new());
@@ -131,7 +136,8 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
             .iter()
             .filter_map(|pin| search.for_ordered(&joints, pin))
             .collect();
-        // As when the planner finds a pattern: all of a joint's pins keep their material, or none needs to.
+        // As when the planner finds a pattern: all of a joint's pins keep their material, or none
+        // needs to.
         let is_needy = |boss: &&Boss| {
             able.iter()
                 .any(|other| other.is_new && other.joint() == boss.joint())
@@ -225,7 +231,8 @@ impl Search<'_> {
         Face::bare(scene, joint, (&[], is_upward)).has_meat(&at, &Size::of(pin))
     }
 
-    /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit one way only.
+    /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit
+    /// one way only.
     fn found(&self, joint: &Joint, others: &[&Placement]) -> Result<Option<Placement>, CutError> {
         let thin_first = |mut pairs: Vec<[Size; 2]>| {
             let equal = pairs.pop();
@@ -253,7 +260,8 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The cheapest single pin of the thinnest size for a joint without room for two; only the parts' outlines tell the turn then.
+    /// The cheapest single pin of the thinnest size for a joint without room for two; only the
+    /// parts' outlines tell the turn then.
     fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
         let [_, size] = size_pairs(self.order.request).pop()?;
         let along = |is_upward: bool| {
@@ -269,7 +277,8 @@ impl Search<'_> {
             .map(|(_, placement)| placement)
     }
 
-    /// The best pattern of two pins of these sizes, and what it costs; with `must_open` of those that leave every void open.
+    /// The best pattern of two pins of these sizes, and what it costs; with `must_open` of those
+    /// that leave every void open.
     fn along(
         &self,
         joint: &Joint,
@@ -299,7 +308,8 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The places of a joint where a boss of this size joins its wall and keeps off the outside, with their prices.
+    /// The places of a joint where a boss of this size joins its wall and keeps off the outside,
+    /// with their prices.
     fn sites(&self, joint: &Joint, face: &Face, (size, is_upward): (&Size, bool)) -> Vec<Site> {
         let request = self.order.request;
         let plane = &self.filled.tree.planes[joint.cut];
@@ -344,7 +354,8 @@ impl Search<'_> {
             .collect()
     }
 
-    /// What the boss of a pin costs, to first order and up to a factor: the integral of the quadric over what it fills.
+    /// What the boss of a pin costs, to first order and up to a factor: the integral of the quadric
+    /// over what it fills.
     fn price(&self, mouth: &Point, along: &Vector, size: &Size) -> f64 {
         let (quadric, frame) = &self.order.price;
         let (u, v) = orthonormal_basis(along);
@@ -388,7 +399,8 @@ impl Search<'_> {
         }
     }
 
-    /// The pin with its boss, none where it has no volume: a round or long bar about it that reaches to the outside in the cut, so that it stands in the wall.
+    /// The pin with its boss, none where it has no volume: a round or long bar about it that
+    /// reaches to the outside in the cut, so that it stands in the wall.
     fn boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
         let JointName { cut, parts } = self.name(joint);
         let is_new = !self.has_meat(self.hollow, joint, pin);
@@ -402,8 +414,8 @@ impl Search<'_> {
         })
     }
 
-    /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a gap too narrow to be cleaned
-    /// would stay between.
+    /// The hull of discs about the pin's axis, and of others moved to the wall beside it wherever a
+    /// gap too narrow to be cleaned would stay between.
     fn body(
         &self,
         joint: &Joint,
@@ -434,7 +446,8 @@ impl Search<'_> {
         )
     }
 
-    /// A disc's middle moved to the wall beside it, across its axis; none where the gap between them can be cleaned, or is none.
+    /// A disc's middle moved to the wall beside it, across its axis; none where the gap between
+    /// them can be cleaned, or is none.
     fn rib(&self, end: &Point, along: &Vector, radius: f64) -> Option<Point> {
         let request = self.order.request;
         let outward = self.outer.closest(end, f64::INFINITY, &[])?.point - end;

@@ -40,14 +40,16 @@ impl<'a> Chamber<'a> {
         split_body(&self.body, tree)
     }
 
-    /// About the share of its wall that is in sight once these planes cut it, from its sections alone: a tenth of the work of
-    /// cutting it. A mouth that another plane crosses counts whole, so the share may be too large there by slivers.
+    /// About the share of its wall that is in sight once these planes cut it, from its sections
+    /// alone: a tenth of the work of cutting it. A mouth that another plane crosses counts whole,
+    /// so the share may be too large there by slivers.
     pub(crate) fn glance(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
         self.walls
             .glimpsed(&self.mouths(tree), &Look::new(tree, request))
     }
 
-    /// About where each point of its wall is seen from once these planes cut it, as in [`Self::glance`].
+    /// About where each point of its wall is seen from once these planes cut it, as in
+    /// [`Self::glance`].
     pub(crate) fn sightlines(&self, tree: &CutTree, request: &PlanRequest) -> Vec<Sightlines> {
         self.walls
             .sightlines(&self.mouths(tree), &Look::new(tree, request))

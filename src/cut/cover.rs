@@ -17,15 +17,16 @@ pub(crate) struct Cover {
     pub(crate) nodes: u64,
 }
 
-/// How many partial choices are looked at before a search settles for the greedy cover: a second or two. Ten voids
-/// need some hundred, twenty some thousand.
+/// How many partial choices are looked at before a search settles for the greedy cover: a second or
+/// two. Ten voids need some hundred, twenty some thousand.
 const MAX_NODES: u64 = 50_000;
 
-/// A smallest choice of `sets` whose union is `all`, proved smallest by exhausting every smaller size; the greedy choice
-/// where that would take more than [`MAX_NODES`]; `None` when even all of them leave something out.
+/// A smallest choice of `sets` whose union is `all`, proved smallest by exhausting every smaller
+/// size; the greedy choice where that would take more than [`MAX_NODES`]; `None` when even all of
+/// them leave something out.
 ///
-/// Branches on the element in the fewest sets; prunes where the sets left, at the size of the largest, cannot
-/// hold what is missing.
+/// Branches on the element in the fewest sets; prunes where the sets left, at the size of the
+/// largest, cannot hold what is missing.
 pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
     let greedy = greedy_cover(sets, all)?;
     let useful = undominated(sets, all);
@@ -62,9 +63,9 @@ pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
     })
 }
 
-/// A choice of sets whose union is `all`, by always taking the first of those that hold the most of what is missing; `None`
-/// when there is none. At most ln n + 1 times the smallest (Johnson, "Approximation algorithms for
-/// combinatorial problems", J. Comput. Syst. Sci. 9, 1974).
+/// A choice of sets whose union is `all`, by always taking the first of those that hold the most of
+/// what is missing; `None` when there is none. At most ln n + 1 times the smallest (Johnson,
+/// "Approximation algorithms for combinatorial problems", J. Comput. Syst. Sci. 9, 1974).
 pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>> {
     let (mut missing, mut chosen) = (all, Vec::new());
     while missing != 0 {
@@ -79,8 +80,8 @@ pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>>
     Some(chosen)
 }
 
-/// Choices of `size` sets whose union is `all`, each as ascending indices, at most `limit` of them (and what [`MAX_NODES`] allow), in the
-/// order in which sets early in the list come first.
+/// Choices of `size` sets whose union is `all`, each as ascending indices, at most `limit` of them
+/// (and what [`MAX_NODES`] allow), in the order in which sets early in the list come first.
 pub(crate) fn covers_of_size(
     sets: &[VoidSet],
     all: VoidSet,

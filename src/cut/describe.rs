@@ -1,4 +1,5 @@
-//! A plan told from its cuts and the pieces they leave: pins, joints, and what a person should know.
+//! A plan told from its cuts and the pieces they leave: pins, joints, and what a person should
+//! know.
 
 use super::{
     access::VoidAccess,
@@ -132,7 +133,8 @@ fn contact<'a>(
     FlatFace::of_triangles(faces.chain(mouths))
 }
 
-/// The plan with the faces of its joints as they are between these pieces, of a body that was solved for again.
+/// The plan with the faces of its joints as they are between these pieces, of a body that was
+/// solved for again.
 pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
     for joint in joints(pieces, tree) {
         let (cut, parts) = (
@@ -153,7 +155,8 @@ pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> Cu
     plan
 }
 
-/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket behind one of them.
+/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket
+/// behind one of them.
 fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
     let (index, opening) = (void.void, void.opening_mm);
     let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());

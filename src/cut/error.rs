@@ -3,7 +3,8 @@
 use crate::base::toml_text::TextFault;
 use crate::mesh::ClipError;
 
-/// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by their ids.
+/// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by
+/// their ids.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CutError {
     /// A length of the request is not positive or not finite.

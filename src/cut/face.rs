@@ -1,4 +1,5 @@
-//! The meeting faces of a joint, seen along its pins: where in them a pin and its socket keep the wall.
+//! The meeting faces of a joint, seen along its pins: where in them a pin and its socket keep the
+//! wall.
 
 use super::{
     pattern::Peg,
@@ -11,8 +12,8 @@ use super::{
 };
 use crate::geom::{Bvh, Plane, Point, Vector, triangle::segment_segment_distance_squared};
 
-/// About how many places are looked at in each joint: more find room in narrower joints, at a cost in
-/// proportion.
+/// About how many places are looked at in each joint: more find room in narrower joints, at a cost
+/// in proportion.
 const PLACES_PER_JOINT: f64 = 400.0;
 
 /// Places nearer together than this tell nothing new, mm.
@@ -118,7 +119,8 @@ impl<'a> Face<'a> {
             .collect()
     }
 
-    /// Whether the socket at a point, with the wall around it, lies inside the material and clear of other cuts.
+    /// Whether the socket at a point, with the wall around it, lies inside the material and clear
+    /// of other cuts.
     pub(super) fn has_meat(&self, p: &Point2, size: &Size) -> bool {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
         let along = self.plane.normal * self.sign;
@@ -148,13 +150,14 @@ impl<'a> Face<'a> {
         self.surface.segment_distance(from, to, distance_mm) >= distance_mm
     }
 
-    /// How far apart the axes of pins of this size must be, so that their sockets leave a wall between them, mm.
+    /// How far apart the axes of pins of this size must be, so that their sockets leave a wall
+    /// between them, mm.
     pub(super) fn gap_mm(&self, size: &Size) -> f64 {
         size.room_mm(self.scene.request) - self.scene.request.wall_mm
     }
 
-    /// Up to three places, the first with the first size: the farthest apart that fit one way only; else the
-    /// farthest apart.
+    /// Up to three places, the first with the first size: the farthest apart that fit one way only;
+    /// else the farthest apart.
     pub(super) fn pattern(
         &self,
         places: &[Point2],
@@ -252,7 +255,8 @@ impl<'a> Face<'a> {
     }
 }
 
-/// Points spread over the joint's faces with their distances from the edge, and the faces' widest disc.
+/// Points spread over the joint's faces with their distances from the edge, and the faces' widest
+/// disc.
 pub(super) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)>, f64) {
     let (mut points, mut widest_mm) = (Vec::new(), 0.0f64);
     for cap in &joint.faces {

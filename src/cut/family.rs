@@ -14,15 +14,16 @@ use crate::{
     mesh::{Hollowed, TriMesh},
 };
 
-/// How many directions are spread over the half sphere: about 10° apart. Fewer miss skew planes through three
-/// voids, more cost time in proportion.
+/// How many directions are spread over the half sphere: about 10° apart. Fewer miss skew planes
+/// through three voids, more cost time in proportion.
 const SPREAD_DIRECTIONS: usize = 160;
 
-/// How many voids, the largest, decide between them on directions of their own: with ten there are a thousand, and their
-/// number grows with the fourth power.
+/// How many voids, the largest, decide between them on directions of their own: with ten there are
+/// a thousand, and their number grows with the fourth power.
 const PAIRED_VOIDS: usize = 10;
 
-/// Two lines between voids that lean less than this (sine) against each other have no common normal to speak of.
+/// Two lines between voids that lean less than this (sine) against each other have no common normal
+/// to speak of.
 const PARALLEL_SINE: f64 = 1e-6;
 
 /// How many offsets are tried in each interval in which the same voids are met.
@@ -50,8 +51,9 @@ struct Extent {
     breadth_mm: f64,
 }
 
-/// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets into cells that
-/// meet the same voids; each cell is sampled. Sorted by direction, then offset; the model's planes of symmetry come last.
+/// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets
+/// into cells that meet the same voids; each cell is sampled. Sorted by direction, then offset; the
+/// model's planes of symmetry come last.
 pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
     let breadths: Vec<f64> = hollowed
         .voids
@@ -88,9 +90,10 @@ fn symmetry(model: &TriMesh) -> Vec<Plane> {
     mirror_planes(model, &center, &principal_axes(model))
 }
 
-/// The directions of the family: the model's axes, the principal axes of the solid and of every void, the goal's axis
-/// and its perpendiculars, a Fibonacci spiral over the half sphere (Swinbank and Purser, "Fibonacci
-/// grids", Q. J. R. Meteorol. Soc. 132, 2006), and the directions in which voids lie flattest.
+/// The directions of the family: the model's axes, the principal axes of the solid and of every
+/// void, the goal's axis and its perpendiculars, a Fibonacci spiral over the half sphere (Swinbank
+/// and Purser, "Fibonacci grids", Q. J. R. Meteorol. Soc. 132, 2006), and the directions in which
+/// voids lie flattest.
 fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     let mut directions = vec![Vector::x(), Vector::y(), Vector::z()];
     let axis = request.axis.direction.normalize();
@@ -122,10 +125,11 @@ fn centers(hollowed: &Hollowed) -> Vec<Point> {
         .collect()
 }
 
-/// The directions in which points may lie flattest: the common normals of two lines through two of them each. The least
-/// distance of parallel planes about any of the points is found along one of these (two edges, or a side and a corner, touch
-/// the planes: Houle and Toussaint, "Computing the width of a set", IEEE TPAMI 10, 1988), so that balls of one size
-/// which some plane opens are opened by one of the family.
+/// The directions in which points may lie flattest: the common normals of two lines through two of
+/// them each. The least distance of parallel planes about any of the points is found along one of
+/// these (two edges, or a side and a corner, touch the planes: Houle and Toussaint, "Computing the
+/// width of a set", IEEE TPAMI 10, 1988), so that balls of one size which some plane opens are
+/// opened by one of the family.
 fn flattest(points: &[Point]) -> Vec<Vector> {
     let pairs = |count: usize| (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
     let lines: Vec<Vector> = pairs(points.len())
@@ -186,7 +190,8 @@ impl Extent {
     }
 }
 
-/// The candidates normal to one direction: those through the middles of seats, then those of every cell.
+/// The candidates normal to one direction: those through the middles of seats, then those of every
+/// cell.
 fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
@@ -208,7 +213,8 @@ fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Cand
         .collect()
 }
 
-/// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part into.
+/// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part
+/// into.
 fn candidate(plane: Plane, extents: &[Extent], seats: &[Seat]) -> Candidate {
     let (offset_mm, first) = (plane.offset_mm, extents.len().saturating_sub(seats.len()));
     let is_seat_opened = |i: usize| {

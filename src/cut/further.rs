@@ -15,8 +15,8 @@ use crate::{
     mesh::off_vertices,
 };
 
-/// Cuts that are made at most so that voids can be seen into. A void that still hides something is winding; cutting on
-/// would leave crumbs, and keeping its end solid costs less.
+/// Cuts that are made at most so that voids can be seen into. A void that still hides something is
+/// winding; cutting on would leave crumbs, and keeping its end solid costs less.
 const MAX_SIGHT_CUTS: usize = 3;
 /// A further cut must bring at least this share of what is missing, or it is not worth its joint.
 const WORTH_RATIO: f64 = 0.1;
@@ -26,14 +26,17 @@ const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
 const NEARLY_BEST_RATIO: f64 = 0.05;
 /// How many of those are weighed: each costs a cut of a void and two passes over the model.
 const WEIGHED: usize = 6;
-/// How many of the best plans are glanced at before further cuts are made: two planes may leave a corner out of sight, and
-/// a further cut costs a joint. A glance takes some hundredths of a second.
+/// How many of the best plans are glanced at before further cuts are made: two planes may leave a
+/// corner out of sight, and a further cut costs a joint. A glance takes some hundredths of a
+/// second.
 const GLANCED_PLANS: usize = 48;
 /// So many are glanced at together before those that seem clean are tried.
 const GLANCED_AT_ONCE: usize = 8;
-/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for trial.
+/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for
+/// trial.
 const GLANCE_ERROR_RATIO: f64 = 0.01;
-/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what further cuts mend.
+/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what
+/// further cuts mend.
 const HOPELESS_TRIALS: usize = 3;
 
 /// Cuts for trial, and how they open the voids.
@@ -77,7 +80,8 @@ impl Tried {
         self.voids.iter().all(|void| void.is_clean)
     }
 
-    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a joint.
+    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a
+    /// joint.
     fn is_nearly_clean(&self, scene: &Scene) -> bool {
         let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
         self.voids
@@ -119,7 +123,8 @@ impl Tried {
     }
 }
 
-/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the changed planes meets.
+/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the
+/// changed planes meets.
 pub(crate) fn looked_at_again(
     scene: &Scene,
     before: &[VoidAccess],
@@ -140,7 +145,8 @@ fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
     plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
 }
 
-/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be in sight.
+/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
+/// in sight.
 fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
     let asked = asked_ratio(scene.request);
     if asked == 0.0 {
@@ -151,7 +157,8 @@ fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
 
 /// The first of the plans with which every void can be cleaned; the cleanest where there is none.
 ///
-/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most hopeful of the others.
+/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most
+/// hopeful of the others.
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
     let glance = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
@@ -201,8 +208,8 @@ impl Trial<'_> {
     }
 }
 
-/// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut brings much more; each is
-/// told in the notes.
+/// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut
+/// brings much more; each is told in the notes.
 pub(crate) fn furthered(
     scene: &Scene,
     mut tried: Tried,
@@ -292,7 +299,8 @@ fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
         .map(|(_, next)| next))
 }
 
-/// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those of the points.
+/// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
+/// of the points.
 fn through(scene: &Scene, void: usize, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);

@@ -236,7 +236,8 @@ fn no_two_dowelled_joints_can_be_confused_from_either_side() {
     );
 }
 
-/// What no turn and no mirror changes of a joint's pins: how far the others are from the stoutest, and their diameters, mm.
+/// What no turn and no mirror changes of a joint's pins: how far the others are from the stoutest,
+/// and their diameters, mm.
 fn signature(plan: &CutPlan, joint: &JointNote) -> Vec<f64> {
     let mut pins: Vec<&PinSite> = plan
         .pins

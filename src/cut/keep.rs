@@ -1,4 +1,5 @@
-//! Cuts kept to the sides of others beyond which nothing needs them, so that a cut for one void does not divide everything.
+//! Cuts kept to the sides of others beyond which nothing needs them, so that a cut for one void
+//! does not divide everything.
 
 use super::{
     access::VoidAccess,
@@ -20,8 +21,9 @@ pub(crate) struct Kept {
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The cuts, the last first, each kept to a side of another where that leaves fewer parts, the voids as clean as `voids` are with
-/// all cuts made everywhere, and no more parts that are too large for the printer.
+/// The cuts, the last first, each kept to a side of another where that leaves fewer parts, the
+/// voids as clean as `voids` are with all cuts made everywhere, and no more parts that are too
+/// large for the printer.
 pub(crate) fn kept(
     scene: &Scene,
     planes: &[Plane],

@@ -14,8 +14,9 @@ use crate::mesh::{TriMesh, primitives::cuboid};
 
 /// A character's width, height and distance from the next one, in strokes.
 const CELL: [f64; 3] = [4.0, 8.0, 1.5];
-/// The seven strokes of a character, [left, right, bottom, top] in strokes from its lower left corner: bottom, middle, top, then the left and the
-/// right ones from below. Between two of them 0.4 strokes stay, so that no two bodies touch.
+/// The seven strokes of a character, [left, right, bottom, top] in strokes from its lower left
+/// corner: bottom, middle, top, then the left and the right ones from below. Between two of them
+/// 0.4 strokes stay, so that no two bodies touch.
 const STROKES: [[f64; 4]; 7] = [
     [0.0, 4.0, 0.0, 1.0],
     [0.0, 4.0, 3.5, 4.5],
@@ -25,7 +26,8 @@ const STROKES: [[f64; 4]; 7] = [
     [3.0, 4.0, 1.4, 3.1],
     [3.0, 4.0, 4.9, 6.6],
 ];
-/// How far the cutting bodies stand out of the face, in strokes, so that booleans meet no coinciding faces.
+/// How far the cutting bodies stand out of the face, in strokes, so that booleans meet no
+/// coinciding faces.
 const STANDS_OUT: f64 = 0.5;
 /// Turns that are tried at every place.
 const TURNS: usize = 8;
@@ -72,7 +74,8 @@ impl Label {
         self.bodies(0.0)
     }
 
-    /// The bodies that are subtracted from the part: what is taken away, and a stub outside the face.
+    /// The bodies that are subtracted from the part: what is taken away, and a stub outside the
+    /// face.
     pub(crate) fn cutter(&self) -> TriMesh {
         self.bodies(STANDS_OUT * self.stroke_mm)
     }
@@ -166,7 +169,8 @@ fn size_mm(text: &str, stroke_mm: f64) -> [f64; 2] {
     ]
 }
 
-/// What may be written for the part with this index, the fullest first. A lone 6 or 9 could be read the other way up.
+/// What may be written for the part with this index, the fullest first. A lone 6 or 9 could be read
+/// the other way up.
 fn texts(part: usize) -> Vec<String> {
     let number = (part + 1).to_string();
     let is_clear = !number.contains(['6', '9']);
@@ -256,7 +260,8 @@ impl Marker<'_> {
         })
     }
 
-    /// Whether the wall stays around all strokes, to the outside, voids, pins, sockets and other cuts.
+    /// Whether the wall stays around all strokes, to the outside, voids, pins, sockets and other
+    /// cuts.
     fn has_room(&self, label: &Label, cut: usize) -> bool {
         let [width, height] = size_mm(&label.text, label.stroke_mm);
         let wall_mm = self.scene.request.wall_mm + MARGIN_MM;
@@ -334,14 +339,16 @@ mod tests {
         let found = bodies(&label.taken_away());
         assert_eq!(found.len(), strokes);
         assert!(found.iter().all(|body| body.signed_volume_mm3() > 0.0));
-        // Horizontal strokes are 4 × 1, upright ones 1.7 × 1, in strokes: P has 2 and 3, 0 has 2 and 4, 2 has 3 and 2, 8 has 3 and 4.
+        // Horizontal strokes are 4 × 1, upright ones 1.7 × 1, in strokes: P has 2 and 3, 0 has 2
+        // and 4, 2 has 3 and 2, 8 has 3 and 4.
         let area = (10.0 * 4.0 + 13.0 * 1.7) * 0.25;
         assert!((label.volume_mm3() - area * 0.4).abs() < 1e-12);
     }
 
     #[test]
     fn a_label_reads_from_left_to_right_for_whoever_looks_at_the_face() {
-        // Seen from above, along −z, x runs to the right and y up: the 1 after P lies at larger x, the bow of P in the upper half.
+        // Seen from above, along −z, x runs to the right and y up: the 1 after P lies at larger x,
+        // the bow of P in the upper half.
         let strokes = label("P1").strokes();
         assert!(
             strokes.iter().take(5).all(|p| p.x < 1.0) && strokes.iter().skip(5).all(|p| p.x > 1.0)

@@ -1,4 +1,5 @@
-//! Cut planes moved by less than a layer, so that the cut faces that look up in the printer end at whole layers.
+//! Cut planes moved by less than a layer, so that the cut faces that look up in the printer end at
+//! whole layers.
 
 use serde::{Deserialize, Serialize};
 
@@ -22,13 +23,15 @@ use crate::{
     mesh::off_vertices,
 };
 
-/// A face whose normal has this much of the vertical ends at one height, within a thousandth of a layer over 100 mm.
+/// A face whose normal has this much of the vertical ends at one height, within a thousandth of a
+/// layer over 100 mm.
 const LEVEL_COSINE: f64 = 1.0 - 1e-9;
 
 /// A face so near to the plate lies on it, mm.
 const ON_PLATE_MM: f64 = 1e-6;
 
-/// How often all cuts are gone through: a part that rests on one cut and ends at another depends on both.
+/// How often all cuts are gone through: a part that rests on one cut and ends at another depends on
+/// both.
 const SWEEPS: usize = 4;
 
 /// A cut that was moved so that a part's face ends at a whole layer.
@@ -55,8 +58,9 @@ struct Level {
     rest: Option<(usize, f64)>,
 }
 
-/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the plan itself where that would
-/// change more than a hair: the number of pieces, a cavity, or an opening below the least.
+/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the
+/// plan itself where that would change more than a hair: the number of pieces, a cavity, or an
+/// opening below the least.
 pub(crate) fn at_layers(
     scene: &Scene,
     layout: &Layout,
@@ -189,7 +193,8 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it must be.
+/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it
+/// must be.
 fn still_open(
     scene: &Scene,
     layout: &Layout,
@@ -254,7 +259,8 @@ mod tests {
                 ..request()
             });
             assert!(!off.is_empty());
-            // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest layer.
+            // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest
+            // layer.
             assert!(off.iter().all(|off| *off < 1e-3), "{layer_mm}: {off:?}");
         }
     }

@@ -21,17 +21,19 @@ use crate::{
 
 /// Hidden points nearer to each other than this many times their spacing are one place.
 const LINK_RATIO: f64 = 3.0;
-/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all around, so it may
-/// begin a little behind the first.
+/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all
+/// around, so it may begin a little behind the first.
 const BEGIN_SHARE: f64 = 0.25;
-/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved again.
+/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved
+/// again.
 const LEFT_HIDDEN_RATIO: f64 = 0.8;
-/// So many hidden places are weighed against each other in a round: each costs a cut of the void; smaller ones are left to the
-/// next round, and hide next to nothing.
+/// So many hidden places are weighed against each other in a round: each costs a cut of the void;
+/// smaller ones are left to the next round, and hide next to nothing.
 const WEIGHED_ENDS: usize = 16;
 /// What is to be kept solid beyond this share of a piece is all of it.
 const WHOLE_RATIO: f64 = 0.5;
-/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep its corners but for rounding.
+/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep
+/// its corners but for rounding.
 const SAME_CORNER_MM: f64 = 1e-9;
 
 /// A void that the plan does not let be cleaned.
@@ -45,8 +47,8 @@ pub struct Unclean {
     pub lumps: Vec<TriMesh>,
 }
 
-/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are not asked. With `whole` all
-/// of such a void must go.
+/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are
+/// not asked. With `whole` all of such a void must go.
 pub fn unclean(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -123,9 +125,10 @@ pub fn closed(
     Ok(shut.map(all).collect())
 }
 
-/// What of voids lies beyond joints that have not at least two pins that fit one way only: the pieces within that
-/// of the two parts in which less is empty, and what lies so many minimum openings around them. Kept solid, they leave the joint
-/// material for pins, or no need of it. Seats for parts stay.
+/// What of voids lies beyond joints that have not at least two pins that fit one way only: the
+/// pieces within that of the two parts in which less is empty, and what lies so many minimum
+/// openings around them. Kept solid, they leave the joint material for pins, or no need of it.
+/// Seats for parts stay.
 pub fn beyond(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -196,7 +199,8 @@ fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
         .copied()
 }
 
-/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of both.
+/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of
+/// both.
 fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
     let corner = farthest_corner(lump, tree);
     corner.is_some_and(|corner| {
@@ -207,8 +211,8 @@ fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
     })
 }
 
-/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen: those first that are solid for
-/// the least volume over what they hide.
+/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen:
+/// those first that are solid for the least volume over what they hide.
 fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let pieces = opened.chamber.split(opened.tree)?;
     let seen = opened.seen_each(&pieces);
@@ -241,7 +245,8 @@ struct End {
     volume_mm3: f64,
 }
 
-/// The ends for the largest hidden places, those first that cost the least volume over the hidden area.
+/// The ends for the largest hidden places, those first that cost the least volume over the hidden
+/// area.
 fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError> {
     let of = |(place, piece, seen): &(Place, &Piece, &Seen)| {
         let bodies = end(piece, seen, place)?;
@@ -291,8 +296,8 @@ fn places(seen: &Seen) -> Vec<Place> {
     places
 }
 
-/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in sight; all of it where that
-/// is most of it.
+/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in
+/// sight; all of it where that is most of it.
 fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutError> {
     let middle = |points: &[Point]| {
         points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / points.len().max(1) as f64
@@ -329,7 +334,8 @@ mod tests {
     use crate::mesh::primitives;
     use crate::printer::{Cleaning, CleaningRule};
 
-    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked of it.
+    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked
+    /// of it.
     fn bent() -> (Hollowed, PlanRequest, CutOrder) {
         let cuboid = |low: [f64; 3], high: [f64; 3]| primitives::cuboid(&low.into(), &high.into());
         let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();

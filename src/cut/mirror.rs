@@ -5,15 +5,15 @@ use crate::mesh::TriMesh;
 
 /// Vertices that are reflected, at most: they are taken evenly from all.
 const SAMPLES: usize = 256;
-/// How far a reflected vertex may lie off the surface, as a share of the model's diagonal. Less, and a sculpted figure has no
-/// symmetry; more, and an ellipsoid has planes that it has not.
+/// How far a reflected vertex may lie off the surface, as a share of the model's diagonal. Less,
+/// and a sculpted figure has no symmetry; more, and an ellipsoid has planes that it has not.
 const TOLERANCE_RATIO: f64 = 0.01;
 
-/// Those of the planes through `center` normal to `directions` in which the body that a mesh bounds is its own mirror image, to a
-/// hundredth of its diagonal.
+/// Those of the planes through `center` normal to `directions` in which the body that a mesh bounds
+/// is its own mirror image, to a hundredth of its diagonal.
 ///
-/// Every plane of symmetry holds the centre of mass and is normal to a principal axis, so that the principal axes miss one only
-/// where two moments are equal.
+/// Every plane of symmetry holds the centre of mass and is normal to a principal axis, so that the
+/// principal axes miss one only where two moments are equal.
 pub(crate) fn mirror_planes(mesh: &TriMesh, center: &Point, directions: &[Vector]) -> Vec<Plane> {
     let bvh = Bvh::new(mesh.iter_corners());
     let farthest_mm = TOLERANCE_RATIO * mesh.aabb().size().norm();

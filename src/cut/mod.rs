@@ -1,4 +1,5 @@
-//! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts themselves.
+//! Cuts: the fewest planes that open every void, the pins that align the parts, and the parts
+//! themselves.
 
 mod access;
 mod boss_places;

@@ -10,14 +10,16 @@ pub(crate) struct Opening {
     pub(crate) diameter_mm: f64,
 }
 
-/// A piece of a void this many times as deep as half its mouth, or shallower, is a dimple: all of it lies in
-/// sight, so its mouth may be of any width. Larger values would let pockets pass that hide their bottom.
+/// A piece of a void this many times as deep as half its mouth, or shallower, is a dimple: all of
+/// it lies in sight, so its mouth may be of any width. Larger values would let pockets pass that
+/// hide their bottom.
 const DIMPLE_DEPTH_RATIO: f64 = 1.0;
 
 /// How the plane opens the void; `None` where it misses it.
 ///
-/// A plane may part a void into several pieces (a horseshoe cut near its bend). Every piece deeper than a
-/// dimple must be reached, so the piece with the narrowest mouth counts, and of each piece its widest mouth.
+/// A plane may part a void into several pieces (a horseshoe cut near its bend). Every piece deeper
+/// than a dimple must be reached, so the piece with the narrowest mouth counts, and of each piece
+/// its widest mouth.
 pub(crate) fn opening(void: &TriMesh, plane: &Plane) -> Option<Opening> {
     let section = Section::of_mesh(void, plane);
     if section.rings.is_empty() {

@@ -1,4 +1,5 @@
-//! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and read again.
+//! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and
+//! read again.
 
 use serde::{Deserialize, Serialize};
 
@@ -17,7 +18,8 @@ const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. E
 
 "#;
 
-/// What a person orders of a plan: the cuts, and, where given, the pins. What follows from them is not part of it.
+/// What a person orders of a plan: the cuts, and, where given, the pins. What follows from them is
+/// not part of it.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Given")]
 pub struct CutOrder {

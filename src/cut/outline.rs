@@ -4,7 +4,8 @@ use std::collections::BinaryHeap;
 
 use super::section::Point2;
 
-/// The boundary of a flat region: segments that form closed rings, in any order; inside is by even and odd.
+/// The boundary of a flat region: segments that form closed rings, in any order; inside is by even
+/// and odd.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Outline {
     segments: Vec<[Point2; 2]>,
@@ -17,11 +18,12 @@ pub(crate) struct Disc {
     pub(crate) radius_mm: f64,
 }
 
-/// How near to the best the largest disc is, as a part of the region's size: a tenth of that costs three
-/// times the work, ten times that is visible in the openings.
+/// How near to the best the largest disc is, as a part of the region's size: a tenth of that costs
+/// three times the work, ten times that is visible in the openings.
 const DISC_PRECISION_RATIO: f64 = 2e-3;
 
-/// Most cells looked at for one disc; a bound on time for degenerate outlines, a hundred times the usual.
+/// Most cells looked at for one disc; a bound on time for degenerate outlines, a hundred times the
+/// usual.
 const MAX_CELLS: usize = 20_000;
 
 impl Outline {
@@ -52,7 +54,8 @@ impl Outline {
             .unwrap_or(*p)
     }
 
-    /// The corners of the bounding box; `None` when there is no segment or a coordinate is not finite.
+    /// The corners of the bounding box; `None` when there is no segment or a coordinate is not
+    /// finite.
     pub(crate) fn bounds(&self) -> Option<(Point2, Point2)> {
         let points = || self.segments.iter().flatten();
         let first = points().next()?;
@@ -60,9 +63,10 @@ impl Outline {
         (min.coords.sum().is_finite() && max.coords.sum().is_finite()).then_some((min, max))
     }
 
-    /// The largest disc in the region, to [`DISC_PRECISION_RATIO`] of its size: best-first search over a quadtree
-    /// (Agafonkin, "A new algorithm for finding a visual center of a polygon", 2016). `None` when it is no larger
-    /// than `floor_mm`; a floor saves most of the work on thin rings.
+    /// The largest disc in the region, to [`DISC_PRECISION_RATIO`] of its size: best-first search
+    /// over a quadtree (Agafonkin, "A new algorithm for finding a visual center of a polygon",
+    /// 2016). `None` when it is no larger than `floor_mm`; a floor saves most of the work on thin
+    /// rings.
     pub(crate) fn largest_disc(&self, floor_mm: f64) -> Option<Disc> {
         let (min, max) = self.bounds()?;
         let size = max - min;
@@ -199,8 +203,8 @@ mod tests {
         ]
         .concat();
         let disc = Outline::new(frame).largest_disc(0.0).unwrap();
-        // The disc in a corner touches both outer sides (r from each) and the inner corner: r + r·√½ ... solved by
-        // √2·(1 − r) = r, so r = 2 − √2, a little more than half the width.
+        // The disc in a corner touches both outer sides (r from each) and the inner corner: r +
+        // r·√½ ... solved by √2·(1 − r) = r, so r = 2 − √2, a little more than half the width.
         assert!((disc.radius_mm - (2.0 - 2f64.sqrt())).abs() < DISC_PRECISION_RATIO * 14.2);
     }
 

@@ -1,11 +1,13 @@
-//! What of a cut face lies on one side of other planes: where cuts kept to different sides of its own end in it.
+//! What of a cut face lies on one side of other planes: where cuts kept to different sides of its
+//! own end in it.
 
 use std::collections::BTreeMap;
 
 use super::section::{Chart, Point2};
 use crate::{geom::Plane, mesh::union_find::UnionFind};
 
-/// A flat face reaches past a plane by more than this, mm, or it ends there: caps are flat to 1e-13, and ends of faces are as exact.
+/// A flat face reaches past a plane by more than this, mm, or it ends there: caps are flat to
+/// 1e-13, and ends of faces are as exact.
 const PAST_MM: f64 = 1e-7;
 
 /// A flat region as triangles that share corners.
@@ -69,7 +71,8 @@ impl Flat {
         heights.iter().any(|&h| h > PAST_MM) && heights.iter().any(|&h| h < -PAST_MM)
     }
 
-    /// Whether the region, in the plane `own`, lies above another plane; none where it reaches past it on both sides, or nowhere.
+    /// Whether the region, in the plane `own`, lies above another plane; none where it reaches past
+    /// it on both sides, or nowhere.
     pub(crate) fn side_of(&self, own: &Plane, other: &Plane) -> Option<bool> {
         let heights = self.heights(own, other);
         let [above, below] = [1.0, -1.0].map(|sign| heights.iter().any(|h| sign * h > PAST_MM));
@@ -84,8 +87,9 @@ impl Flat {
             .collect()
     }
 
-    /// What of it lies above another plane, or below it; sides of triangles that cross it get a corner there, the same one from both
-    /// triangles (Sutherland and Hodgman, "Reentrant polygon clipping", CACM 17, 1974).
+    /// What of it lies above another plane, or below it; sides of triangles that cross it get a
+    /// corner there, the same one from both triangles (Sutherland and Hodgman, "Reentrant polygon
+    /// clipping", CACM 17, 1974).
     pub(crate) fn on_side(&self, own: &Plane, (other, is_above): (&Plane, bool)) -> Self {
         let sign = if is_above { 1.0 } else { -1.0 };
         let heights: Vec<f64> = self

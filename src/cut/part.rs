@@ -33,7 +33,8 @@ pub struct Part {
     pub pose: Pose,
     /// The pins that stand out of it.
     pub pins: Vec<PinSite>,
-    /// The pins of other parts that its sockets receive, and the dowels that stand in it, seen from the cut into this part.
+    /// The pins of other parts that its sockets receive, and the dowels that stand in it, seen from
+    /// the cut into this part.
     pub sockets: Vec<PinSite>,
     /// The ids sunk into its cut faces.
     pub labels: Vec<Label>,
@@ -42,9 +43,11 @@ pub struct Part {
 }
 
 impl Part {
-    /// What its pins add to the piece of the hollowed body, less what its sockets and labels take away, mm³.
+    /// What its pins add to the piece of the hollowed body, less what its sockets and labels take
+    /// away, mm³.
     ///
-    /// Summed over the parts and the hollowed body's volume, this is the volume of all parts to 1e-6 relative.
+    /// Summed over the parts and the hollowed body's volume, this is the volume of all parts to
+    /// 1e-6 relative.
     pub fn added_volume_mm3(&self) -> f64 {
         let pins: f64 = self.pins.iter().map(PinSite::pin_volume_mm3).sum();
         let sockets: f64 = self.sockets.iter().map(PinSite::socket_volume_mm3).sum();
@@ -61,11 +64,11 @@ struct Seat<'a> {
     cut: usize,
 }
 
-/// The parts of the hollowed body cut by the plan: every part is closed, oriented and 2-manifold, and encloses no
-/// cavity, unless the plan has no cuts at all.
+/// The parts of the hollowed body cut by the plan: every part is closed, oriented and 2-manifold,
+/// and encloses no cavity, unless the plan has no cuts at all.
 ///
-/// The body may differ a little from the one the plan was made for, as when voids were solved for again: cuts,
-/// pins and parts keep their names.
+/// The body may differ a little from the one the plan was made for, as when voids were solved for
+/// again: cuts, pins and parts keep their names.
 pub fn parts(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -206,16 +209,16 @@ fn fitted(
     without_short_edges(&body)
 }
 
-/// Edges shorter than this may vanish when a file stores coordinates in 32 bits, mm: at 100 mm their step is
-/// 7.6e-6 mm, at 250 mm 1.5e-5 mm.
+/// Edges shorter than this may vanish when a file stores coordinates in 32 bits, mm: at 100 mm
+/// their step is 7.6e-6 mm, at 250 mm 1.5e-5 mm.
 const SHORT_EDGE_MM: f64 = 3e-5;
 
-/// The most that the removal of short edges may change a part's volume, relative to it: a tenth of what the
-/// parts' sum is held to.
+/// The most that the removal of short edges may change a part's volume, relative to it: a tenth of
+/// what the parts' sum is held to.
 const VOLUME_CHANGE_RATIO: f64 = 1e-7;
 
-/// The solid, freed of edges that would vanish in a file, if it has any and stays the same solid: of the same volume,
-/// and not folded into itself.
+/// The solid, freed of edges that would vanish in a file, if it has any and stays the same solid:
+/// of the same volume, and not folded into itself.
 fn without_short_edges(body: &Csg) -> Result<Solid, CutError> {
     let solid = body.to_solid()?;
     if !has_short_edge(solid.mesh()) {

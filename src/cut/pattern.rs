@@ -10,13 +10,15 @@ pub(crate) struct Peg {
     pub(crate) socket_mm: f64,
 }
 
-/// How much more than its nominal play a printed pin may be forced, mm: the common tolerance of the printers.
+/// How much more than its nominal play a printed pin may be forced, mm: the common tolerance of the
+/// printers.
 pub(crate) const FORCE_TOLERANCE_MM: f64 = 0.1;
 
 /// Whether the pins of one joint enter the sockets of another.
 ///
-/// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first two pins
-/// could take, so it costs the square of the sockets. One pin alone enters every wider socket.
+/// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first
+/// two pins could take, so it costs the square of the sockets. One pin alone enters every wider
+/// socket.
 pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
     let Some((first, rest)) = pins.split_first() else {
         return false;

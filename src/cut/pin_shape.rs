@@ -8,12 +8,13 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// Sides of the polygon that stands for a circle: at 3 mm across its flats lie 3 µm inside the circle, below any
-/// printer's pixel; more only makes triangles.
+/// Sides of the polygon that stands for a circle: at 3 mm across its flats lie 3 µm inside the
+/// circle, below any printer's pixel; more only makes triangles.
 pub(crate) const SIDES: usize = 48;
 
-/// How far a pin's root reaches into its part and a socket's body out of its mouth, so that booleans meet no
-/// coinciding faces, as a share of the pin's diameter. The material check leaves more than that free of surfaces.
+/// How far a pin's root reaches into its part and a socket's body out of its mouth, so that
+/// booleans meet no coinciding faces, as a share of the pin's diameter. The material check leaves
+/// more than that free of surfaces.
 const OVERLAP_RATIO: f64 = 0.2;
 
 /// A pin and its socket: plain data, written into the plan and editable there.
@@ -26,7 +27,8 @@ pub struct PinSite {
     pub cut: String,
     /// Where its axis passes through the cut, mm.
     pub center_mm: [f64; 3],
-    /// The unit direction in which it stands out: from the part that carries it into the part with the socket.
+    /// The unit direction in which it stands out: from the part that carries it into the part with
+    /// the socket.
     pub direction: [f64; 3],
     /// Diameter of the pin, mm.
     pub diameter_mm: f64,
@@ -40,7 +42,8 @@ pub struct PinSite {
     pub socket_depth_mm: f64,
     /// Height and width of the chamfer at its mouth, mm.
     pub socket_chamfer_mm: f64,
-    /// The loose dowel that stands there in place of a printed pin, in a socket on either side; `length_mm` is then half of it.
+    /// The loose dowel that stands there in place of a printed pin, in a socket on either side;
+    /// `length_mm` is then half of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dowel: Option<Dowel>,
 }
@@ -58,7 +61,8 @@ impl PinSite {
         )
     }
 
-    /// The socket as it is subtracted from its part: what is taken away, and a stub outside the mouth.
+    /// The socket as it is subtracted from its part: what is taken away, and a stub outside the
+    /// mouth.
     pub(crate) fn socket_body(&self) -> TriMesh {
         let profile = self.socket_profile();
         let slope = if self.socket_chamfer_mm > 0.0 {
@@ -108,8 +112,8 @@ impl PinSite {
             .collect()
     }
 
-    /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's diameter, so that the
-    /// gap to the pin is nowhere less than the clearance.
+    /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's
+    /// diameter, so that the gap to the pin is nowhere less than the clearance.
     pub(crate) fn socket_corner_mm(socket_diameter_mm: f64) -> f64 {
         socket_diameter_mm / 2.0 / (std::f64::consts::PI / SIDES as f64).cos()
     }
@@ -145,7 +149,8 @@ impl PinSite {
         }
     }
 
-    /// The body of [`SIDES`] sides that a profile of rising (radius, height) describes about the pin's axis.
+    /// The body of [`SIDES`] sides that a profile of rising (radius, height) describes about the
+    /// pin's axis.
     fn turned(&self, profile: &[(f64, f64)]) -> TriMesh {
         let axis = Vector::from(self.direction);
         let (u, v) = orthonormal_basis(&axis);
@@ -164,7 +169,8 @@ impl PinSite {
     }
 }
 
-/// The triangles of a turned body of that many rings, closed by fans about the two vertices after the rings.
+/// The triangles of a turned body of that many rings, closed by fans about the two vertices after
+/// the rings.
 fn lathe_triangles(rings: usize) -> Vec<[u32; 3]> {
     let sides = SIDES as u32;
     let top = (rings as u32 - 1) * sides;

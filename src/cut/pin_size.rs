@@ -1,4 +1,5 @@
-//! How large pins and their sockets are made: by the printer's rules, in steps of its pixels and layers.
+//! How large pins and their sockets are made: by the printer's rules, in steps of its pixels and
+//! layers.
 
 use super::{
     pattern::FORCE_TOLERANCE_MM,
@@ -6,8 +7,8 @@ use super::{
     request::{PinSettings, PlanRequest},
 };
 
-/// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns better, a thin
-/// one finds room in more places.
+/// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns
+/// better, a thin one finds room in more places.
 const DIAMETER_RATIOS: [f64; 4] = [3.0, 2.0, 1.5, 1.0];
 
 /// The shortest pins over their diameter: the short end of what is usual (1 to 1.5 diameters).
@@ -43,7 +44,8 @@ impl Size {
         }
     }
 
-    /// A dowel cut from one of the request's rods, to whole millimetres, with a socket on either side.
+    /// A dowel cut from one of the request's rods, to whole millimetres, with a socket on either
+    /// side.
     fn of_rod(request: &PlanRequest, rod: usize) -> Self {
         let pins = &request.pins;
         let diameter = request.rods[rod].diameter_mm;
@@ -57,7 +59,8 @@ impl Size {
         }
     }
 
-    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's second socket.
+    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's
+    /// second socket.
     pub(super) fn back_mm(&self) -> f64 {
         if self.dowel.is_some() {
             self.depth
@@ -118,8 +121,9 @@ pub(super) fn reach_mm(request: &PlanRequest) -> f64 {
     reaches.fold(0.0, f64::max)
 }
 
-/// Sizes of a joint's first pin and of the others, the stoutest first: different enough that a pin does not enter the
-/// other's socket; last of all equal ones, for joints with room for nothing else. At least one pair.
+/// Sizes of a joint's first pin and of the others, the stoutest first: different enough that a pin
+/// does not enter the other's socket; last of all equal ones, for joints with room for nothing
+/// else. At least one pair.
 pub(super) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     if request.rods.is_empty() {
         printed_pairs(request)
@@ -128,8 +132,8 @@ pub(super) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     }
 }
 
-/// The same as short as is usual: for joints with material too thin for the sockets of longer ones. None where pins are short anyway, or
-/// cut from rods.
+/// The same as short as is usual: for joints with material too thin for the sockets of longer ones.
+/// None where pins are short anyway, or cut from rods.
 pub(super) fn short_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     if !request.rods.is_empty() || request.pins.length_ratio <= SHORTEST_RATIO {
         return Vec::new();
@@ -144,7 +148,8 @@ pub(super) fn short_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     })
 }
 
-/// By how much the diameters of two pins differ at least, mm, if neither is to enter the other's socket.
+/// By how much the diameters of two pins differ at least, mm, if neither is to enter the other's
+/// socket.
 fn step_mm(request: &PlanRequest) -> f64 {
     let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
     round_up(gaps + 2.0 * FORCE_TOLERANCE_MM, request.pixel_mm)
@@ -172,7 +177,8 @@ fn printed_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
         .collect()
 }
 
-/// Every rod with the thickest that is thinner by enough, no stouter than printed pins are tried but for the two thinnest.
+/// Every rod with the thickest that is thinner by enough, no stouter than printed pins are tried
+/// but for the two thinnest.
 fn dowel_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let mut rods: Vec<Size> = (0..request.rods.len())
         .map(|rod| Size::of_rod(request, rod))

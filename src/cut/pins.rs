@@ -1,4 +1,5 @@
-//! Where alignment pins go: inside the material with the wall around them, spread wide, and one way only.
+//! Where alignment pins go: inside the material with the wall around them, spread wide, and one way
+//! only.
 
 use super::{
     error::CutError,
@@ -86,8 +87,8 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
     placements
 }
 
-/// The pins of a joint; `placed` are those of the joints before it, whose pins its own must keep off, and with whose patterns its
-/// own must not be confused.
+/// The pins of a joint; `placed` are those of the joints before it, whose pins its own must keep
+/// off, and with whose patterns its own must not be confused.
 ///
 /// Both directions are tried, the normal's first; the one that aligns better wins.
 fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
@@ -104,8 +105,8 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
     }
 }
 
-/// The ordered pins joint by joint, with whether they let the parts together one way only. A pin between no two cut faces is
-/// refused.
+/// The ordered pins joint by joint, with whether they let the parts together one way only. A pin
+/// between no two cut faces is refused.
 pub(crate) fn seated(
     scene: &PinScene,
     joints: &[Joint],

@@ -39,13 +39,15 @@ pub struct CutPlan {
     /// What of the interior stays solid, so that joints have room for their pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub solid: Vec<SolidEnd>,
-    /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part of its file.
+    /// Which cuts were moved to a whole layer of the printer: how the plan came about, and no part
+    /// of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
     /// How the number of its cuts came about: the first of the notes.
     #[serde(skip)]
     pub proofs: Vec<String>,
-    /// What a person should know: the proof that fewer cuts do not do, joints without room for pins.
+    /// What a person should know: the proof that fewer cuts do not do, joints without room for
+    /// pins.
     pub notes: Vec<String>,
 }
 
@@ -98,7 +100,8 @@ impl Side {
     }
 }
 
-/// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing would be opened.
+/// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing
+/// would be opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UncutFace {
@@ -150,8 +153,8 @@ impl CutPlan {
         }
     }
 
-    /// One mesh of what the pins add and, turned inside out, of what the sockets and labels take away: its moments are what the
-    /// assembled parts have more than the uncut body.
+    /// One mesh of what the pins add and, turned inside out, of what the sockets and labels take
+    /// away: its moments are what the assembled parts have more than the uncut body.
     pub fn pegs(&self) -> TriMesh {
         let second = |pin: &PinSite| match pin.dowel {
             Some(_) => pin.mirrored().taken_away(),
@@ -211,7 +214,8 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     CutTree::new(planes, limits).ok_or(CutError::CircularCuts)
 }
 
-/// Faces left whole, in the coordinates of the cuts' planes; faces on none of the cuts are left out.
+/// Faces left whole, in the coordinates of the cuts' planes; faces on none of the cuts are left
+/// out.
 pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) -> Vec<Bridge> {
     let bridge = |face: &UncutFace| {
         let cut = cuts.iter().position(|cut| cut.id == face.cut)?;

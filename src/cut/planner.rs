@@ -27,12 +27,13 @@ const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
-/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms with
-/// which every void can be cleaned by the printer's rule; further cuts where none of them does, or where a part would not
-/// fit the build volume; and pins for every joint. Voids that no cut lets be cleaned are told by [`VoidAccess::is_clean`].
+/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms
+/// with which every void can be cleaned by the printer's rule; further cuts where none of them
+/// does, or where a part would not fit the build volume; and pins for every joint. Voids that no
+/// cut lets be cleaned are told by [`VoidAccess::is_clean`].
 ///
-/// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how many. About a
-/// second for 200k triangles and ten voids.
+/// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how
+/// many. About a second for 200k triangles and ten voids.
 pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request)?;
@@ -44,8 +45,9 @@ pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutEr
     at_layers(&scene, &layout, plan, notes)
 }
 
-/// The plan by a person's order: each cut through what lies on the sides that it is kept to, but for the faces that are to stay whole; pins as ordered,
-/// or placed as in [`plan`]. Joints and openings follow.
+/// The plan by a person's order: each cut through what lies on the sides that it is kept to, but
+/// for the faces that are to stay whole; pins as ordered, or placed as in [`plan`]. Joints and
+/// openings follow.
 pub fn plan_by(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -54,7 +56,8 @@ pub fn plan_by(
     ordered(hollowed, request, (order, Others::None))
 }
 
-/// The plan by an order as in [`plan_by`], but that joints in which none of its pins stands get the planner's.
+/// The plan by an order as in [`plan_by`], but that joints in which none of its pins stands get the
+/// planner's.
 pub fn plan_around(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -121,8 +124,8 @@ enum Others {
     Placed,
 }
 
-/// The plan with what it does to the voids of a body that was solved for again: their volumes, openings, depths and
-/// sights. Cuts, pins and joints stay.
+/// The plan with what it does to the voids of a body that was solved for again: their volumes,
+/// openings, depths and sights. Cuts, pins and joints stay.
 pub fn plan_of(
     hollowed: &Hollowed,
     plan: CutPlan,
@@ -143,7 +146,8 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The pieces between the cuts, each made only where it is needed, and left joined where a cut would part them needlessly.
+    /// The pieces between the cuts, each made only where it is needed, and left joined where a cut
+    /// would part them needlessly.
     fn new(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Result<Self, CutError> {
         let Kept {
             tree,

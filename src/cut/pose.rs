@@ -56,8 +56,9 @@ impl Rest {
     }
 }
 
-/// The sides of the piece that may look down in the printer, the preferred first: the cut faces by area, as the
-/// request prefers, then the sides of the axis. `pin_cuts` are the cuts on whose faces pins stand out.
+/// The sides of the piece that may look down in the printer, the preferred first: the cut faces by
+/// area, as the request prefers, then the sides of the axis. `pin_cuts` are the cuts on whose faces
+/// pins stand out.
 pub(crate) fn sides_down(
     piece: &Piece,
     planes: &[Plane],
@@ -93,8 +94,8 @@ pub(crate) fn sides_down(
     sides
 }
 
-/// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on the first of all
-/// if none does.
+/// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on
+/// the first of all if none does.
 pub(crate) fn laid(mesh: &TriMesh, sides: &[Side], request: &PlanRequest) -> Pose {
     let mut choices = sides
         .iter()
@@ -132,8 +133,8 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
     rests
 }
 
-/// The mesh turned so that the side looks down and turned about the vertical, resting on z = 0, in the middle of
-/// the build plate.
+/// The mesh turned so that the side looks down and turned about the vertical, resting on z = 0, in
+/// the middle of the build plate.
 fn lay(mesh: &TriMesh, side: &Side, turn_deg: f64, request: &PlanRequest) -> Pose {
     let rotation = upright(&side.down, turn_deg);
     let turned = mesh
@@ -171,7 +172,8 @@ fn lay(mesh: &TriMesh, side: &Side, turn_deg: f64, request: &PlanRequest) -> Pos
 fn upright(down: &Vector, turn_deg: f64) -> Matrix {
     let up = -down.normalize();
     let (u, v) = if up.z.abs() > 1.0 - f64::EPSILON {
-        // The model's own up or down: keep its x axis, so that an upright model is not turned for nothing.
+        // The model's own up or down: keep its x axis, so that an upright model is not turned for
+        // nothing.
         (Vector::x(), up.cross(&Vector::x()))
     } else {
         orthonormal_basis(&up)
@@ -193,8 +195,8 @@ fn dot(row: [f64; 3], p: &Point) -> f64 {
     row[0] * p.x + row[1] * p.y + row[2] * p.z
 }
 
-/// A point moved by a rigid motion given as rows of a 4×4 matrix. For the motion of a [`Pose`], the lowest point of its
-/// part lands on z = 0 exactly.
+/// A point moved by a rigid motion given as rows of a 4×4 matrix. For the motion of a [`Pose`], the
+/// lowest point of its part lands on z = 0 exactly.
 pub fn apply(motion: &[[f64; 4]; 4], p: &Point) -> Point {
     Point::from([0, 1, 2].map(|i| {
         let [x, y, z, shift] = motion[i];

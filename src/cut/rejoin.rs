@@ -1,4 +1,5 @@
-//! Pieces that a cut parts needlessly are joined again: a plane through a body also slices what merely reaches across it.
+//! Pieces that a cut parts needlessly are joined again: a plane through a body also slices what
+//! merely reaches across it.
 
 use rayon::prelude::*;
 
@@ -15,15 +16,16 @@ use crate::mesh::union_find::UnionFind;
 use crate::mesh::{Csg, Hollowed, Solid, TriMesh};
 use crate::repair::sewn;
 
-/// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same points but for
-/// rounding, and a wall lies between different mouths.
+/// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same
+/// points but for rounding, and a wall lies between different mouths.
 const MOUTH_TOLERANCE_MM: f64 = 1e-6;
 
-/// Corners of two faces that meet lie this near to each other, mm: both are made by the same cut, with a rounding of
-/// 1e-13; a model's own corners are farther apart.
+/// Corners of two faces that meet lie this near to each other, mm: both are made by the same cut,
+/// with a rounding of 1e-13; a model's own corners are farther apart.
 const SEAM_TOLERANCE_MM: f64 = 1e-9;
 
-/// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer pieces.
+/// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer
+/// pieces.
 const SHADOW_CELLS: usize = 96;
 
 /// What is cut, by what, for which printer.
@@ -34,7 +36,8 @@ pub(crate) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come apart.
+    /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come
+    /// apart.
     fn parts(&self, cut: usize, piece: &Piece) -> bool {
         let holds = |limit: &Limit| piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above;
         self.tree.limits(cut).iter().all(holds)
@@ -54,10 +57,11 @@ pub(crate) struct Bridge {
 /// * the piece is not in the way of what is taken off on its side of the cut,
 /// * both together fit the build volume.
 ///
-/// A piece thinner than the wall stays joined even where a void opens beside it: it is a bump of the void's wall that the plane
-/// grazes, or a sliver of the outside, and no part to print.
+/// A piece thinner than the wall stays joined even where a void opens beside it: it is a bump of
+/// the void's wall that the plane grazes, or a sliver of the outside, and no part to print.
 ///
-/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a third.
+/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a
+/// third.
 pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
     let joints = joints(pieces, cutting.tree);
     if joints.len() < 2 {
@@ -156,7 +160,8 @@ fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
     piece.volume_mm3 < cutting.request.wall_mm * face_mm2
 }
 
-/// Whether what lies on the piece's side of the cut can be taken off along the normal while the piece stays.
+/// Whether what lies on the piece's side of the cut can be taken off along the normal while the
+/// piece stays.
 fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
     let plane = &cutting.tree.planes[joint.cut];
     let is_above = joint.above == index;
@@ -191,8 +196,8 @@ fn united(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result
     Ok(piece(mesh, tree))
 }
 
-/// The members without the faces in which they meet, sewn together along the rims of those; none where the rims have
-/// not the same corners.
+/// The members without the faces in which they meet, sewn together along the rims of those; none
+/// where the rims have not the same corners.
 ///
 /// A union would find the faces' planes 1e-14 mm apart, and at times leaves a sheet between them.
 fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
@@ -230,7 +235,8 @@ fn unioned(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
     Ok(body.to_mesh()?)
 }
 
-/// The height of a piece over a grid on the plane, to tell whether another can be drawn out past it.
+/// The height of a piece over a grid on the plane, to tell whether another can be drawn out past
+/// it.
 struct Shadow {
     chart: Chart,
     plane: Plane,
@@ -305,7 +311,8 @@ fn extent(values: [f64; 3]) -> (f64, f64) {
     )
 }
 
-/// Whether a triangle meets a unit cell whose box its own box meets: no side of it has all of the cell beyond it.
+/// Whether a triangle meets a unit cell whose box its own box meets: no side of it has all of the
+/// cell beyond it.
 fn meets(places: &[nalgebra::Vector2<f64>; 3], cell: [usize; 2]) -> bool {
     let middle = nalgebra::Vector2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5);
     let area = (places[1] - places[0]).perp(&(places[2] - places[0]));
@@ -397,8 +404,8 @@ mod tests {
 
     #[test]
     fn a_bump_is_held_back_only_by_what_lies_over_it_and_not_by_what_has_it_in_its_box() {
-        // A void with a post that reaches past a level cut, and a cut askew beside it: the boxes about the large triangles of the
-        // faces hold the post.
+        // A void with a post that reaches past a level cut, and a cut askew beside it: the boxes
+        // about the large triangles of the faces hold the post.
         let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
         let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
         let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];

@@ -15,11 +15,13 @@ pub struct PlanRequest {
     pub min_opening_mm: f64,
     /// When a void counts as clean, besides its opening.
     pub cleaning: Cleaning,
-    /// The least share of all voids' walls that a cut for their cleaning alone must bring into sight: what less would open is left
-    /// unclean, to be kept solid. 0: any cut is worth its joint.
+    /// The least share of all voids' walls that a cut for their cleaning alone must bring into
+    /// sight: what less would open is left unclean, to be kept solid. 0: any cut is worth its
+    /// joint.
     pub worth_ratio: f64,
-    /// Whether the room for pins counts as it is with the voids filled, so that bosses have it beside the opening, and not as the walls
-    /// alone give it: for another plan, where the first leaves joints without pins.
+    /// Whether the room for pins counts as it is with the voids filled, so that bosses have it
+    /// beside the opening, and not as the walls alone give it: for another plan, where the first
+    /// leaves joints without pins.
     pub wants_wide_joints: bool,
     /// What fits into the printer: x, y and z, mm. Unset: anything fits.
     pub build_volume_mm: Option<[f64; 3]>,
@@ -31,9 +33,11 @@ pub struct PlanRequest {
     pub axis: GoalAxis,
     /// Pin diameters are whole multiples of this, mm.
     pub pixel_mm: f64,
-    /// Socket diameters are whole multiples of this, mm; zero where holes are not made of steps, as with lines of filament.
+    /// Socket diameters are whole multiples of this, mm; zero where holes are not made of steps, as
+    /// with lines of filament.
     pub hole_step_mm: f64,
-    /// Pin lengths, socket depths and the heights of faces that look up are whole multiples of this, mm.
+    /// Pin lengths, socket depths and the heights of faces that look up are whole multiples of
+    /// this, mm.
     pub layer_mm: f64,
     /// How parts are laid in the printer.
     pub pose: PosePreference,
@@ -53,8 +57,8 @@ impl PlanRequest {
             .and_then(|seat| self.seats.get(seat))
     }
 
-    /// Diameter of the disc that must pass through a void's opening, mm: a seat, all of it in sight once it is open, must
-    /// let its part in; any other void must let itself be cleaned.
+    /// Diameter of the disc that must pass through a void's opening, mm: a seat, all of it in sight
+    /// once it is open, must let its part in; any other void must let itself be cleaned.
     pub(crate) fn needed_mm(&self, void: usize, voids: usize) -> f64 {
         self.seat_of(void, voids)
             .map_or(self.min_opening_mm, |seat| seat.opening_mm)
@@ -89,7 +93,8 @@ pub struct PinSettings {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PosePreference {
-    /// The largest cut face without pins on the plate; where every cut face has pins, the largest looks up.
+    /// The largest cut face without pins on the plate; where every cut face has pins, the largest
+    /// looks up.
     CutFaceDown,
     /// The opened hollows look up, so that support can be washed out of them (PolyJet).
     OpenHollowUp,

@@ -86,7 +86,8 @@ impl PinSite {
         }
     }
 
-    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's second socket.
+    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's
+    /// second socket.
     pub(crate) fn back_mm(&self) -> f64 {
         if self.dowel.is_some() {
             self.socket_depth_mm

@@ -78,7 +78,8 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
     Hollowed { outer, voids }
 }
 
-/// Settings like those of a PolyJet printer, about an axis along z through a point below everything.
+/// Settings like those of a PolyJet printer, about an axis along z through a point below
+/// everything.
 pub(crate) fn request() -> PlanRequest {
     PlanRequest {
         worth_ratio: 0.0,

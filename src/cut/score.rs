@@ -13,8 +13,9 @@
 //! | build volume | halves that do not fit it | each | 0.5 |
 //! | overhang | the share of the surface that leans less than 45° over the plate, as the cut face lies | all | 0.3 |
 //!
-//! The number of cuts comes before the score, and so does cleaning: of the plans with the fewest cuts the first in the order of
-//! the score is taken with which every void is clean, the share of its wall in sight included ([`super::access`]).
+//! The number of cuts comes before the score, and so does cleaning: of the plans with the fewest
+//! cuts the first in the order of the score is taken with which every void is clean, the share of
+//! its wall in sight included ([`super::access`]).
 
 use super::{
     chamber::Chamber,
@@ -89,7 +90,8 @@ impl<'a> Scene<'a> {
 
 /// Openings wider than this many times the least asked for are no better.
 pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
-/// A joint that is so many times as wide with its voids filled as what a pin needs has room for two bosses, and for an opening between them.
+/// A joint that is so many times as wide with its voids filled as what a pin needs has room for two
+/// bosses, and for an opening between them.
 const WIDE_JOINT_RATIO: f64 = 4.0;
 /// Parts larger than this share of the material are not too small.
 const AMPLE_PART_RATIO: f64 = 0.02;
@@ -108,20 +110,24 @@ const EXTRA_PART_WEIGHT: f64 = 0.2;
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as long as the circle about the model: looks, and glue.
 const SEAM_WEIGHT: f64 = 0.5;
-/// Weight of a seam over features, such as ears and folds of cloth: a step shows there, and edges chip.
+/// Weight of a seam over features, such as ears and folds of cloth: a step shows there, and edges
+/// chip.
 const DETAIL_WEIGHT: f64 = 0.1;
 /// Weight of a joint without face to glue.
 const GLUE_WEIGHT: f64 = 0.3;
 /// Weight of each half that must be cut again to fit the printer.
 const BUILD_VOLUME_WEIGHT: f64 = 0.5;
-/// Weight of a surface that all hangs over the plate: support is printed, removed, and leaves marks.
+/// Weight of a surface that all hangs over the plate: support is printed, removed, and leaves
+/// marks.
 const OVERHANG_WEIGHT: f64 = 0.3;
 
-/// A seam that turns by so much more than a convex one runs over features everywhere, rad: two full turns.
+/// A seam that turns by so much more than a convex one runs over features everywhere, rad: two full
+/// turns.
 const PLENTY_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
 /// A joint with the area of so many discs as wide as a pin needs has enough to glue.
 const AMPLE_GLUE_DISCS: f64 = 4.0;
-/// A surface that looks down hangs over where its normal is nearer to the vertical than this cosine: 45°, the usual limit.
+/// A surface that looks down hangs over where its normal is nearer to the vertical than this
+/// cosine: 45°, the usual limit.
 const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
 /// What a cut does to the body, apart from the voids it opens.
@@ -129,8 +135,9 @@ const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 pub(crate) struct Burden {
     /// The visible length of the seam, mm.
     pub(crate) seam_mm: f64,
-    /// The diameter of the largest disc of material in the joint that has the least, mm (at most what pins need; 0 when below half of
-    /// it); where wide joints are wanted a quarter of that with the voids in it filled.
+    /// The diameter of the largest disc of material in the joint that has the least, mm (at most
+    /// what pins need; 0 when below half of it); where wide joints are wanted a quarter of that
+    /// with the voids in it filled.
     pub(crate) room_mm: f64,
     /// How many pieces it leaves beyond two.
     pub(crate) extra_parts: usize,
@@ -148,8 +155,8 @@ pub(crate) struct Burden {
     pub(crate) overhang_ratio: f64,
 }
 
-/// What the plane does to the body, pieces left out that stay joined to another because nothing opens between them.
-/// Costs two passes over the triangles.
+/// What the plane does to the body, pieces left out that stay joined to another because nothing
+/// opens between them. Costs two passes over the triangles.
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let sides = Sides::new(
         &scene.material,
@@ -215,7 +222,8 @@ fn glue_mm2(sides: &Sides, joint: &Joint) -> f64 {
         .sum()
 }
 
-/// How much more a ring turns than a convex one, rad; 0 for a convex ring, however finely it is divided.
+/// How much more a ring turns than a convex one, rad; 0 for a convex ring, however finely it is
+/// divided.
 fn excess_turn_rad(ring: &Ring) -> f64 {
     let sides: Vec<_> = ring
         .segments()
@@ -231,7 +239,8 @@ fn excess_turn_rad(ring: &Ring) -> f64 {
     (turn - std::f64::consts::TAU).max(0.0)
 }
 
-/// How many of the two halves are larger than the build volume, each side against the side of its rank.
+/// How many of the two halves are larger than the build volume, each side against the side of its
+/// rank.
 fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
     let mut halves = [Aabb::EMPTY; 2];
     for corners in scene.hollowed.outer.mesh().iter_corners() {
@@ -265,8 +274,8 @@ fn grow(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
     }
 }
 
-/// The share of the material's surface that leans less than 45° over the plate, both halves lying on their cut faces, or with
-/// them up where hollows are to look up.
+/// The share of the material's surface that leans less than 45° over the plate, both halves lying
+/// on their cut faces, or with them up where hollows are to look up.
 fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
     let down = match scene.request.pose {
         PosePreference::CutFaceDown => -1.0,
@@ -413,7 +422,8 @@ mod tests {
         let points = corners
             .map(|[x, y]| crate::cut::section::Point2::new(x, y))
             .to_vec();
-        // Into the notch and out of it again: one corner turned back by a quarter, and as much more at the others.
+        // Into the notch and out of it again: one corner turned back by a quarter, and as much more
+        // at the others.
         let turn = excess_turn_rad(&Ring {
             points,
             above: 0,
@@ -475,11 +485,13 @@ mod tests {
 
     #[test]
     fn half_a_ball_on_its_cut_face_hangs_over_nowhere_but_in_its_void() {
-        // Outside all looks up; of the void's half the ceiling within 45° of its pole: 1 − cos 45° of a half sphere.
+        // Outside all looks up; of the void's half the ceiling within 45° of its pole: 1 − cos 45°
+        // of a half sphere.
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         let share = 144.0 / (625.0 + 144.0) * (1.0 - OVERHANG_COSINE);
         let down = burden_of(&body, &request(), 0.1).overhang_ratio;
-        // The ball has 12 rows of facets: 45° lies in the middle of the third, so that a row more or less counts.
+        // The ball has 12 rows of facets: 45° lies in the middle of the third, so that a row more
+        // or less counts.
         assert!((down - share).abs() < 0.35 * share, "{down} {share}");
         let up = PlanRequest {
             pose: PosePreference::OpenHollowUp,

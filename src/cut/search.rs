@@ -11,14 +11,16 @@ use super::{
 };
 use crate::geom::Plane;
 
-/// How many candidates are looked at exactly, in rounds that end as soon as the lower bound is met. The first
-/// suffices for most models; the last takes seconds.
+/// How many candidates are looked at exactly, in rounds that end as soon as the lower bound is met.
+/// The first suffices for most models; the last takes seconds.
 const ROUNDS: [usize; 3] = [64, 512, 4096];
 
-/// How many planes of the smallest covers are judged in full: two or three milliseconds each on 100k triangles.
+/// How many planes of the smallest covers are judged in full: two or three milliseconds each on
+/// 100k triangles.
 const JUDGED_PLANES: usize = 48;
 
-/// Weight of a void that two planes meet: it falls into more pieces, and a pocket may stay between the planes.
+/// Weight of a void that two planes meet: it falls into more pieces, and a pocket may stay between
+/// the planes.
 const CROSSED_WEIGHT: f64 = 0.5;
 
 /// How many smallest covers are compared.
@@ -48,9 +50,9 @@ pub(crate) struct Found {
 
 /// The smallest plans from the family. At least one void is required.
 ///
-/// Counting a void as opened by every plane that meets it gives a lower bound by exact cover. Candidates are then
-/// measured on their true sections, the most promising first, until an exact cover of what they
-/// really open meets the bound.
+/// Counting a void as opened by every plane that meets it gives a lower bound by exact cover.
+/// Candidates are then measured on their true sections, the most promising first, until an exact
+/// cover of what they really open meets the bound.
 pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let voids = scene.hollowed.voids.len();
     if voids > MAX_VOIDS {
@@ -89,10 +91,11 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     })
 }
 
-/// The family with the most promising planes first: those that can take part in a smallest cover, in turn one for
-/// each set of voids met; among planes that meet the same voids the best offset of each direction, then
-/// the second best, and so on, each by the opening guessed. Guesses above `ample_mm` are equal, so that the axes, which
-/// lead the family, come before skew directions that are no better.
+/// The family with the most promising planes first: those that can take part in a smallest cover,
+/// in turn one for each set of voids met; among planes that meet the same voids the best offset of
+/// each direction, then the second best, and so on, each by the opening guessed. Guesses above
+/// `ample_mm` are equal, so that the axes, which lead the family, come before skew directions that
+/// are no better.
 fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
     let classes = classes(&family, all);
     let class_of = |c: &Candidate| {
@@ -124,12 +127,14 @@ fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> V
     turns.into_iter().map(|(_, candidate)| candidate).collect()
 }
 
-/// A guessed opening above which a plane need not be wider, mm; twice what scores count, as guesses err.
+/// A guessed opening above which a plane need not be wider, mm; twice what scores count, as guesses
+/// err.
 fn ample_guess_mm(scene: &Scene) -> f64 {
     2.0 * AMPLE_OPENING_RATIO * scene.request.min_opening_mm
 }
 
-/// The different sets of voids met, ascending, each with how many further planes open the rest by greedy choice.
+/// The different sets of voids met, ascending, each with how many further planes open the rest by
+/// greedy choice.
 fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
     let mut sets: Vec<VoidSet> = family.iter().map(|c| c.met).collect();
     sets.sort_unstable();
@@ -157,7 +162,8 @@ fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
     }
 }
 
-/// The covers as small as `known`, the best first; `known` alone where the search for others ends empty.
+/// The covers as small as `known`, the best first; `known` alone where the search for others ends
+/// empty.
 fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
     let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);

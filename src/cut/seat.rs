@@ -16,15 +16,17 @@ pub struct Seat {
 }
 
 impl Seat {
-    /// Whether a plane opens the void so that the part goes in: through a ball near enough to its middle, through a cylinder
-    /// by its side all around, so that the part slides out along the axis.
+    /// Whether a plane opens the void so that the part goes in: through a ball near enough to its
+    /// middle, through a cylinder by its side all around, so that the part slides out along the
+    /// axis.
     pub(crate) fn is_opened_by(&self, plane: &Plane) -> bool {
         let distance_mm = plane.distance(&self.center).abs();
         let Some((axis, half_mm)) = self.axis else {
             let slack2 = self.radius_mm * self.radius_mm - self.opening_mm * self.opening_mm / 4.0;
             return distance_mm * distance_mm <= slack2;
         };
-        // The plane meets the axis at distance/cos, and the side as much higher and lower as it leans over the radius.
+        // The plane meets the axis at distance/cos, and the side as much higher and lower as it
+        // leans over the radius.
         let cos = plane.normal.dot(&axis).abs();
         let sin = (1.0 - cos * cos).max(0.0).sqrt();
         distance_mm + self.opening_mm / 2.0 * sin <= half_mm * cos

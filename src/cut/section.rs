@@ -13,9 +13,9 @@ pub type Point2 = nalgebra::Point2<f64>;
 
 /// The closed rings in which a plane meets a mesh, in the coordinates (u, v) of [`Plane::basis`].
 ///
-/// For an outward solid, outer rings run counter-clockwise and holes clockwise. A vertex on the plane counts as
-/// above it, which is as good as moving the plane by less than any distance: every ring closes, whatever lies
-/// in the plane.
+/// For an outward solid, outer rings run counter-clockwise and holes clockwise. A vertex on the
+/// plane counts as above it, which is as good as moving the plane by less than any distance: every
+/// ring closes, whatever lies in the plane.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Section {
     /// The rings, each without its first point repeated, in the order of their first triangles.
@@ -56,14 +56,16 @@ impl Chart {
     }
 }
 
-/// A triangle that crosses the plane: the edge that goes down through it and the edge that comes up.
+/// A triangle that crosses the plane: the edge that goes down through it and the edge that comes
+/// up.
 struct Crossing {
     down: (u32, u32),
     up: (u32, u32),
 }
 
 impl Section {
-    /// The section of a closed mesh; one pass over the triangles. Edges of an open mesh end a ring early.
+    /// The section of a closed mesh; one pass over the triangles. Edges of an open mesh end a ring
+    /// early.
     pub fn of_mesh(mesh: &TriMesh, plane: &Plane) -> Self {
         let heights: Vec<f64> = mesh.vertices().iter().map(|p| plane.distance(p)).collect();
         let mut crossings: Vec<Crossing> = mesh
@@ -200,7 +202,8 @@ fn crossing(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<Crossing> {
     })
 }
 
-/// The crossed edges in the order in which the section runs through them; `crossings` are sorted by `down`.
+/// The crossed edges in the order in which the section runs through them; `crossings` are sorted by
+/// `down`.
 fn chains(crossings: &[Crossing]) -> Vec<Vec<(u32, u32)>> {
     let mut used = vec![false; crossings.len()];
     let mut chains = Vec::new();

@@ -1,4 +1,5 @@
-//! What a plane makes of a body without cutting it: which surfaces hang together on each side, and how much they hold.
+//! What a plane makes of a body without cutting it: which surfaces hang together on each side, and
+//! how much they hold.
 
 use super::section::{Ring, Section};
 use crate::{
@@ -18,8 +19,8 @@ pub(crate) struct Sides<'a> {
 }
 
 impl<'a> Sides<'a> {
-    /// Finds the pieces, given the section of the mesh by the plane: surfaces on one side belong together when they share an edge there or a polygon of the
-    /// section. Linear in the triangles.
+    /// Finds the pieces, given the section of the mesh by the plane: surfaces on one side belong
+    /// together when they share an edge there or a polygon of the section. Linear in the triangles.
     pub(crate) fn new(mesh: &'a TriMesh, plane: Plane, section: Section) -> Self {
         let polygons = section.groups();
         let mut sets = UnionFind::new(mesh.vertices().len());
@@ -72,7 +73,8 @@ impl<'a> Sides<'a> {
         disc.map_or(0.0, |disc| 2.0 * disc.radius_mm)
     }
 
-    /// The diameter of the largest disc in polygon `group` where it is filled but for the holes that `is_kept` keeps, mm.
+    /// The diameter of the largest disc in polygon `group` where it is filled but for the holes
+    /// that `is_kept` keeps, mm.
     pub(crate) fn filled_disc_diameter_mm(
         &self,
         group: usize,
@@ -96,10 +98,11 @@ impl<'a> Sides<'a> {
             .fold(0.0, f64::max)
     }
 
-    /// The pieces the plane leaves with their volumes, mm³; the shells of cavities it misses are left out
-    /// with the cavities they bound.
+    /// The pieces the plane leaves with their volumes, mm³; the shells of cavities it misses are
+    /// left out with the cavities they bound.
     ///
-    /// Each piece is summed from tetrahedra with a corner in the plane, to which its flat cap adds nothing.
+    /// Each piece is summed from tetrahedra with a corner in the plane, to which its flat cap adds
+    /// nothing.
     pub(crate) fn piece_volumes_mm3(&self) -> Vec<(u32, f64)> {
         let mut volume_of = vec![0.0; self.mesh.vertices().len()];
         for (triangle, corners) in self.mesh.triangles().iter().zip(self.mesh.iter_corners()) {
@@ -111,7 +114,8 @@ impl<'a> Sides<'a> {
             .collect()
     }
 
-    /// Adds the part of one triangle above the plane to its piece there, and the part below likewise.
+    /// Adds the part of one triangle above the plane to its piece there, and the part below
+    /// likewise.
     fn add_triangle(&self, triangle: [u32; 3], corners: [Point; 3], volume_of: &mut [f64]) {
         let foot = self.plane.foot();
         let heights = corners.map(|p| self.plane.distance(&p));

@@ -20,7 +20,8 @@ const SAMPLES: f64 = 2000.0;
 const LEAST_SAMPLES: usize = 24;
 /// Places across a mouth, along each of two directions, that are looked from.
 const EYES_ACROSS: usize = 5;
-/// So many where little is hidden from those: what is seen only from between them is slivers, a few thousandths of a wall.
+/// So many where little is hidden from those: what is seen only from between them is slivers, a few
+/// thousandths of a wall.
 const CLOSER_EYES_ACROSS: usize = 16;
 /// Where more than this share of a piece is hidden, no closer look will find it clean.
 const HIDDEN_RATIO: f64 = 0.15;
@@ -55,7 +56,8 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The same, but from many places however much is hidden: slower, and right for what is told of a plan.
+    /// The same, but from many places however much is hidden: slower, and right for what is told of
+    /// a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
             given_up_ratio: 1.0,
@@ -63,8 +65,8 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The places that are looked from through mouths, each of a cut: of every mouth that lets the tool in those where it finds
-    /// room; the middle of the widest mouth where none lets it in.
+    /// The places that are looked from through mouths, each of a cut: of every mouth that lets the
+    /// tool in those where it finds room; the middle of the widest mouth where none lets it in.
     fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
         let discs = mouths
             .iter()
@@ -173,8 +175,8 @@ impl Walls {
         }
     }
 
-    /// About the share of the wall that is in sight through these mouths, each of a cut, before the void is cut: what lies
-    /// behind another plane is not.
+    /// About the share of the wall that is in sight through these mouths, each of a cut, before the
+    /// void is cut: what lies behind another plane is not.
     pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
@@ -184,8 +186,8 @@ impl Walls {
         visible.len() as f64 / self.points.len().max(1) as f64
     }
 
-    /// Every point of the sample with the places in these mouths, each of a cut, that see it before the void is cut: from many
-    /// places only where few do not.
+    /// Every point of the sample with the places in these mouths, each of a cut, that see it before
+    /// the void is cut: from many places only where few do not.
     pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
@@ -238,7 +240,8 @@ impl Walls {
         }
     }
 
-    /// The points that are hidden and those that are not: from few places first, and from many where little is hidden.
+    /// The points that are hidden and those that are not: from few places first, and from many
+    /// where little is hidden.
     fn looked_at(
         &self,
         points: Vec<Point>,
@@ -255,7 +258,8 @@ impl Walls {
         (hidden, visible)
     }
 
-    /// The points that are hidden from all eyes or out of reach of those that see them, and the others.
+    /// The points that are hidden from all eyes or out of reach of those that see them, and the
+    /// others.
     fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
         points
             .into_par_iter()
@@ -369,8 +373,9 @@ mod tests {
 
     #[test]
     fn the_far_arm_of_a_bend_is_out_of_sight() {
-        // A line from the mouth slips in under the corner at most 16/4 times as steep as deep: it meets the arm's floor
-        // 1 mm beyond the shaft. Of 32·20 + 2·16 (shaft and its foot) + 16·16 (arm) mm² all of the arm but that is hidden.
+        // A line from the mouth slips in under the corner at most 16/4 times as steep as deep: it
+        // meets the arm's floor 1 mm beyond the shaft. Of 32·20 + 2·16 (shaft and its foot) + 16·16
+        // (arm) mm² all of the arm but that is hidden.
         let ratio = seen_ratio(&bend(), &[level(0.0)]);
         assert!(ratio > 0.5 && ratio < 0.75, "{ratio}");
         assert_eq!(seen_ratio(&bend(), &[]), 0.0);
@@ -383,8 +388,8 @@ mod tests {
 
     #[test]
     fn what_the_tool_does_not_reach_is_not_in_sight() {
-        // A straight shaft of 40 mm cut off near its top: of 4·6·38 + 36 mm² of wall below the cut a tool of 20 mm
-        // reaches half; the 2 mm above the cut are all seen.
+        // A straight shaft of 40 mm cut off near its top: of 4·6·38 + 36 mm² of wall below the cut
+        // a tool of 20 mm reaches half; the 2 mm above the cut are all seen.
         let shaft = primitives::cuboid(&Point::new(-3.0, -3.0, -38.0), &Point::new(3.0, 3.0, 2.0));
         let shaft = Solid::new(shaft).unwrap();
         assert_eq!(seen_ratio(&shaft, &[level(0.0)]), 1.0);

@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::geom::{Aabb, Point};
 
-/// A part of the interior that is not emptied: what of it hangs together with a point within a box of the model frame.
+/// A part of the interior that is not emptied: what of it hangs together with a point within a box
+/// of the model frame.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SolidEnd {

@@ -14,12 +14,12 @@ use crate::{
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
 };
 
-/// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of that size would
-/// be a hundredth of a millimetre across, and no printer makes it.
+/// Pieces below this volume are sheets left where a plane runs along a face, mm³: a real crumb of
+/// that size would be a hundredth of a millimetre across, and no printer makes it.
 const SHEET_VOLUME_MM3: f64 = 1e-6;
 
-/// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut keeps 1e-6 away from
-/// the model's own vertices.
+/// Vertices this near to a plane lie on the cut face, mm. Caps are flat to 1e-13, and a planned cut
+/// keeps 1e-6 away from the model's own vertices.
 const ON_PLANE_MM: f64 = 1e-7;
 
 /// A piece of the cut body, bounded by its own surface and by cut faces.
@@ -51,7 +51,8 @@ pub(crate) struct Joint {
     pub(crate) below: usize,
     /// The piece above it.
     pub(crate) above: usize,
-    /// The faces in which they meet, as the piece below has them; of a cap that meets several what is shared.
+    /// The faces in which they meet, as the piece below has them; of a cap that meets several what
+    /// is shared.
     pub(crate) faces: Vec<Cap>,
 }
 
@@ -103,9 +104,9 @@ pub(crate) fn split_body(body: &Csg, tree: &CutTree) -> Result<Vec<Piece>, CutEr
     Ok(in_order(pieces))
 }
 
-/// Puts pieces in the order in which parts are numbered: along a direction askew to everything, so that solving again
-/// and cutting slightly different voids by the same plan keeps the numbers, which an order by volume would not
-/// for the halves of a symmetric model.
+/// Puts pieces in the order in which parts are numbered: along a direction askew to everything, so
+/// that solving again and cutting slightly different voids by the same plan keeps the numbers,
+/// which an order by volume would not for the halves of a symmetric model.
 pub(crate) fn in_order(pieces: Vec<Piece>) -> Vec<Piece> {
     let askew = Vector::new(0.331, 0.497, 0.802);
     let place = |piece: &Piece| askew.dot(&piece.mesh.aabb().center().coords);
@@ -266,8 +267,8 @@ pub(crate) fn piece_at(pieces: &[Piece], cut: usize, is_above: bool, p: &Point2)
     })
 }
 
-/// All pairs of pieces that meet at a cut, ordered so that they can be closed one after the other: those of cuts that others must
-/// be made before first; then by cut, then by the pieces.
+/// All pairs of pieces that meet at a cut, ordered so that they can be closed one after the other:
+/// those of cuts that others must be made before first; then by cut, then by the pieces.
 pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     let caps = |is_above: bool| {
         let all = pieces
@@ -304,8 +305,8 @@ pub(crate) fn joints(pieces: &[Piece], tree: &CutTree) -> Vec<Joint> {
     joints
 }
 
-/// What two caps of one cut have in common, as the one below has it: either is of the body's section, and ends besides where other cuts
-/// end on its side.
+/// What two caps of one cut have in common, as the one below has it: either is of the body's
+/// section, and ends besides where other cuts end on its side.
 fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
     let meets = |face: &Cap| face.has_area() && high.holds(&face.inner_point());
     if tree.is_everywhere() {

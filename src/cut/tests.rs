@@ -14,8 +14,8 @@ fn volume(solid: &Solid) -> f64 {
     moments_of_mesh(solid.mesh()).volume()
 }
 
-/// Plans and cuts, and checks what every kit promises: voids opened wide enough, parts without cavities that rest on the
-/// plate, volumes that add up.
+/// Plans and cuts, and checks what every kit promises: voids opened wide enough, parts without
+/// cavities that rest on the plate, volumes that add up.
 pub(super) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
     let plan = plan(hollowed, request).unwrap();
     let parts = parts(hollowed, &plan, request).unwrap();
@@ -98,7 +98,8 @@ fn pearls_on_a_skew_string_need_one_cut() {
 
 #[test]
 fn two_voids_side_by_side_only_in_a_skew_direction_need_one_cut() {
-    // Their extents along x, along y and along z do not overlap, so no plane normal to an axis meets both.
+    // Their extents along x, along y and along z do not overlap, so no plane normal to an axis
+    // meets both.
     let body = with_balls(
         cuboid([-30.0; 3], [30.0; 3]),
         &[[-15.0, -15.0, -15.0, 6.0], [15.0, 15.0, 15.0, 6.0]],
@@ -143,7 +144,8 @@ fn three_voids_in_a_triangle_need_the_one_plane_through_them_all() {
 
 #[test]
 fn four_small_voids_at_the_corners_of_a_tetrahedron_need_two_cuts() {
-    // A plane within 1.5 mm of three corners misses the fourth, some 40 mm off; two planes take two corners each.
+    // A plane within 1.5 mm of three corners misses the fourth, some 40 mm off; two planes take two
+    // corners each.
     let corner = |x: f64, y: f64, z: f64| [15.0 * x, 15.0 * y, 15.0 * z, 2.5];
     let tetrahedron = [
         corner(1.0, 1.0, 1.0),
@@ -446,7 +448,8 @@ fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
     assert_eq!(ids(12.0), ids(12.02));
 }
 
-/// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of room.
+/// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of
+/// room.
 fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
     let voids = [
         &[[15.0, 15.0, 15.0, 9.0]][..],

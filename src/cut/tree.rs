@@ -1,5 +1,5 @@
-//! The planes of a plan, and where each of them cuts: a binary space partition (Fuchs, Kedem and Naylor, "On visible surface
-//! generation by a priori tree structures", SIGGRAPH 1980).
+//! The planes of a plan, and where each of them cuts: a binary space partition (Fuchs, Kedem and
+//! Naylor, "On visible surface generation by a priori tree structures", SIGGRAPH 1980).
 
 use super::error::CutError;
 use crate::{
@@ -7,7 +7,8 @@ use crate::{
     mesh::{Csg, TriMesh},
 };
 
-/// What of a closed mesh lies in the half-spaces within which a plane parts it, closed where they end.
+/// What of a closed mesh lies in the half-spaces within which a plane parts it, closed where they
+/// end.
 pub fn reached(parting: &Parting, mesh: &TriMesh) -> Result<TriMesh, CutError> {
     if parting.within.is_empty() {
         return Ok(mesh.clone());
@@ -54,8 +55,8 @@ impl CutTree {
         }
     }
 
-    /// Planes with their limits, and those of the cuts that they are kept to; none where a cut waits, be it through others, for itself,
-    /// or is kept to both sides of another.
+    /// Planes with their limits, and those of the cuts that they are kept to; none where a cut
+    /// waits, be it through others, for itself, or is kept to both sides of another.
     pub(crate) fn new(planes: Vec<Plane>, limits: Vec<Vec<Limit>>) -> Option<Self> {
         let mut tree = Self { planes, limits };
         let order = tree.order();
@@ -80,8 +81,8 @@ impl CutTree {
         Some(tree)
     }
 
-    /// The same with a cut, and those kept to a side of it, kept to a side of another; none where it is kept to a side of that already, or
-    /// that cut to a side of it.
+    /// The same with a cut, and those kept to a side of it, kept to a side of another; none where
+    /// it is kept to a side of that already, or that cut to a side of it.
     pub(crate) fn kept_to(&self, cut: usize, limit: Limit) -> Option<Self> {
         let mut limits = self.limits.clone();
         let is_new = limits[cut].iter().all(|known| known.cut != limit.cut);
@@ -121,7 +122,8 @@ impl CutTree {
         }
     }
 
-    /// How many cuts are made before this one, where it is kept to sides of them: more than before any of these.
+    /// How many cuts are made before this one, where it is kept to sides of them: more than before
+    /// any of these.
     pub(crate) fn depth(&self, cut: usize) -> usize {
         self.limits[cut].len()
     }

@@ -4,8 +4,8 @@ use super::{Matrix, Point, Vector, plane::orthonormal_basis};
 
 /// A rigid placement: where a local frame's origin and axes lie in the model frame.
 ///
-/// The goal frame has its origin at the contact point (top), the spin point (yo-yo) or on the support
-/// plane (stand), and its z axis along the spin axis or up.
+/// The goal frame has its origin at the contact point (top), the spin point (yo-yo) or on the
+/// support plane (stand), and its z axis along the spin axis or up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// The local origin, in model coordinates, mm.

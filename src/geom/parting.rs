@@ -7,7 +7,8 @@ use super::{Plane, Point};
 pub struct Parting {
     /// The plane.
     pub plane: Plane,
-    /// The planes that bound the half-spaces, each with whether the half-space lies above it; none where the plane parts everything.
+    /// The planes that bound the half-spaces, each with whether the half-space lies above it; none
+    /// where the plane parts everything.
     pub within: Vec<(Plane, bool)>,
 }
 

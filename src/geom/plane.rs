@@ -2,7 +2,8 @@
 
 use super::{Point, Vector};
 
-/// The plane { x : normal·x = offset_mm }, with a unit normal; its positive side is where normal·x is larger.
+/// The plane { x : normal·x = offset_mm }, with a unit normal; its positive side is where normal·x
+/// is larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     /// The unit normal.
@@ -47,8 +48,8 @@ impl Plane {
 
 /// Two unit vectors (u, v) such that (u, v, n) is right-handed and orthonormal, for a unit `n`.
 ///
-/// u is made from the coordinate axis least parallel to n, so the choice is stable for nearby normals
-/// except where two components tie.
+/// u is made from the coordinate axis least parallel to n, so the choice is stable for nearby
+/// normals except where two components tie.
 pub fn orthonormal_basis(n: &Vector) -> (Vector, Vector) {
     let axis = Vector::ith(n.iamin(), 1.0);
     let u = (axis - n * n.dot(&axis)).normalize();

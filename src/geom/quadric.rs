@@ -2,8 +2,8 @@
 
 use super::{Point, Vector};
 
-/// q(x) = g · (1, x, y, z, xy, yz, xz, x², y², z²); the optimal void is where q > 0 (THEORY: the reachable set
-/// is convex, and its corners are quadrics).
+/// q(x) = g · (1, x, y, z, xy, yz, xz, x², y², z²); the optimal void is where q > 0 (THEORY: the
+/// reachable set is convex, and its corners are quadrics).
 ///
 /// Coordinates are those of the goal frame, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -22,9 +22,11 @@ pub struct TrianglePoint {
     pub feature: Feature,
 }
 
-/// The point of the triangle nearest to `p`, by its Voronoi regions; a triangle without area counts as its edges.
+/// The point of the triangle nearest to `p`, by its Voronoi regions; a triangle without area counts
+/// as its edges.
 ///
-/// Accurate to a few roundings of the coordinates. Ericson, *Real-Time Collision Detection*, 2005, §5.1.5.
+/// Accurate to a few roundings of the coordinates. Ericson, *Real-Time Collision Detection*, 2005,
+/// §5.1.5.
 #[inline]
 pub fn closest_on_triangle(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
     let [a, b, c] = corners;
@@ -130,8 +132,9 @@ pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     (r + d1 * s - d2 * t).norm_squared()
 }
 
-/// Whether the segment from `a` to `b` passes through the triangle's plane inside it; touching counts, lying in the
-/// plane does not. Decided exactly (Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997).
+/// Whether the segment from `a` to `b` passes through the triangle's plane inside it; touching
+/// counts, lying in the plane does not. Decided exactly (Shewchuk, "Adaptive Precision
+/// Floating-Point Arithmetic", DCG 18, 1997).
 fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
     let [u, v, w] = corners;
     let (from, to) = (side(u, v, w, a), side(u, v, w, b));
@@ -153,7 +156,8 @@ fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     i32::from(volume > 0.0) - i32::from(volume < 0.0)
 }
 
-/// The squared distance between the segment from `a` to `b` and the triangle, mm²; zero where they meet.
+/// The squared distance between the segment from `a` to `b` and the triangle, mm²; zero where they
+/// meet.
 pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point; 3]) -> f64 {
     if segment_pierces(a, b, corners) {
         return 0.0;
@@ -168,8 +172,8 @@ pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point;
 
 /// The squared distance between two triangles, mm²; zero where they meet.
 ///
-/// Exact up to rounding: the least of the nine edge pairs and the six corner–face pairs, unless an edge of one
-/// passes through the other.
+/// Exact up to rounding: the least of the nine edge pairs and the six corner–face pairs, unless an
+/// edge of one passes through the other.
 pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
     let edges = |k: usize| (k, (k + 1) % 3);
     if (0..3)
@@ -200,8 +204,9 @@ pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f6
 
 /// The least distance from any corner of `convex` to a convex set, bounded from below, mm.
 ///
-/// The distance to a convex set is a convex function, so its tangent plane at `from` (value `distance_mm`,
-/// unit gradient `gradient`) lies below it everywhere; over a triangle the plane is least at a corner.
+/// The distance to a convex set is a convex function, so its tangent plane at `from` (value
+/// `distance_mm`, unit gradient `gradient`) lies below it everywhere; over a triangle the plane is
+/// least at a corner.
 #[inline]
 pub fn tangent_bound(
     from: &Point,
@@ -332,7 +337,8 @@ mod tests {
         };
         let s = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
         let apart = [at(3.0, 0.0), at(4.0, 0.1), at(3.0, 1.3)];
-        // The nearest corners are two units of u apart; the sides between them lean by less than a fifth.
+        // The nearest corners are two units of u apart; the sides between them lean by less than a
+        // fifth.
         let expected = (at(3.0, 0.0) - at(1.0, 0.0)).norm();
         let found = triangle_triangle_distance_squared(&s, &apart).sqrt();
         assert!(

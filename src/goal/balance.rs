@@ -10,8 +10,8 @@ use crate::shell::Keep;
 
 /// Turns a minute where nothing is said.
 const DEFAULT_SPEED_RPM: f64 = 3000.0;
-/// The balance quality grade where nothing is said, mm/s: G 2.5, that of machine-tool drives and small electric motors
-/// (ISO 21940-11, table 1).
+/// The balance quality grade where nothing is said, mm/s: G 2.5, that of machine-tool drives and
+/// small electric motors (ISO 21940-11, table 1).
 const DEFAULT_GRADE_MM_S: f64 = 2.5;
 
 /// How a rotor runs, and how well it must be balanced for it.
@@ -22,8 +22,8 @@ pub struct Rotor {
     pub speed_rpm: f64,
     /// The ISO 21940-11 balance quality grade G that must be reached at that speed, mm/s.
     pub grade_mm_s: f64,
-    /// The diameter of the bore on the axis, about which a wall stays solid; none where the model has its own bore, or
-    /// is to have none.
+    /// The diameter of the bore on the axis, about which a wall stays solid; none where the model
+    /// has its own bore, or is to have none.
     pub bore: Option<Length>,
 }
 

@@ -10,20 +10,24 @@ use crate::mass::{Body, Moments};
 /// The figures of a body with respect to a goal; density cancels in every one of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Top, balance: the centre of mass from the spin axis; yo-yo: from the spin point; stand, float: from the middle of the
-    /// support or from the centre of buoyancy, seen from above. mm.
+    /// Top, balance: the centre of mass from the spin axis; yo-yo: from the spin point; stand,
+    /// float: from the middle of the support or from the centre of buoyancy, seen from above. mm.
     pub off_axis_mm: f64,
     /// The height of the centre of mass above the origin, mm.
     pub center_height_mm: f64,
     /// The angle between z and the nearest principal axis, rad.
     pub axis_tilt_rad: f64,
-    /// The largest moment across the axis over the moment about it (I_b/I_c), about the centre; below 1 it is dominant.
+    /// The largest moment across the axis over the moment about it (I_b/I_c), about the centre;
+    /// below 1 it is dominant.
     pub dominance_ratio: f64,
-    /// Top: the least speed at which it spins upright (Spin-It eq. 1); none where no speed is enough, or no top.
+    /// Top: the least speed at which it spins upright (Spin-It eq. 1); none where no speed is
+    /// enough, or no top.
     pub critical_speed_rpm: Option<f64>,
-    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none but for tops and yo-yos.
+    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none but
+    /// for tops and yo-yos.
     pub spin_it: Option<f64>,
-    /// Stand: the tilt at which it topples, rad; negative where it does not stand; none for the others.
+    /// Stand: the tilt at which it topples, rad; negative where it does not stand; none for the
+    /// others.
     pub toppling_angle_rad: Option<f64>,
 }
 
@@ -182,8 +186,8 @@ mod tests {
 
     #[test]
     fn the_functional_of_a_yo_yo_is_a_number_whatever_the_weight_of_a_lever_it_does_not_have() {
-        // About its centre of mass a cube has s_z = 0, so that s_z over that of the solid would be 0/0; its three
-        // moments are equal and the functional is γ_I (1 + 1).
+        // About its centre of mass a cube has s_z = 0, so that s_z over that of the solid would be
+        // 0/0; its three moments are equal and the functional is γ_I (1 + 1).
         let solid = block([-1., -1., -1.], [1., 1., 1.]);
         for gamma_c in [0.0, 1.0] {
             let objective = Objective::SpinIt {

@@ -135,8 +135,8 @@ pub struct Afloat {
     pub buoyancy: Point,
     /// The volume of material that weighs as much as the displaced liquid, mm³.
     pub material_mm3: f64,
-    /// The lower of the two transverse metacentres above the origin, c_b + I_w/V_b, mm: below it the centre of mass has
-    /// to lie.
+    /// The lower of the two transverse metacentres above the origin, c_b + I_w/V_b, mm: below it
+    /// the centre of mass has to lie.
     pub metacenter_mm: f64,
 }
 
@@ -166,7 +166,8 @@ impl Hydrostatics {
         self.height_mm
     }
 
-    /// What floats up to a line so far above the lowest point; exact for the mesh. One pass over the triangles.
+    /// What floats up to a line so far above the lowest point; exact for the mesh. One pass over
+    /// the triangles.
     pub fn at(&self, waterline_mm: f64) -> Afloat {
         let wet = submerged(&self.outside, waterline_mm);
         let volume = wet.below.volume();

@@ -1,4 +1,5 @@
-//! What is put into the printed object that is not printed: a yo-yo's axle and string gap, a top's tip and stem.
+//! What is put into the printed object that is not printed: a yo-yo's axle and string gap, a top's
+//! tip and stem.
 
 use std::{fmt, str::FromStr};
 
@@ -12,12 +13,12 @@ use crate::base::words::{ChoiceError, as_text};
 pub const STEEL_G_CM3: f64 = 7.85;
 /// How much of a tip or stem is inside where its depth is not said.
 const DEPTH_RATIO: f64 = 0.5;
-/// The outer diameter of what sits on a yo-yo's axle besides it, in diameters of the axle: that of a plain washer or a
-/// small bearing.
+/// The outer diameter of what sits on a yo-yo's axle besides it, in diameters of the axle: that of
+/// a plain washer or a small bearing.
 const FITTING_DIAMETERS: f64 = 2.0;
 
-/// A round rod: `DIAMETER`, `DIAMETERxLENGTH` or `DIAMETERxLENGTHxDEPTH`, and behind it `:DENSITY` in g/cm³ where it is
-/// not of steel; `4mmx12mm`, `6mm:2.7`.
+/// A round rod: `DIAMETER`, `DIAMETERxLENGTH` or `DIAMETERxLENGTHxDEPTH`, and behind it `:DENSITY`
+/// in g/cm³ where it is not of steel; `4mmx12mm`, `6mm:2.7`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Rod {
@@ -37,7 +38,8 @@ impl Rod {
         0.5 * self.diameter.mm()
     }
 
-    /// The length of a tip or stem, mm; zero where none was said, which checking the request refuses.
+    /// The length of a tip or stem, mm; zero where none was said, which checking the request
+    /// refuses.
     pub fn length_mm(&self) -> f64 {
         self.length.map_or(0.0, Length::mm)
     }
@@ -130,8 +132,8 @@ pub struct Hardware {
     /// Yo-yo: the rod along the axis that joins the halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axle: Option<Rod>,
-    /// Yo-yo: the mass of nuts, washers or a bearing in the gap, g: a ring about the axle, as wide as the gap and twice the
-    /// axle's diameter across.
+    /// Yo-yo: the mass of nuts, washers or a bearing in the gap, g: a ring about the axle, as wide
+    /// as the gap and twice the axle's diameter across.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_g: Option<f64>,
     /// Top: the pin it spins on.

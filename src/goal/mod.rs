@@ -1,8 +1,10 @@
-//! What the object shall do: a request in words becomes a goal with a frame, a support and figures of merit.
+//! What the object shall do: a request in words becomes a goal with a frame, a support and figures
+//! of merit.
 //!
-//! [`place`] turns a [`Request`] and a solid into a [`Goal`]: the frame in which every later formula holds (origin at
-//! the contact, the spin point or the support plane; z along the spin axis or up). [`figures`] then says what a body
-//! of given moments does in that frame, and is the same for the solid, the hollowed result and the assembled parts.
+//! [`place`] turns a [`Request`] and a solid into a [`Goal`]: the frame in which every later
+//! formula holds (origin at the contact, the spin point or the support plane; z along the spin axis
+//! or up). [`figures`] then says what a body of given moments does in that frame, and is the same
+//! for the solid, the hollowed result and the assembled parts.
 
 mod balance;
 mod figures;
@@ -40,7 +42,8 @@ pub(crate) use top::height_over_origin;
 pub struct Goal {
     /// What the object shall do.
     pub kind: GoalKind,
-    /// The origin (contact, spin point, or the support's centroid) and z (spin axis, up) in model coordinates.
+    /// The origin (contact, spin point, or the support's centroid) and z (spin axis, up) in model
+    /// coordinates.
     pub frame: Frame,
     /// What "best" means; suits the kind.
     pub objective: Objective,
@@ -78,7 +81,8 @@ pub enum Warning {
         /// From the contact up along the axis to the surface, mm.
         missing_mm: f64,
     },
-    /// A top that stands still on what should be its tip: its centre of mass is lower than the contact's radius of curvature.
+    /// A top that stands still on what should be its tip: its centre of mass is lower than the
+    /// contact's radius of curvature.
     #[error(
         "it stands still on its foot without spinning, and rights itself when tilted by {rights_to_deg:.0}°: its contact moves as \
          that of a ball of {radius_mm:.0} mm radius, and its centre of mass is only {center_height_mm:.1} mm up; it spins upright as \
@@ -122,7 +126,8 @@ pub(crate) mod testing {
         Solid::new(TriMesh::new(vertices, triangles.collect()).unwrap()).unwrap()
     }
 
-    /// The prism over a counterclockwise polygon of the xz plane seen against y, from y = 0 to `depth`.
+    /// The prism over a counterclockwise polygon of the xz plane seen against y, from y = 0 to
+    /// `depth`.
     fn prism(polygon: &[[f64; 2]], caps: &[&[u32]], depth: f64) -> Solid {
         let n = polygon.len() as u32;
         let at = |y: f64| polygon.iter().map(move |p| [p[0], y, p[1]]);

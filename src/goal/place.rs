@@ -8,12 +8,13 @@ use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Body, Moments, moments_of_mesh};
 use crate::mesh::Solid;
 
-/// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides between the two
-/// senses of a symmetric model's axis; above 1e-6 a real difference would be ignored.
+/// Heights closer than this part of the model's extent count as equal. Below 1e-12 rounding decides
+/// between the two senses of a symmetric model's axis; above 1e-6 a real difference would be
+/// ignored.
 const TIE_RATIO: f64 = 1e-9;
 
-/// How many of the model's lengths a point may lie off it. No tip reaches farther than one; beyond some thousands rounding
-/// would decide.
+/// How many of the model's lengths a point may lie off it. No tip reaches farther than one; beyond
+/// some thousands rounding would decide.
 const FAR_LENGTHS: f64 = 10.0;
 
 /// Why a goal cannot be placed.
@@ -100,10 +101,11 @@ pub struct Stock {
 /// The density that [`place`] assumes, g/cm³.
 const PLAIN_DENSITY_G_CM3: f64 = 1.0;
 
-/// The goal that `request` asks for, placed in `solid`; walls of `wall_mm` decide how much stays solid at a contact.
+/// The goal that `request` asks for, placed in `solid`; walls of `wall_mm` decide how much stays
+/// solid at a contact.
 ///
-/// The moments of the goal are exact for the mesh. Costs a few passes over the triangles. What floats is of 1 g/cm³;
-/// [`place_made_of`] takes any density.
+/// The moments of the goal are exact for the mesh. Costs a few passes over the triangles. What
+/// floats is of 1 g/cm³; [`place_made_of`] takes any density.
 pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement, GoalError> {
     place_made_of(
         solid,
@@ -115,8 +117,8 @@ pub fn place(solid: &Solid, wall_mm: f64, request: &Request) -> Result<Placement
     )
 }
 
-/// The same for a solid of any material. Where the waterline is free, half the height stands for it: to find the best one
-/// takes the solver.
+/// The same for a solid of any material. Where the waterline is free, half the height stands for
+/// it: to find the best one takes the solver.
 pub fn place_made_of(
     solid: &Solid,
     stock: &Stock,
@@ -248,7 +250,8 @@ impl<'a> Site<'a> {
         self.upright.to_local(&self.body.center)
     }
 
-    /// The point an option names, in the upright frame, if it is one on the model or not far from it.
+    /// The point an option names, in the upright frame, if it is one on the model or not far from
+    /// it.
     pub fn given_point(&self, name: &'static str, [x, y, z]: [f64; 3]) -> Result<Point, GoalError> {
         if !(x.is_finite() && y.is_finite() && z.is_finite()) {
             return Err(GoalError::NotAPoint { name, x, y, z });
@@ -275,8 +278,8 @@ fn up_direction(up: Up, solid: &Solid, body: &Body) -> Result<Vector, GoalError>
     }
 }
 
-/// The axis of the largest moment, in the sense in which the centre stands lower; on a tie, in the sense whose z (then
-/// y, then x) component is positive.
+/// The axis of the largest moment, in the sense in which the centre stands lower; on a tie, in the
+/// sense whose z (then y, then x) component is positive.
 fn principal_direction(solid: &Solid, body: &Body) -> Vector {
     let axis: Vector = body.principal().axes.column(2).into();
     let (lowest, highest) = extent_along(solid, &axis);

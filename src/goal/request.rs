@@ -1,4 +1,5 @@
-//! What is asked for, in words: the kind of goal, what "best" means for it, and the request that holds both.
+//! What is asked for, in words: the kind of goal, what "best" means for it, and the request that
+//! holds both.
 
 use std::{fmt, str::FromStr};
 
@@ -25,28 +26,31 @@ choice! {
 
 /// What "best" means.
 ///
-/// Each reads from and prints as its word; `spin-it` has the weights of [`Objective::SPIN_IT`], others are written
-/// behind it: `spin-it:0.5,1`.
+/// Each reads from and prints as its word; `spin-it` has the weights of [`Objective::SPIN_IT`],
+/// others are written behind it: `spin-it:0.5,1`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Objective {
-    /// Top: the least speed at which it spins upright, ω² = g s_z/(I_zz − λ_max(I′)) (Spin-It eq. 1).
+    /// Top: the least speed at which it spins upright, ω² = g s_z/(I_zz − λ_max(I′)) (Spin-It eq.
+    /// 1).
     CriticalSpeed,
-    /// Spin-It's functional. Yo-yo: γ_I ((I_xx² + 2 I_xy² + I_yy²)/I_zz²) (eq. 2, 5, 6). Top: the same with I′, plus
-    /// γ_c (s_z / s_z of the solid)² (eq. 3, 7, with s_z made free of units).
+    /// Spin-It's functional. Yo-yo: γ_I ((I_xx² + 2 I_xy² + I_yy²)/I_zz²) (eq. 2, 5, 6). Top: the
+    /// same with I′, plus γ_c (s_z / s_z of the solid)² (eq. 3, 7, with s_z made free of units).
     SpinIt {
         /// The weight of a low, light body; a yo-yo has no use for it.
         gamma_c: f64,
         /// The weight of a flat inertia tensor.
         gamma_i: f64,
     },
-    /// Yo-yo: the largest moment across the axis over the moment about it, I_b/I_c; below 1 it spins stably.
+    /// Yo-yo: the largest moment across the axis over the moment about it, I_b/I_c; below 1 it
+    /// spins stably.
     Dominance,
     /// Stand: the largest tilt before it topples.
     TopplingAngle,
     /// Stand: the lowest centre of mass above the middle of the support.
     LowestCenter,
-    /// Float: the greatest metacentric height GM, which is the lowest centre of mass (Wu et al. §3.3).
+    /// Float: the greatest metacentric height GM, which is the lowest centre of mass (Wu et al.
+    /// §3.3).
     MetacentricHeight,
     /// Balance: the least material removed for static and couple unbalance to vanish.
     LeastRemoved,
@@ -55,7 +59,8 @@ pub enum Objective {
 }
 
 impl Objective {
-    /// Spin-It's functional with its own weights: γ_c = γ_I = 1 for a top (its eq. 7), γ_I alone for a yo-yo.
+    /// Spin-It's functional with its own weights: γ_c = γ_I = 1 for a top (its eq. 7), γ_I alone
+    /// for a yo-yo.
     pub const SPIN_IT: Self = Self::SpinIt {
         gamma_c: 1.0,
         gamma_i: 1.0,
@@ -171,7 +176,8 @@ pub struct Request {
     pub up: Up,
     /// Where a top touches the floor; none for the lowest point, and for other goals.
     pub contact: Option<Contact>,
-    /// Where the axis of a yo-yo or of a balanced rotor passes; none for the centre of mass, and for other goals.
+    /// Where the axis of a yo-yo or of a balanced rotor passes; none for the centre of mass, and
+    /// for other goals.
     pub spin_point: Option<SpinPoint>,
     /// What "best" means.
     pub objective: Objective,
@@ -234,8 +240,8 @@ pub enum RequestError {
 }
 
 impl Request {
-    /// The request with every choice left at its default: up z, a top on its lowest point, a yo-yo or a rotor about its
-    /// centre of mass, the kind's first objective.
+    /// The request with every choice left at its default: up z, a top on its lowest point, a yo-yo
+    /// or a rotor about its centre of mass, the kind's first objective.
     pub fn new(kind: GoalKind) -> Self {
         Self {
             kind,

@@ -1,14 +1,17 @@
-//! Whether a body that should spin on its contact stands on it at rest: a flat foot, or one rounder than it looks.
+//! Whether a body that should spin on its contact stands on it at rest: a flat foot, or one rounder
+//! than it looks.
 //!
-//! A body rolling on a level floor is in stable equilibrium where the height of its centre of mass over the floor is least among
-//! its neighbours (Várkonyi and Domokos, "Static equilibria of rigid bodies: dice, pebbles, and the Poincaré–Hopf theorem",
-//! J. Nonlinear Sci. 16, 2006). Over a contact of radius of curvature ρ, tilted by θ, that height is ρ + (h − ρ) cos θ: least
-//! upright where h < ρ. A top made of triangles has no curvature, so it is tilted instead, by an angle that one can see.
+//! A body rolling on a level floor is in stable equilibrium where the height of its centre of mass
+//! over the floor is least among its neighbours (Várkonyi and Domokos, "Static equilibria of rigid
+//! bodies: dice, pebbles, and the Poincaré–Hopf theorem", J. Nonlinear Sci. 16, 2006). Over a
+//! contact of radius of curvature ρ, tilted by θ, that height is ρ + (h − ρ) cos θ: least upright
+//! where h < ρ. A top made of triangles has no curvature, so it is tilted instead, by an angle that
+//! one can see.
 
 use crate::geom::Point;
 
-/// A top is tilted so far, rad. Below a quarter of a degree the facets of a mesh, or a printer's layers, hold it; above
-/// some degrees a foot on which it would stand is passed over.
+/// A top is tilted so far, rad. Below a quarter of a degree the facets of a mesh, or a printer's
+/// layers, hold it; above some degrees a foot on which it would stand is passed over.
 const TILT_RAD: f64 = 1.0 * RAD_PER_DEG;
 const RAD_PER_DEG: f64 = std::f64::consts::PI / 180.0;
 /// Directions in which it is tilted. With fewer the narrow way over a square foot is missed.
@@ -19,7 +22,8 @@ const MOST_RAD: f64 = 45.0 * RAD_PER_DEG;
 /// How a body stands on its foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resting {
-    /// The radius of curvature that moves the contact as far when it is tilted by a degree, the least of all directions, mm.
+    /// The radius of curvature that moves the contact as far when it is tilted by a degree, the
+    /// least of all directions, mm.
     pub radius_mm: f64,
     /// The height of its centre of mass over the floor, mm.
     pub center_height_mm: f64,
@@ -27,11 +31,11 @@ pub struct Resting {
     pub rights_to_deg: f64,
 }
 
-/// How a body stands that touches a floor with its lowest points, z up; none where it falls when it is tilted by a degree,
-/// as a top must.
+/// How a body stands that touches a floor with its lowest points, z up; none where it falls when it
+/// is tilted by a degree, as a top must.
 ///
-/// `points` are its corners and `center` its centre of mass, mm, in a frame whose z axis goes through the contact. Costs some
-/// hundred passes over the corners near the floor.
+/// `points` are its corners and `center` its centre of mass, mm, in a frame whose z axis goes
+/// through the contact. Costs some hundred passes over the corners near the floor.
 pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
     let floor_mm = points.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
     let center_height_mm = center.z - floor_mm;
@@ -69,8 +73,9 @@ pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
     })
 }
 
-/// How far the contact lies beyond the centre of mass when the body is tilted in a direction, level, mm: positive rights it. And how
-/// far it lies from the axis in that direction, before the tilt, mm.
+/// How far the contact lies beyond the centre of mass when the body is tilted in a direction,
+/// level, mm: positive rights it. And how far it lies from the axis in that direction, before the
+/// tilt, mm.
 fn arm_mm(foot: &[Point], center: &Point, tilt_rad: f64, direction: usize) -> [f64; 2] {
     let (y, x) = (std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
     let (sin, cos) = tilt_rad.sin_cos();
@@ -98,7 +103,8 @@ mod tests {
     #[test]
     fn a_ball_stands_where_its_centre_of_mass_is_lower_than_its_radius_and_falls_where_it_is_higher()
      {
-        // Its facets are 0.7° wide, so that contacts jump by as much as half of a tilt of one degree.
+        // Its facets are 0.7° wide, so that contacts jump by as much as half of a tilt of one
+        // degree.
         let stands = of_ball(10.0, 4.0).unwrap();
         assert!(
             stands.radius_mm > 5.0 && stands.radius_mm < 15.0,
@@ -113,7 +119,8 @@ mod tests {
         let disc = cylinder(8.0, 30.0, 72);
         let floor = disc.aabb().min.z;
         let stands = resting(disc.vertices(), &Point::new(0.0, 0.0, floor + 20.0)).unwrap();
-        // atan(8/20) = 21.8°, less what a polygon of 72 sides lies inside its circle, in whole degrees.
+        // atan(8/20) = 21.8°, less what a polygon of 72 sides lies inside its circle, in whole
+        // degrees.
         assert_eq!(stands.rights_to_deg.round(), 21.0);
         assert!(
             (stands.radius_mm / (8.0 / TILT_RAD.sin()) - 1.0).abs() < 0.01,

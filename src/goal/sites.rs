@@ -1,4 +1,5 @@
-//! Where a goal is placed, in words: the direction that becomes up, a top's contact, a yo-yo's spin point.
+//! Where a goal is placed, in words: the direction that becomes up, a top's contact, a yo-yo's spin
+//! point.
 
 use std::{fmt, str::FromStr};
 
@@ -25,8 +26,8 @@ pub enum Up {
     NegZ,
     /// Along any vector, of any length but zero.
     Along([f64; 3]),
-    /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two senses the one
-    /// in which the centre of mass stands lower above the lowest point.
+    /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two
+    /// senses the one in which the centre of mass stands lower above the lowest point.
     Principal,
     /// The best of all directions; a run chooses one before anything is placed.
     Auto,
@@ -45,8 +46,8 @@ const AXES: [(&str, Up); 8] = [
 ];
 
 impl Up {
-    /// The unit vector; none for the principal and the best axis, which depend on the solid, and for a vector without
-    /// direction.
+    /// The unit vector; none for the principal and the best axis, which depend on the solid, and
+    /// for a vector without direction.
     pub fn direction(self) -> Option<Vector> {
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
         match self {
@@ -158,7 +159,8 @@ macro_rules! place {
 place! {
     /// Where a top touches the floor.
     Contact, "contact point" {
-        /// The lowest point of the model; the middle of the lowest feature where that is an edge or a face.
+        /// The lowest point of the model; the middle of the lowest feature where that is an edge or
+        /// a face.
         Lowest = "lowest",
         /// Vertically below the solid's centre of mass, at the height of the lowest point.
         Center = "center",

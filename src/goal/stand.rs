@@ -4,8 +4,9 @@ use super::place::{GoalError, Site};
 use super::{Placement, support};
 use crate::geom::Point;
 
-/// Vertices within this part of the height of the lowest carry the object. A scanned foot is never flat: below 0.05 %
-/// it would stand on three vertices; above 1 % it would stand on what does not touch the floor.
+/// Vertices within this part of the height of the lowest carry the object. A scanned foot is never
+/// flat: below 0.05 % it would stand on three vertices; above 1 % it would stand on what does not
+/// touch the floor.
 const SUPPORT_RATIO: f64 = 0.002;
 
 /// A support whose area is below this part of the height squared is a line or a point.

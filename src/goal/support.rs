@@ -1,10 +1,11 @@
 //! Convex polygons in the floor plane: the hull of what touches it, its area and its middle.
 
-/// Turns flatter than this part of the squared extent are straight: a hull corner there is rounding.
+/// Turns flatter than this part of the squared extent are straight: a hull corner there is
+/// rounding.
 const STRAIGHT_RATIO: f64 = 1e-12;
 
-/// The convex hull, counterclockwise, without repeated or collinear corners (Andrew, "Another efficient algorithm for
-/// convex hulls in two dimensions", Inf. Process. Lett. 9, 1979).
+/// The convex hull, counterclockwise, without repeated or collinear corners (Andrew, "Another
+/// efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 1979).
 pub(super) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
@@ -47,7 +48,8 @@ pub(super) fn area(polygon: &[[f64; 2]]) -> f64 {
     fan(polygon).map(|(twice_area, _)| 0.5 * twice_area).sum()
 }
 
-/// The centroid of a convex polygon's area; the middle of a segment; the point itself; the origin for none.
+/// The centroid of a convex polygon's area; the middle of a segment; the point itself; the origin
+/// for none.
 pub(super) fn middle(polygon: &[[f64; 2]]) -> [f64; 2] {
     if polygon.len() < 3 {
         let count = polygon.len().max(1) as f64;
@@ -73,7 +75,8 @@ fn fan(polygon: &[[f64; 2]]) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
     })
 }
 
-/// The edges of a convex counterclockwise polygon as (inward unit normal, offset): inside is normal·p ≥ offset.
+/// The edges of a convex counterclockwise polygon as (inward unit normal, offset): inside is
+/// normal·p ≥ offset.
 pub(crate) fn edges(polygon: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
     let next = polygon.iter().cycle().skip(1);
     let pairs = polygon.iter().zip(next);
@@ -108,7 +111,8 @@ mod tests {
 
     #[test]
     fn a_trapezoid_has_its_closed_form_middle() {
-        // Parallel sides 6 and 2, height 3: the centroid stands at 3/3 · (6 + 2·2)/(6 + 2) = 1.25 above the longer.
+        // Parallel sides 6 and 2, height 3: the centroid stands at 3/3 · (6 + 2·2)/(6 + 2) = 1.25
+        // above the longer.
         let polygon = [[0., 0.], [6., 0.], [4., 3.], [2., 3.]];
         assert!((area(&polygon) - 12.0).abs() < 1e-14);
         assert!((middle(&polygon)[0] - 3.0).abs() < 1e-14);

@@ -5,22 +5,23 @@ use super::{Contact, Placement, Rod, Warning, support};
 use crate::geom::{Point, Vector};
 use crate::shell::Keep;
 
-/// How many walls thick the contact stays solid: with fewer than two the point would be worn or pushed through, with
-/// many more the lowest, most useful part of the interior is lost.
+/// How many walls thick the contact stays solid: with fewer than two the point would be worn or
+/// pushed through, with many more the lowest, most useful part of the interior is lost.
 const CONTACT_RADIUS_WALLS: f64 = 2.0;
 
-/// Vertices within this part of the height of the lowest belong to the lowest feature. Below 1e-9 the rounding of a
-/// turned model splits a flat foot; above 1e-4 a blunt tip would count as flat.
+/// Vertices within this part of the height of the lowest belong to the lowest feature. Below 1e-9
+/// the rounding of a turned model splits a flat foot; above 1e-4 a blunt tip would count as flat.
 const LOWEST_FEATURE_RATIO: f64 = 1e-6;
 
-/// Air below the surface that is no more than this part of the height is rounding, not a missing tip.
+/// Air below the surface that is no more than this part of the height is rounding, not a missing
+/// tip.
 const AIR_RATIO: f64 = 1e-6;
 
 /// Air below the surface that no printer could fill, mm: less than its layer, so no tip is missing.
 const TOUCHING_MM: f64 = 0.01;
 
-/// A top that stands on a tip touches with it: as far below the surface as the tip stands out, and its socket has a wall
-/// of its own.
+/// A top that stands on a tip touches with it: as far below the surface as the tip stands out, and
+/// its socket has a wall of its own.
 pub(super) fn place(
     site: &Site,
     wall_mm: f64,
@@ -68,7 +69,8 @@ fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
     Ok(Point::new(x, y, site.lowest_mm))
 }
 
-/// The middle of what the model would touch a floor with: a vertex, an edge's middle, or a face's centroid.
+/// The middle of what the model would touch a floor with: a vertex, an edge's middle, or a face's
+/// centroid.
 fn lowest_feature_middle(site: &Site) -> [f64; 2] {
     let tie_mm = LOWEST_FEATURE_RATIO * site.height_mm();
     let lowest = site
@@ -93,7 +95,8 @@ fn warnings(site: &Site, contact: &Point, surface_mm: Option<f64>) -> Vec<Warnin
     air.into_iter().chain(below).collect()
 }
 
-/// How far above the contact the axis first meets the surface, mm; none where it meets nothing at or above it.
+/// How far above the contact the axis first meets the surface, mm; none where it meets nothing at
+/// or above it.
 fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
     let tolerance_mm = AIR_RATIO * site.height_mm();
     let mesh = site.solid.mesh();
@@ -107,7 +110,8 @@ fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
         .map(|height| height.max(0.0))
 }
 
-/// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the axis.
+/// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the
+/// axis.
 pub(crate) fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> Option<f64> {
     let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
     let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];

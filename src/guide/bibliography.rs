@@ -1,29 +1,35 @@
 //! The papers and books the code cites.
 //!
-//! * **Spin-It**: M. Bächer, E. Whiting, B. Bickel, O. Sorkine-Hornung, "Spin-It: Optimizing Moment of Inertia for
-//!   Spinnable Objects", ACM Transactions on Graphics 33(4), 2014; Communications of the ACM 60(8), 2017.
-//! * **Ray-reps**: J. Wu, L. Kramer, R. Westermann, "Shape interior modeling and mass property optimization using
-//!   ray-reps", Computers & Graphics 58, 2016.
-//! * **Make It Stand**: R. Prévost, E. Whiting, S. Lefebvre, O. Sorkine-Hornung, "Make It Stand: Balancing Shapes for 3D
-//!   Fabrication", ACM Transactions on Graphics 32(4), 2013.
-//! * **Balance quality**: ISO 21940-11:2016, "Mechanical vibration: Rotor balancing. Part 11: Procedures and tolerances for
-//!   rotors with rigid behaviour".
-//! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science 13(7), 1967.
-//! * **Coarse models mended** (the solver's scout): D. Echeverría, P. W. Hemker, "Space mapping and defect correction",
-//!   Computational Methods in Applied Mathematics 5, 2005; I. Olkin, F. Pukelsheim, "The distance between two random vectors
-//!   with given dispersion matrices", Linear Algebra and its Applications 48, 1982.
-//! * **Augmented Lagrangian** (the papers' methods): M. R. Hestenes, "Multiplier and gradient methods", Journal of
-//!   Optimization Theory and Applications 4, 1969.
-//! * **Projected quasi-Newton**: J. Nocedal, "Updating quasi-Newton matrices with limited storage", Mathematics of
-//!   Computation 35, 1980; D. P. Bertsekas, "Projected Newton methods for optimization problems with simple constraints",
-//!   SIAM Journal on Control and Optimization 20, 1982; R. H. Byrd, P. Lu, J. Nocedal, C. Zhu, "A limited memory algorithm
-//!   for bound constrained optimization", SIAM Journal on Scientific Computing 16, 1995.
-//! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor in terms of its
-//!   vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
-//! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation endlicher Summen",
-//!   Zeitschrift für Angewandte Mathematik und Mechanik 54, 1974.
-//! * **Signed distance**: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle weighted pseudonormal",
-//!   IEEE Transactions on Visualization and Computer Graphics 11(3), 2005.
-//! * **Isosurface stuffing** (the graded tetrahedral lattice): F. Labelle, J. R. Shewchuk, "Isosurface stuffing: fast
-//!   tetrahedral meshes with good dihedral angles", ACM Transactions on Graphics 26(3), 2007.
-//! * **Closest points**: C. Ericson, "Real-Time Collision Detection", Morgan Kaufmann, 2005, chapter 5.
+//! * **Spin-It**: M. Bächer, E. Whiting, B. Bickel, O. Sorkine-Hornung, "Spin-It: Optimizing Moment
+//!   of Inertia for Spinnable Objects", ACM Transactions on Graphics 33(4), 2014; Communications of
+//!   the ACM 60(8), 2017.
+//! * **Ray-reps**: J. Wu, L. Kramer, R. Westermann, "Shape interior modeling and mass property
+//!   optimization using ray-reps", Computers & Graphics 58, 2016.
+//! * **Make It Stand**: R. Prévost, E. Whiting, S. Lefebvre, O. Sorkine-Hornung, "Make It Stand:
+//!   Balancing Shapes for 3D Fabrication", ACM Transactions on Graphics 32(4), 2013.
+//! * **Balance quality**: ISO 21940-11:2016, "Mechanical vibration: Rotor balancing. Part 11:
+//!   Procedures and tolerances for rotors with rigid behaviour".
+//! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science
+//!   13(7), 1967.
+//! * **Coarse models mended** (the solver's scout): D. Echeverría, P. W. Hemker, "Space mapping and
+//!   defect correction", Computational Methods in Applied Mathematics 5, 2005; I. Olkin, F.
+//!   Pukelsheim, "The distance between two random vectors with given dispersion matrices", Linear
+//!   Algebra and its Applications 48, 1982.
+//! * **Augmented Lagrangian** (the papers' methods): M. R. Hestenes, "Multiplier and gradient
+//!   methods", Journal of Optimization Theory and Applications 4, 1969.
+//! * **Projected quasi-Newton**: J. Nocedal, "Updating quasi-Newton matrices with limited storage",
+//!   Mathematics of Computation 35, 1980; D. P. Bertsekas, "Projected Newton methods for
+//!   optimization problems with simple constraints", SIAM Journal on Control and Optimization 20,
+//!   1982; R. H. Byrd, P. Lu, J. Nocedal, C. Zhu, "A limited memory algorithm for bound constrained
+//!   optimization", SIAM Journal on Scientific Computing 16, 1995.
+//! * **Tetrahedron tensor**: F. Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia
+//!   tensor in terms of its vertex coordinates", Journal of Mathematics and Statistics 1(1), 2005.
+//! * **Compensated sums**: A. Neumaier, "Rundungsfehleranalyse einiger Verfahren zur Summation
+//!   endlicher Summen", Zeitschrift für Angewandte Mathematik und Mechanik 54, 1974.
+//! * **Signed distance**: J. A. Bærentzen, H. Aanæs, "Signed distance computation using the angle
+//!   weighted pseudonormal", IEEE Transactions on Visualization and Computer Graphics 11(3), 2005.
+//! * **Isosurface stuffing** (the graded tetrahedral lattice): F. Labelle, J. R. Shewchuk,
+//!   "Isosurface stuffing: fast tetrahedral meshes with good dihedral angles", ACM Transactions on
+//!   Graphics 26(3), 2007.
+//! * **Closest points**: C. Ericson, "Real-Time Collision Detection", Morgan Kaufmann, 2005,
+//!   chapter 5.

@@ -5,15 +5,19 @@ use std::f64::consts::{PI, TAU};
 use crate::geom::{Frame, Point};
 use crate::mesh::{ClipError, Csg, TriMesh, primitives, winding_number};
 
-/// Sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the circle; more only make more triangles.
+/// Sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the circle; more only
+/// make more triangles.
 const SIDES: u32 = 48;
-/// The socket's first corner is turned by so much about the axis, rad, so that it lies on no model's plane of symmetry.
+/// The socket's first corner is turned by so much about the axis, rad, so that it lies on no
+/// model's plane of symmetry.
 const TURN_RAD: f64 = 0.3;
 /// Depths at which the wall about a socket is looked for.
 const LOOKS: usize = 8;
-/// Directions in which it is looked for at each: between them 2 % of the distance from the axis may be missed.
+/// Directions in which it is looked for at each: between them 2 % of the distance from the axis may
+/// be missed.
 const DIRECTIONS: usize = 16;
-/// The share of its depth over which a socket must have its wall all around. Less, and a blow on the rod breaks the rim.
+/// The share of its depth over which a socket must have its wall all around. Less, and a blow on
+/// the rod breaks the rim.
 const HELD_RATIO: f64 = 0.5;
 
 /// Why a socket cannot be bored.
@@ -51,7 +55,8 @@ pub enum SeatError {
     },
 }
 
-/// Depths that are tried where a socket breaks out, as parts of what was asked for. Fewer tell too little of what there is.
+/// Depths that are tried where a socket breaks out, as parts of what was asked for. Fewer tell too
+/// little of what there is.
 const DEPTHS: usize = 20;
 
 /// What to do about a socket that breaks out.
@@ -82,7 +87,8 @@ impl Bore {
         (self.bottom_mm - self.mouth_mm).abs()
     }
 
-    /// Whether the model has a wall around the bore and behind its bottom; where that breaks out, how deep it may be.
+    /// Whether the model has a wall around the bore and behind its bottom; where that breaks out,
+    /// how deep it may be.
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
         self.seated(model, frame).map_err(|error| match error {
             SeatError::BreaksOut {
@@ -146,7 +152,8 @@ impl Bore {
         }
     }
 
-    /// Whether it goes right through the model: its bottom lies clear outside, and behind its mouth it has its wall.
+    /// Whether it goes right through the model: its bottom lies clear outside, and behind its mouth
+    /// it has its wall.
     pub fn passes_through(&self, model: &TriMesh, frame: &Frame) -> bool {
         self.walled(model, frame, self.bottom_mm) == 0
             && self.walled(model, frame, self.at_depth(self.wall_mm)) == DIRECTIONS
@@ -170,7 +177,8 @@ impl Bore {
     }
 }
 
-/// The prism that is taken away for a round rod between two heights of a frame: the rod's circle touches its sides.
+/// The prism that is taken away for a round rod between two heights of a frame: the rod's circle
+/// touches its sides.
 pub(super) fn prism(
     frame: &Frame,
     radius_mm: f64,

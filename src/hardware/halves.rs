@@ -7,8 +7,8 @@ use crate::mesh::{Csg, TriMesh, off_vertices};
 
 /// Pieces below this volume are sheets of a plane that runs along a face, mm³.
 const SHEET_MM3: f64 = 1e-6;
-/// A piece that stays with the other half is held by a hull so much larger than itself, mm, so that rounding leaves no skin of
-/// it; what else lies nearer is cut into.
+/// A piece that stays with the other half is held by a hull so much larger than itself, mm, so that
+/// rounding leaves no skin of it; what else lies nearer is cut into.
 const HULL_MARGIN_MM: f64 = 0.02;
 /// By how much of a piece's volume its hull may hold of something else.
 const FOREIGN_RATIO: f64 = 1e-3;
@@ -19,8 +19,8 @@ pub(super) struct Halves {
     pub lower: Csg,
 }
 
-/// The halves above and below the spin point. What the cut parts from both, such as the hand that hangs beside the body,
-/// stays with the half it grows from, whatever side of the plane it is on.
+/// The halves above and below the spin point. What the cut parts from both, such as the hand that
+/// hangs beside the body, stays with the half it grows from, whatever side of the plane it is on.
 pub(super) fn halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves, FitError> {
     let (frame, mesh) = (&workshop.goal.frame, workshop.solid.mesh());
     let plane = off_vertices(mesh, &Plane::through(&frame.origin, &frame.axis()));
@@ -72,7 +72,8 @@ impl Side {
     }
 }
 
-/// The halves of a cut that goes around the loose pieces: each is left with what it touches on the other side.
+/// The halves of a cut that goes around the loose pieces: each is left with what it touches on the
+/// other side.
 fn around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halves, FitError> {
     let mut upper_room = body.half_space(plane)?;
     for piece in &above.loose {

@@ -1,24 +1,27 @@
 //! Hardware put in its place: sockets bored, a yo-yo's halves moved apart, and what the rods weigh.
 //!
-//! A run with hardware solves for the solid that this room makes of the model. A socket's wall is then outside like any
-//! other, and keeps the wall about it; what is not printed adds constant moments ([`Fitted::moments`]).
+//! A run with hardware solves for the solid that this room makes of the model. A socket's wall is
+//! then outside like any other, and keeps the wall about it; what is not printed adds constant
+//! moments ([`Fitted::moments`]).
 //!
 //! # A yo-yo's halves
-//! The model is cut across the axis through the spin point, and the halves are moved by half the string gap each. Seen from
-//! the spin point, a grain of the upper half at (x, y, z) then counts as (x, y, z + gap/2). What the extreme interior
-//! along g empties (`hollow`) is therefore
+//! The model is cut across the axis through the spin point, and the halves are moved by half the
+//! string gap each. Seen from the spin point, a grain of the upper half at (x, y, z) then counts as
+//! (x, y, z + gap/2). What the extreme interior along g empties (`hollow`) is therefore
 //!
 //! ```text
 //! { q(x, y, z + gap/2) > 0 } of the upper half,    { q(x, y, z − gap/2) > 0 } of the lower,    q = g·m
 //! ```
 //!
-//! one quadric of the ten coefficients g where the halves are, and two quadrics of the same multipliers in the model: q with
-//! its z shifted. Nothing of the programmes or their proofs changes but the set of moments that can be reached, so the
-//! halves are moved first and everything after works where they will be. Each half is closed towards the gap by a wall of its
-//! own, so that the string runs between two faces.
+//! one quadric of the ten coefficients g where the halves are, and two quadrics of the same
+//! multipliers in the model: q with its z shifted. Nothing of the programmes or their proofs
+//! changes but the set of moments that can be reached, so the halves are moved first and everything
+//! after works where they will be. Each half is closed towards the gap by a wall of its own, so
+//! that the string runs between two faces.
 //!
-//! Moving halves of mass m/2 apart by a gap g adds m (c g + g²/4) to both moments across the axis, c the distance of a
-//! half's centre from the cut, and nothing to the one about it: a gap costs dominance.
+//! Moving halves of mass m/2 apart by a gap g adds m (c g + g²/4) to both moments across the axis,
+//! c the distance of a half's centre from the cut, and nothing to the one about it: a gap costs
+//! dominance.
 
 mod bore;
 mod halves;
@@ -132,7 +135,8 @@ pub enum FitError {
     NotSolid(#[from] Defects),
 }
 
-/// The model with its sockets bored, its halves apart, and its hardware in place; none where there is no hardware.
+/// The model with its sockets bored, its halves apart, and its hardware in place; none where there
+/// is no hardware.
 ///
 /// The rods lie along the goal's axis. Some booleans: about a second for 100 000 triangles.
 pub fn fitted(

@@ -74,8 +74,9 @@ fn upright(radius_mm: f64, [low, high]: [f64; 2]) -> Moments {
 
 #[test]
 fn a_balls_halves_moved_apart_have_the_inertia_of_the_parallel_axes() {
-    // Of mass m and radius R: about the axis 2mR²/5 still; across it each half's centre lies 3R/8 from the cut, so that
-    // moving each by g/2 adds m (3R/8 · g + g²/4). The sockets are taken out of the moved halves.
+    // Of mass m and radius R: about the axis 2mR²/5 still; across it each half's centre lies 3R/8
+    // from the cut, so that moving each by g/2 adds m (3R/8 · g + g²/4). The sockets are taken out
+    // of the moved halves.
     let (gap, depth, bore) = (3.0, 8.0, 2.0);
     let (_, fitted) = made(&ball(), &yoyo("3mm", "4mm"));
     let fitted = fitted.unwrap();
@@ -154,7 +155,8 @@ fn the_cut_passes_through_the_spin_point_that_was_chosen() {
 
 #[test]
 fn an_axle_goes_as_deep_as_both_halves_let_it_and_one_that_would_come_out_is_refused() {
-    // A plate 10 mm thick has 5 mm on each side of its middle, one of them wall: a 3 mm axle goes 3.75 mm deep.
+    // A plate 10 mm thick has 5 mm on each side of its middle, one of them wall: a 3 mm axle goes
+    // 3.75 mm deep.
     let plate = block([40.0, 40.0, 10.0]);
     let fitted = made(&plate, &yoyo("2mm", "3mm")).1.unwrap();
     assert_eq!(fitted.pieces[0].depth_mm, 3.75);
@@ -170,7 +172,8 @@ fn an_axle_goes_as_deep_as_both_halves_let_it_and_one_that_would_come_out_is_ref
 
 #[test]
 fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
-    // A block with a hook: an arm out of its lower half that ends in a finger pointing up past the middle.
+    // A block with a hook: an arm out of its lower half that ends in a finger pointing up past the
+    // middle.
     let csg = |min: [f64; 3], max: [f64; 3]| {
         Csg::of_mesh(&primitives::cuboid(&min.into(), &max.into())).unwrap()
     };
@@ -244,7 +247,8 @@ fn a_heavier_tip_puts_the_centre_of_the_same_top_lower() {
 
 #[test]
 fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
-    // An octahedron standing on its corner is as wide as it is high there: at 3 mm it has no wall of 1 mm about 4 mm.
+    // An octahedron standing on its corner is as wide as it is high there: at 3 mm it has no wall
+    // of 1 mm about 4 mm.
     let corner = |x: f64, y: f64, z: f64| Point::new(20.0 * x, 20.0 * y, 20.0 * z);
     let vertices = vec![
         corner(1., 0., 0.),

@@ -1,8 +1,8 @@
 //! A top's tip and stem: rods in sockets along its axis.
 //!
-//! Mass on the axis adds to s_z and to the moments across the axis, and next to nothing to the one about it, so every hollowing
-//! spins upright from a higher speed than without it: ω² = g s_z/(I_c − I_b). Light and thin ones cost least; what they give
-//! is a contact that does not wear.
+//! Mass on the axis adds to s_z and to the moments across the axis, and next to nothing to the one
+//! about it, so every hollowing spins upright from a higher speed than without it: ω² = g s_z/(I_c
+//! − I_b). Light and thin ones cost least; what they give is a contact that does not wear.
 
 use super::bore::{Bore, prism};
 use super::{FitError, Fitted, Kind, Piece, Workshop};
@@ -11,8 +11,8 @@ use crate::goal::{Rod, height_over_origin};
 use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
 
-/// A socket is bored so far beyond the end of its rod that stands out, mm: no face of it lies in the plane in which the
-/// model begins.
+/// A socket is bored so far beyond the end of its rod that stands out, mm: no face of it lies in
+/// the plane in which the model begins.
 const BEYOND_MM: f64 = 1e-3;
 
 /// A rod along the axis, by the heights of its ends in the goal frame.

@@ -9,12 +9,13 @@ use crate::goal::Rod;
 use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
 
-/// How deep an axle may go into each half where its length is not said, in its diameters, the first that there is room for.
-/// Deeper than two it only weighs on the axis, where that helps least; with less than half a diameter glue holds nothing.
+/// How deep an axle may go into each half where its length is not said, in its diameters, the first
+/// that there is room for. Deeper than two it only weighs on the axis, where that helps least; with
+/// less than half a diameter glue holds nothing.
 const DEPTHS_DIAMETERS: [f64; 7] = [2.0, 1.75, 1.5, 1.25, 1.0, 0.75, 0.5];
 
-/// The model cut across the axis at the spin point, bored for the axle, its halves `gap_mm` apart; `ring_g` is the mass of what
-/// sits on the axle in the gap.
+/// The model cut across the axis at the spin point, bored for the axle, its halves `gap_mm` apart;
+/// `ring_g` is the mass of what sits on the axle in the gap.
 pub(super) fn fitted(
     workshop: &Workshop,
     axle: Rod,
@@ -48,7 +49,8 @@ pub(super) fn fitted(
     })
 }
 
-/// How deep the axle goes into each half, mm: as its length says, or else as deep as both halves have a wall about it.
+/// How deep the axle goes into each half, mm: as its length says, or else as deep as both halves
+/// have a wall about it.
 fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
     let sockets =

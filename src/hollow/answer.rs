@@ -13,7 +13,8 @@ use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
 const SOLE_OBSTACLE_RATIO: f64 = 0.95;
-/// A residual up to which an unfinished answer is worth having: a thousandth of the solid's radius of gyration.
+/// A residual up to which an unfinished answer is worth having: a thousandth of the solid's radius
+/// of gyration.
 const USABLE_RESIDUAL: f64 = 1e-3;
 /// A gap up to which it is.
 const USABLE_GAP_RATIO: f64 = 1e-2;

@@ -7,10 +7,12 @@ use super::reach::{Extreme, Reach, Vector10};
 use super::solution::Pass;
 use crate::base::watch::Watch;
 
-/// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and the first steps
-/// overshoot to where the model is worthless; ten times more costs a pass an ascent.
+/// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and
+/// the first steps overshoot to where the model is worthless; ten times more costs a pass an
+/// ascent.
 pub(super) const COLD_DAMPING: f64 = 1e-2;
-/// The first damping near a known answer, where the model is good. A hundred times more costs a pass an ascent.
+/// The first damping near a known answer, where the model is good. A hundred times more costs a
+/// pass an ascent.
 pub(super) const WARM_DAMPING: f64 = 1e-4;
 /// The first damping where a scout has been: the model is all but exact there.
 pub(super) const SCOUTED_DAMPING: f64 = 1e-7;
@@ -20,17 +22,20 @@ const GREATEST_DAMPING: f64 = 1e9;
 /// How the damping follows the model's fortune.
 const EASE: f64 = 0.1;
 const TIGHTEN: f64 = 8.0;
-/// A step is taken when it gains at least this part of what the model promised; above the second the damping eases.
+/// A step is taken when it gains at least this part of what the model promised; above the second
+/// the damping eases.
 const LEAST_GAIN_RATIO: f64 = 0.05;
 const GOOD_GAIN_RATIO: f64 = 0.5;
 /// Curvature below which a quadric counts as cutting nothing: the damping then stands on this.
 const LEAST_CURVATURE: f64 = 1e-4;
-/// Gains below this are rounding: a step that promises no more is judged by whether it comes nearer to the optimum.
+/// Gains below this are rounding: a step that promises no more is judged by whether it comes nearer
+/// to the optimum.
 const ROUNDING_GAIN: f64 = 1e-13;
-/// When no y and λ promise to raise D by more than this part of it, it is τ that has to move, as Dinkelbach's method
-/// always may; larger, and τ moves on a D that is far from its maximum.
+/// When no y and λ promise to raise D by more than this part of it, it is τ that has to move, as
+/// Dinkelbach's method always may; larger, and τ moves on a D that is far from its maximum.
 const SETTLED_RATIO: f64 = 0.03;
-/// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the rows.
+/// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the
+/// rows.
 const SUSPICIOUS_MULTIPLIER: f64 = 20.0;
 
 /// How sharply the least miss of rows that cannot be met is found; any positive bound is a proof.
@@ -184,10 +189,11 @@ pub(super) struct Budget<'a> {
 
 /// Climbs from a visit until residual and gap are within the budget's tolerance.
 ///
-/// D(y, λ, τ) = min_K g·s is concave; {D ≥ 0} is convex and the greatest τ in it is the optimum. Each pass gives D,
-/// its gradient and its curvature, and each step maximises the damped quadratic model over y ∈ Y and all λ, with τ
-/// moved to where D vanishes (Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967). Damping
-/// follows Levenberg and Marquardt. Near the optimum every step squares the error.
+/// D(y, λ, τ) = min_K g·s is concave; {D ≥ 0} is convex and the greatest τ in it is the optimum.
+/// Each pass gives D, its gradient and its curvature, and each step maximises the damped quadratic
+/// model over y ∈ Y and all λ, with τ moved to where D vanishes (Dinkelbach, "On nonlinear
+/// fractional programming", Management Science 13, 1967). Damping follows Levenberg and Marquardt.
+/// Near the optimum every step squares the error.
 pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes.saturating_sub(1);
     let mut here = start;
@@ -240,7 +246,8 @@ pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
 /// How boldly the next step goes.
 struct Stride {
     damping: f64,
-    /// Whether τ moves with the step; it rests while the model is too poor to predict what moving it does.
+    /// Whether τ moves with the step; it rests while the model is too poor to predict what moving
+    /// it does.
     moves_ratio: bool,
 }
 
@@ -252,7 +259,8 @@ impl Stride {
         }
     }
 
-    /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says of it.
+    /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says
+    /// of it.
     fn leaves_only_the_ratio(&self, here: &Visit, step: &Step, programme: &Programme) -> bool {
         programme.is_ratio() && !self.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs()
     }
@@ -346,7 +354,8 @@ impl Model {
         self.slope.dot(step) - 0.5 * step.dot(&(&self.curvature * step))
     }
 
-    /// The y and λ of the damped model's maximum: λ is eliminated, y is found on its set, λ follows.
+    /// The y and λ of the damped model's maximum: λ is eliminated, y is found on its set, λ
+    /// follows.
     fn maximiser(
         &self,
         from: &DualPoint,
@@ -382,7 +391,8 @@ fn is_suspicious(visit: &Visit, programme: &Programme) -> bool {
         && multipliers > SUSPICIOUS_MULTIPLIER * (1.0 + visit.point.tau.abs())
 }
 
-/// The proof that no interior meets the rows, if the multipliers point to one: D > 0 along them alone.
+/// The proof that no interior meets the rows, if the multipliers point to one: D > 0 along them
+/// alone.
 fn separation(
     reach: &Reach,
     programme: &Programme,
@@ -406,7 +416,8 @@ fn separation(
     refusal(reach, programme, start, budget)
 }
 
-/// The same from where the proof is to be looked for: multipliers of the rows, as the weights of [`Programme::feasibility`].
+/// The same from where the proof is to be looked for: multipliers of the rows, as the weights of
+/// [`Programme::feasibility`].
 pub(super) fn refusal(
     reach: &Reach,
     programme: &Programme,
@@ -436,7 +447,8 @@ mod tests {
     use super::*;
     use crate::goal::Objective;
 
-    /// A dual point of the egg's dominance where no column is about to be touched or left by the quadric.
+    /// A dual point of the egg's dominance where no column is about to be touched or left by the
+    /// quadric.
     fn world_and_point() -> (worlds::World, DualPoint) {
         let point = DualPoint {
             y: DVector::from_vec(vec![0.3, -0.2]),
@@ -454,7 +466,8 @@ mod tests {
         let here = Visit::new(&reach, &programme, point.clone());
         let curvature = &programme.rows * here.extreme.w * programme.rows.transpose();
         for row in 0..5 {
-            // Central differences: the slope's error is 1e-8 of the curvature's change, far below 1e-6.
+            // Central differences: the slope's error is 1e-8 of the curvature's change, far below
+            // 1e-6.
             let step = 1e-4;
             let at = |shift: f64| {
                 let mut moved = point.clone();
@@ -468,7 +481,8 @@ mod tests {
                 "{row}: {slope} {}",
                 here.misses[row]
             );
-            // The curvature is a sum over 2 000 columns, of which a few cross their ends within the step.
+            // The curvature is a sum over 2 000 columns, of which a few cross their ends within the
+            // step.
             let bend = (&more.misses - &less.misses) / (-2.0 * step);
             let error = (bend - curvature.column(row)).amax();
             assert!(error < 2e-2 * curvature.amax(), "{row}: {error}");

@@ -9,11 +9,11 @@ use super::status::Status;
 use super::work::Work;
 use crate::goal::{Objective, Spindle};
 
-/// The balanced interior with the most material, or, where none is balanced, the least unbalanced one; with the proof
-/// that none reaches the grade, where none does.
+/// The balanced interior with the most material, or, where none is balanced, the least unbalanced
+/// one; with the proof that none reaches the grade, where none does.
 ///
-/// Whichever was asked for: no unbalance at all is the least, and of the interiors that have none the one with the most
-/// material is as good as any.
+/// Whichever was asked for: no unbalance at all is the least, and of the interiors that have none
+/// the one with the most material is as good as any.
 pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_least_removed();
     let climb = work.ascend(&programme, start);
@@ -41,13 +41,15 @@ fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> A
     Answer::new(Objective::LeastUnbalance, climb)
 }
 
-/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the two planes'
-/// unbalances per mass, times ω; the larger of two vectors is at least their joint length over √2.
+/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the
+/// two planes' unbalances per mass, times ω; the larger of two vectors is at least their joint
+/// length over √2.
 pub(super) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
     SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
 }
 
-/// The proof that no interior reaches the grade: with τ at what the grade allows, Jᵀy − τ e₁ is positive over all of K.
+/// The proof that no interior reaches the grade: with τ at what the grade allows, Jᵀy − τ e₁ is
+/// positive over all of K.
 fn cannot_balance(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Status> {
     let least_grade_mm_s = grade_mm_s(spindle, work.to_mm(climb.best.bound));
     if least_grade_mm_s <= spindle.rotor.grade_mm_s {
@@ -85,8 +87,9 @@ mod tests {
 
     #[test]
     fn a_pure_couple_is_taken_away_by_the_two_corners_that_lie_farthest() {
-        // The void is { xz > k } in a box of half sizes A = 4, B = 2, H = 3: its s_xz is 4B ((A²H² − k²)/4 − k²/2 ln(AH/k)),
-        // its volume 4B (AH − k − k ln(AH/k)). A column an eighth wide sees x at its middle: errors of p²/x² ≈ 1e-3.
+        // The void is { xz > k } in a box of half sizes A = 4, B = 2, H = 3: its s_xz is 4B ((A²H²
+        // − k²)/4 − k²/2 ln(AH/k)), its volume 4B (AH − k − k ln(AH/k)). A column an eighth wide
+        // sees x at its middle: errors of p²/x² ≈ 1e-3.
         let (k, edge) = (4.0_f64, 12.0_f64);
         let couple = 8.0 * ((edge * edge - k * k) / 4.0 - 0.5 * k * k * (edge / k).ln());
         let removed = 8.0 * (edge - k - k * (edge / k).ln());

@@ -1,4 +1,5 @@
-//! The least ballast: how much of a denser material inside makes a goal possible that hollowing alone does not meet.
+//! The least ballast: how much of a denser material inside makes a goal possible that hollowing
+//! alone does not meet.
 
 use nalgebra::DMatrix;
 
@@ -15,10 +16,11 @@ use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
 
-/// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an ascent starts with; far
-/// smaller, the cost is lost beside the tolerance of its value.
+/// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an
+/// ascent starts with; far smaller, the cost is lost beside the tolerance of its value.
 const PRICE: f64 = 0.1;
-/// I_b/I_c that counts as stable: a per cent below the border, where the least speed would be without bound.
+/// I_b/I_c that counts as stable: a per cent below the border, where the least speed would be
+/// without bound.
 const STABLE_RATIO: f64 = 0.99;
 /// The toppling angle that counts as standing, rad: half a degree.
 const STANDING_RAD: f64 = 0.0087;
@@ -39,8 +41,9 @@ const PRECISION_RATIO: f64 = 5e-3;
 const MOST_BISECTIONS: usize = 12;
 /// How exact the ascents are, with the price as the unit of their value.
 const TOLERANCE: f64 = 1e-6;
-/// The residual of the rows up to which an interior is one: a hundredth of the solid's radius of gyration. Where the level
-/// sets stand upright, whole slabs of columns change hands at once and no ascent does better; then only the bound is exact.
+/// The residual of the rows up to which an interior is one: a hundredth of the solid's radius of
+/// gyration. Where the level sets stand upright, whole slabs of columns change hands at once and no
+/// ascent does better; then only the bound is exact.
 const ACCEPTED_RESIDUAL: f64 = 1e-2;
 
 /// The least ballast, and where it goes.
@@ -48,7 +51,8 @@ const ACCEPTED_RESIDUAL: f64 = 1e-2;
 pub struct Ballast {
     /// Its volume, mm³.
     pub volume_mm3: f64,
-    /// No ballast of less volume meets the goal, at the height of a top's centre that was found best, mm³; proved.
+    /// No ballast of less volume meets the goal, at the height of a top's centre that was found
+    /// best, mm³; proved.
     pub bound_mm3: f64,
     /// The ballast is where this is positive; goal frame, mm.
     pub filled: Quadric,
@@ -56,14 +60,16 @@ pub struct Ballast {
     pub emptied: Quadric,
 }
 
-/// The least volume of a material `density_ratio` times as dense as the printed one with which the goal is possible,
-/// with a per cent to spare; none where even unlimited ballast inside does not help, or for goals it is not known for.
+/// The least volume of a material `density_ratio` times as dense as the printed one with which the
+/// goal is possible, with a per cent to spare; none where even unlimited ballast inside does not
+/// help, or for goals it is not known for.
 ///
-/// With ballast at hand every grain of the interior may be emptied, kept or replaced, and the reachable moments are again
-/// a convex set. Of the programme "least cost subject to the rows and to a limit on the goal's ratio" the dual prices
-/// the limit with one weight; for given multipliers a grain is emptied where the quadric q > 0 and replaced where q is
-/// so far below zero that the gain pays, q < −price/(ratio − 1): two level sets of one quadric. So two passes find the
-/// extreme interior and everything else is the ascent of [`super::solve`].
+/// With ballast at hand every grain of the interior may be emptied, kept or replaced, and the
+/// reachable moments are again a convex set. Of the programme "least cost subject to the rows and
+/// to a limit on the goal's ratio" the dual prices the limit with one weight; for given multipliers
+/// a grain is emptied where the quadric q > 0 and replaced where q is so far below zero that the
+/// gain pays, q < −price/(ratio − 1): two level sets of one quadric. So two passes find the extreme
+/// interior and everything else is the ascent of [`super::solve`].
 pub fn least_ballast(
     problem: &Problem,
     density_ratio: f64,
@@ -99,8 +105,8 @@ pub fn least_ballast(
     shop.ballast(&bought)
 }
 
-/// Whether a solution is possible with as much to spare as [`least_ballast`] asks for: at the very border of the possible a
-/// top has no least speed, and what stands falls over when breathed at.
+/// Whether a solution is possible with as much to spare as [`least_ballast`] asks for: at the very
+/// border of the possible a top has no least speed, and what stands falls over when breathed at.
 pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
     let value = solution.certificate.value;
     let is_enough = match (goal.kind, solution.certificate.figure) {
@@ -161,7 +167,8 @@ impl Shop<'_> {
         })
     }
 
-    /// The least over all heights of a top's centre: a look at several, then golden section about the best.
+    /// The least over all heights of a top's centre: a look at several, then golden section about
+    /// the best.
     fn least_of_heights(&self) -> Option<Bought> {
         let [low, high] = Heights::range(&self.free).ok()?;
         let at = |height: f64| {
@@ -209,7 +216,8 @@ impl Shop<'_> {
         )
     }
 
-    /// The least ballast with which the rows of a programme are met and its ratio is at most `limit`.
+    /// The least ballast with which the rows of a programme are met and its ratio is at most
+    /// `limit`.
     fn least(&self, programme: &dyn Fn(&Work) -> Programme, limit: f64) -> Option<Bought> {
         let wish = programme(&self.free);
         let best = self.free.climb_near(&wish, None, TOLERANCE)?;
@@ -217,7 +225,8 @@ impl Shop<'_> {
             return None;
         }
         let wish = programme(&self.priced);
-        // Where the rows need no ballast, this ascent has its peak in the kink at no multipliers at all and finds nothing.
+        // Where the rows need no ballast, this ascent has its peak in the kink at no multipliers at
+        // all and finds nothing.
         let rows_alone = self.bought(&wish, 0.0, limit);
         let kept = rows_alone.filter(|bought| is_kept(&wish, limit, &bought.climb));
         kept.or_else(|| self.with_least_weight(&wish, limit))
@@ -261,7 +270,8 @@ impl Shop<'_> {
         Some(kept)
     }
 
-    /// The interior of the least cost when the excess over the limit costs `weight` besides; none where the ascent fails.
+    /// The interior of the least cost when the excess over the limit costs `weight` besides; none
+    /// where the ascent fails.
     fn bought(&self, wish: &Programme, weight: f64, limit: f64) -> Option<Bought> {
         let programme = priced(wish, weight, limit);
         let start = programme.cold_start(&self.priced.reach);
@@ -332,8 +342,9 @@ mod tests {
 
     #[test]
     fn a_beam_is_balanced_by_steel_at_its_far_end() {
-        // A beam of cross-section A from −a to a, and beside it a mass whose first moment about the middle is F: emptied at
-        // x > 0 it gives A a²/2 towards −x, and steel from −a to −t a further (κ − 1) A (a² − t²)/2.
+        // A beam of cross-section A from −a to a, and beside it a mass whose first moment about the
+        // middle is F: emptied at x > 0 it gives A a²/2 towards −x, and steel from −a to −t a
+        // further (κ − 1) A (a² − t²)/2.
         let (half, area, first, density_ratio) = (8.0, 4.0, 700.0, 6.0);
         let world = worlds::beam(first);
         let t2 =

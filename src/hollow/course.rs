@@ -1,4 +1,5 @@
-//! How an answer came about, for people to look at: value and bound pass by pass, and a top's speed by height.
+//! How an answer came about, for people to look at: value and bound pass by pass, and a top's speed
+//! by height.
 
 use super::answer::Answer;
 use super::heights::Heights;
@@ -19,13 +20,13 @@ const TOLERANCE: f64 = 1e-5;
 pub struct TopCourse {
     /// Value and bound pass by pass from nothing, at the height of the answer, rpm.
     pub passes: Vec<Pass>,
-    /// Heights ascending, mm, and the least critical speed of any interior that is balanced there, rpm; only where one is
-    /// stable. The least of it is the optimum.
+    /// Heights ascending, mm, and the least critical speed of any interior that is balanced there,
+    /// rpm; only where one is stable. The least of it is the optimum.
     pub speeds: Vec<[f64; 2]>,
 }
 
-/// The course of a top that was solved for its critical speed on these columns; empty for anything else. It costs some forty
-/// ascents, so coarse columns do.
+/// The course of a top that was solved for its critical speed on these columns; empty for anything
+/// else. It costs some forty ascents, so coarse columns do.
 pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> TopCourse {
     let is_of_speed = known.certificate.figure == Figure::CriticalSpeedRpm;
     let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height)
@@ -89,7 +90,8 @@ mod tests {
             .iter()
             .map(|speed| speed[1])
             .fold(f64::INFINITY, f64::min);
-        // No height is better than the bound; one of 33 is within half a step of the best, where the curve is flat.
+        // No height is better than the bound; one of 33 is within half a step of the best, where
+        // the curve is flat.
         assert!(
             least >= bound * (1.0 - TOLERANCE) && least < 1.05 * value,
             "{least} {value}"

@@ -9,33 +9,36 @@ use super::valley::Bottom;
 
 /// Posts at most. A smooth valley takes about twenty.
 const MOST_POSTS: usize = 400;
-/// The share of a margin that is not worth another pass. A fifth of it doubles the passes a post takes and saves a tenth of
-/// the posts.
+/// The share of a margin that is not worth another pass. A fifth of it doubles the passes a post
+/// takes and saves a tenth of the posts.
 const MARGIN_SLACK: f64 = 0.5;
-/// How many times the margin that was expected is enough. Where no interior is to be had it grows without bound, and the
-/// multipliers with it.
+/// How many times the margin that was expected is enough. Where no interior is to be had it grows
+/// without bound, and the multipliers with it.
 const CONTENT_RATIO: f64 = 4.0;
-/// How many times the last step the multipliers are followed ahead; further, their line is worse than their last.
+/// How many times the last step the multipliers are followed ahead; further, their line is worse
+/// than their last.
 const FARTHEST_AHEAD: f64 = 4.0;
 /// How far a post reaches at first guess, as a part of its distance from the bottom.
 const FIRST_REACH: f64 = 0.6;
-/// The part of the foreseen reach that is counted on. Nearer to one, and posts miss the edge that they have to overlap.
+/// The part of the foreseen reach that is counted on. Nearer to one, and posts miss the edge that
+/// they have to overlap.
 const COUNTED_REACH: f64 = 0.85;
 
 /// A claim about all heights: no interior, wherever its centre, has a ratio below `target`.
 ///
-/// Let the tensor be linear at ℓ, and let an interior have its centre at h. Its true numerator is smaller than the linear
-/// one by κs₁(h − ℓ)², since s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)² and κ of that is taken away (for any weights y of the
-/// dual; κ = 1 for λ_max). So if every interior has
+/// Let the tensor be linear at ℓ, and let an interior have its centre at h. Its true numerator is
+/// smaller than the linear one by κs₁(h − ℓ)², since s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)² and κ of
+/// that is taken away (for any weights y of the dual; κ = 1 for λ_max). So if every interior has
 ///
 /// ```text
 /// n_ℓ·s + max yᵀJ_ℓs − target·e·s ≥ δ s₁
 /// ```
 ///
-/// which is one more quasi-convex programme, with a bound from any dual point, then no interior with its centre within
-/// √(δ/κ) of ℓ is below the target. Such a *post* at ℓ needs no row for the height. With T's bottom at ℓ* and curvature
-/// c, δ ≈ ½c(ℓ − ℓ*)²: the reach of a post grows with its distance from the bottom, and the posts for a precision of ε
-/// number about log(1/ε), not 1/√ε.
+/// which is one more quasi-convex programme, with a bound from any dual point, then no interior
+/// with its centre within √(δ/κ) of ℓ is below the target. Such a *post* at ℓ needs no row for the
+/// height. With T's bottom at ℓ* and curvature c, δ ≈ ½c(ℓ − ℓ*)²: the reach of a post grows with
+/// its distance from the bottom, and the posts for a precision of ε number about log(1/ε), not
+/// 1/√ε.
 pub(super) struct Cover<'a> {
     pub heights: &'a Heights<'a>,
     pub target: f64,
@@ -67,7 +70,8 @@ pub(super) struct Post {
     pub stake: Stake,
 }
 
-/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme point of K.
+/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme
+/// point of K.
 #[derive(Debug, Clone)]
 pub(super) struct Stake {
     /// g
@@ -96,7 +100,8 @@ impl<'a> Cover<'a> {
         }
     }
 
-    /// The posts that prove the claim at every height of the range, from the bottom of a valley up and down.
+    /// The posts that prove the claim at every height of the range, from the bottom of a valley up
+    /// and down.
     pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let best = &bottom.sample.climb.best;
         let margin = (best.bound - self.target) * best.denominator / best.mass();
@@ -107,7 +112,8 @@ impl<'a> Cover<'a> {
         self.posts(bottom.sample.at, start)
     }
 
-    /// The posts of a claim that holds, the first at `height`, which is best where the margin is least.
+    /// The posts of a claim that holds, the first at `height`, which is best where the margin is
+    /// least.
     pub fn posts(&self, height: f64, start: DualPoint) -> Result<Vec<Post>, Doubt> {
         let middle = self.post(height, start)?;
         let [low, high] = self.heights.range;
@@ -197,7 +203,8 @@ impl<'a> Cover<'a> {
     }
 }
 
-/// The margin to expect at a place from the post before: it grows with the square of the distance from the middle.
+/// The margin to expect at a place from the post before: it grows with the square of the distance
+/// from the middle.
 fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
     let distance = at - middle;
     if last.at == middle {
@@ -206,7 +213,8 @@ fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
     last.margin * (distance / (last.at - middle)).powi(2)
 }
 
-/// The dual point on the line through the last two, which the multipliers follow as the height changes.
+/// The dual point on the line through the last two, which the multipliers follow as the height
+/// changes.
 fn aimed(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint {
     let mut point = DualPoint {
         tau: margin,

@@ -1,12 +1,14 @@
 //! Voids that are filled: what is emptied of the print gets another material in its place.
 //!
-//! A grain that is filled weighs ρ_fill instead of ρ, so the moments are s = s_fixed − κ ∫β m with the relief
-//! κ = 1 − ρ_fill/ρ: the same convex set for air (κ = 1), stretched by κ, and turned over where the filling is the heavier
-//! material (κ < 0). Dividing all moments by |κ| makes it the very problem of [`super::solve`]: ratios and equations without a
-//! constant do not change, the mass of what floats is divided with the rest. Where κ < 0, what the solver empties of the body
+//! A grain that is filled weighs ρ_fill instead of ρ, so the moments are s = s_fixed − κ ∫β m with
+//! the relief κ = 1 − ρ_fill/ρ: the same convex set for air (κ = 1), stretched by κ, and turned
+//! over where the filling is the heavier material (κ < 0). Dividing all moments by |κ| makes it the
+//! very problem of [`super::solve`]: ratios and equations without a constant do not change, the
+//! mass of what floats is divided with the rest. Where κ < 0, what the solver empties of the body
 //! filled everywhere is what must not be filled, so the void is where its quadric is negative.
 //!
-//! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same equations.
+//! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same
+//! equations.
 
 use super::{Problem, Settings, Solution, refine, solve};
 use crate::base::watch::Watch;
@@ -21,15 +23,16 @@ pub struct Fill {
     density_ratio: f64,
 }
 
-/// A filling this near to the print's density changes nothing: what little it did would take voids of any size.
+/// A filling this near to the print's density changes nothing: what little it did would take voids
+/// of any size.
 const LEAST_RELIEF: f64 = 0.02;
 
 impl Fill {
     /// Nothing.
     pub const AIR: Self = Self { density_ratio: 0.0 };
 
-    /// A filling `density_ratio` times as dense as the print; none where that is negative, not finite, or within two per cent
-    /// of the print's own density.
+    /// A filling `density_ratio` times as dense as the print; none where that is negative, not
+    /// finite, or within two per cent of the print's own density.
     pub fn new(density_ratio: f64) -> Option<Self> {
         let is_filling = density_ratio.is_finite() && density_ratio >= 0.0;
         (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF)
@@ -46,7 +49,8 @@ impl Fill {
         self.density_ratio > 1.0
     }
 
-    /// How much lighter a filled grain is, as a share of a printed one; negative where it is heavier.
+    /// How much lighter a filled grain is, as a share of a printed one; negative where it is
+    /// heavier.
     fn relief(&self) -> f64 {
         1.0 - self.density_ratio
     }
@@ -56,8 +60,9 @@ impl Fill {
         fixed - moments_where_positive(columns, quadric) * self.relief()
     }
 
-    /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution is in the print's own
-    /// moments and its void is where the quadric is positive, like one with air; the certificate is for this filling.
+    /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution
+    /// is in the print's own moments and its void is where the quadric is positive, like one with
+    /// air; the certificate is for this filling.
     pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);

@@ -1,4 +1,5 @@
-//! What floats: the lowest centre of mass over the centre of buoyancy at the mass that the water carries.
+//! What floats: the lowest centre of mass over the centre of buoyancy at the mass that the water
+//! carries.
 
 use super::answer::Answer;
 use super::ascent::End;
@@ -7,12 +8,12 @@ use super::status::Status;
 use super::work::Work;
 use crate::goal::{Afloat, Objective};
 
-/// A proved distance of the centre of mass from its place below which the constraints count as met, in the solver's units:
-/// the residual that is accepted.
+/// A proved distance of the centre of mass from its place below which the constraints count as met,
+/// in the solver's units: the residual that is accepted.
 const TRIM_TOLERANCE: f64 = 1e-7;
 
-/// The interior of the right mass, with its centre above that of buoyancy and as low as it can be; or the proof that at
-/// this waterline there is none, or none that rights itself.
+/// The interior of the right mass, with its centre above that of buoyancy and as low as it can be;
+/// or the proof that at this waterline there is none, or none that rights itself.
 pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let afloat = work.goal.afloat.unwrap_or_default();
     if let Some(answer) = out_of_range(work, objective, &afloat) {
@@ -35,7 +36,8 @@ pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     }
 }
 
-/// The proof that the lightest interior is too heavy for the water it displaces, or the solid too light.
+/// The proof that the lightest interior is too heavy for the water it displaces, or the solid too
+/// light.
 fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
     let mass = afloat.material_mm3 / work.reach.scale.volume_mm3;
     let [lightest, heaviest] = [work.reach.shell, work.reach.fullest].map(|s| s[index::ONE]);
@@ -59,7 +61,8 @@ fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<An
     Some(Answer::new(objective, climb).with_verdict(verdict))
 }
 
-/// The proof that no interior of the right mass has its centre over that of buoyancy, if there is one.
+/// The proof that no interior of the right mass has its centre over that of buoyancy, if there is
+/// one.
 fn cannot_trim(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
     let programme = Programme::float_offset(&work.reach, afloat);
     let climb = work.climb(&programme, programme.cold_start(&work.reach), 0.0);
@@ -88,8 +91,8 @@ mod tests {
 
     #[test]
     fn a_tank_is_filled_from_the_bottom_to_the_mass_the_water_carries() {
-        // A tank of inner area 16 and height 10, 40 of other mass centred at height 9; with 120 in all it is filled to 5
-        // and the centre lies at (40·9 + 80·2.5)/120.
+        // A tank of inner area 16 and height 10, 40 of other mass centred at height 9; with 120 in
+        // all it is filled to 5 and the centre lies at (40·9 + 80·2.5)/120.
         let world = worlds::tank(120.0, [0.0; 2]);
         let got = solution(&world);
         assert_eq!(
@@ -113,7 +116,8 @@ mod tests {
         assert_eq!(got.status, Status::Solved, "{:?}", got.log);
         let center = got.moments.centroid();
         assert!((center.x - 0.3).abs() < 1e-6 && (center.y + 0.2).abs() < 1e-6);
-        // No random choice of the same mass and place is lower: every quadric's interior obeys the bound's inequality.
+        // No random choice of the same mass and place is lower: every quadric's interior obeys the
+        // bound's inequality.
         world.fixed.0[1] += 0.5;
         let again = refine(
             &world.problem(),

@@ -8,8 +8,8 @@ use super::valley::Bottom;
 
 /// Half the angle of the first side, as a part of √(how far below the value the claim is).
 const FIRST_ANGLE_RATIO: f64 = 0.25;
-/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet there. Less takes more
-/// sides, more takes more posts.
+/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet
+/// there. Less takes more sides, more takes more posts.
 const LEVEL_RATIO: f64 = 0.5;
 /// What is left of an angle that was too wide.
 const SHRINKAGE: f64 = 0.5;
@@ -20,24 +20,28 @@ const NARROWEST: f64 = 1e-7;
 /// Sides one way at most.
 const MOST_SIDES: usize = 80;
 
-/// A claim about all heights and levers: no interior has k s_z² + γ ρ² < V, with ρ the inertia's ratio.
+/// A claim about all heights and levers: no interior has k s_z² + γ ρ² < V, with ρ the inertia's
+/// ratio.
 ///
-/// (s_z, ρ) lies outside of that ellipse if it lies above a polygon drawn around it. Let (σ₁, t₁) and (σ₂, t₂) be the ends
-/// of one of its sides, σ₁ < σ₂. At each end the posts of a [`Cover`] with the row s_z = σᵢ prove, with the row's
-/// multiplier aᵢ, for *every* interior whose centre is at h within their reach,
+/// (s_z, ρ) lies outside of that ellipse if it lies above a polygon drawn around it. Let (σ₁, t₁)
+/// and (σ₂, t₂) be the ends of one of its sides, σ₁ < σ₂. At each end the posts of a [`Cover`] with
+/// the row s_z = σᵢ prove, with the row's multiplier aᵢ, for *every* interior whose centre is at h
+/// within their reach,
 ///
 /// ```text
 /// N − tᵢ I_zz ≥ mᵢ s₁ + aᵢ (σᵢ − s_z).
 /// ```
 ///
-/// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. The same mixture of both says that it is above the side where
-/// (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z, which holds for all x if √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁).
-/// What the mixture loses is quadratic in the side's length, and m grows with the square of the distance from the best
-/// lever: so the number of sides, too, is about the logarithm of the precision.
+/// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. The same mixture of both says that it is
+/// above the side where (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z, which holds for all x if
+/// √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁). What the mixture loses is quadratic in the side's length,
+/// and m grows with the square of the distance from the best lever: so the number of sides, too, is
+/// about the logarithm of the precision.
 ///
-/// From a corner (σ, t) on, t changes with the lever along the ellipse by less than |t′| = kσ/(γt) a unit below σ and by
-/// more above it. So the posts of a corner speak for all smaller levers where a ≥ |t′| times the greatest I_zz, and for
-/// all greater ones where a ≤ |t′| times the least I_zz, plus m/h.
+/// From a corner (σ, t) on, t changes with the lever along the ellipse by less than |t′| = kσ/(γt)
+/// a unit below σ and by more above it. So the posts of a corner speak for all smaller levers where
+/// a ≥ |t′| times the greatest I_zz, and for all greater ones where a ≤ |t′| times the least I_zz,
+/// plus m/h.
 pub(super) struct Frontier<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
@@ -115,8 +119,8 @@ impl Frontier<'_> {
         Err(Doubt::Open)
     }
 
-    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what interiors can have; the
-    /// posts of the new ones.
+    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what
+    /// interiors can have; the posts of the new ones.
     fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<Vec<Post>, Doubt> {
         let Walk {
             side,
@@ -150,7 +154,8 @@ impl Frontier<'_> {
         Err(Doubt::Open)
     }
 
-    /// The next corner on the same tangent, as far on as all interiors are above the side to it, and how far on.
+    /// The next corner on the same tangent, as far on as all interiors are above the side to it,
+    /// and how far on.
     fn step(
         &self,
         walk: Walk,
@@ -183,7 +188,8 @@ impl Frontier<'_> {
         Err(failed)
     }
 
-    /// The angle at which the next side should just be above, from how margin and multiplier went before.
+    /// The angle at which the next side should just be above, from how margin and multiplier went
+    /// before.
     fn foreseen(&self, (before, last): (&Corner, &Corner), distance: f64) -> f64 {
         let bend = ((last.multiplier() - before.multiplier()) / (last.lever - before.lever)).abs();
         let loss = (bend * self.heights.range[1] / last.lever).sqrt() * self.greatest();
@@ -214,7 +220,8 @@ impl Frontier<'_> {
         (self.target / self.weighed.lever).sqrt()
     }
 
-    /// The lever and the ratio at the corner of the tangent at `touch` with the one twice `half` further.
+    /// The lever and the ratio at the corner of the tangent at `touch` with the one twice `half`
+    /// further.
     fn at(&self, touch: f64, half: f64) -> [f64; 2] {
         let angle = touch + half;
         let radius = self.target.sqrt() / half.cos();
@@ -238,7 +245,8 @@ impl Frontier<'_> {
         })
     }
 
-    /// Whether every interior with a lever between those of two corners is above the side between them.
+    /// Whether every interior with a lever between those of two corners is above the side between
+    /// them.
     fn is_above(&self, low: &Corner, high: &Corner) -> bool {
         low.posts.iter().all(|one| {
             let beside = |other: &&Post| (one.at - other.at).abs() <= one.reach + other.reach;

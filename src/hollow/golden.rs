@@ -3,11 +3,11 @@
 /// (√5 − 1)/2, the share of a range that each round keeps.
 const SHARE: f64 = 0.618_033_988_749_894_9;
 
-/// The two inner places of the range that `rounds` of golden section leave, as `look` sees them; `is_better` tells of two
-/// which side the best lies on.
+/// The two inner places of the range that `rounds` of golden section leave, as `look` sees them;
+/// `is_better` tells of two which side the best lies on.
 ///
-/// Each round costs one look and leaves 0.618 of the range; with one best place in it, that stays inside (Kiefer, Proc.
-/// AMS 4, 1953). The place of a look is `at(&look)`.
+/// Each round costs one look and leaves 0.618 of the range; with one best place in it, that stays
+/// inside (Kiefer, Proc. AMS 4, 1953). The place of a look is `at(&look)`.
 pub fn golden_section<T>(
     [mut low, mut high]: [f64; 2],
     rounds: usize,

@@ -9,14 +9,14 @@ use super::valley::{Bottom, Place, Sample, Valley};
 use super::work::Work;
 use crate::goal::Objective;
 
-/// By which part of themselves the ends of the range of heights may be too far out. Less costs passes, and saves the proof
-/// none, which steps over what is out of reach in one or two.
+/// By which part of themselves the ends of the range of heights may be too far out. Less costs
+/// passes, and saves the proof none, which steps over what is out of reach in one or two.
 const RANGE_SLACK: Slack = Slack {
     share: 0.2,
     enough: f64::INFINITY,
 };
-/// The least height of a centre, as a part of the greatest, that counts as above the contact. A top whose centre lies in
-/// its contact needs no spin at all.
+/// The least height of a centre, as a part of the greatest, that counts as above the contact. A top
+/// whose centre lies in its contact needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
 
 /// A dual point to start from, and the best lever where it was found.
@@ -24,9 +24,10 @@ pub(super) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 
 /// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
 ///
-/// With h the height of an interior's centre, s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)². So the linear tensor is never too
-/// small and is right where h = ℓ: the least of T over ℓ is the optimum over all interiors, whatever their heights, and
-/// needs no row that fixes them. T is smooth: its slope is that of s₁(h − ℓ)².
+/// With h the height of an interior's centre, s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)². So the linear
+/// tensor is never too small and is right where h = ℓ: the least of T over ℓ is the optimum over
+/// all interiors, whatever their heights, and needs no row that fixes them. T is smooth: its slope
+/// is that of s₁(h − ℓ)².
 #[derive(Clone, Copy)]
 pub(super) struct Heights<'a> {
     pub work: &'a Work<'a>,
@@ -36,7 +37,8 @@ pub(super) struct Heights<'a> {
 }
 
 impl<'a> Heights<'a> {
-    /// The objective over the heights that can be had. Fails with the ascent that proves that there is none.
+    /// The objective over the heights that can be had. Fails with the ascent that proves that there
+    /// is none.
     pub fn new(work: &'a Work<'a>, objective: Objective) -> Result<Self, Box<Climb>> {
         Ok(Self {
             work,
@@ -45,8 +47,8 @@ impl<'a> Heights<'a> {
         })
     }
 
-    /// The heights the centre of an interior that meets the constraints can have: outer bounds, so that none is
-    /// missed. Fails with the ascent that proves that no interior meets them.
+    /// The heights the centre of an interior that meets the constraints can have: outer bounds, so
+    /// that none is missed. Fails with the ascent that proves that no interior meets them.
     pub fn range(work: &Work) -> Result<[f64; 2], Box<Climb>> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
@@ -61,8 +63,8 @@ impl<'a> Heights<'a> {
         Ok([low.max(LEAST_HEIGHT_RATIO * high), high])
     }
 
-    /// The heights an interior's centre can have, by the multipliers a scout finds and one pass over all columns for each end;
-    /// none where those do not tell.
+    /// The heights an interior's centre can have, by the multipliers a scout finds and one pass
+    /// over all columns for each end; none where those do not tell.
     pub fn scouted_range(work: &Work, scout: &Work) -> Option<[f64; 2]> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
@@ -84,7 +86,8 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// Whether no other height, and no other lever where that is weighed, promises anything worth the while.
+    /// Whether no other height, and no other lever where that is weighed, promises anything worth
+    /// the while.
     pub fn is_level(&self, bottom: &Bottom) -> bool {
         let Sample {
             slope,
@@ -116,7 +119,8 @@ impl<'a> Heights<'a> {
         )
     }
 
-    /// The objective and its slope; none where the run was stopped or no interior meets the constraints.
+    /// The objective and its slope; none where the run was stopped or no interior meets the
+    /// constraints.
     pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
         if let Some(weighed) = Weighed::of(self.objective, self.work) {
             return Levers {
@@ -153,14 +157,15 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what it grows with ℓ at
-    /// most, 2κs₁/(e·s): the rest is what the interior does.
+    /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what
+    /// it grows with ℓ at most, 2κs₁/(e·s): the rest is what the interior does.
     pub fn slopes(&self, height: f64, best: &Visit) -> [f64; 2] {
         let bend = 2.0 * self.weight(&best.point) * best.mass() / best.denominator;
         [bend * (height - best.center_height()), bend]
     }
 
-    /// κ, how often s_z²/s₁ is taken from the numerator: from λ_max once, from y·(I_xx, √2 I_xy, I_yy) by two weights.
+    /// κ, how often s_z²/s₁ is taken from the numerator: from λ_max once, from y·(I_xx, √2 I_xy,
+    /// I_yy) by two weights.
     pub fn weight(&self, point: &DualPoint) -> f64 {
         match self.objective {
             Objective::SpinIt { .. } => point.y[0] + point.y[2],
@@ -216,7 +221,8 @@ mod tests {
             let (height, step) = (0.6 * low + 0.4 * high, 3e-3 * (high - low));
             let at = |height| heights.sample(height, None, 0.0).unwrap();
             let difference = (at(height + step).value - at(height - step).value) / (2.0 * step);
-            // The bend of the slope costs about 5e-4 at this step (it is quadratic in it), and values exact to 1e-8 as much.
+            // The bend of the slope costs about 5e-4 at this step (it is quadratic in it), and
+            // values exact to 1e-8 as much.
             let slope = at(height).slope;
             assert!(
                 (slope / difference - 1.0).abs() < 2e-3,

@@ -1,4 +1,5 @@
-//! Spin-It's functional where it weighs the lever: at each height also the best lever has to be found.
+//! Spin-It's functional where it weighs the lever: at each height also the best lever has to be
+//! found.
 
 use super::ascent::Visit;
 use super::heights::{Heights, Start};
@@ -38,8 +39,8 @@ impl Weighed {
 }
 
 impl Weighed {
-    /// The derivative by the lever of the least that it can be: by the envelope theorem the least ratio falls by the row's
-    /// multiplier.
+    /// The derivative by the lever of the least that it can be: by the envelope theorem the least
+    /// ratio falls by the row's multiplier.
     pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
         let falling =
             2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
@@ -49,7 +50,8 @@ impl Weighed {
 
 /// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
 ///
-/// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant and the second is.
+/// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant
+/// and the second is.
 pub(super) struct Levers<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,

@@ -1,23 +1,26 @@
-//! An affine map of the moments that makes the reachable set of a few columns osculate that of all columns.
+//! An affine map of the moments that makes the reachable set of a few columns osculate that of all
+//! columns.
 
 use nalgebra::{Const, SymmetricEigen};
 
 use super::reach::{Extreme, Vector10};
 use crate::interior::Matrix10;
 
-/// Derivatives below this part of the mean count as none: there the map is the identity. Far larger, and directions that
-/// hardly turn the extreme point are not mended; far smaller, and it stretches what is only noise.
+/// Derivatives below this part of the mean count as none: there the map is the identity. Far
+/// larger, and directions that hardly turn the extreme point are not mended; far smaller, and it
+/// stretches what is only noise.
 const NOISE_RATIO: f64 = 1e-5;
 
 type Eigen10 = SymmetricEigen<f64, Const<10>>;
 
 /// s ↦ Ts + b, with a symmetric positive definite T.
 ///
-/// Of a convex set with support function h(g) = min g·s the image has h(Tg) + b·g: again a convex set, whose extreme
-/// point along g is T s(Tg) + b with the derivative T W(Tg) T. So for a given g it has the extreme point and the derivative
-/// of another set if T W(g) T = W′(g), Tg = g and b = s′ − Ts. Of all T of the first kind one is symmetric and positive,
-/// the map of optimal transport between the Gaussians of covariance W and W′ (Olkin and Pukelsheim, "The distance between
-/// two random vectors with given dispersion matrices", Linear Algebra and its Applications 48, 1982):
+/// Of a convex set with support function h(g) = min g·s the image has h(Tg) + b·g: again a convex
+/// set, whose extreme point along g is T s(Tg) + b with the derivative T W(Tg) T. So for a given g
+/// it has the extreme point and the derivative of another set if T W(g) T = W′(g), Tg = g and b =
+/// s′ − Ts. Of all T of the first kind one is symmetric and positive, the map of optimal transport
+/// between the Gaussians of covariance W and W′ (Olkin and Pukelsheim, "The distance between two
+/// random vectors with given dispersion matrices", Linear Algebra and its Applications 48, 1982):
 ///
 /// ```text
 /// T = W^(−½) (W^½ W′ W^½)^½ W^(−½)
@@ -31,7 +34,8 @@ pub(super) struct Mend {
 }
 
 impl Mend {
-    /// The map that gives the set with the extreme points `few` the extreme point and the derivative `all` along g.
+    /// The map that gives the set with the extreme points `few` the extreme point and the
+    /// derivative `all` along g.
     pub fn new(g: &Vector10, all: &Extreme, few: impl Fn(&Vector10) -> Extreme) -> Self {
         let stretch = transport(&across(g, &few(g).w), &across(g, &all.w));
         Self {
@@ -61,7 +65,8 @@ impl Mend {
     }
 }
 
-/// A derivative without what it has along g. It should have nothing there, but the means it has for upright surfaces do.
+/// A derivative without what it has along g. It should have nothing there, but the means it has for
+/// upright surfaces do.
 fn across(g: &Vector10, w: &Matrix10) -> Matrix10 {
     let across = Matrix10::identity() - g * g.transpose() / g.norm_squared();
     across * w * across

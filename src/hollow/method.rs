@@ -1,4 +1,5 @@
-//! One trait for every way to find what to empty, so that they can be compared: the quadric, and the papers' own.
+//! One trait for every way to find what to empty, so that they can be compared: the quadric, and
+//! the papers' own.
 
 use super::problem::Problem;
 use super::settings::Settings;
@@ -25,7 +26,8 @@ pub struct Found {
     pub outcome: Outcome,
     /// What `value` is.
     pub figure: Figure,
-    /// The figure of the chosen interior; not a number where it has none (an unstable top's critical speed).
+    /// The figure of the chosen interior; not a number where it has none (an unstable top's
+    /// critical speed).
     pub value: f64,
     /// The moments of the material that is left, goal frame, mm; exact for what is emptied.
     pub moments: Moments,
@@ -33,7 +35,8 @@ pub struct Found {
     pub residual: f64,
     /// How many numbers the method chose.
     pub variables: usize,
-    /// How often it evaluated the moments with their derivative (the quadric: passes over the columns).
+    /// How often it evaluated the moments with their derivative (the quadric: passes over the
+    /// columns).
     pub iterations: usize,
     /// What is emptied, on the problem's columns.
     pub emptied: Emptied,
@@ -57,12 +60,15 @@ pub struct Rounding {
 pub enum Outcome {
     /// No interior is better, which is proved.
     Optimal,
-    /// The constraints are met, and no small change is better to first order, within the method's tolerance, or thirty
-    /// steps together gain less than 1e-8 of the value. It proves nothing about interiors further off.
+    /// The constraints are met, and no small change is better to first order, within the method's
+    /// tolerance, or thirty steps together gain less than 1e-8 of the value. It proves nothing
+    /// about interiors further off.
     Converged,
-    /// The evaluations were used up, or no step gained any more, before that; the constraints are met to a thousandth.
+    /// The evaluations were used up, or no step gained any more, before that; the constraints are
+    /// met to a thousandth.
     Unfinished,
-    /// The constraints are missed by more than a thousandth. Only the quadric can prove that they must be.
+    /// The constraints are missed by more than a thousandth. Only the quadric can prove that they
+    /// must be.
     ConstraintsMissed,
     /// It is proved that no interior does what is asked for.
     Impossible,
@@ -155,8 +161,8 @@ pub(super) fn figure_for(objective: Objective) -> Figure {
     }
 }
 
-/// That figure of a body of these moments, by the goal's own formulas; not a number where it has none, or where the goal is
-/// one that the papers' methods refuse: only they ask.
+/// That figure of a body of these moments, by the goal's own formulas; not a number where it has
+/// none, or where the goal is one that the papers' methods refuse: only they ask.
 pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
     let figures = crate::goal::figures(problem.goal, moments);
     let value = match problem.goal.objective {

@@ -1,9 +1,9 @@
 //! The solver: which part of the interior to empty, and the proof that nothing else is better.
 //!
 //! # The question
-//! A solid may lose material anywhere but in its wall. Which part should go, so that it spins as slowly as possible
-//! without falling, or leans as far as possible without toppling? There seems to be one yes or no for every grain of
-//! the interior. There are ten numbers.
+//! A solid may lose material anywhere but in its wall. Which part should go, so that it spins as
+//! slowly as possible without falling, or leans as far as possible without toppling? There seems to
+//! be one yes or no for every grain of the interior. There are ten numbers.
 //!
 //! # Ten moments in
 //! Mass, centre and inertia tensor of a body are functions of ten integrals, its moments
@@ -12,25 +12,27 @@
 //! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)      (Spin-It eq. 4; the density cancels)
 //! ```
 //!
-//! and so is every goal here. The moments that some hollowing reaches form a set K in ten dimensions, and K is convex:
-//! emptying is s_fixed − ∫ β m dV, linear in the share β(x) ∈ [0, 1] that is removed. Shares between 0 and 1 cannot
-//! be printed, but need not be: every point of K is also reached by removing each grain wholly or not at all
-//! (Lyapunov).
+//! and so is every goal here. The moments that some hollowing reaches form a set K in ten
+//! dimensions, and K is convex: emptying is s_fixed − ∫ β m dV, linear in the share β(x) ∈ [0, 1]
+//! that is removed. Shares between 0 and 1 cannot be printed, but need not be: every point of K is
+//! also reached by removing each grain wholly or not at all (Lyapunov).
 //!
 //! # Ten coefficients out
-//! A linear function g·s is least over K when every grain is removed that makes it larger, and no other. The grain
-//! at x contributes g·m(x), so the void is
+//! A linear function g·s is least over K when every grain is removed that makes it larger, and no
+//! other. The grain at x contributes g·m(x), so the void is
 //!
 //! ```text
 //! { x in the interior : q(x) > 0 },    q(x) = g·m(x)
 //! ```
 //!
-//! the interior on one side of a single quadric surface. One pass over the interior's columns finds that point of K,
-//! exactly in z, together with its derivative W = −∂s/∂g ([`crate::interior::moments_and_derivative`]). Whatever the
-//! resolution, the unknown is g: no variable per voxel, no rounding at the end.
+//! the interior on one side of a single quadric surface. One pass over the interior's columns finds
+//! that point of K, exactly in z, together with its derivative W = −∂s/∂g
+//! ([`crate::interior::moments_and_derivative`]). Whatever the resolution, the unknown is g: no
+//! variable per voxel, no rounding at the end.
 //!
 //! # Every goal is a quasi-convex programme
-//! A goal asks for the least of a convex function of s over a positive linear one, subject to linear rows:
+//! A goal asks for the least of a convex function of s over a positive linear one, subject to
+//! linear rows:
 //!
 //! ```text
 //! minimise (n·s + max over y ∈ Y of yᵀJs) / (e·s)    over s ∈ K with As = b
@@ -48,12 +50,14 @@
 //! | balance, least removed | s_x, s_y, s_xz, s_yz | −s₁ (no ratio) |
 //! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the planes at the two ends |
 //!
-//! λ_max is of the 2 × 2 tensor across the axis. Y is the unit ball for the norms; for λ_max of a 2 × 2 matrix, half
-//! the trace plus the length of a 2-vector, it is the unit disc; for the largest over edges it is the simplex.
+//! λ_max is of the 2 × 2 tensor across the axis. Y is the unit ball for the norms; for λ_max of a 2
+//! × 2 matrix, half the trace plus the length of a 2-vector, it is the unit disc; for the largest
+//! over edges it is the simplex.
 //!
 //! # The one number that spoils convexity
-//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. s_z²/s₁ is convex, so that what is minimised is
-//! convex *less* convex. But with h = s_z/s₁ the height of the centre, for every number ℓ
+//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. s_z²/s₁ is convex, so that
+//! what is minimised is convex *less* convex. But with h = s_z/s₁ the height of the centre, for
+//! every number ℓ
 //!
 //! ```text
 //! s_z²/s₁ = (2ℓ s_z − ℓ² s₁) + s₁ (h − ℓ)²
@@ -61,13 +65,16 @@
 //!
 //! so the tensor that is linear at ℓ is never too small, and right where h = ℓ. Hence
 //!
-//! * the least over ℓ of the quasi-convex programmes at ℓ *is* the optimum over all interiors of whatever height, without a
-//!   row for the height; the search over that one number is smooth, with the slope for nothing (`heights`);
-//! * if every interior is above a target at ℓ by a margin of δ s₁, every interior with its centre within √(δ/κ) of ℓ is above
-//!   it in truth, κ the share of s_z²/s₁ in the numerator. About twelve such ℓ prove 1e-6 over all heights (`cover`).
+//! * the least over ℓ of the quasi-convex programmes at ℓ *is* the optimum over all interiors of
+//!   whatever height, without a row for the height; the search over that one number is smooth, with
+//!   the slope for nothing (`heights`);
+//! * if every interior is above a target at ℓ by a margin of δ s₁, every interior with its centre
+//!   within √(δ/κ) of ℓ is above it in truth, κ the share of s_z²/s₁ in the numerator. About twelve
+//!   such ℓ prove 1e-6 over all heights (`cover`).
 //!
-//! Spin-It's γ_c adds a second such number, the lever s_z: its functional k s_z² + γρ² is no ratio, but at a given lever it
-//! is, and along a polygon around the ellipse k s_z² + γρ² = V two levers prove all between them (`frontier`).
+//! Spin-It's γ_c adds a second such number, the lever s_z: its functional k s_z² + γρ² is no ratio,
+//! but at a given lever it is, and along a polygon around the ellipse k s_z² + γρ² = V two levers
+//! prove all between them (`frontier`).
 //!
 //! # The dual has at most ten variables
 //! For weights y ∈ Y, multipliers λ and a trial ratio τ put g = n + Jᵀy − τe + Aᵀλ. Then
@@ -76,41 +83,49 @@
 //! D(y, λ, τ) = min over K of g·s − b·λ
 //! ```
 //!
-//! is concave, is found by one pass, and D ≥ 0 proves that no interior has a ratio below τ. Its gradient is (Js, As − b)
-//! and its curvature −[J; A] W [J; A]ᵀ, so Newton's method climbs it: each step maximises the quadratic model over Y
-//! and all λ, damped where the model deceives, and moves τ to where D vanishes (Dinkelbach). From nothing about ten
-//! passes, from a solution on coarser columns about four: g is as good there.
+//! is concave, is found by one pass, and D ≥ 0 proves that no interior has a ratio below τ. Its
+//! gradient is (Js, As − b) and its curvature −[J; A] W [J; A]ᵀ, so Newton's method climbs it: each
+//! step maximises the quadratic model over Y and all λ, damped where the model deceives, and moves
+//! τ to where D vanishes (Dinkelbach). From nothing about ten passes, from a solution on coarser
+//! columns about four: g is as good there.
 //!
 //! # Most passes need only a few of the columns
-//! Where to ask can be found out on every fourth column of every fourth row, whose set K, moved and stretched so that it
-//! osculates the true one, is a convex set as well. All columns are asked for what the answer and its proof rest on: seven
-//! to fifteen times for a top's search, and once, without W, for each height that the proof stands on (`mend`, `scout`).
+//! Where to ask can be found out on every fourth column of every fourth row, whose set K, moved and
+//! stretched so that it osculates the true one, is a convex set as well. All columns are asked for
+//! what the answer and its proof rest on: seven to fifteen times for a top's search, and once,
+//! without W, for each height that the proof stands on (`mend`, `scout`).
 //!
 //! # What is proved
-//! * **How good the answer is.** The same g gives the interior and the bound, so a [`Certificate`] holds both; they
-//!   meet within 1e-9 or so. A top's bound is also carried to every other height of its centre, and is then 5e-7 lower.
-//! * **That the constraints cannot be met.** If D grows without bound along λ, the quadric (Aᵀλ)·m has a positive
-//!   integral over every interior, while it would be zero if one met the rows.
-//! * **That no interior is stable, stands, runs true or rights itself.** The bound itself is on the wrong side: I_b/I_c ≥ 1,
-//!   an angle ≤ 0, a grade above the one asked for, a metacentric height ≤ 0.
+//! * **How good the answer is.** The same g gives the interior and the bound, so a [`Certificate`]
+//!   holds both; they meet within 1e-9 or so. A top's bound is also carried to every other height
+//!   of its centre, and is then 5e-7 lower.
+//! * **That the constraints cannot be met.** If D grows without bound along λ, the quadric (Aᵀλ)·m
+//!   has a positive integral over every interior, while it would be zero if one met the rows.
+//! * **That no interior is stable, stands, runs true or rights itself.** The bound itself is on the
+//!   wrong side: I_b/I_c ≥ 1, an angle ≤ 0, a grade above the one asked for, a metacentric height ≤
+//!   0.
 //!
 //! Each is an answer, not an error: a [`Status`], with a sentence and remedies.
 //!
 //! # The files, in reading order
-//! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex · `ascent` Newton's
-//! climb · `yoyo`, `stand`, `float`, `balance` one programme or two each · `top`, `heights`, `valley`, `lever` the search
-//! over heights · `cover`, `frontier` the proof over all of them · `mend`, `scout` the look ahead on a few columns ·
-//! `answer` back to mm, with a status · `ballast` the least of a denser material where hollowing is not enough · `course` how it
-//! came about · `fill` voids that are filled · `method` one trait for this solver and the papers' own, which live in `papers`.
+//! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex
+//! · `ascent` Newton's climb · `yoyo`, `stand`, `float`, `balance` one programme or two each ·
+//! `top`, `heights`, `valley`, `lever` the search over heights · `cover`, `frontier` the proof over
+//! all of them · `mend`, `scout` the look ahead on a few columns · `answer` back to mm, with a
+//! status · `ballast` the least of a denser material where hollowing is not enough · `course` how
+//! it came about · `fill` voids that are filled · `method` one trait for this solver and the
+//! papers' own, which live in `papers`.
 //!
 //! # The papers' own methods
-//! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`], [`ByVoxels`]) run on the same
-//! [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One suite holds all four together. With q the optimal quadric,
-//! the regret of what a method empties, R = ∫|q| over where it differs from the best, is never negative, and the volume
-//! by which it differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it). Where
-//! cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels (measured: L/10 to L/3) and eight
-//! times L for the octree, which merges and rounds (measured: 1.5 L to 2 L); rays end at R < 1e-5 of the solid's volume, or
-//! 1e-4 more where λ_max is smoothed for them. `benches/README.md` has their times.
+//! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`],
+//! [`ByVoxels`]) run on the same [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One
+//! suite holds all four together. With q the optimal quadric, the regret of what a method empties,
+//! R = ∫|q| over where it differs from the best, is never negative, and the volume by which it
+//! differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it).
+//! Where cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels
+//! (measured: L/10 to L/3) and eight times L for the octree, which merges and rounds (measured: 1.5
+//! L to 2 L); rays end at R < 1e-5 of the solid's volume, or 1e-4 more where λ_max is smoothed for
+//! them. `benches/README.md` has their times.
 //!
 //! # Use
 //! ```
@@ -129,10 +144,11 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Sources: Bächer, Whiting, Bickel, Sorkine-Hornung, "Spin-It: Optimizing moment of inertia for spinnable objects",
-//! ACM TOG 33(4), 2014. Prévost, Whiting, Lefebvre, Sorkine-Hornung, "Make It Stand", ACM TOG 32(4), 2013. Wu, Kramer,
-//! Westermann, "Shape interior modeling and mass property optimization using ray-reps", Computers & Graphics 58, 2016.
-//! Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967.
+//! Sources: Bächer, Whiting, Bickel, Sorkine-Hornung, "Spin-It: Optimizing moment of inertia for
+//! spinnable objects", ACM TOG 33(4), 2014. Prévost, Whiting, Lefebvre, Sorkine-Hornung, "Make It
+//! Stand", ACM TOG 32(4), 2013. Wu, Kramer, Westermann, "Shape interior modeling and mass property
+//! optimization using ray-reps", Computers & Graphics 58, 2016. Dinkelbach, "On nonlinear
+//! fractional programming", Management Science 13, 1967.
 
 mod answer;
 mod ascent;
@@ -184,15 +200,17 @@ use work::Work;
 
 /// The best interior, or the proof that none will do, from nothing.
 ///
-/// At 100 columns a side: a top takes seven to fifteen passes, and for its proof over all heights a dozen more that need no
-/// derivative, one whose lever is weighed too about two hundred of those; the others take five to ten. Cancelling `watch` ends it after
-/// the pass at hand, with [`Status::Cancelled`].
+/// At 100 columns a side: a top takes seven to fifteen passes, and for its proof over all heights a
+/// dozen more that need no derivative, one whose lever is weighed too about two hundred of those;
+/// the others take five to ten. Cancelling `watch` ends it after the pass at hand, with
+/// [`Status::Cancelled`].
 pub fn solve(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| answer_of(problem, Work::new(problem, settings, watch)))
 }
 
-/// The same on columns given in model coordinates instead of the goal's: one set of columns then serves every goal that
-/// may be placed in the model. A pass costs as much; the cells are exact in any frame, but no longer upright in it.
+/// The same on columns given in model coordinates instead of the goal's: one set of columns then
+/// serves every goal that may be placed in the model. A pass costs as much; the cells are exact in
+/// any frame, but no longer upright in it.
 pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| {
         answer_of(
@@ -214,20 +232,23 @@ fn answer_of(problem: &Problem, work: Work) -> Solution {
     answer.into_solution(work)
 }
 
-/// The same from a known solution of the same goal on coarser columns, or with slightly different fixed moments.
+/// The same from a known solution of the same goal on coarser columns, or with slightly different
+/// fixed moments.
 ///
-/// Takes three to seven passes. Its certificate is for these columns and moments; a top's bound over all heights is not
-/// proved anew ([`bound_over_heights`] does that). Where `known` is of no use it solves from nothing.
+/// Takes three to seven passes. Its certificate is for these columns and moments; a top's bound
+/// over all heights is not proved anew ([`bound_over_heights`] does that). Where `known` is of no
+/// use it solves from nothing.
 pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
     rayon::scope(|_| refined(problem, settings, known, watch))
 }
 
-/// What no interior of a top can beat, whatever the height of its centre, on columns for which a solution is known: in the
-/// figure of its certificate, a part of 1e-6 from its value or less. None for other goals, for fewer than 1200 columns
-/// ([`solve`] proves it there), or where the proof does not succeed.
+/// What no interior of a top can beat, whatever the height of its centre, on columns for which a
+/// solution is known: in the figure of its certificate, a part of 1e-6 from its value or less. None
+/// for other goals, for fewer than 1200 columns ([`solve`] proves it there), or where the proof
+/// does not succeed.
 ///
-/// Costs one pass, and as many that need no derivative as there are posts: a dozen, or two hundred where Spin-It's functional
-/// weighs the lever.
+/// Costs one pass, and as many that need no derivative as there are posts: a dozen, or two hundred
+/// where Spin-It's functional weighs the lever.
 pub fn bound_over_heights(
     problem: &Problem,
     settings: &Settings,
@@ -306,8 +327,9 @@ mod tests {
 
     #[test]
     fn a_bottle_has_its_lowest_centre_when_filled_up_to_it() {
-        // A light bottle with its own mass m₀ centred at h₀, of inner area A: filled to t the centre is at
-        // (m₀h₀ + At²/2)/(m₀ + At), least where t is that height itself: t = (√(m₀² + 2Am₀h₀) − m₀)/A.
+        // A light bottle with its own mass m₀ centred at h₀, of inner area A: filled to t the
+        // centre is at (m₀h₀ + At²/2)/(m₀ + At), least where t is that height itself: t = (√(m₀² +
+        // 2Am₀h₀) − m₀)/A.
         let world = worlds::bottle();
         let (m0, h0, area) = (40.0, 9.0, 16.0);
         let filled = (f64::sqrt(m0 * m0 + 2.0 * area * m0 * h0) - m0) / area;
@@ -326,7 +348,8 @@ mod tests {
             best = best.max(figures(&world.goal, moments).toppling_angle_rad.unwrap());
         });
         assert!(best <= solution.certificate.bound + 1e-12);
-        // Sixteen whole blocks come close to the one plane that is free to cut them; the solid is far off.
+        // Sixteen whole blocks come close to the one plane that is free to cut them; the solid is
+        // far off.
         let solid = figures(&world.goal, &world.fixed)
             .toppling_angle_rad
             .unwrap();
@@ -600,7 +623,8 @@ mod tests {
 
     #[test]
     fn columns_of_the_model_and_of_the_goal_give_the_same_answer() {
-        // The same points seen from a frame that is moved and turned by a quarter, so that cells stay cells.
+        // The same points seen from a frame that is moved and turned by a quarter, so that cells
+        // stay cells.
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let quarter = crate::geom::Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
         let frame = crate::geom::Frame {
@@ -674,7 +698,8 @@ mod tests {
 
     #[test]
     fn no_random_quadric_that_is_balanced_beats_the_yoyo() {
-        // Mirrored copies of any quadric's void are balanced; their union is one more choice of what to empty.
+        // Mirrored copies of any quadric's void are balanced; their union is one more choice of
+        // what to empty.
         let world = worlds::mirrored_blocks(Objective::SpinIt {
             gamma_c: 0.0,
             gamma_i: 1.0,

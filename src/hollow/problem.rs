@@ -9,8 +9,8 @@ use crate::mass::Moments;
 pub struct Problem<'a> {
     /// What the object shall do.
     pub goal: &'a Goal,
-    /// The moments with nothing emptied, goal frame, mm: the solid's ([`Goal::solid`]), plus whatever the printed
-    /// object differs by (THEORY §4, defect correction).
+    /// The moments with nothing emptied, goal frame, mm: the solid's ([`Goal::solid`]), plus
+    /// whatever the printed object differs by (THEORY §4, defect correction).
     pub fixed: Moments,
     /// What may be emptied, goal frame.
     pub columns: &'a Columns,

@@ -1,4 +1,5 @@
-//! Every goal as a quasi-convex programme over the ten moments: minimise a convex function over a positive one.
+//! Every goal as a quasi-convex programme over the ten moments: minimise a convex function over a
+//! positive one.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -22,7 +23,8 @@ pub(super) mod index {
 }
 use index::*;
 
-/// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY §3).
+/// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY
+/// §3).
 #[derive(Debug, Clone)]
 pub(super) struct Programme {
     /// What it is for.
@@ -81,7 +83,8 @@ fn functional_rows(height: f64) -> DMatrix<f64> {
     stack(&[row(&I_XX) - lowered, cross, row(&I_YY) - lowered])
 }
 
-/// λ_max of the upper 2 × 2 of the tensor is mean + ‖these rows‖; shifting the tensor leaves them alone.
+/// λ_max of the upper 2 × 2 of the tensor is mean + ‖these rows‖; shifting the tensor leaves them
+/// alone.
 fn spread_rows() -> DMatrix<f64> {
     stack(&[row(&[(YY, 0.5), (XX, -0.5)]), row(&[(XY, 1.0)])])
 }
@@ -101,7 +104,8 @@ fn axis_rows() -> DMatrix<f64> {
 }
 
 impl Programme {
-    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not yet bounded.
+    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not
+    /// yet bounded.
     fn new(
         numerator: Vector10,
         directions: DMatrix<f64>,
@@ -125,7 +129,8 @@ impl Programme {
         }
     }
 
-    /// For a denominator that grows with every bit of material: bounded by the shell and by the fullest interior.
+    /// For a denominator that grows with every bit of material: bounded by the shell and by the
+    /// fullest interior.
     fn bounded(mut self, reach: &Reach) -> Self {
         self.denominator_floor = self.denominator.dot(&reach.shell);
         self.denominator_ceiling = self.denominator.dot(&reach.fullest);
@@ -161,9 +166,11 @@ impl Programme {
             .for_stage(Stage::Dominance)
     }
 
-    /// Top by the tensor that is linear at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq. 1).
+    /// Top by the tensor that is linear at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq.
+    /// 1).
     ///
-    /// The centre of every interior that meets the rows has its height in `range`, which bounds s_z by the mass.
+    /// The centre of every interior that meets the rows has its height in `range`, which bounds s_z
+    /// by the mass.
     pub fn top_critical_speed(reach: &Reach, height: f64, [lowest, highest]: [f64; 2]) -> Self {
         let numerator = mean_across(height) - row(&I_ZZ);
         let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), axis_rows());
@@ -172,14 +179,16 @@ impl Programme {
         programme.at_height(reach, height)
     }
 
-    /// Top by the tensor that is linear at a height: λ_max(I′)/I_zz, below 1 only where some speed is enough.
+    /// Top by the tensor that is linear at a height: λ_max(I′)/I_zz, below 1 only where some speed
+    /// is enough.
     pub fn top_dominance(reach: &Reach, height: f64) -> Self {
         Self::new(mean_across(height), spread_rows(), row(&I_ZZ), axis_rows())
             .bounded(reach)
             .at_height(reach, height)
     }
 
-    /// Top by the tensor that is linear at a height: the inertia part of Spin-It's functional (eq. 7), its square root.
+    /// Top by the tensor that is linear at a height: the inertia part of Spin-It's functional (eq.
+    /// 7), its square root.
     pub fn top_functional(reach: &Reach, height: f64) -> Self {
         Self::new(
             Vector10::zeros(),
@@ -207,14 +216,16 @@ impl Programme {
         self
     }
 
-    /// By how much an interior's ratio exceeds `target`, times denominator over mass: (n·s + max yᵀJs − target·e·s)/s₁.
+    /// By how much an interior's ratio exceeds `target`, times denominator over mass: (n·s + max
+    /// yᵀJs − target·e·s)/s₁.
     pub fn margin(mut self, reach: &Reach, target: f64) -> Self {
         self.numerator -= self.denominator * target;
         self.denominator = row(&[(ONE, 1.0)]);
         self.bounded(reach)
     }
 
-    /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can have, as a ratio.
+    /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can
+    /// have, as a ratio.
     pub fn top_height(reach: &Reach, sense: f64) -> Self {
         let nothing = DMatrix::zeros(0, 10);
         Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), axis_rows())
@@ -222,7 +233,8 @@ impl Programme {
             .for_stage(Stage::HeightRange)
     }
 
-    /// Stand: −tan of the toppling angle, the largest over the support's edges of (d s₁ − n·s_xy)/s_z.
+    /// Stand: −tan of the toppling angle, the largest over the support's edges of (d s₁ −
+    /// n·s_xy)/s_z.
     pub fn stand_toppling(reach: &Reach, goal: &Goal) -> Self {
         let length = reach.scale.length_mm;
         let edge = |(n, d): &([f64; 2], f64)| row(&[(ONE, d / length), (X, -n[0]), (Y, -n[1])]);
@@ -241,8 +253,8 @@ impl Programme {
         Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
     }
 
-    /// Float: the height of the centre, for interiors as heavy as the water displaced, with their centre over that of
-    /// buoyancy; no ratio.
+    /// Float: the height of the centre, for interiors as heavy as the water displaced, with their
+    /// centre over that of buoyancy; no ratio.
     pub fn float_lowest_center(reach: &Reach, afloat: &Afloat) -> Self {
         let mass = afloat.material_mm3 / reach.scale.volume_mm3;
         let [x, y] = over_buoyancy(reach, afloat);
@@ -279,8 +291,9 @@ impl Programme {
         Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), axis_rows())
     }
 
-    /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the axis, which together
-    /// have the static unbalance and the couple of the body: U_A + U_B = s_xy, a U_A + b U_B = (s_xz, s_yz).
+    /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the
+    /// axis, which together have the static unbalance and the couple of the body: U_A + U_B = s_xy,
+    /// a U_A + b U_B = (s_xz, s_yz).
     pub fn balance_unbalance(reach: &Reach, [a, b]: [f64; 2]) -> Self {
         let span = b - a;
         let at_a = |first, product| row(&[(first, b / span), (product, -1.0 / span)]);
@@ -290,7 +303,8 @@ impl Programme {
         Self::new(Vector10::zeros(), stack(&planes), row(&[(ONE, 1.0)]), none).bounded(reach)
     }
 
-    /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that none meets them.
+    /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that
+    /// none meets them.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);
         Self::new(
@@ -344,8 +358,8 @@ impl Programme {
         })
     }
 
-    /// The greatest ratio that the dual value D at trial ratio τ proves to be a lower bound: along τ, D falls by no
-    /// less than the floor and no more than the ceiling of the denominator.
+    /// The greatest ratio that the dual value D at trial ratio τ proves to be a lower bound: along
+    /// τ, D falls by no less than the floor and no more than the ceiling of the denominator.
     pub fn bound(&self, tau: f64, dual: f64) -> f64 {
         if !self.is_ratio() {
             return dual;

@@ -1,4 +1,5 @@
-//! The reachable set K of moments: for any direction, the extreme interior and how it turns with the direction.
+//! The reachable set K of moments: for any direction, the extreme interior and how it turns with
+//! the direction.
 
 use std::borrow::Cow;
 use std::cell::Cell;
@@ -18,8 +19,9 @@ pub(super) type Vector10 = SVector<f64, 10>;
 /// The degree of each of the ten monomials.
 const DEGREES: [i32; 10] = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2];
 
-/// The solver's own units: the solid's volume, and its radius of gyration about the goal's origin. In them all ten
-/// moments are of the order of one, so one tolerance and one damping serve every row.
+/// The solver's own units: the solid's volume, and its radius of gyration about the goal's origin.
+/// In them all ten moments are of the order of one, so one tolerance and one damping serve every
+/// row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Scale {
     pub volume_mm3: f64,
@@ -63,11 +65,13 @@ pub(super) struct Heavy {
     pub price: f64,
 }
 
-/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the passes made over it; with a
-/// heavy material, β may also be as far below zero as its density allows.
+/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the
+/// passes made over it; with a heavy material, β may also be as far below zero as its density
+/// allows.
 pub(super) struct Reach<'a> {
     columns: Cow<'a, Columns>,
-    /// From moments in the columns' coordinates to moments in the goal's; none where they are the same.
+    /// From moments in the columns' coordinates to moments in the goal's; none where they are the
+    /// same.
     turn: Option<Matrix10>,
     heavy: Option<Heavy>,
     mend: Option<Mend>,
@@ -121,7 +125,8 @@ impl<'a> Reach<'a> {
         self.columns.len()
     }
 
-    /// The set as a `step`² times smaller number of its columns shows it, with the outermost moments of all of them.
+    /// The set as a `step`² times smaller number of its columns shows it, with the outermost
+    /// moments of all of them.
     pub fn thinned(&self, step: usize) -> Self {
         let columns = Cow::Owned(self.columns.thinned(step));
         Self {
@@ -132,7 +137,8 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// The same set, mapped so that it has the extreme point and the derivative that all columns have along g.
+    /// The same set, mapped so that it has the extreme point and the derivative that all columns
+    /// have along g.
     pub fn mended(self, g: &Vector10, all: &Extreme) -> Self {
         let mend = Mend::new(g, all, |g| self.plain_extreme(g));
         Self {
@@ -141,9 +147,11 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// The same for columns given in model coordinates, while everything else is in the coordinates of `frame`.
+    /// The same for columns given in model coordinates, while everything else is in the coordinates
+    /// of `frame`.
     ///
-    /// Moments turn linearly with the frame, s = T s_columns, so the quadric turns with Tᵀ and its derivative with both.
+    /// Moments turn linearly with the frame, s = T s_columns, so the quadric turns with Tᵀ and its
+    /// derivative with both.
     pub fn of_model_columns(self, frame: &Frame) -> Self {
         let seen =
             |i: usize| Vector10::from(Moments(Vector10::ith(i, 1.0).into()).in_frame(frame).0);
@@ -218,7 +226,8 @@ impl<'a> Reach<'a> {
         self.heavy.map_or(emptied, |heavy| emptied + filled(heavy))
     }
 
-    /// The extreme points along many directions, where there is no heavy material; a cheaper pass each, side by side.
+    /// The extreme points along many directions, where there is no heavy material; a cheaper pass
+    /// each, side by side.
     pub fn least_of_each(&self, directions: &[Vector10]) -> Vec<Vector10> {
         self.passes.set(self.passes.get() + directions.len());
         let (columns, turn, scale, solid) = (&self.columns, self.turn, self.scale, self.solid);
@@ -231,27 +240,29 @@ impl<'a> Reach<'a> {
             .collect()
     }
 
-    /// Where the heavy material is worth its price: the quadric of g must be so far below zero that what it gains more than
-    /// the printed one pays for it.
+    /// Where the heavy material is worth its price: the quadric of g must be so far below zero that
+    /// what it gains more than the printed one pays for it.
     fn filled(&self, quadric: &Quadric, heavy: Heavy) -> Quadric {
         let mut filled = quadric.0.map(|coefficient| -coefficient);
         filled[index::ONE] -= heavy.price / (self.scale.volume_mm3 * (heavy.density_ratio - 1.0));
         Quadric(filled)
     }
 
-    /// The quadric, mm, that is positive where the extreme interior of g has the heavy material; none without one.
+    /// The quadric, mm, that is positive where the extreme interior of g has the heavy material;
+    /// none without one.
     pub fn filled_by(&self, g: &Vector10) -> Option<Quadric> {
         self.heavy
             .map(|heavy| self.filled(&self.scale.quadric_to_mm(g), heavy))
     }
 
-    /// Whether nothing has to be paid for, so that a dual value that grows without bound is a proof.
+    /// Whether nothing has to be paid for, so that a dual value that grows without bound is a
+    /// proof.
     pub fn is_free(&self) -> bool {
         self.heavy.is_none_or(|heavy| heavy.price == 0.0)
     }
 
-    /// The moments of the columns where a quadric of the goal's coordinates is positive, and their derivative by it; one
-    /// pass.
+    /// The moments of the columns where a quadric of the goal's coordinates is positive, and their
+    /// derivative by it; one pass.
     fn region(&self, quadric: &Quadric) -> (Vector10, Matrix10) {
         self.passes.set(self.passes.get() + 1);
         let (moments, derivative) =

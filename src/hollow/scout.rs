@@ -1,17 +1,20 @@
 //! A look ahead on a few of the columns, so that few passes over all of them do.
 //!
-//! Every `step`-th column of every `step`-th row shows the reachable set to a per cent or so, at 1/step² of the cost. Two uses
-//! are made of that, and neither rests on it:
+//! Every `step`-th column of every `step`-th row shows the reachable set to a per cent or so, at
+//! 1/step² of the cost. Two uses are made of that, and neither rests on it:
 //!
-//! * **The search.** An ascent on the thinned columns ends near the answer. A look at all columns there gives an extreme point
-//!   and its derivative; the affine map that gives the thinned set the same two ([`Mend`](super::mend::Mend)) makes it osculate the
-//!   true one. What an ascent on the set so mended errs by is of the second order in the distance from the look, as after a step of
-//!   Newton's method, but with a factor that is smaller by as much as the two sets are alike, and it finds its way through heights
-//!   and levers too. One to three looks, and Newton's method on all columns ends it. Correcting a coarse model by a linear map
-//!   is the "manifold mapping" of Echeverría and Hemker ("Space mapping and defect correction", Computational Methods in
-//!   Applied Mathematics 5, 2005).
-//! * **The proof over all heights.** A dual bound holds at any multipliers. Which are wanted is found out on the mended
-//!   set; each is then held against all columns in one pass that needs no derivative, all of them side by side.
+//! * **The search.** An ascent on the thinned columns ends near the answer. A look at all columns
+//!   there gives an extreme point and its derivative; the affine map that gives the thinned set the
+//!   same two ([`Mend`](super::mend::Mend)) makes it osculate the true one. What an ascent on the
+//!   set so mended errs by is of the second order in the distance from the look, as after a step of
+//!   Newton's method, but with a factor that is smaller by as much as the two sets are alike, and
+//!   it finds its way through heights and levers too. One to three looks, and Newton's method on
+//!   all columns ends it. Correcting a coarse model by a linear map is the "manifold mapping" of
+//!   Echeverría and Hemker ("Space mapping and defect correction", Computational Methods in Applied
+//!   Mathematics 5, 2005).
+//! * **The proof over all heights.** A dual bound holds at any multipliers. Which are wanted is
+//!   found out on the mended set; each is then held against all columns in one pass that needs no
+//!   derivative, all of them side by side.
 
 use super::ascent::{Climb, End};
 use super::cover::Post;
@@ -19,24 +22,26 @@ use super::programme::{DualPoint, Programme};
 use super::reach::Vector10;
 use super::work::Work;
 
-/// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a Newton step; more cost as
-/// much as the passes they save.
+/// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a
+/// Newton step; more cost as much as the passes they save.
 const FEW_COLUMNS: usize = 300;
-/// The distance of a scout's columns, in columns, from which one programme alone is worth it: where a pass over its columns
-/// costs a fifth of a pass over all. A search over heights is from two on.
+/// The distance of a scout's columns, in columns, from which one programme alone is worth it: where
+/// a pass over its columns costs a fifth of a pass over all. A search over heights is from two on.
 const WORTH_A_CLIMB: usize = 3;
-/// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any more beside a pass over all.
+/// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any
+/// more beside a pass over all.
 const GREATEST_STEP: usize = 16;
 /// How exact ascents on thinned columns are: those err by more.
 pub(super) const ROUGH_TOLERANCE: f64 = 1e-3;
-/// How exact ascents on mended columns are: what is left is for the last Newton steps on all columns.
+/// How exact ascents on mended columns are: what is left is for the last Newton steps on all
+/// columns.
 pub(super) const MENDED_TOLERANCE: f64 = 1e-6;
 
 /// How much less than what a scout sees is claimed of all columns.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Prudence {
-    /// The share of a margin that is claimed where the columns are mended. More, and claims fail; less, and more posts are
-    /// needed.
+    /// The share of a margin that is claimed where the columns are mended. More, and claims fail;
+    /// less, and more posts are needed.
     near_ratio: f64,
 }
 
@@ -54,15 +59,16 @@ impl Prudence {
         }
     }
 
-    /// What to claim of a margin. It grows with the square of the distance from where the columns are mended, and what
-    /// they err by grows with the distance.
+    /// What to claim of a margin. It grows with the square of the distance from where the columns
+    /// are mended, and what they err by grows with the distance.
     pub fn claim(self, margin: f64) -> f64 {
         self.near_ratio * margin / (1.0 + margin.max(0.0).sqrt())
     }
 }
 
 impl<'a> Work<'a> {
-    /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material is to be had.
+    /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material
+    /// is to be had.
     pub fn scout(&self) -> Option<Self> {
         self.scout_from(2)
     }
@@ -74,7 +80,8 @@ impl<'a> Work<'a> {
             .then(|| self.thinned(self.reach.thinned(step.min(GREATEST_STEP))))
     }
 
-    /// Climbs to the settings' tolerance from a known dual point, or from nothing; by way of a scout where one helps.
+    /// Climbs to the settings' tolerance from a known dual point, or from nothing; by way of a
+    /// scout where one helps.
     pub fn ascend(&self, programme: &Programme, known: Option<&DualPoint>) -> Climb {
         let start = programme.start_near(&self.reach, known);
         let straight = || self.climb(programme, start.clone(), 0.0);
@@ -92,7 +99,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// Climbs from near the answer: one look, an ascent on what is mended by it, and Newton's method to the end.
+    /// Climbs from near the answer: one look, an ascent on what is mended by it, and Newton's
+    /// method to the end.
     fn ascend_with(&self, scout: Self, programme: &Programme, near: DualPoint) -> Climb {
         let here = self.look(programme, near);
         let ahead = scout

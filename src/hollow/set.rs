@@ -6,13 +6,16 @@ use nalgebra::{DMatrix, DVector};
 const SECULAR_ROUNDS: usize = 60;
 /// How nearly a point reaches the sphere; below 1e-15 rounding decides.
 const SECULAR_TOLERANCE: f64 = 1e-14;
-/// A weight of the simplex whose derivative is below this part of the largest slope is not worth adding.
+/// A weight of the simplex whose derivative is below this part of the largest slope is not worth
+/// adding.
 const ACTIVE_TOLERANCE: f64 = 1e-13;
 
-/// The set the dual weights y live in; its support function is the convex part of a goal's numerator.
+/// The set the dual weights y live in; its support function is the convex part of a goal's
+/// numerator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum DualSet {
-    /// ‖y‖ ≤ 1: the numerator has a Euclidean norm; in two dimensions also the λ_max of a 2 × 2 tensor.
+    /// ‖y‖ ≤ 1: the numerator has a Euclidean norm; in two dimensions also the λ_max of a 2 × 2
+    /// tensor.
     Ball,
     /// y ≥ 0, Σy = 1: the numerator is the largest of several linear functions.
     Simplex,
@@ -36,7 +39,8 @@ impl DualSet {
         }
     }
 
-    /// The y in the set with the least ½ yᵀSy − cᵀy, for a positive definite S; `from` is a point of the set.
+    /// The y in the set with the least ½ yᵀSy − cᵀy, for a positive definite S; `from` is a point
+    /// of the set.
     pub fn minimise(self, s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>) -> DVector<f64> {
         match self {
             Self::Ball if c.is_empty() => from.clone(),
@@ -51,8 +55,8 @@ fn vertex(count: usize, at: usize) -> DVector<f64> {
     DVector::from_fn(count, |i, _| if i == at { 1.0 } else { 0.0 })
 }
 
-/// The secular equation: (S + νI) y = c with the ν ≥ 0 that brings y into the ball (Moré and Sorensen, "Computing a
-/// trust region step", SIAM J. Sci. Stat. Comput. 4, 1983).
+/// The secular equation: (S + νI) y = c with the ν ≥ 0 that brings y into the ball (Moré and
+/// Sorensen, "Computing a trust region step", SIAM J. Sci. Stat. Comput. 4, 1983).
 fn minimise_over_ball(s: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     let eigen = s.clone().symmetric_eigen();
     let along = eigen.eigenvectors.tr_mul(c);
@@ -75,12 +79,13 @@ fn minimise_over_ball(s: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     if norm > 1.0 { y / norm } else { y }
 }
 
-/// Primal active set: go to the least over the weights in use, drop those that reach zero, take in the one with the
-/// steepest descent, until none descends.
+/// Primal active set: go to the least over the weights in use, drop those that reach zero, take in
+/// the one with the steepest descent, until none descends.
 fn minimise_over_simplex(s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>) -> DVector<f64> {
     let mut y = from.clone();
     let mut active: Vec<usize> = (0..y.len()).filter(|&i| y[i] > 0.0).collect();
-    // Each round lowers the value, and no set of active weights comes twice; the limit only guards against rounding.
+    // Each round lowers the value, and no set of active weights comes twice; the limit only guards
+    // against rounding.
     for _ in 0..10 * y.len() + 10 {
         while !step_within(s, c, &mut y, &mut active) {}
         let slope = s * &y - c;
@@ -95,8 +100,8 @@ fn minimise_over_simplex(s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>
     y
 }
 
-/// Moves y to the least over the active weights, or up to the first that reaches zero and drops it; says whether the
-/// least was reached.
+/// Moves y to the least over the active weights, or up to the first that reaches zero and drops it;
+/// says whether the least was reached.
 fn step_within(
     s: &DMatrix<f64>,
     c: &DVector<f64>,

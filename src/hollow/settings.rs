@@ -3,8 +3,9 @@
 /// How exact the answer shall be, and what it may cost.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// The gap (as a part of the value) and the residual of the constraints (in the solver's normalised units) at
-    /// which an ascent is finished. Above 1e-7 the centre of mass strays by micrometres; below 1e-12 rounding stalls it.
+    /// The gap (as a part of the value) and the residual of the constraints (in the solver's
+    /// normalised units) at which an ascent is finished. Above 1e-7 the centre of mass strays by
+    /// micrometres; below 1e-12 rounding stalls it.
     pub tolerance: f64,
     /// The gap at which an unfinished ascent still counts as solved.
     pub accepted_gap_ratio: f64,

@@ -8,7 +8,8 @@ use crate::geom::Quadric;
 use crate::goal::Objective;
 use crate::mass::Moments;
 
-/// The quantity a certificate speaks of; smaller is better but for the toppling angle, the metacentric height and the volume.
+/// The quantity a certificate speaks of; smaller is better but for the toppling angle, the
+/// metacentric height and the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Figure {
@@ -26,20 +27,22 @@ pub enum Figure {
     MetacentricHeightMm,
     /// The material that stays, mm³; more is better.
     VolumeMm3,
-    /// A lower bound of a rotor's balance grade at its speed, mm/s: exact where both end planes are equally unbalanced.
+    /// A lower bound of a rotor's balance grade at its speed, mm/s: exact where both end planes are
+    /// equally unbalanced.
     BalanceGradeMmS,
 }
 
 /// What was reached, and the proof of how much better anything else could be.
 ///
-/// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is better than
-/// `bound`. A top's bound is for its centre at the solution's height (and lever, where that is weighed);
-/// `bound_over_heights` is for every height and lever.
+/// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is
+/// better than `bound`. A top's bound is for its centre at the solution's height (and lever, where
+/// that is weighed); `bound_over_heights` is for every height and lever.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
     /// What is measured.
     pub figure: Figure,
-    /// What the solution reaches; not a number where it has no such figure (an unstable top's critical speed).
+    /// What the solution reaches; not a number where it has no such figure (an unstable top's
+    /// critical speed).
     pub value: f64,
     /// What no interior can beat.
     pub bound: f64,
@@ -47,9 +50,10 @@ pub struct Certificate {
     pub gap_ratio: f64,
     /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
     pub residual: f64,
-    /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the value or less. None where
-    /// that was not proved in this run: refined solutions are not ([`bound_over_heights`](super::bound_over_heights) proves it for
-    /// them), nor tops that no speed makes stable.
+    /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the
+    /// value or less. None where that was not proved in this run: refined solutions are not
+    /// ([`bound_over_heights`](super::bound_over_heights) proves it for them), nor tops that no
+    /// speed makes stable.
     pub bound_over_heights: Option<f64>,
 }
 
@@ -107,8 +111,9 @@ pub struct LogRow {
     pub residual: f64,
 }
 
-/// How far a search had come after a pass over the columns: what the interior at hand reaches, and what no interior beats.
-/// The interior at hand meets the constraints at the end of the search only.
+/// How far a search had come after a pass over the columns: what the interior at hand reaches, and
+/// what no interior beats. The interior at hand meets the constraints at the end of the search
+/// only.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pass {
     /// What is reached.
@@ -145,12 +150,13 @@ pub struct Solution {
     pub certificate: Certificate,
     /// The moments with the void emptied, goal frame, mm.
     pub moments: Moments,
-    /// The passes over all columns that were made; those over a few of them, to find out where to ask, are not counted.
+    /// The passes over all columns that were made; those over a few of them, to find out where to
+    /// ask, are not counted.
     pub passes: usize,
     /// One row an ascent.
     pub log: Vec<LogRow>,
-    /// The last ascent pass by pass, in the certificate's figure; passes without one, such as a top's that no speed holds up,
-    /// are left out.
+    /// The last ascent pass by pass, in the certificate's figure; passes without one, such as a
+    /// top's that no speed holds up, are left out.
     pub course: Vec<Pass>,
     pub(super) warm: Warm,
 }
@@ -161,8 +167,8 @@ impl Solution {
         matches!(self.status, Status::Solved | Status::AlmostSolved)
     }
 
-    /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`, its void is where the
-    /// quadric was negative.
+    /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`,
+    /// its void is where the quadric was negative.
     pub(super) fn stretched(self, factor: f64, is_turned: bool) -> Self {
         let Certificate {
             figure,
@@ -193,7 +199,8 @@ impl Solution {
         }
     }
 
-    /// The multipliers of the constraints in the solver's units, in the order of the table of rows in [`super`].
+    /// The multipliers of the constraints in the solver's units, in the order of the table of rows
+    /// in [`super`].
     pub fn multipliers(&self) -> Vec<f64> {
         self.warm.point.lambda.iter().copied().collect()
     }

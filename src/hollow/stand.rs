@@ -1,4 +1,5 @@
-//! The standing object: the largest tilt before it topples, or the lowest centre over the middle of its support.
+//! The standing object: the largest tilt before it topples, or the lowest centre over the middle of
+//! its support.
 
 use super::answer::Answer;
 use super::programme::{DualPoint, Programme};

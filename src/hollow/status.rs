@@ -14,10 +14,11 @@ pub enum Status {
     ConstraintsInfeasible {
         /// What stands in the way.
         obstacle: Obstacle,
-        /// The least by which any interior misses the constraints, in units of the solid's volume and radius of
-        /// gyration; proved, positive.
+        /// The least by which any interior misses the constraints, in units of the solid's volume
+        /// and radius of gyration; proved, positive.
         least_miss: f64,
-        /// The proof: Σλᵢ(constraint i), whose integral over every interior is at least `least_miss`.
+        /// The proof: Σλᵢ(constraint i), whose integral over every interior is at least
+        /// `least_miss`.
         separator: Quadric,
     },
     /// Yo-yo: for every interior some axis across has at least the moment of this one.
@@ -29,7 +30,8 @@ pub enum Status {
     UnstableForEveryInterior {
         /// I_b/I_c is at least this for every interior.
         least_ratio: f64,
-        /// Whether that is proved for every height of the centre, or only for those that were tried.
+        /// Whether that is proved for every height of the centre, or only for those that were
+        /// tried.
         proved: bool,
     },
     /// Stand: every interior topples by itself.
@@ -51,8 +53,8 @@ pub enum Status {
     CannotTrim {
         /// How far aside it is at least, mm; proved, positive.
         least_offset_mm: f64,
-        /// The proof: its integral over every interior is more than `level_mm3`, and would be that at most for one of the
-        /// right mass and place.
+        /// The proof: its integral over every interior is more than `level_mm3`, and would be that
+        /// at most for one of the right mass and place.
         separator: Quadric,
         /// mm³.
         level_mm3: f64,
@@ -64,10 +66,11 @@ pub enum Status {
     },
     /// Balance: every interior shakes more than the grade allows.
     CannotBalance {
-        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked for; proved.
+        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked
+        /// for; proved.
         least_grade_mm_s: f64,
-        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass), whose integral over every
-        /// interior is positive.
+        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass),
+        /// whose integral over every interior is positive.
         separator: Quadric,
     },
     /// The passes were used up before the limits were met.
@@ -217,8 +220,8 @@ impl Status {
         }
     }
 
-    /// The quadric whose integral over every interior proves that the goal cannot be met; none where the bound of the
-    /// solution's own quadric does.
+    /// The quadric whose integral over every interior proves that the goal cannot be met; none
+    /// where the bound of the solution's own quadric does.
     pub fn separator(&self) -> Option<Quadric> {
         match *self {
             Self::ConstraintsInfeasible { separator, .. }
@@ -384,7 +387,8 @@ mod tests {
                     Status::CannotStand { greatest_angle_rad } => {
                         (-figures.toppling_angle_rad.unwrap(), -greatest_angle_rad)
                     }
-                    // Of other masses than the water carries, it may be lower: those are not spoken of.
+                    // Of other masses than the water carries, it may be lower: those are not spoken
+                    // of.
                     Status::Capsizes { greatest_gm_mm }
                         if (moments.volume() - 120.0).abs() < 0.5 =>
                     {
@@ -393,7 +397,8 @@ mod tests {
                     Status::Capsizes { .. } => continue,
                     _ => panic!("{status:?}"),
                 };
-                // Half a unit of mass at the tank's far end, 5 from its centre, moves the centre by 0.5·5/120.
+                // Half a unit of mass at the tank's far end, 5 from its centre, moves the centre by
+                // 0.5·5/120.
                 let slack = if matches!(status, Status::Capsizes { .. }) {
                     0.021
                 } else {

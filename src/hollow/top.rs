@@ -13,12 +13,14 @@ use super::valley::{Bottom, Sample, Valley};
 use super::work::Work;
 use crate::goal::Objective;
 
-/// By how much of the value another height might still be better than the bound over all heights says. A hundredth of
-/// it costs a quarter more posts; below 1e-8 the bottom itself is not known well enough.
+/// By how much of the value another height might still be better than the bound over all heights
+/// says. A hundredth of it costs a quarter more posts; below 1e-8 the bottom itself is not known
+/// well enough.
 const COVER_RATIO: f64 = 5e-7;
 /// How often a better valley may be found by the proof that there is none.
 const MOST_VALLEYS: usize = 16;
-/// Plans of a proof that may fail before it is made on all columns. The second claims so much less that few fail.
+/// Plans of a proof that may fail before it is made on all columns. The second claims so much less
+/// that few fail.
 const MOST_PLANS: usize = 2;
 /// Looks at all columns after which a scout is not asked again. Three are the rule.
 const MOST_LOOKS: usize = 8;
@@ -28,8 +30,8 @@ pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
     scouted(work, objective).unwrap_or_else(|| from_nothing(work, objective))
 }
 
-/// The same by way of a scout. None where there is none, or where what it saw does not hold: then all is to be asked of all
-/// columns.
+/// The same by way of a scout. None where there is none, or where what it saw does not hold: then
+/// all is to be asked of all columns.
 fn scouted(work: &Work, objective: Objective) -> Option<Answer> {
     let scout = work.scout()?;
     let heights = Heights {
@@ -56,8 +58,9 @@ fn scouted(work: &Work, objective: Objective) -> Option<Answer> {
     )
 }
 
-/// The bottom of the valley near what a scout has seen: each look at all columns mends the scout's for the next, until there is
-/// nothing to be gained by another height and Newton's method ends it. With the scout as mended there.
+/// The bottom of the valley near what a scout has seen: each look at all columns mends the scout's
+/// for the next, until there is nothing to be gained by another height and Newton's method ends it.
+/// With the scout as mended there.
 fn looked_up<'a>(
     heights: &Heights,
     mut scout: Work<'a>,
@@ -92,7 +95,8 @@ fn looked_up<'a>(
     None
 }
 
-/// A bound just below the bottom of a valley that holds at every height, by posts that a scout finds and all columns bear.
+/// A bound just below the bottom of a valley that holds at every height, by posts that a scout
+/// finds and all columns bear.
 fn planned(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Option<f64> {
     for _ in 0..MOST_PLANS {
         let (bound, proof) = proof(
@@ -127,8 +131,8 @@ fn from_nothing(work: &Work, objective: Objective) -> Answer {
     }
 }
 
-/// The same search near a known answer, in a few passes: its dual point, height and curvature are aimed by. None where
-/// the ground has changed too much for that.
+/// The same search near a known answer, in a few passes: its dual point, height and curvature are
+/// aimed by. None where the ground has changed too much for that.
 pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
     let hint = warm.height?;
     let heights = Heights {
@@ -153,8 +157,8 @@ pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
     })
 }
 
-/// A lower bound of the ratio over all heights and levers, proved on all columns near a known answer; none where that
-/// does not succeed.
+/// A lower bound of the ratio over all heights and levers, proved on all columns near a known
+/// answer; none where that does not succeed.
 pub(super) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
     let scout = work.scout()?;
     let heights = Heights {
@@ -192,7 +196,8 @@ impl Found {
     }
 }
 
-/// The lowest of all valleys: down into one, then the proof that there is no lower one, which finds it if there is.
+/// The lowest of all valleys: down into one, then the proof that there is no lower one, which finds
+/// it if there is.
 fn lowest(heights: &Heights) -> Option<Found> {
     let solid = &heights.work.reach.solid;
     let mut bottom = heights.bottom_from(solid[index::Z] / solid[index::ONE])?;
@@ -307,7 +312,8 @@ mod tests {
                 let by_scout = scouted(work, objective).expect("the egg has columns enough");
                 let alone = from_nothing(work, objective);
                 let [one, other] = [&by_scout, &alone].map(|answer| answer.climb.best.value);
-                // Two heights within the bottom's precision of 1e-8 of the value differ by so much in it.
+                // Two heights within the bottom's precision of 1e-8 of the value differ by so much
+                // in it.
                 assert!(
                     (one - other).abs() < 1e-6 * other.abs(),
                     "{objective:?}: {one} {other}"

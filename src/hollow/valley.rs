@@ -6,19 +6,23 @@ use super::solution::{Tangent, Warm};
 
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
-/// A descent ends when the next step promises less than this part of the value, which is then exact to twice it.
+/// A descent ends when the next step promises less than this part of the value, which is then exact
+/// to twice it.
 const PROMISE_RATIO: f64 = 1e-8;
 /// Values below this count as this large, lest a value near zero ask for impossible precision.
 const LEAST_VALUE: f64 = 1e-3;
-/// The longest step from a hint, as a part of its place: on finer or corrected columns the bottom hardly moves.
+/// The longest step from a hint, as a part of its place: on finer or corrected columns the bottom
+/// hardly moves.
 const HINT_RANGE_RATIO: f64 = 0.05;
 /// A bracket narrower than this part of its place cannot be split usefully.
 const NARROW_RATIO: f64 = 1e-12;
-/// How exact the first sample is, and the others as a part of how far they are from the one before, relative to their place.
-/// Ten times more, and the secant is led astray; ten times less costs a pass a sample.
+/// How exact the first sample is, and the others as a part of how far they are from the one before,
+/// relative to their place. Ten times more, and the secant is led astray; ten times less costs a
+/// pass a sample.
 const FIRST_TOLERANCE: f64 = 1e-2;
 const TOLERANCE_RATIO: f64 = 0.03;
-/// A slope is trusted to tell where the bottom lies when it is this many times what the tolerance may make of it.
+/// A slope is trusted to tell where the bottom lies when it is this many times what the tolerance
+/// may make of it.
 const TRUSTED_RATIO: f64 = 10.0;
 
 /// The function at one place.
@@ -77,7 +81,8 @@ impl Bottom {
         }
     }
 
-    /// Whether a slope of this curvature promises nothing worth the while, of a value as large as this one's.
+    /// Whether a slope of this curvature promises nothing worth the while, of a value as large as
+    /// this one's.
     pub fn is_level(&self, slope: f64, curvature: f64) -> bool {
         0.5 * slope * slope <= PROMISE_RATIO * curvature * self.sample.value.abs().max(LEAST_VALUE)
     }
@@ -91,7 +96,8 @@ pub(super) struct Valley {
     high: f64,
     /// No step is longer.
     longest_step: f64,
-    /// Where it begins, and the growth of the slope there, where that is known of a similar function.
+    /// Where it begins, and the growth of the slope there, where that is known of a similar
+    /// function.
     start: Tangent,
     /// It ends when the next step promises less than this part of the value.
     promise_ratio: f64,
@@ -151,8 +157,8 @@ impl Valley {
         Self::from_tangent(hint, [0.0, 2.0 * hint.at]).in_steps_of(HINT_RANGE_RATIO)
     }
 
-    /// The bottom, by a secant on the slope that the samples keep from straying; none where a place cannot be sampled.
-    /// Samples are the more exact the nearer they are to it.
+    /// The bottom, by a secant on the slope that the samples keep from straying; none where a place
+    /// cannot be sampled. Samples are the more exact the nearer they are to it.
     pub fn bottom(mut self, mut sample_at: impl FnMut(Place) -> Option<Sample>) -> Option<Bottom> {
         for _ in 0..ROUNDS {
             let at = self.next_place();
@@ -172,8 +178,8 @@ impl Valley {
         self.last.map(|sample| Bottom { sample, curvature })
     }
 
-    /// Where the line through the last two slopes vanishes, if that is downhill; never further than the longest step,
-    /// nor more than half way to an end of what is left.
+    /// Where the line through the last two slopes vanishes, if that is downhill; never further than
+    /// the longest step, nor more than half way to an end of what is left.
     fn next_place(&self) -> f64 {
         let Some(last) = &self.last else {
             return self.start.at;
@@ -230,7 +236,8 @@ impl Valley {
             || self.high - self.low <= NARROW_RATIO * (self.low.abs() + self.high.abs())
     }
 
-    /// The growth of the slope between the last two samples, where there are two and it is one; else what is known of it.
+    /// The growth of the slope between the last two samples, where there are two and it is one;
+    /// else what is known of it.
     fn curvature(&self) -> f64 {
         let Some(last) = &self.last else {
             return self.start.curvature;

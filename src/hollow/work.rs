@@ -187,7 +187,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The proof that no interior meets the rows, if there is one near the multipliers with which a scout found its own.
+    /// The proof that no interior meets the rows, if there is one near the multipliers with which a
+    /// scout found its own.
     pub fn refusal(&self, programme: &Programme, seen: DualPoint) -> Option<Climb> {
         let before = self.reach.passes();
         let aim = Aim {

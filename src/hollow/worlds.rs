@@ -88,7 +88,8 @@ fn columns_of(
     columns
 }
 
-/// A vertical ellipsoid of these half axes about `center`, tilted by the shear x += `lean`·z, seen along z.
+/// A vertical ellipsoid of these half axes about `center`, tilted by the shear x += `lean`·z, seen
+/// along z.
 fn ellipsoid(center: [f64; 3], half: [f64; 3], lean: f64) -> impl Fn(f64, f64) -> Vec<[f64; 2]> {
     move |x, y| {
         // ((x − cx − lean·z)/a)² + ((y − cy)/b)² + (z/c)² = 1 with z from the centre.
@@ -163,14 +164,16 @@ pub(super) fn stump(half_height: f64) -> World {
     )
 }
 
-/// A box of inner area 16 and height 10 that may be filled, on which 40 of other mass is centred at height 9.
+/// A box of inner area 16 and height 10 that may be filled, on which 40 of other mass is centred at
+/// height 9.
 pub(super) fn bottle() -> World {
     let columns = columns_of(0.5, 2.0, |_, _| vec![[0.0, 10.0]]);
     let glass = Moments([40.0, 0.0, 0.0, 360.0, 0.0, 0.0, 0.0, 100.0, 100.0, 3300.0]);
     World::new(Objective::LowestCenter, whole(&columns) + glass, columns)
 }
 
-/// A rotor 8 × 4 × 6 about its middle, all of which may be emptied, with this much more of s_xz beside it.
+/// A rotor 8 × 4 × 6 about its middle, all of which may be emptied, with this much more of s_xz
+/// beside it.
 pub(super) fn coupled_rotor(couple: f64) -> World {
     let columns = columns_of(0.125, 4.0, |_, y| {
         if y.abs() < 2.0 {
@@ -217,7 +220,8 @@ pub(super) fn blocks_on_a_slope() -> World {
     world
 }
 
-/// A beam of cross-section 4 from x = −8 to 8, all of which may be emptied, beside a mass that is `first` out of balance.
+/// A beam of cross-section 4 from x = −8 to 8, all of which may be emptied, beside a mass that is
+/// `first` out of balance.
 pub(super) fn beam(first: f64) -> World {
     let columns = columns_of(0.25, 8.0, |_, y| {
         if y.abs() < 1.0 {
@@ -230,7 +234,8 @@ pub(super) fn beam(first: f64) -> World {
     World::new(Objective::LowestCenter, whole(&columns) + beside, columns)
 }
 
-/// Eight blocks in two columns over a support that lies too far aside for any of them to be emptied to help enough.
+/// Eight blocks in two columns over a support that lies too far aside for any of them to be emptied
+/// to help enough.
 pub(super) fn blocks_far_aside() -> World {
     let columns = columns_of(2.0, 2.0, |_, y| {
         if y < 0.0 {
@@ -247,7 +252,8 @@ pub(super) fn blocks_far_aside() -> World {
     world
 }
 
-/// Cells of ¾ mm: eight octants of 2 × 2 × 3 blocks each, mirrored in all three planes, in a rim that is never emptied.
+/// Cells of ¾ mm: eight octants of 2 × 2 × 3 blocks each, mirrored in all three planes, in a rim
+/// that is never emptied.
 pub(super) fn mirrored_blocks(objective: Objective) -> World {
     let columns = columns_of(1.5, 3.0, |_, _| {
         (-3..3)
@@ -258,7 +264,8 @@ pub(super) fn mirrored_blocks(objective: Objective) -> World {
     World::new(objective, whole(&columns) + rim, columns).of_kind(GoalKind::Yoyo)
 }
 
-/// A flat round disc above its contact, in cells of 1 mm and three layers, with a stem that is never emptied.
+/// A flat round disc above its contact, in cells of 1 mm and three layers, with a stem that is
+/// never emptied.
 pub(super) fn rings(objective: Objective) -> World {
     let layers = || {
         (0..3)
@@ -276,8 +283,9 @@ pub(super) fn rings(objective: Objective) -> World {
     World::new(objective, whole(&columns) + rest, columns).of_kind(GoalKind::Top)
 }
 
-/// The least that the integral of `quadric` over any interior can be: that over all of it, less the positive part where it
-/// may be emptied, by midpoint sums of `steps` a column, which know nothing of roots.
+/// The least that the integral of `quadric` over any interior can be: that over all of it, less the
+/// positive part where it may be emptied, by midpoint sums of `steps` a column, which know nothing
+/// of roots.
 pub(super) fn least_integral(world: &World, quadric: &Quadric, steps: usize) -> f64 {
     let columns = &world.columns;
     let area = columns.pitch_mm[0] * columns.pitch_mm[1];
@@ -345,7 +353,8 @@ pub(super) fn each_choice(world: &World, groups: &[Vec<usize>], mut visit: impl 
     }
 }
 
-/// Visits the moments of every way to empty, keep or fill each interval with what is so much denser, and how many are filled.
+/// Visits the moments of every way to empty, keep or fill each interval with what is so much
+/// denser, and how many are filled.
 pub(super) fn each_mixture(
     world: &World,
     density_ratio: f64,
@@ -387,7 +396,8 @@ fn moments_of_intervals(columns: &Columns, chosen: &[usize]) -> Moments {
     whole(&part)
 }
 
-/// A quadric of coefficients between −1 and 1 over coordinates in units of `length`, the same for the same seed.
+/// A quadric of coefficients between −1 and 1 over coordinates in units of `length`, the same for
+/// the same seed.
 pub(super) fn some_quadric(seed: u64, length: f64) -> Quadric {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
     let mut next = || {

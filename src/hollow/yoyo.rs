@@ -1,4 +1,5 @@
-//! The yo-yo: the functional asked for, and the dominance that decides whether it is worth anything.
+//! The yo-yo: the functional asked for, and the dominance that decides whether it is worth
+//! anything.
 
 use super::answer::Answer;
 use super::ascent::{Climb, End};

@@ -12,11 +12,12 @@ use crate::shell::{Bins, Ruler, Shell};
 
 /// The name of this phase in progress reports.
 const PHASE: &str = "columns";
-/// Rows a thread sweeps at a time. More make the last blocks wait for one thread; fewer list every piece in more
-/// blocks. Has no influence on the result.
+/// Rows a thread sweeps at a time. More make the last blocks wait for one thread; fewer list every
+/// piece in more blocks. Has no influence on the result.
 const ROWS_PER_BLOCK: usize = 8;
-/// Most columns of the whole grid, occupied or not. Each that is occupied that is occupied takes some 60 bytes while it is built, so ten times more would not fit
-/// the memory of a desk machine; ten times fewer would refuse a printer's own pitch on its whole plate.
+/// Most columns of the whole grid, occupied or not. Each that is occupied that is occupied takes
+/// some 60 bytes while it is built, so ten times more would not fit the memory of a desk machine;
+/// ten times fewer would refuse a printer's own pitch on its whole plate.
 const MAX_GRID_COLUMNS: f64 = 1e8;
 
 /// Why there are no columns.
@@ -50,9 +51,10 @@ fn shown(mm: f64) -> String {
 impl Columns {
     /// The columns of what `shell` lets be emptied, at the pitch `pitch_mm` in x and y.
     ///
-    /// The ends of every interval are exact up to rounding (about 1e-12 mm): points inside the solid, at least
-    /// the wall from every triangle and outside every keep-solid region, on the vertical line through the
-    /// column's centre. Columns with nothing to empty are left out. The same bits for any number of threads.
+    /// The ends of every interval are exact up to rounding (about 1e-12 mm): points inside the
+    /// solid, at least the wall from every triangle and outside every keep-solid region, on the
+    /// vertical line through the column's centre. Columns with nothing to empty are left out. The
+    /// same bits for any number of threads.
     pub fn of_shell(shell: &Shell, pitch_mm: [f64; 2], watch: &Watch) -> Result<Self, BuildError> {
         let grid = Grid::over(shell, pitch_mm)?;
         let triangles = shell.bin_triangles(&grid.ys, ROWS_PER_BLOCK);
@@ -215,8 +217,8 @@ mod tests {
             .volume()
     }
 
-    /// The distance from a point to a triangle, by the definition: to the plane if the foot is inside, else to
-    /// the nearest edge.
+    /// The distance from a point to a triangle, by the definition: to the plane if the foot is
+    /// inside, else to the nearest edge.
     fn distance_to_triangle(point: &Point, [a, b, c]: &[Point; 3]) -> f64 {
         let normal = (b - a).cross(&(c - a)).normalize();
         let is_inside =
@@ -232,8 +234,9 @@ mod tests {
         to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
     }
 
-    /// How often the surface winds around a point: the sum of the triangles' solid angles over 4π (Van Oosterom &
-    /// Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30, 1983).
+    /// How often the surface winds around a point: the sum of the triangles' solid angles over 4π
+    /// (Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng.
+    /// 30, 1983).
     fn winding(point: &Point, mesh: &TriMesh) -> f64 {
         let angle = |corners: [Point; 3]| {
             let [a, b, c] = corners.map(|corner| corner - point);
@@ -244,8 +247,9 @@ mod tests {
         mesh.iter_corners().map(angle).sum::<f64>() / (4.0 * PI)
     }
 
-    /// Checks `samples` points on the columns against the definition: the solid angle and the distances to all
-    /// triangles. Every other one lies at the height of an interval's end. Says how many were in the region.
+    /// Checks `samples` points on the columns against the definition: the solid angle and the
+    /// distances to all triangles. Every other one lies at the height of an interval's end. Says
+    /// how many were in the region.
     fn check_by_definition(solid: &Solid, wall_mm: f64, samples: usize) -> usize {
         let frame = turned();
         let shell = shell_of(solid, &frame, wall_mm);
@@ -258,7 +262,8 @@ mod tests {
             let column = ((random.unit() * columns.len() as f64) as usize).min(columns.len() - 1);
             let intervals = columns.intervals_of(column);
             let end = intervals[sample / 4 % intervals.len()][sample / 2 % 2];
-            // Far above the 1e-9 mm within which the point is left out, far below the intervals' lengths.
+            // Far above the 1e-9 mm within which the point is left out, far below the intervals'
+            // lengths.
             let beside = end + (random.unit() - 0.5) * 1e-3 * wall_mm;
             let anywhere = bounds.min.z + random.unit() * bounds.size().z;
             let z = if sample % 2 == 0 { beside } else { anywhere };
@@ -293,7 +298,8 @@ mod tests {
     #[test]
     fn a_box_is_emptied_but_for_its_wall() {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
-        // A stretch of a whole number of pitches holds that many lattice points: no error from the columns either.
+        // A stretch of a whole number of pitches holds that many lattice points: no error from the
+        // columns either.
         assert!((volume(&solid, &Frame::identity(), 1.0, 0.5) - 512.0).abs() < 1e-9);
         let columns = columns_of(&shell_of(&solid, &Frame::identity(), 1.0), 0.5);
         assert!(
@@ -307,7 +313,8 @@ mod tests {
     #[test]
     fn in_a_turned_frame_a_box_is_the_same_box() {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
-        // A column at the rim of the shadow, of about 4 · 8 · 1.3 mm, is wrong by a random part of a pitch² · 8 mm.
+        // A column at the rim of the shadow, of about 4 · 8 · 1.3 mm, is wrong by a random part of
+        // a pitch² · 8 mm.
         let (pitch, rim) = (0.1, 42.0);
         let deviation = f64::sqrt(rim / pitch) * pitch * pitch * 8.0;
         assert!((volume(&solid, &turned(), 1.0, pitch) - 512.0).abs() < deviation);
@@ -337,7 +344,8 @@ mod tests {
         let solid = fixtures::bumpy_ball(radius, 5, |_| 0.0);
         let exact = 4.0 / 3.0 * PI * (radius - wall) * (radius - wall) * (radius - wall);
         let found = volume(&solid, &turned(), wall, 0.1);
-        // The facets' planes lie within the ball by at most edge²/(6 r), edge ≈ 1.2 r / 2⁵: 0.0024 mm of 8 mm.
+        // The facets' planes lie within the ball by at most edge²/(6 r), edge ≈ 1.2 r / 2⁵: 0.0024
+        // mm of 8 mm.
         let (facets, columns) = (3.0 * 0.0024 / (radius - wall), 1e-4);
         assert!(
             found < exact * (1.0 + columns) && found > exact * (1.0 - facets - columns),
@@ -361,13 +369,15 @@ mod tests {
         for axis in axes {
             let frame = Frame::with_axis(Point::new(0.1, 0.2, 0.3), &axis);
             let found = volume(&solid, &frame, wall, 0.05);
-            // The rim of the shadow (≤ 80 mm) is off by less than half a pitch where it is straight along the lattice.
+            // The rim of the shadow (≤ 80 mm) is off by less than half a pitch where it is straight
+            // along the lattice.
             assert!(
                 (found - exact).abs() < 80.0 * 0.025 * 7.0,
                 "{found} instead of {exact} along {axis}"
             );
         }
-        // Across the edge the section is a smooth function of one coordinate but for three corners: O(pitch²).
+        // Across the edge the section is a smooth function of one coordinate but for three corners:
+        // O(pitch²).
         let across = volume(
             &solid,
             &Frame::with_axis(Point::origin(), &Vector::y()),
@@ -487,7 +497,8 @@ mod tests {
             let kept = 18.0f64.powi(3) - columns_of(&shell, 0.1).moments().volume();
             let length = (to - from).norm();
             let exact = 4.0 / 3.0 * PI * (8.0 + 1.5f64.powi(3)) + PI * 2.25 * length;
-            // The rim of the box's shadow as in the test of the box alone (identity: none); the regions' own by pitch^1.5.
+            // The rim of the box's shadow as in the test of the box alone (identity: none); the
+            // regions' own by pitch^1.5.
             let deviation = if frame == Frame::identity() {
                 0.3
             } else {

@@ -1,14 +1,17 @@
-//! A choice of what to empty that is described by finitely many numbers, as the papers' methods have it.
+//! A choice of what to empty that is described by finitely many numbers, as the papers' methods
+//! have it.
 
 use super::Emptied;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A way to describe what is emptied by numbers x between 0 and 1: voxels, the leaves of an octree, the ends of rays.
+/// A way to describe what is emptied by numbers x between 0 and 1: voxels, the leaves of an octree,
+/// the ends of rays.
 ///
-/// Every number has a weight, the share of the region it decides about. Derivatives are per weight, so that a number
-/// of a large cell and one of a small cell are measured alike: the derivative of ∫q by the share of a cell is then the
-/// mean of q over it, times the region's volume, whatever the resolution.
+/// Every number has a weight, the share of the region it decides about. Derivatives are per weight,
+/// so that a number of a large cell and one of a small cell are measured alike: the derivative of
+/// ∫q by the share of a cell is then the mean of q over it, times the region's volume, whatever the
+/// resolution.
 pub trait Choice: Sync {
     /// How many numbers there are.
     fn count(&self) -> usize {
@@ -21,11 +24,12 @@ pub trait Choice: Sync {
     /// The numbers with which nothing is emptied.
     fn nothing(&self) -> Vec<f64>;
 
-    /// The moments of what is emptied, goal frame, mm; exact for the columns the choice was made of, and the same bits
-    /// for any number of threads.
+    /// The moments of what is emptied, goal frame, mm; exact for the columns the choice was made
+    /// of, and the same bits for any number of threads.
     fn moments(&self, x: &[f64]) -> Moments;
 
-    /// The derivative of q's integral over what is emptied by each number, over its weight, mm³ where q has no unit.
+    /// The derivative of q's integral over what is emptied by each number, over its weight, mm³
+    /// where q has no unit.
     fn derivative(&self, x: &[f64], quadric: &Quadric, out: &mut [f64]);
 
     /// What is emptied, on the columns the choice was made of.
@@ -74,7 +78,8 @@ pub(super) mod testing {
             .collect()
     }
 
-    /// Holds a choice against its own description as pieces, and its derivative against differences.
+    /// Holds a choice against its own description as pieces, and its derivative against
+    /// differences.
     pub fn holds_together(choice: &dyn Choice, columns: &Columns) {
         let x = some_numbers(choice.count());
         let (moments, drawn) = (choice.moments(&x), choice.emptied(&x).moments(columns));
@@ -105,7 +110,8 @@ pub(super) mod testing {
                 moved[i] += by;
                 total(&moved)
             };
-            // Moments are at most cubic in a number: the difference is exact to step² and to rounding over step.
+            // Moments are at most cubic in a number: the difference is exact to step² and to
+            // rounding over step.
             let difference = (moved(step) - moved(-step)) / (2.0 * step);
             assert!(
                 (slope[i] * choice.weights()[i] - difference).abs() < 1e-6,

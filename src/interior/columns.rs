@@ -1,10 +1,12 @@
-//! The region that may be emptied as z-columns in the goal frame: a pitch in x and y, exact intervals in z.
+//! The region that may be emptied as z-columns in the goal frame: a pitch in x and y, exact
+//! intervals in z.
 
 /// Columns of the goal frame's z direction through the region that may be emptied.
 ///
-/// Column `i` stands over the rectangle of `pitch_mm` centred at `centers[i]`, and may be emptied in the
-/// intervals `intervals[starts[i] .. starts[i + 1]]`, ascending, disjoint, each of positive length. Columns
-/// are ordered by y, then x, so that sums in this order do not depend on how they were made.
+/// Column `i` stands over the rectangle of `pitch_mm` centred at `centers[i]`, and may be emptied
+/// in the intervals `intervals[starts[i] .. starts[i + 1]]`, ascending, disjoint, each of positive
+/// length. Columns are ordered by y, then x, so that sums in this order do not depend on how they
+/// were made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
     /// The sides of a column's cross-section in x and y, mm.
@@ -28,10 +30,11 @@ impl Columns {
         self.centers.is_empty()
     }
 
-    /// Every `step`-th column of every `step`-th row, each over a cell as large as those it stands for.
+    /// Every `step`-th column of every `step`-th row, each over a cell as large as those it stands
+    /// for.
     ///
-    /// Sums over them are those of a midpoint rule `step` times as coarse: near enough to guide a search, at a part of
-    /// 1/step² of the cost, and no ground for any claim about these columns.
+    /// Sums over them are those of a midpoint rule `step` times as coarse: near enough to guide a
+    /// search, at a part of 1/step² of the cost, and no ground for any claim about these columns.
     pub fn thinned(&self, step: usize) -> Self {
         let Some(&[x0, y0]) = self.centers.first() else {
             return self.clone();
@@ -87,7 +90,8 @@ mod tests {
             (thin.len(), thin.intervals.len(), thin.pitch_mm),
             (6, 12, [1.5, 0.75])
         );
-        // The middle column of each block of nine has the block's mean in x and y, and its larger cell their variance.
+        // The middle column of each block of nine has the block's mean in x and y, and its larger
+        // cell their variance.
         let [all, few] = [columns.moments().0, thin.moments().0];
         for (all, few) in all.iter().zip(few) {
             assert!((few / all - 1.0).abs() < 1e-12, "{few} instead of {all}");

@@ -1,4 +1,5 @@
-//! Columns that know how deep below the surface they run: what may be emptied, for any wall at once.
+//! Columns that know how deep below the surface they run: what may be emptied, for any wall at
+//! once.
 
 use rayon::prelude::*;
 
@@ -7,12 +8,14 @@ use crate::geom::{Bvh, NO_HINT, Point};
 use crate::mesh::{Solid, TriMesh};
 use crate::shell::{Keep, RowCrossings, Ruler, inside_stretches};
 
-/// Columns through the whole inside of a solid, in model coordinates, with the distance to the surface along them.
+/// Columns through the whole inside of a solid, in model coordinates, with the distance to the
+/// surface along them.
 ///
-/// A thinner wall only lets more be emptied, so all walls are level sets of one function, the depth. It is sampled once,
-/// and [`Depths::columns`] cuts it at a wall in a millisecond, where a [`Shell`](crate::shell::Shell) has to be built
-/// anew. The price is accuracy: depth is linear between samples, so an interval's end is off by less than a spacing where
-/// the surface bends, and a roof's ridge is cut off by up to half of one.
+/// A thinner wall only lets more be emptied, so all walls are level sets of one function, the
+/// depth. It is sampled once, and [`Depths::columns`] cuts it at a wall in a millisecond, where a
+/// [`Shell`](crate::shell::Shell) has to be built anew. The price is accuracy: depth is linear
+/// between samples, so an interval's end is off by less than a spacing where the surface bends, and
+/// a roof's ridge is cut off by up to half of one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Depths {
     pitch_mm: f64,
@@ -78,7 +81,8 @@ impl Depths {
         depths
     }
 
-    /// The columns, in model coordinates, of what a wall of `wall_mm` and these regions let be emptied.
+    /// The columns, in model coordinates, of what a wall of `wall_mm` and these regions let be
+    /// emptied.
     pub fn columns(&self, wall_mm: f64, keeps: &[Keep]) -> Columns {
         let mut columns = Columns {
             pitch_mm: [self.pitch_mm; 2],
@@ -131,7 +135,8 @@ impl Probe<'_> {
             .collect()
     }
 
-    /// Evenly spaced samples of a stretch no further apart than the pitch; its ends lie on the surface.
+    /// Evenly spaced samples of a stretch no further apart than the pitch; its ends lie on the
+    /// surface.
     fn stretch(&self, [x, y]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec<Sample> {
         let steps = ((top - bottom) / self.pitch_mm).ceil().max(1.0) as usize;
         let mut hint = NO_HINT;
@@ -161,7 +166,8 @@ fn slack_mm([x, y]: [f64; 2], sample: &Sample, wall_mm: f64, keeps: &[Keep]) -> 
     beyond.fold(sample.depth_mm - wall_mm, f64::min)
 }
 
-/// Adds the intervals in which a function that is linear between the samples is positive; at the ends it is not.
+/// Adds the intervals in which a function that is linear between the samples is positive; at the
+/// ends it is not.
 fn positive_intervals(
     samples: &[Sample],
     value: impl Fn(&Sample) -> f64,
@@ -196,8 +202,9 @@ mod tests {
         for wall_mm in [0.5, 1.0, 2.5, 4.0] {
             let volume = depths.columns(wall_mm, &[]).moments().volume();
             let exact = (10.0 - 2.0 * wall_mm).powi(3);
-            // The samples are 0.29 mm apart; across z nothing is interpolated over a bend, in x and y each face is off
-            // by at most half a pitch, which the lattice's phase spreads over both.
+            // The samples are 0.29 mm apart; across z nothing is interpolated over a bend, in x and
+            // y each face is off by at most half a pitch, which the lattice's phase spreads over
+            // both.
             let tolerance = 6.0 * 0.15 / (10.0 - 2.0 * wall_mm);
             assert!(
                 (volume / exact - 1.0).abs() < tolerance,

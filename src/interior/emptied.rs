@@ -1,4 +1,5 @@
-//! What a method empties, piece by piece along each column, so that the answers of different methods can be compared.
+//! What a method empties, piece by piece along each column, so that the answers of different
+//! methods can be compared.
 
 use super::Columns;
 use super::section::crossing_of_column;
@@ -16,7 +17,8 @@ pub struct Piece {
     pub share: f64,
 }
 
-/// What is emptied: on every column disjoint pieces, ascending. Where there is no piece, nothing is.
+/// What is emptied: on every column disjoint pieces, ascending. Where there is no piece, nothing
+/// is.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Emptied {
     /// Where each column's pieces start; one more entry than columns.
@@ -25,7 +27,8 @@ pub struct Emptied {
 }
 
 impl Emptied {
-    /// The part of the columns where q > 0, by cell means as [`super::moments_where_positive`] has it; exact.
+    /// The part of the columns where q > 0, by cell means as [`super::moments_where_positive`] has
+    /// it; exact.
     pub fn where_positive(columns: &Columns, quadric: &Quadric) -> Self {
         let of_column = |column: usize| {
             let (changes, outside) = crossing_of_column(columns, quadric, column);
@@ -71,8 +74,8 @@ impl Emptied {
         sum * (columns.pitch_mm[0] * columns.pitch_mm[1])
     }
 
-    /// The volume by which two answers on the same columns differ, ∫|β − β′|, mm³: of two voids it is the volume of
-    /// their symmetric difference.
+    /// The volume by which two answers on the same columns differ, ∫|β − β′|, mm³: of two voids it
+    /// is the volume of their symmetric difference.
     pub fn difference_mm3(&self, other: &Self, columns: &Columns) -> f64 {
         let lengths =
             (0..columns.len()).map(|i| difference_mm(self.pieces_of(i), other.pieces_of(i)));

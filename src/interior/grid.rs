@@ -1,11 +1,12 @@
-//! The columns by their places on the grid they stand on, so that an octree's cells find theirs at once.
+//! The columns by their places on the grid they stand on, so that an octree's cells find theirs at
+//! once.
 
 use super::Columns;
 use super::leaf::{Leaf, MOST_LEVELS, interleave};
 use crate::mass::Moments;
 
-/// The columns in the order of a space-filling curve over (x, y), with a grid of finest cells around them: one column
-/// wide, and as high as the longer pitch.
+/// The columns in the order of a space-filling curve over (x, y), with a grid of finest cells
+/// around them: one column wide, and as high as the longer pitch.
 #[derive(Debug, Clone)]
 pub(super) struct Grid<'a> {
     columns: &'a Columns,
@@ -77,7 +78,8 @@ impl<'a> Grid<'a> {
         let [x, y, z] = leaf.corner();
         let low = self.lowest_mm + f64::from(z) * self.height_mm;
         let high = self.lowest_mm + f64::from(z + (1 << leaf.log_width)) * self.height_mm;
-        // The columns under a cell: their codes lack the bits of z, and differ only in those below its width.
+        // The columns under a cell: their codes lack the bits of z, and differ only in those below
+        // its width.
         let first = interleave([x, y, 0]);
         let from = self.places.partition_point(|(code, _)| *code < first);
         let under = self.places[from..].iter();

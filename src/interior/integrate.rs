@@ -1,4 +1,5 @@
-//! One pass over the columns: the moments of the part of them a quadric empties, and their derivative.
+//! One pass over the columns: the moments of the part of them a quadric empties, and their
+//! derivative.
 
 use std::ops::Range;
 
@@ -14,8 +15,9 @@ use crate::mass::Moments;
 /// A symmetric 10 × 10 matrix over the monomials of [`Moments`].
 pub type Matrix10 = SMatrix<f64, 10, 10>;
 
-/// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about 1000 the last pieces of
-/// a coarse interior leave cores idle. The pieces, and so the bits of the sums, are the same for any thread count.
+/// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about
+/// 1000 the last pieces of a coarse interior leave cores idle. The pieces, and so the bits of the
+/// sums, are the same for any thread count.
 const BLOCK_COLUMNS: usize = 640;
 
 /// The exponents (i, j, k) of x, y, z in each of the ten monomials.
@@ -34,20 +36,20 @@ const EXPONENTS: [[usize; 3]; 10] = [
 
 /// The moments of { q > 0 } over the columns.
 ///
-/// Exact in z. In x and y a column stands for its cell: x² and y² enter by their cell means, in the moments and in
-/// q alike, so that the sums are exact for boxes made of whole cells and these moments are exactly the minimiser's:
-/// no other choice of what to empty makes q's integral larger (THEORY §2). Bitwise the same for any number of
-/// threads. Costs about 5 to 10 ns a column.
+/// Exact in z. In x and y a column stands for its cell: x² and y² enter by their cell means, in the
+/// moments and in q alike, so that the sums are exact for boxes made of whole cells and these
+/// moments are exactly the minimiser's: no other choice of what to empty makes q's integral larger
+/// (THEORY §2). Bitwise the same for any number of threads. Costs about 5 to 10 ns a column.
 pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
     pass::<false>(columns, quadric).moments(columns.pitch_mm)
 }
 
 /// The moments of { q > 0 } over the columns, and their derivative by q's ten coefficients.
 ///
-/// The derivative is W = Σ m mᵀ / |∂q/∂z| · cell area over the roots inside the intervals: symmetric and positive
-/// semidefinite (THEORY §2). A column that q only touches has no derivative and adds none. Where the surface stands so
-/// upright that whole columns are emptied or kept at once, the sum over columns has no derivative, and W holds that of
-/// the body made of their cells.
+/// The derivative is W = Σ m mᵀ / |∂q/∂z| · cell area over the roots inside the intervals:
+/// symmetric and positive semidefinite (THEORY §2). A column that q only touches has no derivative
+/// and adds none. Where the surface stands so upright that whole columns are emptied or kept at
+/// once, the sum over columns has no derivative, and W holds that of the body made of their cells.
 pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
     let sums = pass::<true>(columns, quadric);
     (
@@ -76,7 +78,8 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
     total
 }
 
-/// Sums one block, row by row: columns of equal y share the powers of y and half of q's coefficients.
+/// Sums one block, row by row: columns of equal y share the powers of y and half of q's
+/// coefficients.
 fn sum_block<const DERIVATIVE: bool>(
     columns: &Columns,
     quadric: &Quadric,
@@ -110,7 +113,8 @@ fn sum_block<const DERIVATIVE: bool>(
 struct Sums {
     /// xⁱ yʲ ∫zᵏ over what is emptied, at `[i][j][k]` for i + j + k ≤ 2.
     emptied: [[[f64; 3]; 3]; 3],
-    /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4: every entry of m mᵀ is one of these 35.
+    /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4: every entry of m mᵀ is
+    /// one of these 35.
     roots: [[[f64; 5]; 5]; 5],
 }
 
@@ -207,7 +211,8 @@ mod tests {
         columns
     }
 
-    /// A quadric that crosses the box of `box_columns` with one root on some columns, two or none on others.
+    /// A quadric that crosses the box of `box_columns` with one root on some columns, two or none
+    /// on others.
     const CROSSING: Quadric = Quadric([3.0, 0.2, -0.4, 0.5, 0.1, -0.2, 0.15, -0.12, 0.03, -0.3]);
 
     fn assert_close(a: f64, b: f64, tolerance: f64) {
@@ -263,8 +268,9 @@ mod tests {
 
     #[test]
     fn the_moments_agree_with_a_sum_over_small_cells() {
-        // 400 slices of 0.0125 mm: a column's error is at most two half slices of 0.25 mm², 1e-3 of the volume
-        // if every error had the same sign; with random signs over 280 columns a fiftieth of that.
+        // 400 slices of 0.0125 mm: a column's error is at most two half slices of 0.25 mm², 1e-3 of
+        // the volume if every error had the same sign; with random signs over 280 columns a
+        // fiftieth of that.
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let exact = moments_where_positive(&columns, &CROSSING);
         let (slices, mut volume, mut first) = (400, 0.0, 0.0);
@@ -288,8 +294,8 @@ mod tests {
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let (_, derivative) = moments_and_derivative(&columns, &CROSSING);
         for coefficient in 0..10 {
-            // A step of 1e-6 moves roots by about 1e-6 mm: no column changes its number of roots, and central
-            // differences leave an error of 1e-12 relative, below the rounding of 1e-9.
+            // A step of 1e-6 moves roots by about 1e-6 mm: no column changes its number of roots,
+            // and central differences leave an error of 1e-12 relative, below the rounding of 1e-9.
             let step = 1e-6;
             let (mut more, mut less) = (CROSSING, CROSSING);
             more.0[coefficient] += step;

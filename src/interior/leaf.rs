@@ -3,8 +3,9 @@
 /// Bits a coordinate may have, so that three of them interleaved fit 64.
 pub(super) const MOST_LEVELS: u32 = 21;
 
-/// An octree cell: its coordinates in finest cells interleaved (Morton order), and how many finest cells it is wide.
-/// Every descendant's code lies between its own and that of the next cell of its size.
+/// An octree cell: its coordinates in finest cells interleaved (Morton order), and how many finest
+/// cells it is wide. Every descendant's code lies between its own and that of the next cell of its
+/// size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Leaf {
     pub code: u64,

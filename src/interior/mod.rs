@@ -1,8 +1,9 @@
 //! The region that may be emptied, discretised so that any choice of void has exact moments.
 
 //!
-//! [`Columns`] are what the solver reads. [`Rays`], [`Voxels`] and [`Octree`] describe a void on them by many numbers, as
-//! the papers do, behind one trait, [`Choice`]; [`Emptied`] is what any method says is emptied.
+//! [`Columns`] are what the solver reads. [`Rays`], [`Voxels`] and [`Octree`] describe a void on
+//! them by many numbers, as the papers do, behind one trait, [`Choice`]; [`Emptied`] is what any
+//! method says is emptied.
 
 mod build;
 mod cells;

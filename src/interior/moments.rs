@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use super::Columns;
 use crate::mass::Moments;
 
-/// Terms summed one after the other before blocks are added up. The blocks make the result independent of the
-/// thread count; their size is what makes both sums short enough to lose no more than about 1e-13.
+/// Terms summed one after the other before blocks are added up. The blocks make the result
+/// independent of the thread count; their size is what makes both sums short enough to lose no more
+/// than about 1e-13.
 pub(super) const BLOCK: usize = 4096;
 
 /// The sum of `count` terms, in blocks whose order does not depend on the thread count.
@@ -26,8 +27,9 @@ pub(super) fn block_sums(count: usize, term: impl Fn(usize) -> Moments + Sync) -
 impl Columns {
     /// The moments of the region with every interval emptied, goal frame.
     ///
-    /// Exact in z; in x and y each column stands for the box of its pitch, whose second moments are those of its
-    /// centre plus pitch²/12. So it is exact for boxes along the axes. The same bits for any number of threads.
+    /// Exact in z; in x and y each column stands for the box of its pitch, whose second moments are
+    /// those of its centre plus pitch²/12. So it is exact for boxes along the axes. The same bits
+    /// for any number of threads.
     pub fn moments(&self) -> Moments {
         let of_column = |column: usize| self.moments_of(column, self.intervals_of(column));
         block_sums(self.len(), of_column) * (self.pitch_mm[0] * self.pitch_mm[1])
@@ -96,7 +98,8 @@ mod tests {
             columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
             columns.starts.push(columns.intervals.len() as u32);
         }
-        // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]), each moment a product of one-dimensional integrals.
+        // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]), each moment a product of one-dimensional
+        // integrals.
         let (x, y, z) = (
             [3.0, 7.5, 21.0],
             [3.0, 4.5, 9.0],

@@ -1,4 +1,5 @@
-//! An adaptive octree over the columns: large cells deep inside, small ones at the boundary and where a void ends.
+//! An adaptive octree over the columns: large cells deep inside, small ones at the boundary and
+//! where a void ends.
 
 use std::ops::Range;
 
@@ -12,23 +13,26 @@ use super::octree_neighbours;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A leaf with more than this share of its box in the region is not cut by the boundary. Rounding alone makes it less
-/// than 1; below, cut leaves would pass as whole ones.
+/// A leaf with more than this share of its box in the region is not cut by the boundary. Rounding
+/// alone makes it less than 1; below, cut leaves would pass as whole ones.
 const WHOLE_RATIO: f64 = 1.0 - 1e-9;
 
 /// How fine an octree is to begin with. Level n has 2ⁿ cells along its longest side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Levels {
-    /// The level of leaves deep inside. Below 4 there are too few to begin with, above 7 nothing is saved.
+    /// The level of leaves deep inside. Below 4 there are too few to begin with, above 7 nothing is
+    /// saved.
     pub inner: u32,
     /// The level of leaves that the boundary of the region cuts.
     pub boundary: u32,
 }
 
-/// The octree of Bächer, Whiting, Bickel and Sorkine-Hornung, "Spin-It", 2014, §5: a share β of every leaf is emptied.
+/// The octree of Bächer, Whiting, Bickel and Sorkine-Hornung, "Spin-It", 2014, §5: a share β of
+/// every leaf is emptied.
 ///
-/// A leaf of the finest level is one column wide, so the pitch of the columns decides which level that is: 2⁹ columns
-/// along the longest side make it level 9. A leaf that the boundary cuts holds the part of the region in it, exactly.
+/// A leaf of the finest level is one column wide, so the pitch of the columns decides which level
+/// that is: 2⁹ columns along the longest side make it level 9. A leaf that the boundary cuts holds
+/// the part of the region in it, exactly.
 #[derive(Debug, Clone)]
 pub struct Octree<'a> {
     grid: Grid<'a>,
@@ -77,8 +81,9 @@ impl<'a> Octree<'a> {
         self.grid.finest_level()
     }
 
-    /// The octree with fractional leaves split and siblings that agree on 0 or 1 merged, and the shares handed on; none
-    /// where nothing is left to split. Shares within `tolerance` of 0 or 1 count as that.
+    /// The octree with fractional leaves split and siblings that agree on 0 or 1 merged, and the
+    /// shares handed on; none where nothing is left to split. Shares within `tolerance` of 0 or 1
+    /// count as that.
     pub fn refined(&self, x: &[f64], tolerance: f64) -> Option<(Self, Vec<f64>)> {
         let is_fractional = |share: f64| share > tolerance && share < 1.0 - tolerance;
         let splits =
@@ -120,7 +125,8 @@ impl<'a> Octree<'a> {
         ))
     }
 
-    /// The leaves from `first` on that fill one parent, where `first` is its first one; else only that leaf.
+    /// The leaves from `first` on that fill one parent, where `first` is its first one; else only
+    /// that leaf.
     fn family(&self, first: usize) -> Range<usize> {
         let leaf = &self.leaves[first];
         let Some(parent) = leaf.parent() else {
@@ -283,7 +289,8 @@ mod tests {
         x[3] = 0.4;
         let (finer, shares) = octree.refined(&x, 1e-3).unwrap();
         assert_eq!(finer.count(), 15);
-        // A corner of the split leaf: inside 3 · 4 pairs, and on three of its faces 4 with one large neighbour each.
+        // A corner of the split leaf: inside 3 · 4 pairs, and on three of its faces 4 with one
+        // large neighbour each.
         assert_eq!(finer.neighbours().len(), 12 + 12 + 9);
         let mut shares: Vec<f64> = shares.iter().map(|_| 0.0).collect();
         shares[0] = 0.5;

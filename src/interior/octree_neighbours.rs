@@ -2,7 +2,8 @@
 
 use super::leaf::Leaf;
 
-/// The pairs of leaves that share a face or a part of one, each once. The leaves are in the order of their codes.
+/// The pairs of leaves that share a face or a part of one, each once. The leaves are in the order
+/// of their codes.
 pub(super) fn pairs(leaves: &[Leaf]) -> Vec<[u32; 2]> {
     let of_leaf = |i: usize| {
         let sides = (0..3).flat_map(|axis| [(axis, true), (axis, false)]);

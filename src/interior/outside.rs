@@ -7,8 +7,9 @@ use crate::geom::Quadric;
 const SLIVER_MM: f64 = 1e-6;
 
 impl Columns {
-    /// The columns where the quadric is not positive, exact in z; in x and y the quadric has its cell mean, as in
-    /// [`super::moments_where_positive`], so that the two add up to the columns themselves.
+    /// The columns where the quadric is not positive, exact in z; in x and y the quadric has its
+    /// cell mean, as in [`super::moments_where_positive`], so that the two add up to the columns
+    /// themselves.
     pub fn outside(&self, quadric: &Quadric) -> Self {
         let mut left = Self {
             pitch_mm: self.pitch_mm,
@@ -66,7 +67,8 @@ fn push_not_positive(
     }
 }
 
-/// The real roots of c₀ + c₁z + c₂z², ascending, without cancellation; infinite where there are fewer.
+/// The real roots of c₀ + c₁z + c₂z², ascending, without cancellation; infinite where there are
+/// fewer.
 fn roots([c0, c1, c2]: [f64; 3]) -> Vec<f64> {
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
     if discriminant <= 0.0 {
@@ -108,7 +110,8 @@ mod tests {
             let outside = columns.outside(&quadric).moments();
             let both = moments_where_positive(&columns, &quadric) + outside;
             for (sum, whole) in both.0.into_iter().zip(whole.0) {
-                // A crumb below the sliver's length is lost in some of 800 intervals, of 0.5 mm² each, at most 10 mm out.
+                // A crumb below the sliver's length is lost in some of 800 intervals, of 0.5 mm²
+                // each, at most 10 mm out.
                 assert!(
                     (sum - whole).abs() < 800.0 * 1e-6 * 0.5 * 100.0,
                     "{sum} {whole}"

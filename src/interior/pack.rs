@@ -1,18 +1,20 @@
-//! Stretches of one row of columns, worked on side by side: each step of the integration is one plain loop over all of them.
+//! Stretches of one row of columns, worked on side by side: each step of the integration is one
+//! plain loop over all of them.
 //!
-//! The loops have no branches and no sums across stretches but in fixed lanes, so that the compiler makes vector instructions of
-//! them, and the bits are the same whatever those are.
+//! The loops have no branches and no sums across stretches but in fixed lanes, so that the compiler
+//! makes vector instructions of them, and the bits are the same whatever those are.
 
 use super::section::Section;
 
-/// Stretches a pack holds: a row of a hundred columns fills two. Far fewer, and the loops' beginnings and ends show; far
-/// more, and the pack no longer lies in the nearest cache.
+/// Stretches a pack holds: a row of a hundred columns fills two. Far fewer, and the loops'
+/// beginnings and ends show; far more, and the pack no longer lies in the nearest cache.
 const SIZE: usize = 64;
 /// Terms added up side by side: two vectors of two.
 const LANES: usize = 4;
 
-/// A surface counts as upright in a cell when q changes along the column by less than this part of what it changes
-/// across the cell. Much above 1, exact derivatives are replaced by means; much below, upright planes are not seen.
+/// A surface counts as upright in a cell when q changes along the column by less than this part of
+/// what it changes across the cell. Much above 1, exact derivatives are replaced by means; much
+/// below, upright planes are not seen.
 const UPRIGHT_RATIO: f64 = 0.5;
 
 /// 1/√3, the place of the two Gauss points as a part of half an interval.
@@ -39,7 +41,8 @@ pub(super) struct Pack {
     x: Numbers,
     bottom: Numbers,
     top: Numbers,
-    /// The z where q changes sign, kept to the stretch: q > 0 between the two, or everywhere but between them.
+    /// The z where q changes sign, kept to the stretch: q > 0 between the two, or everywhere but
+    /// between them.
     lower: Numbers,
     upper: Numbers,
     /// 1/|∂q/∂z| at either; zero where there is none inside.
@@ -93,7 +96,8 @@ impl Pack {
         self.count = 0;
     }
 
-    /// Fills the last lanes with stretches of no length, which add nothing; how many there are then.
+    /// Fills the last lanes with stretches of no length, which add nothing; how many there are
+    /// then.
     fn fill_lanes(&mut self) -> usize {
         let filled = self.count.next_multiple_of(LANES).min(SIZE);
         for index in self.count..filled {
@@ -104,7 +108,8 @@ impl Pack {
 
     /// Finds the roots of q and the integrals over what it empties.
     ///
-    /// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one root to infinity.
+    /// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one
+    /// root to infinity.
     fn cross<const DERIVATIVE: bool>(&mut self, filled: usize, section: &Section) {
         let Section { c0, c1, c2, .. } = *section;
         let (inverse, empties_outside, is_curved) = (c2.recip(), c2 >= 0.0, c2 != 0.0);
@@ -138,8 +143,9 @@ impl Pack {
         }
     }
 
-    /// Where q hardly changes along an interval but does across its cell, the surface stands upright in the cell and
-    /// the column's own roots say nothing of it: there they are replaced by its density, as two Gauss points of the interval.
+    /// Where q hardly changes along an interval but does across its cell, the surface stands
+    /// upright in the cell and the column's own roots say nothing of it: there they are replaced by
+    /// its density, as two Gauss points of the interval.
     fn put_walls(&mut self, filled: usize, section: &Section) {
         let Section {
             c0,
@@ -181,7 +187,8 @@ impl Pack {
         add(four, &self.next_power::<1>(filled));
     }
 
-    /// Σ w xⁱ over all roots for i below T, and then multiplies the weights w by z: called again and again it gives Σ w xⁱ zᵏ.
+    /// Σ w xⁱ over all roots for i below T, and then multiplies the weights w by z: called again
+    /// and again it gives Σ w xⁱ zᵏ.
     fn next_power<const T: usize>(&mut self, filled: usize) -> [f64; T] {
         let both = &mut self.emptied[0];
         for (i, both) in both.iter_mut().enumerate().take(filled) {

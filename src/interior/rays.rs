@@ -1,4 +1,5 @@
-//! Rays as Wu, Kramer and Westermann have them: on every stretch of a vertical line one solid segment, by its two ends.
+//! Rays as Wu, Kramer and Westermann have them: on every stretch of a vertical line one solid
+//! segment, by its two ends.
 
 use rayon::prelude::*;
 
@@ -10,24 +11,27 @@ use crate::mass::Moments;
 
 /// A segment shorter than this part of its stretch has vanished: its place no longer matters.
 const VANISHED_RATIO: f64 = 1e-6;
-/// A segment opens again where q is below minus this, in its own unit; what it may still gain is of its square.
+/// A segment opens again where q is below minus this, in its own unit; what it may still gain is of
+/// its square.
 const WORTH_OPENING: f64 = 1e-4;
-/// How far below the top of its stretch a segment opens again at least, so that it has room to grow upward.
+/// How far below the top of its stretch a segment opens again at least, so that it has room to grow
+/// upward.
 const ROOM_RATIO: f64 = 0.01;
 
-/// One stretch of a column that may be emptied, with a solid segment z₀ ≤ z ≤ z₁ in it: the ray-rep of an interior
-/// (Wu, Kramer, Westermann, "Shape interior modeling and mass property optimization using ray-reps", 2016).
+/// One stretch of a column that may be emptied, with a solid segment z₀ ≤ z ≤ z₁ in it: the ray-rep
+/// of an interior (Wu, Kramer, Westermann, "Shape interior modeling and mass property optimization
+/// using ray-reps", 2016).
 ///
-/// What is emptied is below z₀ and above z₁. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their eq. 11, 13, 14) hold by
-/// construction: the numbers are t₀ and t₁ between 0 and 1, with
+/// What is emptied is below z₀ and above z₁. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their eq.
+/// 11, 13, 14) hold by construction: the numbers are t₀ and t₁ between 0 and 1, with
 ///
 /// ```text
 /// z₀ = z̲ + t₀ (z̄ − z̲),    z₁ = z₀ + t₁ (z̄ − z₀)
 /// ```
 ///
-/// A line that meets the region in several stretches has a segment in each. One segment is enough for every goal here:
-/// the best void is where a quadric is positive, which has two roots on a line, and is positive outside of them, since
-/// every goal likes less of ∫z².
+/// A line that meets the region in several stretches has a segment in each. One segment is enough
+/// for every goal here: the best void is where a quadric is positive, which has two roots on a
+/// line, and is positive outside of them, since every goal likes less of ∫z².
 #[derive(Debug, Clone)]
 pub struct Rays<'a> {
     columns: &'a Columns,
@@ -79,9 +83,9 @@ impl<'a> Rays<'a> {
         }
     }
 
-    /// The numbers with every segment that has vanished where q is not least on its stretch moved there; none where
-    /// no segment would gain by that. A vanished segment does not feel where material is wanted, so that an optimiser
-    /// needs to be told.
+    /// The numbers with every segment that has vanished where q is not least on its stretch moved
+    /// there; none where no segment would gain by that. A vanished segment does not feel where
+    /// material is wanted, so that an optimiser needs to be told.
     pub fn reopened(&self, x: &[f64], quadric: &Quadric) -> Option<Vec<f64>> {
         let mut moved = x.to_vec();
         for (stretch, t) in self.stretches.iter().zip(moved.chunks_exact_mut(2)) {

@@ -4,8 +4,9 @@ use std::ops::Range;
 
 use crate::shell::{OnRow, Piece, RowCrossings, RowForm, Ruler, Shell, inside_stretches};
 
-/// Intervals shorter than this fraction of the wall are rounding between a slab and the surface, and are dropped.
-/// Above, thin parts of the region would be lost; below, the count of intervals would grow by slivers of 1e-14 mm.
+/// Intervals shorter than this fraction of the wall are rounding between a slab and the surface,
+/// and are dropped. Above, thin parts of the region would be lost; below, the count of intervals
+/// would grow by slivers of 1e-14 mm.
 const SLIVER_RATIO: f64 = 1e-6;
 
 /// The intervals of a row's columns while they are carved; made to be used again row after row.
@@ -75,7 +76,8 @@ impl Row {
     }
 }
 
-/// Takes the open stretch (bottom, top) out of ascending disjoint intervals; nothing if not bottom < top.
+/// Takes the open stretch (bottom, top) out of ascending disjoint intervals; nothing if not bottom
+/// < top.
 #[inline]
 pub(super) fn subtract(intervals: &mut Vec<[f64; 2]>, [bottom, top]: [f64; 2]) {
     let mut index = 0;

@@ -58,7 +58,8 @@ pub(super) fn mean_on_column(columns: &Columns, column: usize, quadric: &Quadric
 
 /// Where q changes sign on a column, and whether it is positive outside of the two or between them.
 ///
-/// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one root to infinity.
+/// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one root to
+/// infinity.
 pub(super) fn crossing_of_column(
     columns: &Columns,
     quadric: &Quadric,

@@ -7,9 +7,9 @@ use super::emptied::{Emptied, Piece};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// Cells of one column's cross-section and a given height, the voxel form that Wu, Kramer and Westermann measure their
-/// rays against (their Table 2). At the ends of an interval a voxel is as high as what is left of it, so that all of
-/// them together are the columns, exactly.
+/// Cells of one column's cross-section and a given height, the voxel form that Wu, Kramer and
+/// Westermann measure their rays against (their Table 2). At the ends of an interval a voxel is as
+/// high as what is left of it, so that all of them together are the columns, exactly.
 #[derive(Debug, Clone)]
 pub struct Voxels<'a> {
     columns: &'a Columns,

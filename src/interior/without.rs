@@ -1,18 +1,21 @@
-//! Columns from which a body is taken away: what must stay solid though the wall would let it be emptied.
+//! Columns from which a body is taken away: what must stay solid though the wall would let it be
+//! emptied.
 
 use super::Columns;
 use super::row::subtract;
 use crate::mesh::TriMesh;
 use crate::shell::{RowCrossings, Ruler, inside_stretches};
 
-/// Intervals shorter than this are dropped, mm: rounding where the body's surface meets an interval's end.
+/// Intervals shorter than this are dropped, mm: rounding where the body's surface meets an
+/// interval's end.
 const SLIVER_MM: f64 = 1e-6;
 
 impl Columns {
-    /// The columns less the inside of a closed mesh (goal frame, mm): exact along every column, as the columns are.
+    /// The columns less the inside of a closed mesh (goal frame, mm): exact along every column, as
+    /// the columns are.
     ///
-    /// Columns with nothing left are left out. Costs a pass over the columns, and one over the mesh for each row it
-    /// reaches.
+    /// Columns with nothing left are left out. Costs a pass over the columns, and one over the mesh
+    /// for each row it reaches.
     pub fn without(&self, body: &TriMesh) -> Self {
         let mut carver = Carver::new(self, body);
         let mut left = Self {
@@ -62,7 +65,8 @@ impl<'a> Carver<'a> {
 
     /// Takes the body away from the intervals of one column.
     fn carve(&mut self, [x, y]: [f64; 2], intervals: &mut Vec<[f64; 2]>) {
-        // Half a pitch below a column there is no other, so rounding cannot take its neighbour for it.
+        // Half a pitch below a column there is no other, so rounding cannot take its neighbour for
+        // it.
         let column = self.xs.index_at_or_after(x - self.half_pitch_mm);
         if column >= self.xs.len() || self.xs.at(column) > x + self.half_pitch_mm {
             return;

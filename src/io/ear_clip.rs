@@ -4,12 +4,14 @@ use robust::{Coord, orient2d};
 
 use crate::geom::{Plane, Point, Vector};
 
-/// The triangles of a polygon given by its corners' indices, n − 2 of them, turned as the polygon is.
+/// The triangles of a polygon given by its corners' indices, n − 2 of them, turned as the polygon
+/// is.
 ///
-/// Ears are cut off in the polygon's own plane (Meisters, "Polygons have ears", Amer. Math. Monthly 82, 1975), so
-/// that concave polygons come out right. Every corner stays a corner, those on a straight side too, because
-/// the neighbouring faces may use them. A polygon that crosses itself or has no area gives a fan of
-/// what is left. Linear for convex polygons, quadratic for most; cubic for the worst.
+/// Ears are cut off in the polygon's own plane (Meisters, "Polygons have ears", Amer. Math. Monthly
+/// 82, 1975), so that concave polygons come out right. Every corner stays a corner, those on a
+/// straight side too, because the neighbouring faces may use them. A polygon that crosses itself or
+/// has no area gives a fan of what is left. Linear for convex polygons, quadratic for most; cubic
+/// for the worst.
 pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
     let mut ring = face.to_vec();
     let mut triangles = Vec::with_capacity(face.len().saturating_sub(2));
@@ -52,7 +54,8 @@ fn around(n: usize, i: usize) -> [usize; 3] {
     [(i + n - 1) % n, i, (i + 1) % n]
 }
 
-/// The corners that do not bulge outward: only they can lie in an ear, and cutting ears makes no new ones.
+/// The corners that do not bulge outward: only they can lie in an ear, and cutting ears makes no
+/// new ones.
 fn dents(flat: &[Coord<f64>]) -> Vec<usize> {
     let bulges = |i: usize| {
         let [a, b, c] = around(flat.len(), i).map(|i| flat[i]);

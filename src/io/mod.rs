@@ -1,4 +1,5 @@
-//! Files in and out: models are read whatever their name says, parts are written as binary STL and 3MF.
+//! Files in and out: models are read whatever their name says, parts are written as binary STL and
+//! 3MF.
 
 mod ear_clip;
 mod obj;

@@ -61,9 +61,10 @@ pub enum ObjError {
 
 /// The triangles of all objects and groups of an OBJ file.
 ///
-/// Faces in every form (a, a/b, a//c, a/b/c, negative indices); polygons are cut by [`ear_clip`], concave ones
-/// too; lines continued with `\` and names in any encoding are understood; normals, texture coordinates, colours
-/// and materials are ignored. Vertices no face uses are left out. Every coordinate is finite.
+/// Faces in every form (a, a/b, a//c, a/b/c, negative indices); polygons are cut by [`ear_clip`],
+/// concave ones too; lines continued with `\` and names in any encoding are understood; normals,
+/// texture coordinates, colours and materials are ignored. Vertices no face uses are left out.
+/// Every coordinate is finite.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
     let geometry = Geometry::of(&String::from_utf8_lossy(bytes));
     geometry.check()?;
@@ -162,7 +163,8 @@ impl Geometry {
         self.text.push('\n');
     }
 
-    /// The first line that cannot be used, which the parser would refuse without naming it (or accept).
+    /// The first line that cannot be used, which the parser would refuse without naming it (or
+    /// accept).
     fn check(&self) -> Result<(), ObjError> {
         let mut vertices = 0;
         for (text, &line) in self.text.lines().zip(&self.lines) {
@@ -183,7 +185,8 @@ fn line_break(file: &str) -> char {
     if file.contains('\n') { '\n' } else { '\r' }
 }
 
-/// How many of the numbers of a vertex describe its place: three, or four with a weight; what follows is colour.
+/// How many of the numbers of a vertex describe its place: three, or four with a weight; what
+/// follows is colour.
 fn kept_numbers(count: usize) -> usize {
     if count > 4 { 3 } else { count }
 }
@@ -205,8 +208,8 @@ fn check_vertex<'a>(
     }
 }
 
-/// Checks that a face has three corners or more that name vertices, of which there are so many before this line
-/// and in the whole file.
+/// Checks that a face has three corners or more that name vertices, of which there are so many
+/// before this line and in the whole file.
 fn check_face<'a>(
     corners: impl Iterator<Item = &'a str>,
     line: usize,

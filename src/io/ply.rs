@@ -114,8 +114,8 @@ struct Element {
 
 /// The triangles of a PLY file.
 ///
-/// Faces of any number of corners are cut by [`ear_clip`]; all other elements and properties are passed over. Every
-/// coordinate is finite, and there is at least one triangle.
+/// Faces of any number of corners are cut by [`ear_clip`]; all other elements and properties are
+/// passed over. Every coordinate is finite, and there is at least one triangle.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
     let (form, elements, body) = header(bytes)?;
     let mut body = Body { rest: body, form };
@@ -545,7 +545,8 @@ mod tests {
         for whole in [text().into_bytes(), binary(false), binary(true)] {
             for end in 0..whole.len() {
                 if let Ok(mesh) = decode(&whole[..end]) {
-                    // Only the end of the last number, of an element that is passed over, may be missing.
+                    // Only the end of the last number, of an element that is passed over, may be
+                    // missing.
                     assert_eq!(mesh.triangles().len(), 12, "cut at {end}");
                 }
             }

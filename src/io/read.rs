@@ -69,10 +69,10 @@ pub enum ContentError {
 
 /// The triangles of the STL (binary or ASCII), OBJ, PLY or 3MF file at `path`.
 ///
-/// The format is told from the content, not from the name. Coordinates are taken as they stand, without unit, but
-/// for 3MF, which has one: they are in mm.
-/// Every coordinate of the result is finite and there is at least one triangle. The triangles of an
-/// STL file come back as a soup, three vertices each: see [`crate::repair::weld`] and [`crate::repair::repair`].
+/// The format is told from the content, not from the name. Coordinates are taken as they stand,
+/// without unit, but for 3MF, which has one: they are in mm. Every coordinate of the result is
+/// finite and there is at least one triangle. The triangles of an STL file come back as a soup,
+/// three vertices each: see [`crate::repair::weld`] and [`crate::repair::repair`].
 pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
     let bytes = read_bytes(path)?;
     decode_model(&bytes).map_err(|source| ReadError::Content {

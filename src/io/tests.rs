@@ -371,7 +371,8 @@ fn written_files_come_back_bit_by_bit() {
     assert!(!bytes.starts_with(b"solid"));
     let back = weld(&stl::decode(&bytes).unwrap());
     assert_eq!(stl::encode(&back, "x")[84..], bytes[84..]);
-    // Rounding to single precision moves a vertex by half a unit in the last place of a number below 8.
+    // Rounding to single precision moves a vertex by half a unit in the last place of a number
+    // below 8.
     let moved = back
         .iter_corners()
         .flatten()
@@ -414,8 +415,8 @@ fn a_file_cut_off_anywhere_is_refused_or_says_no_less_than_it_did() {
     for whole in texts {
         for end in 0..whole.len() {
             if let Ok(mesh) = decode_model(&whole[..end]) {
-                // Only the name of the solid, or whole faces of an OBJ file (which says nowhere how many
-                // there are), may be missing: then the surface is open and no solid.
+                // Only the name of the solid, or whole faces of an OBJ file (which says nowhere how
+                // many there are), may be missing: then the surface is open and no solid.
                 let is_whole = mesh.triangles().len() == 12;
                 assert!(is_whole || Solid::new(weld(&mesh)).is_err(), "cut at {end}");
             }

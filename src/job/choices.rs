@@ -1,4 +1,5 @@
-//! The choices a job is made of besides its goal: each reads from and prints as the word used on the command line.
+//! The choices a job is made of besides its goal: each reads from and prints as the word used on
+//! the command line.
 
 use crate::base::words::choice;
 

@@ -5,7 +5,8 @@ use std::f64::consts::PI;
 use super::Moments;
 use crate::geom::{Frame, Matrix, Point, Vector};
 
-/// A round bar: a cylinder between two points, with or without a hole along it, its far end flat or a half ball.
+/// A round bar: a cylinder between two points, with or without a hole along it, its far end flat or
+/// a half ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundBar {
     /// One end, on the axis.
@@ -37,7 +38,8 @@ impl RoundBar {
         (self.to - self.from).norm()
     }
 
-    /// The ten moments of its volume, in the coordinates of its ends; closed forms, exact to rounding.
+    /// The ten moments of its volume, in the coordinates of its ends; closed forms, exact to
+    /// rounding.
     ///
     /// A bar of no length has none.
     pub fn moments(&self) -> Moments {
@@ -91,7 +93,8 @@ mod tests {
     fn a_cylinder_has_the_moments_of_a_prism_with_many_sides() {
         let bar = RoundBar::plain(Point::new(0.0, 0.0, 0.0), Point::new(0.0, 0.0, 12.0), 3.0);
         let prism = moments_of_mesh(&primitives::cylinder(3.0, 12.0, 4096));
-        // A prism of n sides falls short by (2π/n)²/6 of its area, 4e-7, and twice that of its squares across.
+        // A prism of n sides falls short by (2π/n)²/6 of its area, 4e-7, and twice that of its
+        // squares across.
         for (exact, near) in bar.moments().0.into_iter().zip(prism.0) {
             assert!((exact - near).abs() < 1e-6 * prism.0[9], "{exact} {near}");
         }

@@ -17,8 +17,9 @@ pub struct FlatFace {
 }
 
 impl FlatFace {
-    /// The face that these triangles cover, each with a sign: −1 where it is taken away. Closed form: over a triangle of area A with corners v and
-    /// their sum s, ∫ x xᵀ = A (Σ v vᵀ + s sᵀ)/12.
+    /// The face that these triangles cover, each with a sign: −1 where it is taken away. Closed
+    /// form: over a triangle of area A with corners v and their sum s, ∫ x xᵀ = A (Σ v vᵀ + s
+    /// sᵀ)/12.
     pub fn of_triangles(triangles: impl IntoIterator<Item = ([Point; 3], f64)>) -> Self {
         let (mut area, mut first, mut second) = (0.0, Vector::zeros(), Matrix::zeros());
         for (corners, sign) in triangles {
@@ -48,7 +49,8 @@ impl FlatFace {
         }
     }
 
-    /// The moments of a film of this thickness on it, model frame: of a sheet, exact but for thickness²/12 in its squares across.
+    /// The moments of a film of this thickness on it, model frame: of a sheet, exact but for
+    /// thickness²/12 in its squares across.
     pub fn film(&self, thickness_mm: f64) -> Moments {
         let squares = Matrix::from(self.squares_mm4) * thickness_mm;
         let about_center =

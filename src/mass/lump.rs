@@ -99,8 +99,8 @@ impl LumpShape {
         }
     }
 
-    /// The mean squares of the distance from the middle plane that holds the axis, and from the one across it, mm², of
-    /// a homogeneous body.
+    /// The mean squares of the distance from the middle plane that holds the axis, and from the one
+    /// across it, mm², of a homogeneous body.
     fn mean_squares_mm2(&self) -> [f64; 2] {
         match *self {
             Self::Ball { diameter_mm } => [diameter_mm * diameter_mm / 20.0; 2],
@@ -147,8 +147,9 @@ pub struct Lump {
 }
 
 impl Lump {
-    /// The moments, model frame, of a body of `density_g_mm3` that has the same mass, centre and tensor: what it adds to a
-    /// print of that density. Exact for homogeneous parts of these shapes.
+    /// The moments, model frame, of a body of `density_g_mm3` that has the same mass, centre and
+    /// tensor: what it adds to a print of that density. Exact for homogeneous parts of these
+    /// shapes.
     pub fn moments(&self, density_g_mm3: f64) -> Moments {
         let volume_mm3 = self.mass_g / density_g_mm3;
         let [across, along] = self.shape.mean_squares_mm2();
@@ -158,8 +159,8 @@ impl Lump {
             .translated(&Vector::from(self.center_mm))
     }
 
-    /// Points of its outline that decide whether it has room: the centre of a ball, and a distance from there; the rims
-    /// of the others, and none.
+    /// Points of its outline that decide whether it has room: the centre of a ball, and a distance
+    /// from there; the rims of the others, and none.
     pub fn outline(&self) -> (Vec<Point>, f64) {
         let center = Point::from(self.center_mm);
         if self.shape.is_ball() {

@@ -4,8 +4,8 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use crate::geom::{Frame, Matrix, Point, Vector};
 
-/// The integrals of (1, x, y, z, xy, yz, xz, x², y², z²) over a region, in mm³ to mm⁵ (Spin-It eq. 4 without
-/// the density).
+/// The integrals of (1, x, y, z, xy, yz, xz, x², y², z²) over a region, in mm³ to mm⁵ (Spin-It eq.
+/// 4 without the density).
 ///
 /// They add over disjoint regions, so a hollowed body is the solid minus its voids.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
@@ -21,7 +21,8 @@ impl Moments {
         [1.0, x, y, z, x * y, y * z, x * z, x * x, y * y, z * z]
     }
 
-    /// From the volume (mm³), the first moments (mm⁴) and the symmetric matrix of second moments ∫xᵢxⱼ (mm⁵).
+    /// From the volume (mm³), the first moments (mm⁴) and the symmetric matrix of second moments
+    /// ∫xᵢxⱼ (mm⁵).
     pub fn from_parts(volume: f64, first: &Vector, second: &Matrix) -> Self {
         let (f, s) = (first, second);
         Self([

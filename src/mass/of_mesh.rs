@@ -4,12 +4,14 @@ use super::Moments;
 use crate::geom::{Matrix, Vector};
 use crate::mesh::TriMesh;
 
-/// The moments of the region bounded by `mesh`, by the divergence theorem: exact for a closed, oriented mesh
-/// up to rounding (sums are compensated, so about 1e-15 relative whatever the triangle count).
+/// The moments of the region bounded by `mesh`, by the divergence theorem: exact for a closed,
+/// oriented mesh up to rounding (sums are compensated, so about 1e-15 relative whatever the
+/// triangle count).
 ///
-/// Triangles turned inward subtract, so a solid with voids is one mesh with the voids reversed. An open mesh
-/// gives a number without meaning. Each triangle adds the tetrahedron it spans with the centre of the
-/// bounding box: Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia tensor", J. Math. Stat. 1, 2005.
+/// Triangles turned inward subtract, so a solid with voids is one mesh with the voids reversed. An
+/// open mesh gives a number without meaning. Each triangle adds the tetrahedron it spans with the
+/// centre of the bounding box: Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia
+/// tensor", J. Math. Stat. 1, 2005.
 pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
     if mesh.triangles().is_empty() {
         return Moments::default();
@@ -53,8 +55,8 @@ fn tetrahedron_moments([a, b, c]: [Vector; 3]) -> Moments {
     )
 }
 
-/// A sum that carries its rounding error along (Neumaier, "Rundungsfehleranalyse einiger Verfahren zur
-/// Summation endlicher Summen", ZAMM 54, 1974).
+/// A sum that carries its rounding error along (Neumaier, "Rundungsfehleranalyse einiger Verfahren
+/// zur Summation endlicher Summen", ZAMM 54, 1974).
 #[derive(Debug, Clone, Copy, Default)]
 struct NeumaierSum {
     sum: f64,

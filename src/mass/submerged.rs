@@ -38,8 +38,8 @@ impl Section {
         self.second_mm4[2] += twice * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
     }
 
-    /// The least and greatest second moments about axes in the plane through the section's centroid, mm⁴; zero where
-    /// there is no section.
+    /// The least and greatest second moments about axes in the plane through the section's
+    /// centroid, mm⁴; zero where there is no section.
     pub fn principal_mm4(&self) -> [f64; 2] {
         if self.area_mm2 <= 0.0 {
             return [0.0; 2];
@@ -53,11 +53,12 @@ impl Section {
     }
 }
 
-/// The part of the region bounded by a closed mesh that lies at z ≤ `level_mm`, exact up to rounding.
+/// The part of the region bounded by a closed mesh that lies at z ≤ `level_mm`, exact up to
+/// rounding.
 ///
-/// Each triangle's part below the level spans a cone with a point of the level's plane; the cap lies in that plane and
-/// spans none, so it need not be built. The cap's own moments come from its boundary, the edges at which triangles are
-/// clipped.
+/// Each triangle's part below the level spans a cone with a point of the level's plane; the cap
+/// lies in that plane and spans none, so it need not be built. The cap's own moments come from its
+/// boundary, the edges at which triangles are clipped.
 pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
     let middle = mesh.aabb().center();
     let apex = Vector::new(middle.x, middle.y, level_mm);
@@ -134,7 +135,8 @@ impl Clipped {
     }
 }
 
-/// Where the edge from a corner below to one above meets the level: the same bits for both triangles at the edge.
+/// Where the edge from a corner below to one above meets the level: the same bits for both
+/// triangles at the edge.
 fn level_point(below: &Point, above: &Point) -> Point {
     let share = below.z / (below.z - above.z);
     Point::new(
@@ -176,12 +178,14 @@ mod tests {
 
     #[test]
     fn a_ball_has_the_cap_and_the_circle_of_the_textbook() {
-        // Depth h of a ball of radius r: V = π h² (3r − h)/3, I of the circle π a⁴/4 with a² = h (2r − h).
+        // Depth h of a ball of radius r: V = π h² (3r − h)/3, I of the circle π a⁴/4 with a² = h
+        // (2r − h).
         let (r, h) = (10.0_f64, 7.0_f64);
         let got = submerged(&ball(&Point::new(3.0, 4.0, r), r, 6), h);
         let volume = std::f64::consts::PI * h * h * (3.0 * r - h) / 3.0;
         let second = std::f64::consts::PI * (h * (2.0 * r - h)).powi(2) / 4.0;
-        // An icosphere of six halvings is inscribed: 3e-4 of its volume is missing, twice that of a fourth moment.
+        // An icosphere of six halvings is inscribed: 3e-4 of its volume is missing, twice that of a
+        // fourth moment.
         assert!((got.below.volume() / volume - 1.0).abs() < 1e-3);
         assert!(
             got.section

@@ -9,8 +9,8 @@ use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::mesh::primitives::{ball, cuboid, cylinder, ellipsoid, torus};
 
-/// The largest difference of two sets of moments, each against what a body of this volume could have at this
-/// distance from the origin: V, V·L, V·L².
+/// The largest difference of two sets of moments, each against what a body of this volume could
+/// have at this distance from the origin: V, V·L, V·L².
 fn difference(a: &Moments, b: &Moments, reach_mm: f64) -> f64 {
     let scale = |i: usize| a.volume().abs() * reach_mm.powi([0, 1, 1, 1, 2, 2, 2, 2, 2, 2][i]);
     (0..Moments::COUNT)
@@ -18,7 +18,8 @@ fn difference(a: &Moments, b: &Moments, reach_mm: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Rounding of a few hundred compensated sums and a handful of products: some units in the 16th digit.
+/// Rounding of a few hundred compensated sums and a handful of products: some units in the 16th
+/// digit.
 const ROUNDING: f64 = 1e-13;
 
 /// How far the farthest vertex is from the origin.
@@ -34,7 +35,8 @@ fn inertia(mesh: &TriMesh) -> Matrix {
     Body::new(&moments_of_mesh(mesh), 1.0).inertia_g_mm2
 }
 
-/// By which power of two the error shrinks from one number to the next, when the mesh gets twice as fine.
+/// By which power of two the error shrinks from one number to the next, when the mesh gets twice as
+/// fine.
 fn order(coarse: f64, fine: f64, exact: f64) -> f64 {
     ((coarse - exact) / (fine - exact)).log2()
 }
@@ -76,7 +78,8 @@ fn balls_converge_with_the_square_of_the_edge() {
     let volumes = [&coarse, &fine].map(|mesh| moments_of_mesh(mesh).volume());
     assert!((order(volumes[0], volumes[1], volume) - 2.0).abs() < 0.02);
     assert!((order(inertia(&coarse)[(0, 0)], inertia(&fine)[(0, 0)], moment) - 2.0).abs() < 0.02);
-    // An icosphere has the symmetry of the icosahedron, so every axis through the centre is principal.
+    // An icosphere has the symmetry of the icosahedron, so every axis through the centre is
+    // principal.
     assert!(
         (inertia(&fine) - Matrix::identity() * inertia(&fine)[(2, 2)]).amax() < moment * ROUNDING
     );
@@ -110,7 +113,8 @@ fn ellipsoids_are_stretched_balls_to_the_last_digits() {
 fn cylinders_are_the_prisms_they_are_made_of_and_converge_with_the_square_of_the_edge() {
     let (r, h) = (2.0_f64, 5.0_f64);
     let meshes = [40, 80].map(|segments| cylinder(r, h, segments));
-    // A regular polygon of n sides: area n r² sin(2π/n)/2, polar second moment A r² (2 + cos(2π/n))/6.
+    // A regular polygon of n sides: area n r² sin(2π/n)/2, polar second moment A r² (2 +
+    // cos(2π/n))/6.
     for (mesh, n) in meshes.iter().zip([40.0, 80.0]) {
         let step = 2.0 * PI / n;
         let volume = h * n * r * r * step.sin() / 2.0;
@@ -146,7 +150,8 @@ fn principal_moments_come_ascending_with_their_axes() {
         1.0,
     );
     let principal = body.principal();
-    // m (b² + c²)/3 for half sides: the box is longest along its z axis, which has the least moment.
+    // m (b² + c²)/3 for half sides: the box is longest along its z axis, which has the least
+    // moment.
     for (found, exact) in principal
         .moments_g_mm2
         .iter()
@@ -244,7 +249,8 @@ proptest! {
     fn the_principal_moments_do_not_depend_on_the_pose(mesh in body(), turn in rotation(), shift in vector(10.0)) {
         let pose = |mesh: &TriMesh| Body::new(&moments_of_mesh(mesh), 1.0).principal().moments_g_mm2;
         let (still, moved) = (pose(&mesh), pose(&mesh.map_vertices(|p| turn * p + shift)));
-        // The tensor about the centre is a difference of tensors about the origin, larger by (reach/size)².
+        // The tensor about the centre is a difference of tensors about the origin, larger by
+        // (reach/size)².
         let lost = ROUNDING * (1.0 + reach_mm(&mesh).powi(2));
         for (a, b) in still.iter().zip(moved) {
             prop_assert!((a - b).abs() < lost * still[2]);

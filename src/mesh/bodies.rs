@@ -3,8 +3,8 @@
 use super::{TriMesh, union_find::UnionFind};
 use crate::geom::Point;
 
-/// The connected shells of `mesh`, in the order of their first triangles; vertices and triangles keep their
-/// order. Vertices that no triangle names are dropped.
+/// The connected shells of `mesh`, in the order of their first triangles; vertices and triangles
+/// keep their order. Vertices that no triangle names are dropped.
 ///
 /// Two shells that touch in a vertex without sharing its index are two shells.
 pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
@@ -27,8 +27,9 @@ pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
     shells
 }
 
-/// The bodies a closed, oriented mesh bounds: each outward shell together with the inward shells (cavities)
-/// directly inside it, ordered as the outward shells are. An inward shell in no body is dropped.
+/// The bodies a closed, oriented mesh bounds: each outward shell together with the inward shells
+/// (cavities) directly inside it, ordered as the outward shells are. An inward shell in no body is
+/// dropped.
 ///
 /// Costs the triangle count once for each pair of an inward and an outward shell.
 pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
@@ -48,9 +49,9 @@ pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
     bodies
 }
 
-/// How often a closed mesh winds around `point`: 1 inside an outward shell, 0 outside, to rounding for a
-/// point off the surface (van Oosterom and Strackee, "The solid angle of a plane triangle", IEEE TBME 30,
-/// 1983).
+/// How often a closed mesh winds around `point`: 1 inside an outward shell, 0 outside, to rounding
+/// for a point off the surface (van Oosterom and Strackee, "The solid angle of a plane triangle",
+/// IEEE TBME 30, 1983).
 pub fn winding_number(mesh: &TriMesh, point: &Point) -> f64 {
     let solid_angle: f64 = mesh
         .iter_corners()
@@ -78,8 +79,8 @@ fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
     (0..count as u32).map(|v| sets.root(v)).collect()
 }
 
-/// The mesh of some of `mesh`'s triangles with only the vertices they name. `new_index` is scratch space,
-/// `u32::MAX` for every vertex not yet met.
+/// The mesh of some of `mesh`'s triangles with only the vertices they name. `new_index` is scratch
+/// space, `u32::MAX` for every vertex not yet met.
 fn compacted(mesh: &TriMesh, mut triangles: Vec<[u32; 3]>, new_index: &mut [u32]) -> TriMesh {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();

@@ -1,4 +1,5 @@
-//! Booleans, plane cuts and simplification of closed meshes: the one wrapper around `manifold-rust`.
+//! Booleans, plane cuts and simplification of closed meshes: the one wrapper around
+//! `manifold-rust`.
 
 use manifold_rust::{
     linalg::Vec3,
@@ -35,36 +36,39 @@ pub enum ClipError {
     NotMesh(#[from] MeshError),
 }
 
-/// How far the squared length of a plane's normal may be from one. Rounding leaves 1e-15; a normal that was
-/// never normalised is off by far more.
+/// How far the squared length of a plane's normal may be from one. Rounding leaves 1e-15; a normal
+/// that was never normalised is off by far more.
 const UNIT_LENGTH_TOLERANCE: f64 = 1e-9;
 
-/// Slivers this thin, left where a cutting surface grazes vertices, are closed up, mm. Below 1e-5 the single
-/// precision of a written file folds some of them; above 6e-5 sheets are drawn together that the apex of a cone keeps apart.
+/// Slivers this thin, left where a cutting surface grazes vertices, are closed up, mm. Below 1e-5
+/// the single precision of a written file folds some of them; above 6e-5 sheets are drawn together
+/// that the apex of a cone keeps apart.
 const SLIVER_MM: f64 = 2e-5;
 
-/// How far the box that stands for a half-space reaches, in diagonals of the body: more than half of one on every side,
-/// so that its other faces stay clear of the body.
+/// How far the box that stands for a half-space reaches, in diagonals of the body: more than half
+/// of one on every side, so that its other faces stay clear of the body.
 const SPACE_RATIO: f64 = 2.0;
 
-/// How near a vertex may lie to a planned cut, mm: nearer, a face along the cut could leave sheets without volume.
+/// How near a vertex may lie to a planned cut, mm: nearer, a face along the cut could leave sheets
+/// without volume.
 const VERTEX_GAP_MM: f64 = 1e-6;
 /// How often a cut is moved on by twice the gap to find an offset without vertices.
 const NUDGES: usize = 200;
-/// Sheets thinner than this are not left by cuts, mm: a hundred times the step of single precision at 100 mm. Much thinner, the
-/// two sides of a sheet could meet in the file; much thicker, the cut would miss the place asked for by what shows.
+/// Sheets thinner than this are not left by cuts, mm: a hundred times the step of single precision
+/// at 100 mm. Much thinner, the two sides of a sheet could meet in the file; much thicker, the cut
+/// would miss the place asked for by what shows.
 const SHEET_MM: f64 = 1e-3;
 /// Faces one behind the other that a cut is moved past; more, and the model is made of sheets.
 const FACES: usize = 16;
-/// A triangle lies along a plane when the cosine of the angle between them exceeds this: steeper, it is no side of a sheet but
-/// a small triangle of a slope.
+/// A triangle lies along a plane when the cosine of the angle between them exceeds this: steeper,
+/// it is no side of a sheet but a small triangle of a slope.
 const ALONG_COSINE: f64 = 0.99;
 
 /// A closed mesh in the form in which it can be cut and combined.
 ///
-/// May hold several bodies and cavities (shells wound inward). All operations work in `f64` with exact
-/// decisions; the volumes of the two sides of a cut add up to about 1e-14 relative. The result is the same
-/// bit for bit whatever the number of threads.
+/// May hold several bodies and cavities (shells wound inward). All operations work in `f64` with
+/// exact decisions; the volumes of the two sides of a cut add up to about 1e-14 relative. The
+/// result is the same bit for bit whatever the number of threads.
 #[derive(Clone)]
 pub struct Csg(Manifold);
 
@@ -140,8 +144,8 @@ impl Csg {
     /// The parts of the body on the positive and on the negative side of `plane`, with flat caps
     /// (flat to about 1e-13 mm). Either may be empty.
     ///
-    /// A plane that coincides with a face may leave a sheet without volume: keep planes off faces by about
-    /// 1e-6 mm and drop components without volume.
+    /// A plane that coincides with a face may leave a sheet without volume: keep planes off faces
+    /// by about 1e-6 mm and drop components without volume.
     pub fn split_by_plane(&self, plane: &Plane) -> Result<(Self, Self), ClipError> {
         let n = plane.normal;
         let is_unit = (n.norm_squared() - 1.0).abs() <= UNIT_LENGTH_TOLERANCE;
@@ -197,13 +201,14 @@ impl Csg {
         Self(self.0.simplify(tolerance_mm))
     }
 
-    /// The same body with the slivers closed up that the rounding of a file would fold: no point of its surface moves by more
-    /// than 2e-5 mm.
+    /// The same body with the slivers closed up that the rounding of a file would fold: no point of
+    /// its surface moves by more than 2e-5 mm.
     pub fn without_slivers(&self) -> Self {
         self.simplify(SLIVER_MM)
     }
 
-    /// Whether two triangles of the surface cross, overlap or coincide (exact; about 3 µs a triangle).
+    /// Whether two triangles of the surface cross, overlap or coincide (exact; about 3 µs a
+    /// triangle).
     pub fn has_self_intersections(&self) -> bool {
         self.0.has_self_intersections()
     }
@@ -221,8 +226,9 @@ impl Csg {
 
 /// The plane for a cut, moved along its normal until no vertex is within [`VERTEX_GAP_MM`] of it.
 ///
-/// Where it would leave a sheet of less than [`SHEET_MM`] on faces along it, it is moved out of the material behind them; where
-/// there is material on both sides of it, so far that the sheet left on the others stays a body in a file of single precision.
+/// Where it would leave a sheet of less than [`SHEET_MM`] on faces along it, it is moved out of the
+/// material behind them; where there is material on both sides of it, so far that the sheet left on
+/// the others stays a body in a file of single precision.
 pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
     let mut heights: Vec<f64> = mesh
         .vertices()
@@ -246,7 +252,8 @@ pub(crate) fn off_vertices(mesh: &TriMesh, plane: &Plane) -> Plane {
     }
 }
 
-/// Which way along its normal a plane is to be moved, and how far at least, mm, so that it leaves no thin sheet.
+/// Which way along its normal a plane is to be moved, and how far at least, mm, so that it leaves
+/// no thin sheet.
 fn clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
     let way = if let [None, Some(_)] = sheets(mesh, plane) {
         -1.0
@@ -274,7 +281,8 @@ fn clear_of_sheets(mesh: &TriMesh, plane: &Plane) -> (f64, f64) {
     (way, step_mm)
 }
 
-/// The plane as it is unless it would leave a sheet of less than [`SHEET_MM`] on a face along it; then that of [`off_vertices`].
+/// The plane as it is unless it would leave a sheet of less than [`SHEET_MM`] on a face along it;
+/// then that of [`off_vertices`].
 pub(crate) fn off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
     if sheets(mesh, plane) == [None, None] {
         *plane
@@ -283,8 +291,8 @@ pub(crate) fn off_faces(mesh: &TriMesh, plane: &Plane) -> Plane {
     }
 }
 
-/// How thick the thickest sheets are that a plane leaves above itself and below, of those thinner than [`SHEET_MM`]: between it
-/// and faces along it with the material on its side.
+/// How thick the thickest sheets are that a plane leaves above itself and below, of those thinner
+/// than [`SHEET_MM`]: between it and faces along it with the material on its side.
 fn sheets(mesh: &TriMesh, plane: &Plane) -> [Option<f64>; 2] {
     let mut thickest = [None; 2];
     for [a, b, c] in mesh.iter_corners() {

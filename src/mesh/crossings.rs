@@ -8,8 +8,8 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 use super::TriMesh;
 use crate::geom::{Aabb, Bvh, Point};
 
-/// Crossings counted for one triangle. A sound mesh has none and a crossing surface a few; without an end
-/// to it a file that holds one triangle 100 000 times would be counted for hours.
+/// Crossings counted for one triangle. A sound mesh has none and a crossing surface a few; without
+/// an end to it a file that holds one triangle 100 000 times would be counted for hours.
 const MAX_PER_TRIANGLE: usize = 100;
 
 /// The self-intersections of a mesh.
@@ -24,11 +24,12 @@ pub struct Crossings {
 impl Crossings {
     /// Every pair of triangles that pass through each other or overlap in one plane.
     ///
-    /// Decided exactly for the coordinates given (Shewchuk, "Adaptive precision floating-point arithmetic and
-    /// fast robust geometric predicates", DCG 18, 1997). Triangles that only touch, with all of one on one side of
-    /// the other, do not cross. A pair crosses when a side of one passes from one side of the other to the other
-    /// side through it (not through a corner only), or when both lie in one plane and share an area. Vertices must be finite.
-    /// About 0.3 s for 100 000 triangles on two cores; the count does not depend on the number of threads.
+    /// Decided exactly for the coordinates given (Shewchuk, "Adaptive precision floating-point
+    /// arithmetic and fast robust geometric predicates", DCG 18, 1997). Triangles that only touch,
+    /// with all of one on one side of the other, do not cross. A pair crosses when a side of one
+    /// passes from one side of the other to the other side through it (not through a corner only),
+    /// or when both lie in one plane and share an area. Vertices must be finite. About 0.3 s for
+    /// 100 000 triangles on two cores; the count does not depend on the number of threads.
     pub fn of(mesh: &TriMesh) -> Self {
         let bvh = Bvh::new(mesh.iter_corners());
         let counts: Vec<usize> = (0..mesh.triangles().len())
@@ -110,7 +111,8 @@ fn a_side_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> bool
     })
 }
 
-/// Whether the line through p and q, not parallel to the face, meets it inside or on a side, not at a corner.
+/// Whether the line through p and q, not parallel to the face, meets it inside or on a side, not at
+/// a corner.
 fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
     let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side(&[*p, *q, *from], to));
     let at_corner = turns.iter().filter(|&&turn| turn == 0).count() > 1;
@@ -118,7 +120,8 @@ fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
     !at_corner && !beside
 }
 
-/// Whether two triangles of one plane share an area: no side of either has the other on its far side or on it.
+/// Whether two triangles of one plane share an area: no side of either has the other on its far
+/// side or on it.
 fn overlap_in_plane(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let normal = (a[1] - a[0]).cross(&(a[2] - a[0]));
     let drop = normal.iamax();

@@ -1,4 +1,5 @@
-//! What keeps a mesh from bounding a solid: every defect by kind, with count, first places and remedy.
+//! What keeps a mesh from bounding a solid: every defect by kind, with count, first places and
+//! remedy.
 
 use std::fmt;
 
@@ -10,8 +11,9 @@ use crate::geom::Point;
 /// How many places a defect names; more would not be looked up by anyone.
 const NAMED_PLACES: usize = 3;
 
-/// A solid fills at least this part of the cube over its diagonal. Below 1e-12 a flat sheet, whose volume is
-/// rounding error only, would pass; above 1e-9 a sound sheet of 0.001 mm at 100 mm would be refused.
+/// A solid fills at least this part of the cube over its diagonal. Below 1e-12 a flat sheet, whose
+/// volume is rounding error only, would pass; above 1e-9 a sound sheet of 0.001 mm at 100 mm would
+/// be refused.
 const MIN_VOLUME_RATIO: f64 = 1e-12;
 
 /// One way in which a mesh fails to bound a solid.

@@ -8,10 +8,12 @@ use super::TriMesh;
 use crate::geom::triangle::Feature;
 use crate::geom::{Bvh, Nearest, Point, Vector};
 
-/// Triangles measured with one common bound: fewer lose the bound too often, more share the work worse.
+/// Triangles measured with one common bound: fewer lose the bound too often, more share the work
+/// worse.
 const CHUNK: usize = 256;
 
-/// Every how many vertices one is measured to find the first bound of the distance between two meshes.
+/// Every how many vertices one is measured to find the first bound of the distance between two
+/// meshes.
 const VERTEX_STRIDE: usize = 16;
 
 /// A mesh made ready for distance queries.
@@ -39,11 +41,13 @@ impl MeshDistance {
         &self.bvh
     }
 
-    /// The distance from `p` to the surface, mm: positive inside, negative outside; −∞ for an empty mesh.
+    /// The distance from `p` to the surface, mm: positive inside, negative outside; −∞ for an empty
+    /// mesh.
     ///
-    /// Exact up to rounding. The side is that of the angle-weighted pseudonormal (Bærentzen & Aanæs, "Signed
-    /// Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 11, 2005), right for closed meshes
-    /// free of self-intersection; where a mesh overlaps itself ask [`Bvh::winding`].
+    /// Exact up to rounding. The side is that of the angle-weighted pseudonormal (Bærentzen &
+    /// Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 11,
+    /// 2005), right for closed meshes free of self-intersection; where a mesh overlaps itself ask
+    /// [`Bvh::winding`].
     pub fn signed(&self, p: &Point) -> f64 {
         let Some(nearest) = self.bvh.closest(p, f64::INFINITY, &[]) else {
             return f64::NEG_INFINITY;
@@ -52,7 +56,8 @@ impl MeshDistance {
         nearest.distance_squared.sqrt() * if outward > 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// The exact least distance between any triangle of this mesh and any of `other`, mm; 0 where they meet.
+    /// The exact least distance between any triangle of this mesh and any of `other`, mm; 0 where
+    /// they meet.
     ///
     /// Infinite if either is empty. Runs on all threads; the result does not depend on how many.
     pub fn min_distance_to(&self, other: &TriMesh) -> f64 {

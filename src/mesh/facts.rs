@@ -7,8 +7,9 @@ use super::shells::Shells;
 use super::{Crossings, TriMesh};
 use crate::geom::{Point, Vector};
 
-/// Twice the area over the squared longest side below which a triangle counts as without area: a height of a
-/// millionth of its length. Below 1e-12 rounding decides; above 1e-4 sound slivers of fine rounds would be counted.
+/// Twice the area over the squared longest side below which a triangle counts as without area: a
+/// height of a millionth of its length. Below 1e-12 rounding decides; above 1e-4 sound slivers of
+/// fine rounds would be counted.
 const DEGENERATE_RATIO: f64 = 1e-6;
 
 /// The facts of a mesh. Nothing is repaired first: weld the triangles of an STL file before asking.
@@ -22,14 +23,16 @@ pub struct MeshFacts {
     pub size_mm: Vector,
     /// How many connected pieces the surface has.
     pub shells: usize,
-    /// Vertices − edges + triangles, each pinch vertex counted once for every surface that meets in it.
+    /// Vertices − edges + triangles, each pinch vertex counted once for every surface that meets in
+    /// it.
     pub euler_characteristic: i64,
-    /// How many handles all shells have together; only a closed, consistently oriented surface has a genus.
+    /// How many handles all shells have together; only a closed, consistently oriented surface has
+    /// a genus.
     pub genus: Option<i64>,
     /// The surface area, mm².
     pub area_mm2: f64,
-    /// The enclosed volume, mm³: negative when the surface faces inward; nothing when it is open. Parts
-    /// that overlap count twice.
+    /// The enclosed volume, mm³: negative when the surface faces inward; nothing when it is open.
+    /// Parts that overlap count twice.
     pub volume_mm3: Option<f64>,
     /// Edges that belong to one triangle only.
     pub open_edges: usize,
@@ -50,7 +53,8 @@ pub struct MeshFacts {
 }
 
 impl MeshFacts {
-    /// The facts of `mesh`. Costs n log n: 0.3 to 0.5 s for 100 000 triangles, nearly all of it for the crossings.
+    /// The facts of `mesh`. Costs n log n: 0.3 to 0.5 s for 100 000 triangles, nearly all of it for
+    /// the crossings.
     pub fn of(mesh: &TriMesh) -> Self {
         let table = EdgeTable::of(mesh);
         let fans = Fans::of(mesh, &table);

@@ -14,7 +14,8 @@ pub(crate) struct Fans {
 }
 
 impl Fans {
-    /// The fans of `mesh`: corners are in one fan when their triangles meet along a shared edge at the vertex.
+    /// The fans of `mesh`: corners are in one fan when their triangles meet along a shared edge at
+    /// the vertex.
     ///
     /// Where three or more triangles meet at an edge, all of them count as neighbours.
     pub fn of(mesh: &TriMesh, table: &EdgeTable) -> Self {
@@ -61,8 +62,8 @@ impl Fans {
         pinched
     }
 
-    /// The same triangles with one vertex for each fan: every pinch vertex is doubled in place, and vertices
-    /// no triangle uses are gone.
+    /// The same triangles with one vertex for each fan: every pinch vertex is doubled in place, and
+    /// vertices no triangle uses are gone.
     pub fn split(&self, mesh: &TriMesh) -> TriMesh {
         let mut vertices = vec![Default::default(); self.count];
         for (&v, &fan) in mesh.triangles().iter().flatten().zip(&self.of_corner) {

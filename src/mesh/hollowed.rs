@@ -4,8 +4,8 @@ use super::{Solid, TriMesh};
 
 /// An outer surface and the voids inside it.
 ///
-/// Holds (the voids stage's promise): the voids are solids (oriented outward, as bodies of air), disjoint,
-/// and lie inside `outer`, nowhere nearer to it than the wall.
+/// Holds (the voids stage's promise): the voids are solids (oriented outward, as bodies of air),
+/// disjoint, and lie inside `outer`, nowhere nearer to it than the wall.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Hollowed {
     /// The outside of the model.
@@ -15,7 +15,8 @@ pub struct Hollowed {
 }
 
 impl Hollowed {
-    /// One mesh that bounds the remaining material: the outer surface and every void turned inside out.
+    /// One mesh that bounds the remaining material: the outer surface and every void turned inside
+    /// out.
     pub fn to_mesh(&self) -> TriMesh {
         let outer = self.outer.mesh().clone();
         self.voids

@@ -9,11 +9,12 @@ use crate::geom::{Point, Vector};
 /// Fewest segments of a round: two would enclose nothing.
 const MIN_SEGMENTS: u32 = 3;
 
-/// The finest [`ball`]: 20·4¹⁰ is 21 million triangles; one level more would not fit the memory of a desk machine.
+/// The finest [`ball`]: 20·4¹⁰ is 21 million triangles; one level more would not fit the memory of
+/// a desk machine.
 const MAX_LEVEL: u32 = 10;
 
-/// The box between two opposite corners, mm: 8 vertices, 12 triangles. `min` must lie below `max` in every
-/// coordinate.
+/// The box between two opposite corners, mm: 8 vertices, 12 triangles. `min` must lie below `max`
+/// in every coordinate.
 pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
     let pick = |bit: usize, low: f64, high: f64| if bit == 0 { low } else { high };
     let corner = |i: usize| {
@@ -40,8 +41,8 @@ pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
 
 /// An icosphere: 20·4^`level` triangles (level at most 10) whose vertices lie on the sphere, mm.
 ///
-/// The mesh lies inside the ball; its volume falls short by a ratio that shrinks fourfold with each level
-/// (1.8 % at level 2, 0.11 % at level 4).
+/// The mesh lies inside the ball; its volume falls short by a ratio that shrinks fourfold with each
+/// level (1.8 % at level 2, 0.11 % at level 4).
 pub fn ball(center: &Point, radius_mm: f64, level: u32) -> TriMesh {
     unit_icosphere(level).map_vertices(|p| center + p.coords * radius_mm)
 }
@@ -51,8 +52,8 @@ pub fn ellipsoid(center: &Point, semi_axes_mm: &Vector, level: u32) -> TriMesh {
     unit_icosphere(level).map_vertices(|p| center + p.coords.component_mul(semi_axes_mm))
 }
 
-/// An upright prism over a regular polygon inscribed in the circle, mm: axis z, base on z = 0, at least three
-/// segments. Its volume is that of the cylinder times sin(2π/n)/(2π/n).
+/// An upright prism over a regular polygon inscribed in the circle, mm: axis z, base on z = 0, at
+/// least three segments. Its volume is that of the cylinder times sin(2π/n)/(2π/n).
 pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
     let n = segments.max(MIN_SEGMENTS);
     let rim = |z: f64| (0..n).map(move |i| on_circle(radius_mm, i, n, z));
@@ -71,8 +72,8 @@ pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
     TriMesh::from_parts(vertices, triangles.collect())
 }
 
-/// A ring torus about the z axis, centred on the origin, mm: `tube_mm` < `ring_mm`; `ring_segments` around the
-/// axis and `tube_segments` around the tube, at least three of each.
+/// A ring torus about the z axis, centred on the origin, mm: `tube_mm` < `ring_mm`; `ring_segments`
+/// around the axis and `tube_segments` around the tube, at least three of each.
 pub fn torus(ring_mm: f64, tube_mm: f64, ring_segments: u32, tube_segments: u32) -> TriMesh {
     let (n, m) = (
         ring_segments.max(MIN_SEGMENTS),
@@ -102,7 +103,8 @@ fn unit_icosphere(level: u32) -> TriMesh {
     (0..level.min(MAX_LEVEL)).fold(icosahedron(), |mesh, _| split_in_four(&mesh))
 }
 
-/// The faces of the icosahedron whose vertices [`icosahedron`] lists, seen from outside counterclockwise.
+/// The faces of the icosahedron whose vertices [`icosahedron`] lists, seen from outside
+/// counterclockwise.
 #[rustfmt::skip]
 const ICOSAHEDRON: [[u32; 3]; 20] = [
     [0, 8, 1], [0, 1, 10], [0, 5, 4], [0, 4, 8], [0, 10, 5],

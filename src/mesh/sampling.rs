@@ -11,11 +11,13 @@ pub struct SurfacePoint {
     pub triangle: usize,
 }
 
-/// So many points of the triangles, one for each equal share of their area, in the order of the triangles: a share of the
-/// area is found by counting to about √(p(1 − p)/count), and better where it hangs together.
+/// So many points of the triangles, one for each equal share of their area, in the order of the
+/// triangles: a share of the area is found by counting to about √(p(1 − p)/count), and better where
+/// it hangs together.
 ///
-/// Systematic sampling along the running sum of the areas; within a triangle the points follow the R₂ sequence (M. Roberts,
-/// "The unreasonable effectiveness of quasirandom sequences", 2018). The same triangles give the same points.
+/// Systematic sampling along the running sum of the areas; within a triangle the points follow the
+/// R₂ sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). The
+/// same triangles give the same points.
 pub fn spread_points(triangles: &[[Point; 3]], count: usize) -> Vec<SurfacePoint> {
     let areas: Vec<f64> = triangles.iter().map(area_mm2).collect();
     let step = areas.iter().sum::<f64>() / count.max(1) as f64;
@@ -42,7 +44,8 @@ pub fn area_mm2([a, b, c]: &[Point; 3]) -> f64 {
 
 /// Point `index` of the sequence, folded into the triangle.
 fn inside([a, b, c]: &[Point; 3], index: usize) -> Point {
-    /// The reciprocals of the plastic number and of its square, whose multiples fill a square most evenly.
+    /// The reciprocals of the plastic number and of its square, whose multiples fill a square most
+    /// evenly.
     const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
     let [u, v] = STEPS.map(|step| (0.5 + step * index as f64).fract());
     let (u, v) = if u + v > 1.0 {

@@ -18,8 +18,8 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
-    /// The shells of `mesh`: triangles that share an edge are in one shell, those that meet only at a vertex or
-    /// at an edge of three or more triangles are not.
+    /// The shells of `mesh`: triangles that share an edge are in one shell, those that meet only at
+    /// a vertex or at an edge of three or more triangles are not.
     pub fn of(mesh: &TriMesh, table: &EdgeTable) -> Self {
         let mut sets = UnionFind::new(mesh.triangles().len());
         for sides in table.edges().filter(|sides| joins(edge_kind(sides))) {
@@ -63,7 +63,8 @@ impl Shells {
         self.members.iter().map(volume).collect()
     }
 
-    /// For each shell the shells that enclose it, ascending. The shells must be closed and must not cross.
+    /// For each shell the shells that enclose it, ascending. The shells must be closed and must not
+    /// cross.
     pub fn enclosing(&self, mesh: &TriMesh) -> Vec<Vec<usize>> {
         let boxes: Vec<Aabb> = self
             .members
@@ -107,11 +108,11 @@ fn holds(outer: &Aabb, inner: &Aabb) -> bool {
     outer.union(inner) == *outer
 }
 
-/// Whether these triangles, taken as one closed surface, wind around `point`: the triangles above it, counted
-/// +1 when they face up and −1 when they face down, do not cancel.
+/// Whether these triangles, taken as one closed surface, wind around `point`: the triangles above
+/// it, counted +1 when they face up and −1 when they face down, do not cancel.
 ///
-/// Exact (Shewchuk's predicates); a point straight below an edge or a vertex counts as moved by (ε, ε²), so each
-/// crossing is counted once.
+/// Exact (Shewchuk's predicates); a point straight below an edge or a vertex counts as moved by (ε,
+/// ε²), so each crossing is counted once.
 fn winds_around(mesh: &TriMesh, triangles: &[u32], point: &Point) -> bool {
     triangles
         .iter()
@@ -151,8 +152,8 @@ fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     if below > 0.0 { facing } else { 0 }
 }
 
-/// +1 when the point, seen from above and moved by (ε, ε²), lies left of the edge, −1 when right, 0 when the
-/// edge is vertical.
+/// +1 when the point, seen from above and moved by (ε, ε²), lies left of the edge, −1 when right, 0
+/// when the edge is vertical.
 fn side_of_edge(from: &Point, to: &Point, point: &Point) -> i32 {
     let [a, b, p] = [from, to, point].map(|p| Coord { x: p.x, y: p.y });
     let turn = orient2d(a, b, p);

@@ -4,14 +4,14 @@ use super::{Defects, TriMesh};
 
 /// A mesh that is finite, closed, oriented outward, 2-manifold along edges, and of positive volume.
 ///
-/// Not promised: that surfaces do not touch at a vertex or cross each other. Where a surface crosses itself,
-/// volume and moments count the overlap twice; [`super::MeshFacts`] tells.
+/// Not promised: that surfaces do not touch at a vertex or cross each other. Where a surface
+/// crosses itself, volume and moments count the overlap twice; [`super::MeshFacts`] tells.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solid(TriMesh);
 
 impl Solid {
-    /// The solid bounded by `mesh`, or everything that is wrong with it. Linear in the triangles: 10 to 20 ms
-    /// for 100 000.
+    /// The solid bounded by `mesh`, or everything that is wrong with it. Linear in the triangles:
+    /// 10 to 20 ms for 100 000.
     pub fn new(mesh: TriMesh) -> Result<Self, Defects> {
         match Defects::of(&mesh) {
             None => Ok(Self(mesh)),

@@ -4,8 +4,8 @@ use crate::geom::{Aabb, Frame, Point};
 
 /// Vertices and the triangles that index them.
 ///
-/// Holds: every index is in range and there are fewer than 2³² vertices. Nothing is said of closedness,
-/// orientation or finiteness; that is what [`super::Solid`] proves.
+/// Holds: every index is in range and there are fewer than 2³² vertices. Nothing is said of
+/// closedness, orientation or finiteness; that is what [`super::Solid`] proves.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TriMesh {
     vertices: Vec<Point>,
@@ -109,8 +109,9 @@ impl TriMesh {
         }
     }
 
-    /// The volume the triangles enclose, mm³: negative when they face inward, without meaning when the mesh is
-    /// open. By the divergence theorem about the middle of the bounding box, plain summation.
+    /// The volume the triangles enclose, mm³: negative when they face inward, without meaning when
+    /// the mesh is open. By the divergence theorem about the middle of the bounding box, plain
+    /// summation.
     pub fn signed_volume_mm3(&self) -> f64 {
         let center = self.aabb().center();
         self.iter_corners()
@@ -147,8 +148,8 @@ pub fn scaled(mesh: &TriMesh, factor: f64) -> TriMesh {
     mesh.map_vertices(|p| p * factor)
 }
 
-/// The signed volume of the tetrahedron that a triangle spans with `apex`, mm³: positive when the triangle
-/// faces away from it.
+/// The signed volume of the tetrahedron that a triangle spans with `apex`, mm³: positive when the
+/// triangle faces away from it.
 pub(crate) fn signed_volume_mm3([a, b, c]: &[Point; 3], apex: &Point) -> f64 {
     let (a, b, c) = (a - apex, b - apex, c - apex);
     a.dot(&b.cross(&c)) / 6.0

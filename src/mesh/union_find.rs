@@ -1,8 +1,8 @@
 //! Sets that merge: who belongs together.
 
 /// Disjoint sets of the numbers 0 to n − 1 (Tarjan, "Efficiency of a good but not linear set union
-/// algorithm", J. ACM 22, 1975; path halving). The smallest member stands for its set, so the answer does
-/// not depend on the order of the merges.
+/// algorithm", J. ACM 22, 1975; path halving). The smallest member stands for its set, so the
+/// answer does not depend on the order of the merges.
 #[derive(Debug, Clone)]
 pub(crate) struct UnionFind(Vec<u32>);
 
@@ -29,8 +29,8 @@ impl UnionFind {
         a != b
     }
 
-    /// For every number the rank of its set, sets counted from 0 in the order of their smallest member; and
-    /// how many sets there are.
+    /// For every number the rank of its set, sets counted from 0 in the order of their smallest
+    /// member; and how many sets there are.
     pub fn labels(mut self) -> (Vec<u32>, usize) {
         let mut labels = vec![0; self.0.len()];
         let mut sets = 0;

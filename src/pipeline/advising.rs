@@ -1,4 +1,5 @@
-//! What a run asks of the advice: the axis where it was left open, and remedies where its goal is impossible.
+//! What a run asks of the advice: the axis where it was left open, and remedies where its goal is
+//! impossible.
 
 use super::{Failure, Impossible, Prepared, Setup, phase, setup::Model};
 use crate::advice::{Case, Remedy, best_orientation, remedies};

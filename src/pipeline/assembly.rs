@@ -1,4 +1,5 @@
-//! From the quadric to written parts that meet the goal: voids, cuts, parts, and the correction of their defect.
+//! From the quadric to written parts that meet the goal: voids, cuts, parts, and the correction of
+//! their defect.
 
 use rayon::prelude::*;
 
@@ -27,12 +28,13 @@ use crate::printer::{Grid, PrintPose, Quantity};
 use crate::report::HeightProof;
 use crate::verify::{PartEvidence, assembly_moments};
 
-/// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right but for the rounding of
-/// their files, unless the plan had to be changed.
+/// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right
+/// but for the rounding of their files, unless the plan had to be changed.
 const MAX_ASSEMBLIES: usize = 3;
 
-/// A cut for cleaning alone must bring this share of all voids' walls into sight. Less, and a kit gets a joint more, with crumbs
-/// where cuts cross (fertility at 100 mm by stereolithography: 3 cuts, 16 joints); more, and voids shrink by what shows in the goal's figure.
+/// A cut for cleaning alone must bring this share of all voids' walls into sight. Less, and a kit
+/// gets a joint more, with crumbs where cuts cross (fertility at 100 mm by stereolithography: 3
+/// cuts, 16 joints); more, and voids shrink by what shows in the goal's figure.
 const WORTH_RATIO: f64 = 0.02;
 
 /// The parts of a kit, tuned so that what is written meets the goal.
@@ -46,7 +48,8 @@ pub struct Assembly {
     pub course: TopCourse,
     /// The uncut body.
     pub hollowed: Hollowed,
-    /// The volume of voids that stay solid because they could not be cleaned, or left a joint no room for pins, mm³.
+    /// The volume of voids that stay solid because they could not be cleaned, or left a joint no
+    /// room for pins, mm³.
     pub refused_mm3: f64,
     /// The cuts and pins.
     pub plan: CutPlan,
@@ -65,8 +68,9 @@ pub struct Assembly {
 }
 
 impl Assembly {
-    /// Makes the parts of a solution, measures what would be written, and solves again with the difference until the written
-    /// parts meet the goal (THEORY §4); for the pins of its joints it goes to these lengths.
+    /// Makes the parts of a solution, measures what would be written, and solves again with the
+    /// difference until the written parts meet the goal (THEORY §4); for the pins of its joints it
+    /// goes to these lengths.
     pub fn corrected(
         setup: &Setup,
         solved: Solved,
@@ -124,14 +128,15 @@ struct Made {
     voids: Voids,
     plan: CutPlan,
     parts: Vec<WrittenPart>,
-    /// What the parts have more than the uncut voids' body: pins, sockets, glue, and what rounding does; model frame.
+    /// What the parts have more than the uncut voids' body: pins, sockets, glue, and what rounding
+    /// does; model frame.
     more: Moments,
     /// How far they are from the goal's constraints, in tolerances.
     defect_ratio: f64,
 }
 
-/// The parts by a plan, of voids solved for again with what the pins and sockets change; of all attempts those that come nearest to
-/// the goal.
+/// The parts by a plan, of voids solved for again with what the pins and sockets change; of all
+/// attempts those that come nearest to the goal.
 fn assembled(
     setup: &Setup,
     tuner: &mut Tuner,
@@ -204,8 +209,8 @@ fn made(
     })
 }
 
-/// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed so that the plan leaves
-/// one closed, it is planned anew.
+/// Cuts the voids' body by the plan and writes its parts, in memory. Where the voids have changed
+/// so that the plan leaves one closed, it is planned anew.
 fn written_parts(
     setup: &Setup,
     voids: &Voids,

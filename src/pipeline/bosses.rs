@@ -1,4 +1,5 @@
-//! Boss rounds: where pins have no room, material around them is kept solid and everything is solved again.
+//! Boss rounds: where pins have no room, material around them is kept solid and everything is
+//! solved again.
 
 use super::{
     Error,
@@ -11,8 +12,8 @@ use crate::cut::{
 use crate::hollow::Certificate;
 use crate::mesh::TriMesh;
 
-/// How often bosses are looked for: solving again moves the voids, which may take room from pins that had it. The first round
-/// takes nearly all; one that needs more than three goes in circles.
+/// How often bosses are looked for: solving again moves the voids, which may take room from pins
+/// that had it. The first round takes nearly all; one that needs more than three goes in circles.
 const MAX_ROUNDS: usize = 3;
 /// How many patterns are tried for a joint, each away from those that cost too much.
 const MAX_PATTERNS: usize = 3;
@@ -57,8 +58,8 @@ pub struct Bossed {
     first: Reached,
 }
 
-/// Keeps bosses solid until every joint has its pins, or no more can be had at a low price. Ordered pins have theirs at any price that
-/// leaves the kit worth having.
+/// Keeps bosses solid until every joint has its pins, or no more can be had at a low price. Ordered
+/// pins have theirs at any price that leaves the kit worth having.
 pub fn bossed(
     tuner: &mut Tuner,
     mut state: Bossed,
@@ -138,7 +139,8 @@ impl Bossed {
         !self.failed.dear_ones().is_empty()
     }
 
-    /// The same with those bosses that cost more, up to this share of what the kit reaches without any.
+    /// The same with those bosses that cost more, up to this share of what the kit reaches without
+    /// any.
     pub fn paid_dearly(
         mut self,
         tuner: &mut Tuner,
@@ -151,7 +153,8 @@ impl Bossed {
             ..Effort::CHEAP
         };
         let all = self.failed.dear_ones();
-        // Together they may cost less than one alone: a body with two arms stays balanced with both of them solid.
+        // Together they may cost less than one alone: a body with two arms stays balanced with both
+        // of them solid.
         if all.len() > 1 && tried(tuner, &mut self, (&all.concat(), effort), request)?.is_ok() {
             all.iter()
                 .for_each(|bosses| self.failed.forget(&bosses[0].joint()));

@@ -1,4 +1,5 @@
-//! Cuts with which every void can be cleaned; where none do, what cannot be cleaned is kept solid and the rest solved for again.
+//! Cuts with which every void can be cleaned; where none do, what cannot be cleaned is kept solid
+//! and the rest solved for again.
 
 use super::{
     Error, Setup,
@@ -10,14 +11,15 @@ use crate::cut::{
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
 
-/// Rounds in which a void is made smaller: each keeps the ends solid that cannot be cleaned. What is left usually can be after
-/// one or two; each costs a solve and a plan.
+/// Rounds in which a void is made smaller: each keeps the ends solid that cannot be cleaned. What
+/// is left usually can be after one or two; each costs a solve and a plan.
 const SHRINKING_ROUNDS: usize = 4;
-/// Rounds in all; in the last ones what cannot be cleaned goes altogether, so that the sequence ends.
+/// Rounds in all; in the last ones what cannot be cleaned goes altogether, so that the sequence
+/// ends.
 const MAX_ROUNDS: usize = 8;
 
-/// Hidden ends of voids are kept solid with so much around them, in minimum openings. More costs solid that could be cleaned, less
-/// takes more rounds.
+/// Hidden ends of voids are kept solid with so much around them, in minimum openings. More costs
+/// solid that could be cleaned, less takes more rounds.
 const END_MARGIN_RATIO: f64 = 0.5;
 
 /// One round: what was kept solid, and what that costs.
@@ -29,7 +31,8 @@ pub struct CleaningRound {
     pub volume_mm3: f64,
     /// The figure of the certificate before the round.
     pub value_before: f64,
-    /// And after it; none where nothing would have met the goal any more, so that the round was taken back.
+    /// And after it; none where nothing would have met the goal any more, so that the round was
+    /// taken back.
     pub value_after: Option<f64>,
     /// Whether the plan keeps it solid, and not cleaning.
     pub by_plan: bool,
@@ -47,9 +50,10 @@ pub struct Cleaned {
 
 /// The voids that the printer's cleaning rule leaves, and the plan that opens them.
 ///
-/// A plan is made; what of the voids it does not let be cleaned is kept solid, and the rest solved for again, at most
-/// [`MAX_ROUNDS`] times: what is kept solid only grows, so that it cannot go round in circles. A round after which the goal
-/// could no longer be met is taken back, and the checks of the kit say which void stays unclean.
+/// A plan is made; what of the voids it does not let be cleaned is kept solid, and the rest solved
+/// for again, at most [`MAX_ROUNDS`] times: what is kept solid only grows, so that it cannot go
+/// round in circles. A round after which the goal could no longer be met is taken back, and the
+/// checks of the kit say which void stays unclean.
 pub fn cleaned<'a>(
     setup: &'a Setup,
     tuner: &mut Tuner<'a>,
@@ -111,7 +115,8 @@ pub fn cleaned<'a>(
     }
 }
 
-/// The voids without these parts of the interior, solved for again; none where they hold nothing, or the goal cannot be met without them.
+/// The voids without these parts of the interior, solved for again; none where they hold nothing,
+/// or the goal cannot be met without them.
 pub fn without_ends(
     tuner: &mut Tuner,
     voids: &Voids,
@@ -149,7 +154,8 @@ pub fn without_ends(
     }))
 }
 
-/// One round: the voids without these bodies, solved for again; none where that meets the goal no more, and the tuner is as it was.
+/// One round: the voids without these bodies, solved for again; none where that meets the goal no
+/// more, and the tuner is as it was.
 fn kept_solid(
     tuner: &mut Tuner,
     voids: &Voids,

@@ -9,7 +9,8 @@ use crate::geom::{Parting, Plane, Point};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::report::{CutFace, Mouth, Region};
 
-/// How far beside the middle of its widest disc a region is looked at, as a share of the disc's diameter: within it, past a pin.
+/// How far beside the middle of its widest disc a region is looked at, as a share of the disc's
+/// diameter: within it, past a pin.
 const BESIDE_RATIO: f64 = 0.42;
 /// Directions in which that is tried.
 const LOOKS: usize = 8;
@@ -64,7 +65,8 @@ fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
         .any(|(other, _)| other.distance(&at).abs() < OFF_MM)
 }
 
-/// The sections of a body at a cut on either side of every other that ends there, or the one where none does.
+/// The sections of a body at a cut on either side of every other that ends there, or the one where
+/// none does.
 fn sections(
     body: &TriMesh,
     parting: &Parting,
@@ -97,8 +99,8 @@ fn sections(
         .collect()
 }
 
-/// Every two parts between which the cut passes, with a place in the material: looked for beside the middle of the widest disc of each
-/// region, where pins stand.
+/// Every two parts between which the cut passes, with a place in the material: looked for beside
+/// the middle of the widest disc of each region, where pins stand.
 fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
     let (u, v) = plane.basis();
     let part_at = |at: [f64; 2], off_mm: f64| {
@@ -167,7 +169,8 @@ fn flat_point(plane: &Plane, face: &UncutFace) -> [f64; 2] {
     [u.dot(&at), v.dot(&at)]
 }
 
-/// Where an outer ring comes nearest to a hole, between the corners of either and the sides of the other; none without holes.
+/// Where an outer ring comes nearest to a hole, between the corners of either and the sides of the
+/// other; none without holes.
 fn thinnest(rings: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     let (outer, holes): (Vec<_>, Vec<_>) = rings.iter().partition(|ring| is_outer(ring));
     let pairs = outer

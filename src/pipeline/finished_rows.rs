@@ -1,4 +1,5 @@
-//! The checklist's rows about the finished object: what a turn of a yo-yo's half does, and what prints as a closed cup.
+//! The checklist's rows about the finished object: what a turn of a yo-yo's half does, and what
+//! prints as a closed cup.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +11,8 @@ use crate::mesh::union_find::UnionFind;
 use crate::repair::weld;
 use crate::report::{PartRow, TurnRow};
 
-/// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no layer is thinner than this.
+/// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no
+/// layer is thinner than this.
 const ON_PLATE_MM: f64 = 1e-3;
 
 /// What becomes of a yo-yo whose half A is turned by a degree; none where there is one body.
@@ -59,10 +61,11 @@ fn greatest_axis(moments: &Moments) -> Vector {
     axis * axis.z.signum()
 }
 
-/// The volume of all hollows of a part in print pose whose only mouth lies flat on the plate, mm³; exact for the file.
+/// The volume of all hollows of a part in print pose whose only mouth lies flat on the plate, mm³;
+/// exact for the file.
 ///
-/// Without the triangles on the plate the surface falls into the outside and such hollows: each of those holds, down to the
-/// plate, minus its flux volume ∫ z n_z dA.
+/// Without the triangles on the plate the surface falls into the outside and such hollows: each of
+/// those holds, down to the plate, minus its flux volume ∫ z n_z dA.
 pub fn cup_mm3(printed: &TriMesh) -> f64 {
     let mesh = weld(printed);
     let floor_mm = mesh.aabb().min.z;
@@ -122,8 +125,8 @@ mod tests {
 
     #[test]
     fn a_turned_half_moves_the_centre_by_its_lever_and_its_share() {
-        // Half A is a cube 3 mm beside the axis, half B its mirror image: a degree moves the whole's centre by
-        // half of 2·3·sin(0.5°).
+        // Half A is a cube 3 mm beside the axis, half B its mirror image: a degree moves the
+        // whole's centre by half of 2·3·sin(0.5°).
         let cube = |x: f64, z: f64| {
             let (low, high) = ([x - 1.0, -1.0, z - 1.0], [x + 1.0, 1.0, z + 1.0]);
             moments_of_mesh(&block(low, high))

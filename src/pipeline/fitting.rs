@@ -7,8 +7,8 @@ use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{TriMesh, bodies, winding_number};
 use crate::verify::Hardware;
 
-/// The setup with its hardware put in, where the job has any: from then on the model is the one with the sockets, and the
-/// goal's moments count what is not printed.
+/// The setup with its hardware put in, where the job has any: from then on the model is the one
+/// with the sockets, and the goal's moments count what is not printed.
 pub fn equipped(setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
     let Some(hardware) = setup.request.hardware else {
         return Ok(setup);
@@ -38,7 +38,8 @@ fn with(mut setup: Setup, fitted: Fitted) -> Setup {
 }
 
 impl Setup {
-    /// The moments of what is not printed, as so much of the material, model frame; zero without hardware.
+    /// The moments of what is not printed, as so much of the material, model frame; zero without
+    /// hardware.
     pub fn hardware_moments(&self) -> Moments {
         let density_g_cm3 = self.material.density_g_cm3.value;
         self.fitted
@@ -93,7 +94,8 @@ pub fn halves(setup: &Setup) -> Vec<TriMesh> {
 /// Corners of a part that are looked at to tell its half.
 const LOOKS: usize = 8;
 
-/// The half that holds the corners of a part: about those on a surface it winds in part, the other not at all.
+/// The half that holds the corners of a part: about those on a surface it winds in part, the other
+/// not at all.
 pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<String> {
     let corners = written.part.solid.mesh().vertices();
     let looks = || corners.iter().step_by(corners.len().div_ceil(LOOKS).max(1));

@@ -6,8 +6,8 @@ use crate::geom::{Point, Vector};
 use crate::printer::{Grid, whole_steps};
 use crate::report::GridRow;
 
-/// How far from a whole number of steps a length may be and still be one, in steps: files round to 1e-5 mm, and cuts keep
-/// some 1e-6 mm off vertices.
+/// How far from a whole number of steps a length may be and still be one, in steps: files round to
+/// 1e-5 mm, and cuts keep some 1e-6 mm off vertices.
 const WHOLE_TOLERANCE: f64 = 1e-3;
 
 /// A direction whose z is this much of it stands upright in the printer, within 0.03°.
@@ -208,7 +208,8 @@ fn pegs<'a>(
     pins.chain(sockets)
 }
 
-/// The rows of a peg's diameter and length: along the grid where it stands upright, along none where it lies tilted.
+/// The rows of a peg's diameter and length: along the grid where it stands upright, along none
+/// where it lies tilted.
 fn peg_rows(
     is_upright: bool,
     [diameter, length]: [Length; 2],

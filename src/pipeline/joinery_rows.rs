@@ -102,7 +102,8 @@ fn to_mind(joint: &JointNote) -> Option<&'static str> {
     }
 }
 
-/// Why no bosses were made around pins of a joint, to be said before what to mind of it; nothing where that was not tried.
+/// Why no bosses were made around pins of a joint, to be said before what to mind of it; nothing
+/// where that was not tried.
 fn refused(plan: &CutPlan, joint: &JointNote) -> String {
     let [below, above] = &joint.parts;
     let start = format!("joint {below}–{above}: bosses around pins ");
@@ -113,8 +114,8 @@ fn refused(plan: &CutPlan, joint: &JointNote) -> String {
     why.map_or_else(String::new, |why| format!("bosses around pins {why}; "))
 }
 
-/// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and which parts bear no id at
-/// the printing.
+/// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and
+/// which parts bear no id at the printing.
 pub fn is_told_in_a_step(note: &str) -> bool {
     ["joint ", "no room for an id "]
         .iter()

@@ -22,7 +22,8 @@ pub fn joined(setup: &Setup, plan: &CutPlan) -> Moments {
         .fold(Moments::default(), |sum, part| sum + part)
 }
 
-/// How ids are sunk into cut faces: in strokes as wide as the smallest detail, or two pixels, and as deep; none where the job wants none.
+/// How ids are sunk into cut faces: in strokes as wide as the smallest detail, or two pixels, and
+/// as deep; none where the job wants none.
 pub fn label_style(setup: &Setup) -> Option<LabelStyle> {
     let printer = &setup.printer;
     let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);

@@ -102,7 +102,8 @@ pub fn prepared(
     })
 }
 
-/// Adds the job sheet, for people and for machines, without anything that differs from run to run, and the list of all hashes.
+/// Adds the job sheet, for people and for machines, without anything that differs from run to run,
+/// and the list of all hashes.
 fn file_papers(
     kit: &mut Kit,
     sheet: &Checklist,
@@ -145,7 +146,8 @@ fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) 
     }
 }
 
-/// The judgement, and the promise with the figure that the written parts reach: what a buyer may rely on.
+/// The judgement, and the promise with the figure that the written parts reach: what a buyer may
+/// rely on.
 fn judged(setup: &Setup, evidence: Evidence) -> (Promise, Judgement) {
     let mut judgement = judge(&evidence);
     let figure = rows::promised_figure(setup.placement.goal.kind, setup.placement.goal.objective);

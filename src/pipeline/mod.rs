@@ -1,4 +1,5 @@
-//! The line: load, check, place, wall, columns, solve, voids, cuts, pins, parts, measure, correct, kit.
+//! The line: load, check, place, wall, columns, solve, voids, cuts, pins, parts, measure, correct,
+//! kit.
 
 mod advising;
 mod assembly;
@@ -69,7 +70,8 @@ const NO_BOSSES: &str = "bosses around pins would break a promise of the kit: no
 
 /// Runs a job to its end: a kit and its checklist, or the proof that the goal cannot be met.
 ///
-/// Nothing is written; [`Prepared::kit`] is in memory. The same job gives the same bytes on any number of threads.
+/// Nothing is written; [`Prepared::kit`] is in memory. The same job gives the same bytes on any
+/// number of threads.
 pub fn run(job: &Job, progress: &Watch) -> Result<Outcome, Error> {
     let mut watch = Stopwatch::start();
     let setup = Setup::of(job, progress)?;
@@ -90,9 +92,10 @@ pub fn run(job: &Job, progress: &Watch) -> Result<Outcome, Error> {
     ))))
 }
 
-/// The judged kit, with every joint's pins as far as can be; where it then breaks a promise, as where what a boss hides of a
-/// void shows only in the written parts, less is done for the pins, and in the end no boss. Pins that a person ordered are kept,
-/// whatever they break: the kit's checks say it.
+/// The judged kit, with every joint's pins as far as can be; where it then breaks a promise, as
+/// where what a boss hides of a void shows only in the written parts, less is done for the pins,
+/// and in the end no boss. Pins that a person ordered are kept, whatever they break: the kit's
+/// checks say it.
 fn bossed_or_plain(
     setup: &Setup,
     solved: Solved,

@@ -57,7 +57,8 @@ pub struct Impossible {
     /// How the axis was chosen, where it was left open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
-    /// The quadric of the proof: ten coefficients over (1, x, y, z, xy, yz, xz, x², y², z²) in the goal frame, mm.
+    /// The quadric of the proof: ten coefficients over (1, x, y, z, xy, yz, xz, x², y², z²) in the
+    /// goal frame, mm.
     pub proof_quadric: [f64; 10],
     /// The origin of the goal frame in the model frame, mm.
     pub origin_mm: [f64; 3],

@@ -19,7 +19,8 @@ const ASSEMBLY: &str = "assembly.3mf";
 /// A file of the kit by its path, and its bytes.
 type File = (String, Vec<u8>);
 
-/// The parts in the files that are judged: their STL files, or where the job asks for 3MF alone, their packages, read back.
+/// The parts in the files that are judged: their STL files, or where the job asks for 3MF alone,
+/// their packages, read back.
 pub fn in_format(mut assembly: Assembly, setup: &Setup) -> Result<Assembly, Error> {
     if setup.job.format != PartFormat::ThreeMf {
         return Ok(assembly);
@@ -44,7 +45,8 @@ pub fn in_format(mut assembly: Assembly, setup: &Setup) -> Result<Assembly, Erro
     Ok(assembly)
 }
 
-/// The packages beside the judged files: twins of STL parts where both formats are asked for, the assembly and the plates.
+/// The packages beside the judged files: twins of STL parts where both formats are asked for, the
+/// assembly and the plates.
 pub fn packages(setup: &Setup, assembly: &Assembly) -> Result<Vec<File>, Error> {
     if setup.job.format == PartFormat::Stl {
         return Ok(Vec::new());

@@ -1,4 +1,5 @@
-//! Cuts, cleaning and bosses in their turn; and in other ways where joints are left without their pins.
+//! Cuts, cleaning and bosses in their turn; and in other ways where joints are left without their
+//! pins.
 
 use super::{
     Error, Setup,
@@ -12,15 +13,18 @@ use crate::base::units::counted;
 use crate::cut::{CutPlan, PlanRequest, SolidEnd, beyond};
 use crate::job::CutMode;
 
-/// How often voids are given up beyond joints without pins: those of the cuts that are then made, too.
+/// How often voids are given up beyond joints without pins: those of the cuts that are then made,
+/// too.
 const MAX_ENDS: usize = 3;
 
-/// They are given up with so much of the interior around them, in minimum openings: humpty afloat by PolyJet then has a metacentric
-/// height of 0.84, 0.82, 0.79, 0.72 and 0.49 mm with 0, 0.25, 0.5, 1 and 2 (at a pitch of 0.5 mm); on a Form 3 none leaves the joints without pins.
+/// They are given up with so much of the interior around them, in minimum openings: humpty afloat
+/// by PolyJet then has a metacentric height of 0.84, 0.82, 0.79, 0.72 and 0.49 mm with 0, 0.25,
+/// 0.5, 1 and 2 (at a pitch of 0.5 mm); on a Form 3 none leaves the joints without pins.
 const ENDS_MARGIN_RATIO: f64 = 0.25;
 
-/// Openings are asked for that are so much wider than the least: solving again for pins narrows them (fertility by filament from 5.00
-/// to 4.93 mm), and a kit that breaks a promise is made the usual way.
+/// Openings are asked for that are so much wider than the least: solving again for pins narrows
+/// them (fertility by filament from 5.00 to 4.93 mm), and a kit that breaks a promise is made the
+/// usual way.
 const SPARE_OPENING_RATIO: f64 = 1.03;
 
 /// What pins may cost where some joint is left without them all the same.
@@ -63,12 +67,15 @@ pub struct Planned {
     pub lengths: Lengths,
 }
 
-/// Cuts with which every void can be cleaned, and pins: in the walls where they have room, in bosses elsewhere.
+/// Cuts with which every void can be cleaned, and pins: in the walls where they have room, in
+/// bosses elsewhere.
 ///
-/// The planner foresees how wide a joint is, and not what bosses in it hide or cost. Where joints are left without their pins
-/// other ways are gone: fewer cuts for cleaning alone; cuts that are weighed by how wide their joints are, walls or not; and if these do not give every joint
-/// its pins cheaply, bosses at a higher price, and no voids beyond such joints at all. The way that leaves the fewest joints without
-/// pins is taken, of several the one that costs the goal's figure least. What a person ordered stays.
+/// The planner foresees how wide a joint is, and not what bosses in it hide or cost. Where joints
+/// are left without their pins other ways are gone: fewer cuts for cleaning alone; cuts that are
+/// weighed by how wide their joints are, walls or not; and if these do not give every joint its
+/// pins cheaply, bosses at a higher price, and no voids beyond such joints at all. The way that
+/// leaves the fewest joints without pins is taken, of several the one that costs the goal's figure
+/// least. What a person ordered stays.
 pub fn planned<'a>(
     setup: &'a Setup,
     (tuner, watch): (&mut Tuner<'a>, &mut Stopwatch),
@@ -141,7 +148,8 @@ struct Start<'a> {
 }
 
 impl<'a> Start<'a> {
-    /// The same with these parts of the interior kept solid; none where the goal cannot be met so, or nothing lies there.
+    /// The same with these parts of the interior kept solid; none where the goal cannot be met so,
+    /// or nothing lies there.
     fn without(&self, solid: Vec<SolidEnd>, why: &str) -> Result<Option<Self>, Error> {
         let mut tuner = self.tuner.clone();
         let less = without_ends(&mut tuner, &self.voids, (&solid, why))?;
@@ -177,7 +185,8 @@ impl<'a> Ways<'a, '_> {
         self.gone(self.start.clone(), self.request.clone(), watch)
     }
 
-    /// The ways that are gone where the usual one leaves joints without pins, until one leaves none; a person's cuts stay.
+    /// The ways that are gone where the usual one leaves joints without pins, until one leaves
+    /// none; a person's cuts stay.
     fn others(&self, first: &Way<'a>, watch: &mut Stopwatch) -> Result<Vec<Way<'a>>, Error> {
         let mut found: Vec<Way> = Vec::new();
         if first.is_full() {
@@ -270,7 +279,8 @@ impl<'a> Ways<'a, '_> {
         Ok(optional(paid.map(Some))?.map(way))
     }
 
-    /// From a way that leaves joints without pins: no voids beyond them, nor beyond those that are then left without.
+    /// From a way that leaves joints without pins: no voids beyond them, nor beyond those that are
+    /// then left without.
     fn without_ends(&self, base: &Way<'a>, watch: &mut Stopwatch) -> Result<Vec<Way<'a>>, Error> {
         let mut found: Vec<Way> = Vec::new();
         let mut solid = Vec::new();

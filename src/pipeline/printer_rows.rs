@@ -24,7 +24,8 @@ pub fn printer_row(setup: &Setup) -> PrinterRow {
     }
 }
 
-/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is not known.
+/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is
+/// not known.
 fn sources(setup: &Setup) -> Vec<String> {
     let printer = &setup.printer;
     let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");

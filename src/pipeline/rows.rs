@@ -247,7 +247,8 @@ fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Cours
     (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
-/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was optimised with.
+/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was
+/// optimised with.
 fn written_value(sheet: &Sheet, figure: FigureName) -> Option<f64> {
     let (setup, goal) = (sheet.setup, &sheet.setup.placement.goal);
     if figure != FigureName::SpinItRatio {

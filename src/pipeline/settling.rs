@@ -1,4 +1,5 @@
-//! Bosses and the voids about them brought to terms: what bosses close, or hide from the openings, is kept solid too.
+//! Bosses and the voids about them brought to terms: what bosses close, or hide from the openings,
+//! is kept solid too.
 
 use super::{
     Error,
@@ -12,18 +13,21 @@ use crate::mesh::TriMesh;
 
 /// How often something is kept solid for the sake of the same bosses. One round takes nearly all.
 pub const MAX_ROUNDS: usize = 4;
-/// Bosses that make more than themselves solid may worsen the goal's figure by this share, where other places for them are left to be
-/// tried.
+/// Bosses that make more than themselves solid may worsen the goal's figure by this share, where
+/// other places for them are left to be tried.
 pub const CHEAP_LOSS_RATIO: f64 = 0.1;
-/// And by this where none is: a joint is to have its pins, and the price is told. More, and what the kit was made for is gone.
+/// And by this where none is: a joint is to have its pins, and the price is told. More, and what
+/// the kit was made for is gone.
 pub const DEAR_LOSS_RATIO: f64 = 0.65;
 
-/// Of the voids this share may be lost to bosses and what is kept solid for them: a figure such as the angle at which something topples
-/// hardly tells (homer by filament, standing: 11 % of it for all of its void).
+/// Of the voids this share may be lost to bosses and what is kept solid for them: a figure such as
+/// the angle at which something topples hardly tells (homer by filament, standing: 11 % of it for
+/// all of its void).
 pub const MAX_VOID_LOSS_RATIO: f64 = 0.5;
 
-/// What is kept solid for the sake of bosses is kept so with so much around it, in minimum openings. It is next to nothing of a void that
-/// was clean: on the elephant and on Homer with filament, two openings cost 30 and 20 % of the critical speed.
+/// What is kept solid for the sake of bosses is kept so with so much around it, in minimum
+/// openings. It is next to nothing of a void that was clean: on the elephant and on Homer with
+/// filament, two openings cost 30 and 20 % of the critical speed.
 const MARGIN_RATIO: f64 = 0.25;
 
 /// Voids with bosses in them, and the plan that opens them.
@@ -102,8 +106,8 @@ impl Refusal {
     }
 }
 
-/// The voids with what the ordered cuts leave closed or unclean kept solid and the rest solved for again, until nothing is;
-/// or why that cannot be had. The tuner is left as the last round left it.
+/// The voids with what the ordered cuts leave closed or unclean kept solid and the rest solved for
+/// again, until nothing is; or why that cannot be had. The tuner is left as the last round left it.
 pub fn settled(
     tuner: &mut Tuner,
     mut voids: Voids,
@@ -175,8 +179,9 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     Ok(dirty)
 }
 
-/// Whether every void of a plan is clean by the process's rule. The planner's margin is not asked: keeping more of a void solid and
-/// solving again for three thousandths of its wall costs more than any boss (cheburashka by filament: 15 % for two pins).
+/// Whether every void of a plan is clean by the process's rule. The planner's margin is not asked:
+/// keeping more of a void solid and solving again for three thousandths of its wall costs more than
+/// any boss (cheburashka by filament: 15 % for two pins).
 pub fn are_clean(plan: &CutPlan, request: &PlanRequest) -> bool {
     plan.voids
         .iter()

@@ -1,4 +1,5 @@
-//! Everything a run rests on before it solves: the solid, the printer, the wall and the placed goal.
+//! Everything a run rests on before it solves: the solid, the printer, the wall and the placed
+//! goal.
 
 use super::Error;
 use super::advising::Means;
@@ -110,7 +111,8 @@ impl Setup {
         })
     }
 
-    /// The moments of nothing emptied, goal frame: the solid's, and the ballast's less its pockets'.
+    /// The moments of nothing emptied, goal frame: the solid's, and the ballast's less its
+    /// pockets'.
     pub fn fixed(&self) -> Moments {
         let goal = &self.placement.goal;
         goal.solid + self.load.excess().in_frame(&goal.frame)

@@ -11,8 +11,8 @@ use crate::mass::Moments;
 use crate::report::HeightProof;
 use crate::shell::Shell;
 
-/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search over
-/// heights dearer.
+/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the
+/// search over heights dearer.
 pub(super) const COARSE_COLUMNS: usize = 100;
 /// Columns a side of the middle level, on which an impossible goal is proved.
 const MIDDLE_COLUMNS: usize = 400;
@@ -26,7 +26,8 @@ pub struct Solved {
     pub solution: Solution,
     /// Tops: the proof for other heights of the centre, on the finest columns it was made on.
     pub height_proof: Option<HeightProof>,
-    /// How the answer came about on the coarsest columns: the ascent from nothing, and for tops the speed by height.
+    /// How the answer came about on the coarsest columns: the ascent from nothing, and for tops the
+    /// speed by height.
     pub course: TopCourse,
 }
 
@@ -47,7 +48,8 @@ impl Solved {
         )?;
         let mut level: Option<Self> = None;
         let pitches = pitches(setup, &shell);
-        // The first of several levels may lack what a finer one has; the last one has the last word.
+        // The first of several levels may lack what a finer one has; the last one has the last
+        // word.
         let first_to_tell = pitches.len().min(2) - 1;
         for (done, pitch_mm) in pitches.into_iter().enumerate() {
             progress.report(phase::SOLVE, (1.0 + done as f64) / 4.0);
@@ -78,8 +80,9 @@ impl Solved {
         Ok(Ok(solved))
     }
 
-    /// The same with the proof for other heights made on its own columns, where that takes a dozen passes only: not where
-    /// Spin-It's functional weighs the lever, and there are as many levers as heights.
+    /// The same with the proof for other heights made on its own columns, where that takes a dozen
+    /// passes only: not where Spin-It's functional weighs the lever, and there are as many levers
+    /// as heights.
     fn proved_over_heights(self, setup: &Setup) -> Self {
         let weighs_lever =
             matches!(self.solution.objective, Objective::SpinIt { gamma_c, .. } if gamma_c > 0.0);

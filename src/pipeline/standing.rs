@@ -1,4 +1,5 @@
-//! What to mind of a top that stands still on its contact: its written figures, and the surface that touches the floor.
+//! What to mind of a top that stands still on its contact: its written figures, and the surface
+//! that touches the floor.
 
 use super::rows::Sheet;
 use crate::geom::Point;

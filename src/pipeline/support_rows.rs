@@ -10,13 +10,13 @@ use crate::repair::weld;
 use crate::report::SupportRow;
 use crate::verify::Peg;
 
-/// How far from a surface of the uncut body a place of a part may be and still lie on it, mm: files round to 1e-5 mm and mended
-/// folds move by less than this; no wall is thinner.
+/// How far from a surface of the uncut body a place of a part may be and still lie on it, mm: files
+/// round to 1e-5 mm and mended folds move by less than this; no wall is thinner.
 const ON_SURFACE_MM: f64 = 0.01;
 /// How much wider than a socket the search for its roof is, mm: rounding.
 const SOCKET_ROOM_MM: f64 = 0.01;
-/// A place smaller than a square of so many line widths a side is carried by the lines beside it: with fewer every facet is a place,
-/// with more a fingertip is printed in the air.
+/// A place smaller than a square of so many line widths a side is carried by the lines beside it:
+/// with fewer every facet is a place, with more a fingertip is printed in the air.
 const LEAST_LINES: f64 = 3.0;
 
 /// Where a place of a part's surface is.
@@ -134,8 +134,9 @@ impl Place {
     }
 }
 
-/// What hangs of a part in print pose, where `side` tells where a point of its surface is: triangles that look down too steeply,
-/// connected through corners on the same side, and corners at which material begins in the air.
+/// What hangs of a part in print pose, where `side` tells where a point of its surface is:
+/// triangles that look down too steeply, connected through corners on the same side, and corners at
+/// which material begins in the air.
 fn hanging(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> SupportRow {
     let floor_mm = mesh.aabb().min.z;
     let height = |corner: u32| mesh.vertices()[corner as usize].z - floor_mm;
@@ -191,9 +192,10 @@ fn row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
     }
 }
 
-/// The corners at which material begins in the air: lowest of all about them, looking down, off the plate, and a layer or more below
-/// where they meet what began lower (the persistence of the height: Edelsbrunner, Letscher and Zomorodian, "Topological
-/// persistence and simplification", Discrete & Computational Geometry 28, 2002).
+/// The corners at which material begins in the air: lowest of all about them, looking down, off the
+/// plate, and a layer or more below where they meet what began lower (the persistence of the
+/// height: Edelsbrunner, Letscher and Zomorodian, "Topological persistence and simplification",
+/// Discrete & Computational Geometry 28, 2002).
 fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
     let vertices = mesh.vertices();
     let floor_mm = mesh.aabb().min.z;
@@ -311,7 +313,8 @@ mod tests {
         let bare = body.union(&arm).unwrap().to_mesh().unwrap();
         let fall =
             |p: &Point| Point::new(p.x, p.y, if p.x > 19.0 && p.z < 11.0 { 2.0 } else { p.z });
-        // Its lower face falls 8 mm over 10 mm outward: 39° from the level, so it overhangs; made steeper it does not.
+        // Its lower face falls 8 mm over 10 mm outward: 39° from the level, so it overhangs; made
+        // steeper it does not.
         let leaning = bare.map_vertices(|p| fall(p));
         assert_eq!(outside(&leaning).places, 1);
         let steep = leaning.map_vertices(|p| {

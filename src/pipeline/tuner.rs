@@ -12,19 +12,21 @@ use crate::mesh::{Hollowed, Solid, TriMesh};
 use crate::report::HeightProof;
 use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
-/// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the defect before it, and
-/// each may find another void too small; more than a few mean that voids come and go.
+/// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the
+/// defect before it, and each may find another void too small; more than a few mean that voids come
+/// and go.
 const MAX_ROUNDS: usize = 8;
 /// The surface of a void may lie this share of a pixel from the true one.
 const SURFACE_TOLERANCE_PIXELS: f64 = 0.5;
 /// No finer than this, mm: below, triangles grow without any printer showing it.
 const FINEST_SURFACE_TOLERANCE_MM: f64 = 0.02;
-/// What is refused is kept solid with so much around it, in minimum openings: what lies nearer would hardly be cleaned
-/// either. Less takes more rounds, as slices beside it are refused one after the other; on the armadillo the critical
-/// speed reached is the same to 4e-7 from 0.25 to 2, and 2e-5 worse at 3.
+/// What is refused is kept solid with so much around it, in minimum openings: what lies nearer
+/// would hardly be cleaned either. Less takes more rounds, as slices beside it are refused one
+/// after the other; on the armadillo the critical speed reached is the same to 4e-7 from 0.25 to 2,
+/// and 2e-5 worse at 3.
 pub const REFUSED_MARGIN_RATIO: f64 = 2.0;
-/// A refused void below this share of the model's volume may come back in a later round: at 50 mm from the axis it moves
-/// the centre of mass by a tenth of a micrometre.
+/// A refused void below this share of the model's volume may come back in a later round: at 50 mm
+/// from the axis it moves the centre of mass by a tenth of a micrometre.
 const SIGNIFICANT_RATIO: f64 = 2e-6;
 
 /// The voids of a solution.
@@ -43,7 +45,8 @@ pub struct Voids {
 }
 
 impl Voids {
-    /// The voids as they can be written: without the slivers that the rounding of a file would fold.
+    /// The voids as they can be written: without the slivers that the rounding of a file would
+    /// fold.
     pub fn finished(mut self) -> Result<Self, Error> {
         let bodies = std::mem::take(&mut self.hollowed.voids);
         self.hollowed.voids = bodies
@@ -104,11 +107,12 @@ impl<'a> Tuner<'a> {
         self.tuned(voids, Moments::default())
     }
 
-    /// The voids solved for again until the uncut mesh and `more` (model frame) together meet the goal's
-    /// constraints; of all rounds those that come nearest to them where none does.
+    /// The voids solved for again until the uncut mesh and `more` (model frame) together meet the
+    /// goal's constraints; of all rounds those that come nearest to them where none does.
     ///
-    /// Each surface is drawn anew, with an error that no other foretells: where a body's moments are nearly alike, its axis goes about
-    /// from round to round by more than is allowed (heart at 60 mm by filament: 0.01 to 0.17 degrees).
+    /// Each surface is drawn anew, with an error that no other foretells: where a body's moments
+    /// are nearly alike, its axis goes about from round to round by more than is allowed (heart at
+    /// 60 mm by filament: 0.01 to 0.17 degrees).
     pub fn tuned(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
         let goal = &self.setup.placement.goal;
         let mut written = self.written(&voids, more);
@@ -134,7 +138,8 @@ impl<'a> Tuner<'a> {
         (printed + inside(self.setup, &voids.hollowed)).in_frame(&self.setup.placement.goal.frame)
     }
 
-    /// The voids with these bodies and what lies so many minimum openings near them kept solid, and solved for again.
+    /// The voids with these bodies and what lies so many minimum openings near them kept solid, and
+    /// solved for again.
     pub fn without(
         &mut self,
         voids: &Voids,
@@ -147,7 +152,8 @@ impl<'a> Tuner<'a> {
         self.tuned(less, Moments::default())
     }
 
-    /// What of what may be emptied these parts of the interior hold, as one mesh; none where they hold nothing.
+    /// What of what may be emptied these parts of the interior hold, as one mesh; none where they
+    /// hold nothing.
     pub fn parts_about(&self, ends: &[SolidEnd]) -> Result<Vec<TriMesh>, Error> {
         let places: Vec<(Point, Aabb)> = ends
             .iter()
@@ -161,8 +167,8 @@ impl<'a> Tuner<'a> {
         })
     }
 
-    /// The voids solved for anew with these closed bodies kept solid from now on, and the volume that could have been emptied
-    /// in all that is kept so, mm³.
+    /// The voids solved for anew with these closed bodies kept solid from now on, and the volume
+    /// that could have been emptied in all that is kept so, mm³.
     pub fn keeping(&mut self, voids: &Voids, bodies: &[TriMesh]) -> Result<(Voids, f64), Error> {
         let before_mm3 = self.cavity.mesh().signed_volume_mm3();
         for body in bodies {
@@ -177,8 +183,8 @@ impl<'a> Tuner<'a> {
         Ok((self.tuned(best, Moments::default())?, self.kept_mm3))
     }
 
-    /// The voids solved for once more with the difference between what was measured and what was solved for (goal frame) added
-    /// to what stays.
+    /// The voids solved for once more with the difference between what was measured and what was
+    /// solved for (goal frame) added to what stays.
     fn again(&mut self, voids: &Voids, written: Moments) -> Result<Voids, Error> {
         // What was refused since the voids were solved for is known to the columns now.
         let planned =
@@ -190,7 +196,8 @@ impl<'a> Tuner<'a> {
         self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
     }
 
-    /// The voids of a solution; what is too small is refused for good, or it would come and go from round to round.
+    /// The voids of a solution; what is too small is refused for good, or it would come and go from
+    /// round to round.
     fn voids(&mut self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
         let frame = &self.setup.placement.goal.frame;
         let bodies = self.cavity.void_bodies(&solution.quadric, frame)?;
@@ -252,7 +259,8 @@ impl<'a> Tuner<'a> {
     }
 }
 
-/// The moments, model frame, of what is put into the print: ballast, hardware, a filling of the voids.
+/// The moments, model frame, of what is put into the print: ballast, hardware, a filling of the
+/// voids.
 pub fn inside(setup: &Setup, hollowed: &Hollowed) -> Moments {
     let voids = hollowed
         .voids

@@ -12,8 +12,9 @@ const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// The share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
-/// How far a body of these moments (goal frame) is from the goal's constraints, or from what was `solved` where they cannot be met, in
-/// the tolerances that a written kit needs: that of the constraint which is missed most. A kit breaks its promise at about ten.
+/// How far a body of these moments (goal frame) is from the goal's constraints, or from what was
+/// `solved` where they cannot be met, in the tolerances that a written kit needs: that of the
+/// constraint which is missed most. A kit breaks its promise at about ten.
 pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     let body = Body::new(moments, 1.0);
     let aside = body.center.xy().coords.norm() / CENTER_TOLERANCE_MM;
@@ -27,7 +28,8 @@ pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     }
 }
 
-/// How far a body is from the weight that the water carries, and its centre from that of buoyancy, in tolerances.
+/// How far a body is from the weight that the water carries, and its centre from that of buoyancy,
+/// in tolerances.
 fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     let afloat = goal.afloat.unwrap_or_default();
     let aside_mm = (moments.centroid() - afloat.buoyancy).xy().norm();
@@ -35,8 +37,9 @@ fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     (aside_mm / CENTER_TOLERANCE_MM).max(excess / (MASS_TOLERANCE_RATIO * afloat.material_mm3))
 }
 
-/// The static and couple unbalance in excess of what was solved for, in tenths of what the rotor's grade allows, or of what any centre may be off.
-/// A couple counts as the offset of the mass at a lever of its radius of gyration.
+/// The static and couple unbalance in excess of what was solved for, in tenths of what the rotor's
+/// grade allows, or of what any centre may be off. A couple counts as the offset of the mass at a
+/// lever of its radius of gyration.
 fn unbalance(goal: &Goal, excess: &Moments, moments: &Moments) -> f64 {
     let allowed_mm = goal
         .spindle

@@ -8,7 +8,8 @@ use crate::verify::{PromisedCut, PromisedVoid};
 
 /// How near to a void's wall a corner lies on it, mm: the booleans keep corners to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
-/// Corners on a void's wall that make a part one of those that hold it: a pin may touch a mouth's rim with fewer.
+/// Corners on a void's wall that make a part one of those that hold it: a pin may touch a mouth's
+/// rim with fewer.
 const LEAST_CORNERS: usize = 8;
 
 /// One row for each void.
@@ -33,7 +34,8 @@ pub fn void_rows(sheet: &Sheet) -> Vec<VoidRow> {
     plan.voids.iter().map(row).collect()
 }
 
-/// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does not cut.
+/// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does
+/// not cut.
 fn holders(assembly: &Assembly, void: usize) -> Vec<String> {
     let Some(body) = assembly.hollowed.voids.get(void) else {
         return Vec::new();

@@ -7,13 +7,16 @@ use crate::hollow::{Problem, Status, golden_section};
 use crate::interior::Columns;
 use crate::shell::Shell;
 
-/// Waterlines of the coarse look. With fewer than 12 a narrow range in which it can be trimmed may be missed.
+/// Waterlines of the coarse look. With fewer than 12 a narrow range in which it can be trimmed may
+/// be missed.
 const LOOKS: usize = 40;
-/// Rounds of the golden section about the best of them: each leaves 0.618 of the range, so 14 leave a thousandth of a look.
+/// Rounds of the golden section about the best of them: each leaves 0.618 of the range, so 14 leave
+/// a thousandth of a look.
 const ROUNDS: usize = 14;
 
-/// The setup with the waterline at which the metacentric height is greatest, where the job leaves it free: the heights are
-/// looked over evenly on coarse columns, then refined about the best one. Where no height will do, the one that misses least.
+/// The setup with the waterline at which the metacentric height is greatest, where the job leaves
+/// it free: the heights are looked over evenly on coarse columns, then refined about the best one.
+/// Where no height will do, the one that misses least.
 pub fn chosen(mut setup: Setup, watch: &mut Stopwatch) -> Result<Setup, Error> {
     let Some(water) = setup
         .job
@@ -53,8 +56,8 @@ struct Search<'a> {
     columns: Columns,
 }
 
-/// A waterline and how good it is: whether it can be had, then how high the metacentre stands above the centre, or how
-/// little it misses.
+/// A waterline and how good it is: whether it can be had, then how high the metacentre stands above
+/// the centre, or how little it misses.
 type Rated = (Afloat, (bool, f64));
 
 impl Search<'_> {
@@ -62,7 +65,8 @@ impl Search<'_> {
         let step = self.hydrostatics.height_mm() / (LOOKS + 1) as f64;
         let looks = (1..=LOOKS).map(|i| self.rated(step * i as f64));
         let best = looks.fold(self.rated(0.5 * step), better);
-        // What is written weighs a hair more or less than what is solved for: at the very top it would sink, at the very bottom not trim.
+        // What is written weighs a hair more or less than what is solved for: at the very top it
+        // would sink, at the very bottom not trim.
         let [lowest, highest] = [0.5 * step, self.hydrostatics.height_mm() - 0.5 * step];
         let at = best.0.waterline_mm;
         let range = [(at - step).max(lowest), (at + step).min(highest)];
@@ -102,8 +106,8 @@ impl Search<'_> {
     }
 }
 
-/// What a waterline at which it weighs too much or too little counts below all that only lean or turn over, mm: more than
-/// any offset of a model a printer takes.
+/// What a waterline at which it weighs too much or too little counts below all that only lean or
+/// turn over, mm: more than any offset of a model a printer takes.
 const UNTRIMMED_MM: f64 = 1e6;
 
 fn is_better(a: &Rated, b: &Rated) -> bool {

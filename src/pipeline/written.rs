@@ -8,10 +8,12 @@ use crate::mesh::{Crossings, TriMesh};
 use crate::repair::{unfolded, weld};
 use crate::verify::{PartEvidence, Pose};
 
-/// Writings that are tried until a part's file is free of folds: as it is, without folds at the same place, and at other
-/// places on the plate. Each place folds another sliver of a thousand, so few are needed.
+/// Writings that are tried until a part's file is free of folds: as it is, without folds at the
+/// same place, and at other places on the plate. Each place folds another sliver of a thousand, so
+/// few are needed.
 const WRITINGS: usize = 7;
-/// From one place to the next, mm: far less than a part's room on the plate, and no multiple of a file's steps.
+/// From one place to the next, mm: far less than a part's room on the plate, and no multiple of a
+/// file's steps.
 const PLACE_STEP_MM: [f64; 2] = [0.013_7, 0.009_1];
 
 /// A part as it is written.
@@ -28,10 +30,11 @@ pub struct WrittenPart {
 }
 
 impl WrittenPart {
-    /// The part as it is written and read back, at the first place on the plate where the rounding of the file's
-    /// coordinates folds no sliver of its surface.
+    /// The part as it is written and read back, at the first place on the plate where the rounding
+    /// of the file's coordinates folds no sliver of its surface.
     ///
-    /// The file is larger than the part by `scale_ratio` along x, y and z; what is read back is in the part's own size.
+    /// The file is larger than the part by `scale_ratio` along x, y and z; what is read back is in
+    /// the part's own size.
     pub fn of(part: Part, job: &str, count: usize, scale_ratio: [f64; 3]) -> Result<Self, Error> {
         let name = format!("{job}_{}of{count:02}", part.id);
         let mut written = Self::writing(part.clone(), &name, 0, scale_ratio)?;

@@ -1,4 +1,5 @@
-//! Measured values written into a shop's own profile, with the day and the lot; everything else of the file stays as it is.
+//! Measured values written into a shop's own profile, with the day and the lot; everything else of
+//! the file stays as it is.
 
 use std::ops::Range;
 
@@ -12,13 +13,15 @@ use super::{
 use crate::base::toml_text::TextFault;
 use crate::base::units::MM3_PER_CM3;
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any table of statistics).
+/// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any
+/// table of statistics).
 const STUDENT_T: [f64; 9] = [
     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
 ];
 
-/// The least spread that is believed, as a share: a balance of 0.01 g on a coupon of 10 g. Below it, equal readings of a coarse
-/// balance would make a window that no sound part passes; above it careful weighing would be wasted.
+/// The least spread that is believed, as a share: a balance of 0.01 g on a coupon of 10 g. Below
+/// it, equal readings of a coarse balance would make a window that no sound part passes; above it
+/// careful weighing would be wasted.
 const LEAST_SPREAD_RATIO: f64 = 1e-3;
 
 /// What a shop has measured on its coupons.
@@ -55,7 +58,8 @@ pub enum CalibrateError {
     Text(#[from] TextFault),
 }
 
-/// How far the masses of equal coupons may differ at most; beyond it one of them is another's or full of support.
+/// How far the masses of equal coupons may differ at most; beyond it one of them is another's or
+/// full of support.
 const MOST_DIFFERENCE_RATIO: f64 = 0.2;
 
 impl Measured {
@@ -65,8 +69,8 @@ impl Measured {
         (!self.weighed_g.is_empty()).then(|| mean_g / self.coupon_mm3 * MM3_PER_CM3)
     }
 
-    /// The share within which the next coupon's mass lies, with 95 % probability: t·s·√(1 + 1/n) over the mean, the prediction
-    /// interval of a normal sample. None of fewer than two.
+    /// The share within which the next coupon's mass lies, with 95 % probability: t·s·√(1 + 1/n)
+    /// over the mean, the prediction interval of a normal sample. None of fewer than two.
     pub fn spread_ratio(&self) -> Option<f64> {
         let n = self.weighed_g.len();
         let t = STUDENT_T[n.checked_sub(2)?.min(STUDENT_T.len() - 1)];
@@ -108,7 +112,8 @@ impl Measured {
     }
 }
 
-/// The profile's text, which messages call `file`, with the measured values in the place of what it said, or added.
+/// The profile's text, which messages call `file`, with the measured values in the place of what it
+/// said, or added.
 pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String, CalibrateError> {
     measured.check()?;
     let reader = Reader::new(file, text);
@@ -211,7 +216,8 @@ impl Edits<'_> {
         }
     }
 
-    /// Gives the material its measured density, spread, lot and day; adds it where the profile has none of its own.
+    /// Gives the material its measured density, spread, lot and day; adds it where the profile has
+    /// none of its own.
     fn weigh(
         &mut self,
         measured: &Measured,

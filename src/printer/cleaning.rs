@@ -1,24 +1,30 @@
-//! When a void counts as clean: one rule for each way in which what fills it while printing comes out again.
+//! When a void counts as clean: one rule for each way in which what fills it while printing comes
+//! out again.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Grid, Printer, Quantity, Support};
 
-/// The share of a void's wall that must be in sight of its openings where support is broken or flushed out. The rest is a
-/// corner that the jet's spray and a bent pick reach; much less, and support stays that nobody knows of.
+/// The share of a void's wall that must be in sight of its openings where support is broken or
+/// flushed out. The rest is a corner that the jet's spray and a bent pick reach; much less, and
+/// support stays that nobody knows of.
 const SIGHT_RATIO: f64 = 0.95;
 
-/// What must hold of a void for it to be clean (the processes' own rules; see `profiles/processes`).
+/// What must hold of a void for it to be clean (the processes' own rules; see
+/// `profiles/processes`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CleaningRule {
     /// Support that dissolves or melts: any opening of the least size, and no second closed pocket.
     MeltOut,
-    /// Support that is broken out or flushed: the wall in sight of the openings and within the tool's reach.
+    /// Support that is broken out or flushed: the wall in sight of the openings and within the
+    /// tool's reach.
     InSight,
-    /// Filament: the wall in sight and within reach, or printed without support because it leans little enough.
+    /// Filament: the wall in sight and within reach, or printed without support because it leans
+    /// little enough.
     InSightOrSelfSupporting,
-    /// Powder: an escape opening of the stated size, or two smaller ones where the process allows that.
+    /// Powder: an escape opening of the stated size, or two smaller ones where the process allows
+    /// that.
     PowderEscape,
 }
 
@@ -41,20 +47,24 @@ impl CleaningRule {
     }
 }
 
-/// A printer's rule with its numbers. The least opening stands beside it, as the printer's `min_opening_mm`.
+/// A printer's rule with its numbers. The least opening stands beside it, as the printer's
+/// `min_opening_mm`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Cleaning {
     /// The rule.
     pub rule: CleaningRule,
     /// The least share of a void's wall in sight and within reach; 0 where nothing has to be seen.
     pub sight_ratio: f64,
-    /// How far into an opening the tool or the jet reaches, mm; none where nothing has to be reached, or where it is not known.
+    /// How far into an opening the tool or the jet reaches, mm; none where nothing has to be
+    /// reached, or where it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach_mm: Option<f64>,
-    /// The least opening of each where a piece of a void has two or more, mm; none where two are no better than one.
+    /// The least opening of each where a piece of a void has two or more, mm; none where two are no
+    /// better than one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_opening_mm: Option<f64>,
-    /// Surfaces that look down and lean at least this much from the level need no support, degrees; none where that does not count.
+    /// Surfaces that look down and lean at least this much from the level need no support, degrees;
+    /// none where that does not count.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overhang_deg: Option<f64>,
 }
@@ -69,7 +79,8 @@ impl Cleaning {
         overhang_deg: None,
     };
 
-    /// Whether the openings of a piece of a void (diameters, mm) let out what is in it, where one alone must be `least_mm` wide.
+    /// Whether the openings of a piece of a void (diameters, mm) let out what is in it, where one
+    /// alone must be `least_mm` wide.
     pub fn lets_out(&self, openings_mm: &[f64], least_mm: f64) -> bool {
         let wide = |least: f64| openings_mm.iter().filter(|&&mm| mm >= least).count();
         wide(least_mm) > 0
@@ -80,7 +91,8 @@ impl Cleaning {
 }
 
 impl Printer {
-    /// The rule by which voids of this printer's parts count as clean, from its support and its process's numbers.
+    /// The rule by which voids of this printer's parts count as clean, from its support and its
+    /// process's numbers.
     pub fn cleaning_rule(&self) -> Cleaning {
         let number = |quantity| self.number(quantity).map(|number| number.value);
         let rule = match (self.support, self.grid) {

@@ -1,4 +1,5 @@
-//! From everything a profile and its parents say to a printer: what is missing or contradicts itself is noted.
+//! From everything a profile and its parents say to a printer: what is missing or contradicts
+//! itself is noted.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,5 @@
-//! A checked profile before it is complete: what a printer or a process says, and one laid over the other.
+//! A checked profile before it is complete: what a printer or a process says, and one laid over the
+//! other.
 
 use std::collections::BTreeMap;
 

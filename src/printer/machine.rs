@@ -72,8 +72,9 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// The tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, and not below the least. Both of the
-    /// makers' forms are that: "±0.3 %, at least 0.3 mm" has no base, "±0.3 mm + 0.002 mm/mm" has the least as its base.
+    /// The tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, and not below the
+    /// least. Both of the makers' forms are that: "±0.3 %, at least 0.3 mm" has no base, "±0.3 mm +
+    /// 0.002 mm/mm" has the least as its base.
     pub fn at_mm(&self, length_mm: f64) -> f64 {
         let number =
             |number: &Option<Sourced<f64>>| number.as_ref().map_or(0.0, |number| number.value);
@@ -82,7 +83,8 @@ impl Tolerance {
     }
 }
 
-/// A printer: what it can resolve, what it needs to be able to clean, join and fit parts, and its materials.
+/// A printer: what it can resolve, what it needs to be able to clean, join and fit parts, and its
+/// materials.
 ///
 /// All numbers are positive and finite; lengths are in mm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -111,9 +113,11 @@ pub struct Printer {
     pub largest_part_mm: Option<Sourced<[f64; 3]>>,
     /// Corners of the plate where nothing may be printed.
     pub excluded_corners: Vec<ExcludedCorner>,
-    /// The thinnest wall of parts up to a size, the smallest first; beyond the last it is `min_wall_mm`.
+    /// The thinnest wall of parts up to a size, the smallest first; beyond the last it is
+    /// `min_wall_mm`.
     pub walls_by_part_size: Vec<SizedWall>,
-    /// Whether the machine or its software makes up for shrinkage; none where that is not known, and it is taken to.
+    /// Whether the machine or its software makes up for shrinkage; none where that is not known,
+    /// and it is taken to.
     pub compensates_shrinkage: Option<Sourced<bool>>,
     /// The thinnest wall that prints and survives cleaning.
     pub min_wall_mm: Sourced<f64>,

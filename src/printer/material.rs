@@ -14,7 +14,8 @@ pub struct Material {
     pub name: String,
     /// Density as printed and cured, g/cm³.
     pub density_g_cm3: Sourced<f64>,
-    /// How far the mass of a sound print may be from volume × density, as a share of it; none where nothing is known.
+    /// How far the mass of a sound print may be from volume × density, as a share of it; none where
+    /// nothing is known.
     pub density_spread_ratio: Option<Sourced<f64>>,
     /// The lot that was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -30,18 +31,21 @@ impl Material {
         self.density_g_cm3.value / MM3_PER_CM3
     }
 
-    /// Whether the density was measured on what the shop printed, so that absolute masses can be judged.
+    /// Whether the density was measured on what the shop printed, so that absolute masses can be
+    /// judged.
     pub fn is_measured(&self) -> bool {
         self.density_g_cm3.sure == Sure::Measured
     }
 
-    /// The share by which the mass of a sound print may differ, where both it and the density were measured.
+    /// The share by which the mass of a sound print may differ, where both it and the density were
+    /// measured.
     pub fn measured_spread_ratio(&self) -> Option<f64> {
         let spread = self.density_spread_ratio.as_ref()?;
         (self.is_measured() && spread.sure == Sure::Measured).then_some(spread.value)
     }
 
-    /// The lightest and heaviest a sound print of `mass_g` may weigh, g; none where the density was not measured.
+    /// The lightest and heaviest a sound print of `mass_g` may weigh, g; none where the density was
+    /// not measured.
     pub fn weighing_window_g(&self, mass_g: f64) -> Option<[f64; 2]> {
         self.measured_spread_ratio()
             .map(|spread| [mass_g * (1.0 - spread), mass_g * (1.0 + spread)])

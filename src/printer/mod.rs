@@ -1,8 +1,9 @@
 //! What a printer can make and of what: profiles as TOML data, every number with its source.
 //!
-//! A printer's profile inherits from a process (`inherits = "polyjet"`), from a shipped machine (`"prusa-mk4"`) or from a file
-//! beside it (`"shop.toml"`), which may inherit in turn; a process inherits from nothing. What none of them says is an error for
-//! the numbers every print needs, and simply unset for the others, such as the build volume.
+//! A printer's profile inherits from a process (`inherits = "polyjet"`), from a shipped machine
+//! (`"prusa-mk4"`) or from a file beside it (`"shop.toml"`), which may inherit in turn; a process
+//! inherits from nothing. What none of them says is an error for the numbers every print needs, and
+//! simply unset for the others, such as the build volume.
 //!
 //! A shop's own printer is a file such as
 //!

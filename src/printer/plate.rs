@@ -24,9 +24,11 @@ pub struct Spot {
     pub fits: bool,
 }
 
-/// What is left free between parts, mm. Closer ones fuse, or cannot be taken off one by one; with more, fewer fit.
+/// What is left free between parts, mm. Closer ones fuse, or cannot be taken off one by one; with
+/// more, fewer fit.
 const GAP_MM: f64 = 5.0;
-/// How much wider than the square root of the parts' area a plate of unknown size is taken to be: shelves leave gaps.
+/// How much wider than the square root of the parts' area a plate of unknown size is taken to be:
+/// shelves leave gaps.
 const WIDE_RATIO: f64 = 1.3;
 
 impl Printer {
@@ -51,7 +53,8 @@ struct Shelf {
 }
 
 impl Plate {
-    /// A plate that holds parts of these sizes about as wide as deep, where the machine's own is not known.
+    /// A plate that holds parts of these sizes about as wide as deep, where the machine's own is
+    /// not known.
     pub fn for_parts(sizes_mm: &[[f64; 2]]) -> Self {
         let area: f64 = sizes_mm
             .iter()
@@ -68,8 +71,9 @@ impl Plate {
 
     /// A place for each of the parts, whose widths and depths are given, in their order.
     ///
-    /// First fit by shelves, the deepest part first (Coffman, Garey, Johnson and Tarjan 1980); a part is turned only where it
-    /// does not fit as it lies. One that fits no plate has one to itself. The same sizes give the same places.
+    /// First fit by shelves, the deepest part first (Coffman, Garey, Johnson and Tarjan 1980); a
+    /// part is turned only where it does not fit as it lies. One that fits no plate has one to
+    /// itself. The same sizes give the same places.
     pub fn arranged(&self, sizes_mm: &[[f64; 2]]) -> Vec<Spot> {
         let mut order: Vec<usize> = (0..sizes_mm.len()).collect();
         order.sort_by(|&a, &b| self.laid(sizes_mm[b]).0[1].total_cmp(&self.laid(sizes_mm[a]).0[1]));

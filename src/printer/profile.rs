@@ -12,10 +12,12 @@ use super::{
 use crate::base::toml_text::{self, Place, TextFault};
 use crate::base::units::MM_PER_INCH;
 
-/// Sides of a build volume that can be meant, mm. Below it centimetres were given, above it micrometres.
+/// Sides of a build volume that can be meant, mm. Below it centimetres were given, above it
+/// micrometres.
 const BUILD_VOLUME_MM: RangeInclusive<f64> = 10.0..=10_000.0;
 
-/// Densities that can be meant, g/cm³: from foam to beyond osmium (22.6). Outside it kg/m³ or g/mm³ were given.
+/// Densities that can be meant, g/cm³: from foam to beyond osmium (22.6). Outside it kg/m³ or g/mm³
+/// were given.
 const DENSITY_G_CM3: RangeInclusive<f64> = 0.05..=25.0;
 
 /// Shares by which the mass of a sound print may differ; above it per cent were given.

@@ -1,10 +1,12 @@
-//! The numbers a profile may give: their names, and the range outside which a value is a slip of the pen.
+//! The numbers a profile may give: their names, and the range outside which a value is a slip of
+//! the pen.
 
 use std::{fmt, ops::RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
-/// The finest length a profile may state, mm. Below it metres were given for millimetres, and columns at such a pitch would fill any memory.
+/// The finest length a profile may state, mm. Below it metres were given for millimetres, and
+/// columns at such a pitch would fill any memory.
 const FINEST_MM: f64 = 1e-3;
 /// The coarsest pixel, line or layer, mm. Above it micrometres were given.
 const COARSEST_STEP_MM: f64 = 2.0;
@@ -16,7 +18,8 @@ const LARGEST_GAP_MM: f64 = 5.0;
 const LARGEST_ERROR_MM: f64 = 10.0;
 /// How far a tool can reach, mm: from a pick to a lance; above it micrometres were given.
 const REACH_MM: RangeInclusive<f64> = 1.0..=2000.0;
-/// Leans from the level at which something prints without support, degrees; below it radians were given.
+/// Leans from the level at which something prints without support, degrees; below it radians were
+/// given.
 const OVERHANG_DEG: RangeInclusive<f64> = 5.0..=89.0;
 /// The thickest film of glue between flat faces, mm: above it micrometres were given.
 const THICKEST_FILM_MM: f64 = 1.0;
@@ -159,7 +162,8 @@ impl Quantity {
         }
     }
 
-    /// Whether every printer needs it, from its own profile or from what that inherits; the others may stay unknown.
+    /// Whether every printer needs it, from its own profile or from what that inherits; the others
+    /// may stay unknown.
     pub fn is_needed(self) -> bool {
         !matches!(
             self,
@@ -183,7 +187,8 @@ impl Quantity {
         )
     }
 
-    /// The values that can be meant. Above it micrometres were given for millimetres or per cent for a ratio.
+    /// The values that can be meant. Above it micrometres were given for millimetres or per cent
+    /// for a ratio.
     pub fn plausible(self) -> RangeInclusive<f64> {
         match self {
             Self::PixelXMm

@@ -16,8 +16,8 @@ use super::{
 use crate::base::digest::sha256_hex;
 use crate::base::toml_text::TextFault;
 
-/// The printer that `profile` describes, with what it inherits; or everything that is wrong with it. What is missing is told once
-/// what is there is right.
+/// The printer that `profile` describes, with what it inherits; or everything that is wrong with
+/// it. What is missing is told once what is there is right.
 pub(super) fn resolve(library: &Library, profile: Profile) -> Result<Printer, ProfileError> {
     let mut reader = Reader::new(profile.file, profile.text);
     let mut way = Way {
@@ -210,7 +210,8 @@ mod tests {
     use super::*;
     use crate::printer::library::BUILT_IN;
 
-    /// A whole printer that inherits from a process, in the shape every broken one below is made from.
+    /// A whole printer that inherits from a process, in the shape every broken one below is made
+    /// from.
     const WHOLE: &str = r#"id = "test"
 name = "Test printer"
 inherits = "polyjet"
@@ -306,7 +307,8 @@ density_spread_ratio = { value = 0.01, source = "weighed coupon", sure = "read" 
         );
     }
 
-    /// What to replace in the whole profile, by what, and what the message must then say, the place first.
+    /// What to replace in the whole profile, by what, and what the message must then say, the place
+    /// first.
     const BROKEN: &[(&str, &str, &str, &str)] = &[
         ("id = \"test\"\n", "", ":1:1: ", "missing field `id`"),
         (

@@ -1,4 +1,5 @@
-//! The room a printer has for a part: its build volume, less the corners that must stay free, and its largest part.
+//! The room a printer has for a part: its build volume, less the corners that must stay free, and
+//! its largest part.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +29,8 @@ pub struct ExcludedCorner {
 }
 
 impl ExcludedCorner {
-    /// Whether the corner reaches into the rectangle from `low` to `high` on a plate of that size, mm.
+    /// Whether the corner reaches into the rectangle from `low` to `high` on a plate of that size,
+    /// mm.
     pub(super) fn meets(&self, [low, high]: [[f64; 2]; 2], plate_mm: [f64; 2]) -> bool {
         let [width, depth] = self.size_mm.value;
         let left = matches!(self.corner, Corner::FrontLeft | Corner::BackLeft);
@@ -48,8 +50,9 @@ impl ExcludedCorner {
 }
 
 impl Printer {
-    /// Width, depth and height of what can be printed at once, mm of the model: the largest upright box of the build volume that
-    /// keeps clear of the excluded corners, no side longer than the largest part's; none where the build volume is not known.
+    /// Width, depth and height of what can be printed at once, mm of the model: the largest upright
+    /// box of the build volume that keeps clear of the excluded corners, no side longer than the
+    /// largest part's; none where the build volume is not known.
     pub fn usable_volume_mm(&self) -> Option<[f64; 3]> {
         let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
         let [x, y] = self.clear_rectangle_mm([width, depth]);
@@ -62,8 +65,9 @@ impl Printer {
         Some([room[0] / scale[0], room[1] / scale[1], room[2] / scale[2]])
     }
 
-    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal size: 1, unless the profile says
-    /// that the machine does not make up for shrinkage, and by how much parts shrink.
+    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal
+    /// size: 1, unless the profile says that the machine does not make up for shrinkage, and by how
+    /// much parts shrink.
     pub fn print_scale_ratio(&self) -> [f64; 3] {
         let is_left_to_us = self
             .compensates_shrinkage
@@ -117,8 +121,8 @@ impl Printer {
         best
     }
 
-    /// Whether a part of that size fits as it lies or turned by a right angle on the plate; none where the build
-    /// volume is not known.
+    /// Whether a part of that size fits as it lies or turned by a right angle on the plate; none
+    /// where the build volume is not known.
     pub fn fits(&self, size_mm: [f64; 3]) -> Option<bool> {
         let [width, depth, height] = self.usable_volume_mm()?;
         let lies = |x: f64, y: f64| x <= width && y <= depth && size_mm[2] <= height;
@@ -164,7 +168,8 @@ mod tests {
         };
         printer.excluded_corners = vec![corner(Corner::FrontLeft, 18.0, 28.0)];
         assert_eq!(printer.usable_volume_mm(), Some([238.0, 256.0, 250.0]));
-        // A corner at the back right would cost 18 mm of width once more; both together cost less depth: 256 − 28 − 6.
+        // A corner at the back right would cost 18 mm of width once more; both together cost less
+        // depth: 256 − 28 − 6.
         printer
             .excluded_corners
             .push(corner(Corner::BackRight, 30.0, 6.0));

@@ -3,15 +3,18 @@
 use super::Printer;
 use crate::base::units::show_mm;
 
-/// How many times as long as its longest side a build volume may be exceeded by a model. Cuts open voids, and halve a model
-/// once or twice on the way: below 2 kits that fit would be refused, above 8 runs take hours to end in parts that do not.
+/// How many times as long as its longest side a build volume may be exceeded by a model. Cuts open
+/// voids, and halve a model once or twice on the way: below 2 kits that fit would be refused, above
+/// 8 runs take hours to end in parts that do not.
 const MAX_BUILD_LENGTHS: f64 = 4.0;
 
-/// The longest model where the build volume is not known, mm: twice the longest side of the largest machines of this kind.
-/// Longer ones take minutes and gigabytes for parts that most likely fit nothing; a profile may state its volume.
+/// The longest model where the build volume is not known, mm: twice the longest side of the largest
+/// machines of this kind. Longer ones take minutes and gigabytes for parts that most likely fit
+/// nothing; a profile may state its volume.
 const MAX_SIZE_MM: f64 = 2000.0;
 
-/// From here on a length is told as a power of ten, mm: a thousand kilometres have too many digits to read.
+/// From here on a length is told as a power of ten, mm: a thousand kilometres have too many digits
+/// to read.
 const LONG_MM: f64 = 1e9;
 
 /// Why no kit can be made of a model of this size.
@@ -56,7 +59,8 @@ fn shown(mm: f64) -> String {
 }
 
 impl Printer {
-    /// The longest model that is tried, mm: some build lengths, or a fixed length where the build volume is not known.
+    /// The longest model that is tried, mm: some build lengths, or a fixed length where the build
+    /// volume is not known.
     pub fn greatest_length_mm(&self) -> f64 {
         let longest = |volume: [f64; 3]| MAX_BUILD_LENGTHS * volume.into_iter().fold(0.0, f64::max);
         self.build_volume_mm

@@ -7,17 +7,20 @@ use crate::base::units::show_mm;
 
 /// How far beyond a whole number of steps a wall may lie and still count as that number, in steps.
 ///
-/// Below the rounding of 25.4/600·24 (some 1e-15) an exact multiple is rounded up a whole step; at 1e-3 a wall would be thinner
-/// than asked by more than any printer's accuracy.
+/// Below the rounding of 25.4/600·24 (some 1e-15) an exact multiple is rounded up a whole step; at
+/// 1e-3 a wall would be thinner than asked by more than any printer's accuracy.
 const WHOLE_STEP_TOLERANCE: f64 = 1e-6;
 
-/// Columns there must be across a wall for its curved and slanted parts to be resolved (the figure).
+/// Columns there must be across a wall for its curved and slanted parts to be resolved (the issue's
+/// figure).
 ///
-/// Below it the moments of thin shells drift; above it columns are spent where nothing can be emptied.
+/// Below it the moments of thin shells drift; above it columns are spent where nothing can be
+/// emptied.
 const COLUMNS_PER_WALL: f64 = 4.0;
 
-/// Columns over the square about a model up to which the pitch is the printer's own pixel: those of a model of 100 mm at 600 dpi,
-/// which the solver is held to. Four times as many take four times the time and memory for a void that differs by microns.
+/// Columns over the square about a model up to which the pitch is the printer's own pixel: those of
+/// a model of 100 mm at 600 dpi, which the solver is held to. Four times as many take four times
+/// the time and memory for a void that differs by microns.
 const MOST_COLUMNS: f64 = 6e6;
 
 /// The thinnest wall of parts up to a size.
@@ -68,7 +71,8 @@ pub enum WallError {
 }
 
 impl Printer {
-    /// The thinnest wall of a part whose longest side is `size_mm`, mm, that prints and survives cleaning.
+    /// The thinnest wall of a part whose longest side is `size_mm`, mm, that prints and survives
+    /// cleaning.
     pub fn least_wall_mm(&self, size_mm: f64) -> &Sourced<f64> {
         let sized = self
             .walls_by_part_size
@@ -77,12 +81,14 @@ impl Printer {
         sized.map_or(&self.min_wall_mm, |wall| &wall.wall_mm)
     }
 
-    /// The wall to print for the one asked for, or for the profile's minimum at that size: whole pixels or lines of the coarser
-    /// of x and y, and where the grid is of pixels so many that neither these nor the layers can make it thinner than asked,
-    /// wherever it lies between them. A wall of whole pixels already stays as it is, to the bit; the checklist says what layers
+    /// The wall to print for the one asked for, or for the profile's minimum at that size: whole
+    /// pixels or lines of the coarser of x and y, and where the grid is of pixels so many that
+    /// neither these nor the layers can make it thinner than asked, wherever it lies between them.
+    /// A wall of whole pixels already stays as it is, to the bit; the checklist says what layers
     /// make of it.
     ///
-    /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the checklist says how many.
+    /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the
+    /// checklist says how many.
     pub fn quantised_wall(
         &self,
         asked_mm: Option<f64>,
@@ -113,8 +119,8 @@ impl Printer {
         })
     }
 
-    /// Whether a wall drawn so thick may come out thinner than wanted between the pixels and layers. Never of a wall that
-    /// is thicker by the coarsest step, so the search for one ends.
+    /// Whether a wall drawn so thick may come out thinner than wanted between the pixels and
+    /// layers. Never of a wall that is thicker by the coarsest step, so the search for one ends.
     fn may_print_thinner(&self, drawn_mm: f64, wanted_mm: f64) -> bool {
         let steps = [&self.pixel_x_mm, &self.pixel_y_mm, &self.layer_mm].map(|step| step.value);
         let is_thinner = |step_mm: &f64| {
@@ -146,9 +152,10 @@ impl Printer {
         )
     }
 
-    /// The pitch of the solver's columns along x and y for a model so long, mm: the printer's own pixel, or a quarter of the
-    /// wall where that is finer. Where that would be more columns than six million, so many whole pixels that it is
-    /// not, unless they were more than a quarter of the wall. `asked_mm` (positive) overrides all.
+    /// The pitch of the solver's columns along x and y for a model so long, mm: the printer's own
+    /// pixel, or a quarter of the wall where that is finer. Where that would be more columns than
+    /// six million, so many whole pixels that it is not, unless they were more than a quarter of
+    /// the wall. `asked_mm` (positive) overrides all.
     pub fn solve_pitch_mm(&self, wall_mm: f64, size_mm: f64, asked_mm: Option<f64>) -> [f64; 2] {
         let own = [self.pixel_x_mm.value, self.pixel_y_mm.value];
         let finest = own.map(|pixel_mm| pixel_mm.min(wall_mm / COLUMNS_PER_WALL));

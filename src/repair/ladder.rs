@@ -10,9 +10,9 @@ use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable, edge_kind};
 use crate::mesh::fans::Fans;
 
-/// How far apart, relative to the diagonal of the bounding box, two rims may be to be welded. Below about 1e-7
-/// the last digit of a file in single precision keeps seams open; above 1e-5 (1 µm on a 100 mm model) details a
-/// printer can show would be drawn together.
+/// How far apart, relative to the diagonal of the bounding box, two rims may be to be welded. Below
+/// about 1e-7 the last digit of a file in single precision keeps seams open; above 1e-5 (1 µm on a
+/// 100 mm model) details a printer can show would be drawn together.
 const WELD_TOLERANCE_RATIO: f64 = 1e-6;
 
 /// What [`repair`] did to a mesh.
@@ -20,7 +20,8 @@ const WELD_TOLERANCE_RATIO: f64 = 1e-6;
 pub struct Repairs {
     /// Vertices that lay exactly where another lies, and were merged with it.
     pub merged_vertices: usize,
-    /// Vertices on open edges that lay within a millionth of the model's diagonal of another, and were merged with it.
+    /// Vertices on open edges that lay within a millionth of the model's diagonal of another, and
+    /// were merged with it.
     pub merged_near_vertices: usize,
     /// Triangles that repeated a corner, and were dropped.
     pub dropped_degenerate: usize,
@@ -40,8 +41,8 @@ impl Repairs {
         *self == Self::default()
     }
 
-    /// What a person should know of: without the merging of equal vertices, which every STL file needs, and the dropping
-    /// of unused ones, which no one sees.
+    /// What a person should know of: without the merging of equal vertices, which every STL file
+    /// needs, and the dropping of unused ones, which no one sees.
     pub fn notable(self) -> Self {
         Self {
             merged_vertices: 0,
@@ -86,11 +87,12 @@ impl fmt::Display for Repairs {
 
 /// The mesh with the repairs that keep its shape, and what they were.
 ///
-/// Exactly equal vertices are welded; rims a millionth of the diagonal apart are welded if that closes the mesh;
-/// triangles that repeat a corner or another triangle are dropped; neighbours are turned to agree and, when the
-/// mesh is closed, outer shells to face outward and cavities inward; a vertex or an edge that joins surfaces
-/// which only touch there is doubled; unused vertices go. No hole is filled. A mesh that is already sound comes back
-/// as it was. Coordinates never change but for the welding of rims. Linear in the triangles but for one sort.
+/// Exactly equal vertices are welded; rims a millionth of the diagonal apart are welded if that
+/// closes the mesh; triangles that repeat a corner or another triangle are dropped; neighbours are
+/// turned to agree and, when the mesh is closed, outer shells to face outward and cavities inward;
+/// a vertex or an edge that joins surfaces which only touch there is doubled; unused vertices go.
+/// No hole is filled. A mesh that is already sound comes back as it was. Coordinates never change
+/// but for the welding of rims. Linear in the triangles but for one sort.
 pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
     let mut repairs = Repairs::default();
     let mesh = merged(mesh, &mut repairs);
@@ -150,7 +152,8 @@ fn closed_along_seams(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     mesh
 }
 
-/// Drops triangles that repeat another one's corners in the same turn, if that leaves fewer bad edges.
+/// Drops triangles that repeat another one's corners in the same turn, if that leaves fewer bad
+/// edges.
 fn without_duplicates(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let bad = EdgeTable::of(&mesh).bad_count();
     if bad == 0 {
@@ -186,7 +189,8 @@ fn without_unused(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     mesh
 }
 
-/// Doubles the vertices and edges at which surfaces only touch, if that leaves every edge with two triangles.
+/// Doubles the vertices and edges at which surfaces only touch, if that leaves every edge with two
+/// triangles.
 fn apart(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let table = EdgeTable::of(&mesh);
     if table.bad_count() == 0 && Fans::of(&mesh, &table).pinches(&mesh).is_empty() {
@@ -201,8 +205,8 @@ fn apart(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     }
 }
 
-/// How many triangles run the other way than given: corners may have new numbers, but keep their places, and
-/// turning a triangle swaps its last two.
+/// How many triangles run the other way than given: corners may have new numbers, but keep their
+/// places, and turning a triangle swaps its last two.
 fn turned(given: &TriMesh, mesh: &TriMesh) -> usize {
     let last = |mesh: &TriMesh, t: usize| mesh.corners(t)[2];
     (0..mesh.triangles().len())

@@ -1,4 +1,5 @@
-//! Whether a solid is one body: what a kit can be made of. Inner surfaces, loose bodies and overlaps are named.
+//! Whether a solid is one body: what a kit can be made of. Inner surfaces, loose bodies and
+//! overlaps are named.
 
 use std::fmt;
 
@@ -105,8 +106,9 @@ fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
     within.into_iter().chain(beside).collect()
 }
 
-/// Whether a solid is one body: a single shell that does not pass through itself. A kit's voids, cuts and moments rest on
-/// it. Costs as much as [`Crossings::of`], and for several shells a pass over the triangles for each pair.
+/// Whether a solid is one body: a single shell that does not pass through itself. A kit's voids,
+/// cuts and moments rest on it. Costs as much as [`Crossings::of`], and for several shells a pass
+/// over the triangles for each pair.
 pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
     let mesh = solid.mesh();
     let crossings = Crossings::of(mesh);

@@ -4,8 +4,8 @@ use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeTable, Side, edge_kind};
 use crate::mesh::shells::{Shells, joins};
 
-/// Turns triangles until neighbours across an edge agree, shell by shell, the larger part of a shell giving the
-/// direction (the first triangle where the parts are equal).
+/// Turns triangles until neighbours across an edge agree, shell by shell, the larger part of a
+/// shell giving the direction (the first triangle where the parts are equal).
 ///
 /// A surface with one side only, like a Möbius strip, keeps edges where its triangles do not agree.
 pub(super) fn agreeing(mesh: TriMesh) -> TriMesh {
@@ -59,9 +59,9 @@ fn neighbours(mesh: &TriMesh, table: &EdgeTable) -> Vec<[Option<(usize, bool)>; 
     across
 }
 
-/// Turns whole shells of a closed mesh so that it bounds a solid: an outermost shell faces outward, and
-/// everything inside a shell that is turned is turned with it, so a cavity that faces the other way than its
-/// wall stays a cavity. A shell in a cavity is a solid again and faces outward.
+/// Turns whole shells of a closed mesh so that it bounds a solid: an outermost shell faces outward,
+/// and everything inside a shell that is turned is turned with it, so a cavity that faces the other
+/// way than its wall stays a cavity. A shell in a cavity is a solid again and faces outward.
 pub(super) fn outward(mesh: TriMesh) -> TriMesh {
     let shells = Shells::of(&mesh, &EdgeTable::of(&mesh));
     let flips = shell_flips(&shells.volumes_mm3(&mesh), &enclosing(&shells, &mesh));

@@ -1,14 +1,17 @@
-//! Sewing: pieces that lie rim to rim become one surface, even where one rim has a corner that the other lacks.
+//! Sewing: pieces that lie rim to rim become one surface, even where one rim has a corner that the
+//! other lacks.
 
 use super::weld::weld_open_edges;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable, Side};
 
-/// The same triangles with rims that lie on each other joined: corners on rims within `tolerance_mm` of each other
-/// become one, and an edge of a rim that passes within `tolerance_mm` of corners of a rim is divided at them.
+/// The same triangles with rims that lie on each other joined: corners on rims within
+/// `tolerance_mm` of each other become one, and an edge of a rim that passes within `tolerance_mm`
+/// of corners of a rim is divided at them.
 ///
-/// The surface moves by no more than the tolerance. What has no counterpart stays open: the caller judges the result.
+/// The surface moves by no more than the tolerance. What has no counterpart stays open: the caller
+/// judges the result.
 pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let mut mesh = weld_open_edges(mesh, tolerance_mm);
     while let Some(divided) = divided(&mesh, tolerance_mm) {
@@ -17,8 +20,8 @@ pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     mesh
 }
 
-/// The mesh with open edges divided at the corners of rims that lie on them, one edge of a triangle at a time; none
-/// where there is nothing to divide.
+/// The mesh with open edges divided at the corners of rims that lie on them, one edge of a triangle
+/// at a time; none where there is nothing to divide.
 fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
     let open: Vec<Side> = table
@@ -90,7 +93,8 @@ mod tests {
 
     #[test]
     fn a_box_sewn_of_one_below_and_two_above_is_a_solid_of_their_volume() {
-        // The rims of the upper two have corners in the middle of the lower one's edges; the wall between them is double.
+        // The rims of the upper two have corners in the middle of the lower one's edges; the wall
+        // between them is double.
         let below = without_face([0.0; 3], [2.0, 1.0, 1.0], 1.0);
         let open_wall = |mesh: TriMesh| {
             let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);

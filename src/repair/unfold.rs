@@ -8,20 +8,23 @@ use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::mesh::crossings::cross;
 
-/// Only triangles lower than this, and their neighbours, are looked at, mm: rounding to single precision moves a corner at 300 mm by 1.5e-5 mm,
-/// and folds what is a few times lower than it is moved; far more takes time to look at for nothing.
+/// Only triangles lower than this, and their neighbours, are looked at, mm: rounding to single
+/// precision moves a corner at 300 mm by 1.5e-5 mm, and folds what is a few times lower than it is
+/// moved; far more takes time to look at for nothing.
 const THIN_MM: f64 = 1e-3;
-/// A sliver's short side may be closed up to this length, mm: beyond, a detail that a printer shows could go.
+/// A sliver's short side may be closed up to this length, mm: beyond, a detail that a printer shows
+/// could go.
 const CLOSED_MM: f64 = 0.02;
-/// Rounds of looking and mending. Each mends all folds that do not touch, and a mended fold rarely makes another.
+/// Rounds of looking and mending. Each mends all folds that do not touch, and a mended fold rarely
+/// makes another.
 const ROUNDS: usize = 12;
 
-/// The surface with the sides of those slivers turned, or closed where they are short, that the rounding of a file's coordinates
-/// to single precision would fold into a neighbour.
+/// The surface with the sides of those slivers turned, or closed where they are short, that the
+/// rounding of a file's coordinates to single precision would fold into a neighbour.
 ///
-/// A turned side of a triangle of height h moves the surface by h at most, a closed one by the bend of the surface along 0.02 mm.
-/// The mesh itself where nothing is folded; what cannot be mended so is left. Looks at slivers only, so that a sound mesh costs
-/// little more than its tree.
+/// A turned side of a triangle of height h moves the surface by h at most, a closed one by the bend
+/// of the surface along 0.02 mm. The mesh itself where nothing is folded; what cannot be mended so
+/// is left. Looks at slivers only, so that a sound mesh costs little more than its tree.
 pub fn unfolded(mesh: &TriMesh) -> TriMesh {
     let mut best = (usize::MAX, mesh.clone());
     let mut mended = mesh.clone();
@@ -46,7 +49,8 @@ fn as_written(mesh: &TriMesh) -> TriMesh {
     mesh.map_vertices(|p| p.map(|x| f64::from(x as f32)))
 }
 
-/// The pairs of triangles, the lower index first, that cross and of which one is thin or has a corner of a thin one; ascending.
+/// The pairs of triangles, the lower index first, that cross and of which one is thin or has a
+/// corner of a thin one; ascending.
 fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
     let asked = at_slivers(mesh);
     if asked.is_empty() {
@@ -70,7 +74,8 @@ fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
     pairs
 }
 
-/// The triangles with a corner of a thin one: when a sliver turns over, it is its neighbours that pass through each other.
+/// The triangles with a corner of a thin one: when a sliver turns over, it is its neighbours that
+/// pass through each other.
 fn at_slivers(mesh: &TriMesh) -> Vec<u32> {
     let mut is_thin = vec![false; mesh.vertices().len()];
     for (triangle, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
@@ -146,8 +151,8 @@ impl Patch {
         height(&self.corners(self.triangles[t]))
     }
 
-    /// Turns the longest side of a triangle, so that it joins the opposite corners; whether that made both triangles at it
-    /// higher than it was, none of them turned over.
+    /// Turns the longest side of a triangle, so that it joins the opposite corners; whether that
+    /// made both triangles at it higher than it was, none of them turned over.
     fn turn(&mut self, t: usize) -> bool {
         let [a, b, c] = longest_first(self.triangles[t], &self.corners(self.triangles[t]));
         let Some((u, d)) = self.across(b, a) else {
@@ -182,8 +187,8 @@ impl Patch {
         self.across(a, b).is_some() || self.across(b, a).is_some()
     }
 
-    /// Draws the ends of the triangle's shortest side together; whether it is short, the surface stays a surface and no other
-    /// triangle turns over.
+    /// Draws the ends of the triangle's shortest side together; whether it is short, the surface
+    /// stays a surface and no other triangle turns over.
     fn close(&mut self, t: usize) -> bool {
         let [a, b, c] = shortest_first(self.triangles[t], &self.corners(self.triangles[t]));
         let length = (self.vertices[a as usize] - self.vertices[b as usize]).norm();
@@ -291,7 +296,8 @@ mod tests {
     use super::*;
     use crate::mesh::Solid;
 
-    /// A skew tetrahedron far from the origin, whose coordinates are no multiples of a file's steps.
+    /// A skew tetrahedron far from the origin, whose coordinates are no multiples of a file's
+    /// steps.
     const CORNERS: [[f64; 3]; 4] = [
         [71.3, 88.7, 59.1],
         [92.9, 97.3, 63.7],
@@ -299,8 +305,8 @@ mod tests {
         [83.7, 99.1, 91.9],
     ];
 
-    /// The tetrahedron with more vertices on its side from 0 to 1, at these shares of it, each pushed off it by `aside_mm`
-    /// toward the middle of the faces there.
+    /// The tetrahedron with more vertices on its side from 0 to 1, at these shares of it, each
+    /// pushed off it by `aside_mm` toward the middle of the faces there.
     fn tetrahedron(shares: &[f64], aside_mm: f64) -> Vec<Point> {
         let mut vertices = CORNERS.map(Point::from).to_vec();
         let middle = nalgebra::center(&vertices[2], &vertices[3]);
@@ -349,7 +355,8 @@ mod tests {
         }
     }
 
-    /// Of many places of the extra vertices, how many are folded when written, and how many are still when unfolded.
+    /// Of many places of the extra vertices, how many are folded when written, and how many are
+    /// still when unfolded.
     fn folded(surface: impl Fn(f64) -> TriMesh) -> [usize; 2] {
         let meshes: Vec<TriMesh> = (1..200).map(|i| surface(f64::from(i) / 203.0)).collect();
         let count = |meshes: &[TriMesh]| {
@@ -361,7 +368,8 @@ mod tests {
         let mended: Vec<TriMesh> = meshes.iter().map(unfolded).collect();
         for (mesh, mended) in meshes.iter().zip(&mended) {
             let volume = mesh.signed_volume_mm3();
-            // A side of 25 mm moved by at most the height of a sliver, 1e-6 mm, over an area of 400 mm².
+            // A side of 25 mm moved by at most the height of a sliver, 1e-6 mm, over an area of 400
+            // mm².
             assert!(
                 (mended.signed_volume_mm3() - volume).abs() < 1e-3,
                 "{volume}"

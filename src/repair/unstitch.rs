@@ -14,10 +14,10 @@ pub(super) enum Wedge {
     Air,
 }
 
-/// The mesh with the vertices doubled so that each edge joins two triangles, where that is possible: as many
-/// triangles must run along a crowded edge one way as the other. Neighbours are kept that enclose material
-/// between them, or, if that leaves an edge crowded, air (Guéziec et al., "Cutting and stitching", IEEE TVCG 7,
-/// 2001). No place changes.
+/// The mesh with the vertices doubled so that each edge joins two triangles, where that is
+/// possible: as many triangles must run along a crowded edge one way as the other. Neighbours are
+/// kept that enclose material between them, or, if that leaves an edge crowded, air (Guéziec et
+/// al., "Cutting and stitching", IEEE TVCG 7, 2001). No place changes.
 pub(super) fn unstitched(mesh: &TriMesh) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
     [Wedge::Material, Wedge::Air].into_iter().find_map(|wedge| {
@@ -41,8 +41,8 @@ fn paired(mesh: &TriMesh, sides: &[Side], wedge: Wedge) -> Option<Vec<[Side; 2]>
     }
 }
 
-/// Pairs sides as brackets match, going round: seen along the edge, material lies after a triangle that runs
-/// backward and before one that runs forward.
+/// Pairs sides as brackets match, going round: seen along the edge, material lies after a triangle
+/// that runs backward and before one that runs forward.
 fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
     let opens = |side: &Side| side.forward == (wedge == Wedge::Air);
     let mut pairs: Vec<[Side; 2]> = Vec::with_capacity(ring.len() / 2);
@@ -57,7 +57,8 @@ fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
     pairs
 }
 
-/// The sides in the order of their triangles around the edge, counterclockwise seen against its direction.
+/// The sides in the order of their triangles around the edge, counterclockwise seen against its
+/// direction.
 fn around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
     let place = |v: u32| mesh.vertices()[v as usize];
     let low = place(sides[0].low);
@@ -130,8 +131,8 @@ mod tests {
 
     #[test]
     fn bodies_bridged_at_both_ends_of_the_edge_they_share_are_joined_along_it() {
-        // A storey with two cubes that share an upright edge, between two full storeys: parted around the
-        // material, the surface would still be one around both ends of the edge.
+        // A storey with two cubes that share an upright edge, between two full storeys: parted
+        // around the material, the surface would still be one around both ends of the edge.
         let mut cubes = vec![[0, 0, 1], [1, 1, 1]];
         cubes.extend(
             [[0, 0], [0, 1], [1, 0], [1, 1]]

@@ -7,11 +7,11 @@ use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable};
 use crate::mesh::union_find::UnionFind;
 
-/// The same triangles with one vertex for each place: vertices whose three coordinates are equal numbers
-/// become one (−0.0 and 0.0 are equal; NaN equals its own bits).
+/// The same triangles with one vertex for each place: vertices whose three coordinates are equal
+/// numbers become one (−0.0 and 0.0 are equal; NaN equals its own bits).
 ///
-/// The vertices keep the order of their first appearance and the triangles theirs, so welding twice changes
-/// nothing more. Costs one sort of the vertices.
+/// The vertices keep the order of their first appearance and the triangles theirs, so welding twice
+/// changes nothing more. Costs one sort of the vertices.
 pub fn weld(mesh: &TriMesh) -> TriMesh {
     let keys: Vec<[u64; 3]> = mesh.vertices().iter().map(place_key).collect();
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
@@ -28,8 +28,8 @@ fn place_key(p: &Point) -> [u64; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// The same triangles with every vertex on an open edge drawn to the first one within `tolerance_mm` of it;
-/// vertices inside a surface stay apart however near they are.
+/// The same triangles with every vertex on an open edge drawn to the first one within
+/// `tolerance_mm` of it; vertices inside a surface stay apart however near they are.
 ///
 /// Chains of near vertices become one vertex, so the caller judges the result.
 pub(super) fn weld_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
@@ -79,7 +79,8 @@ fn rim_vertices(mesh: &TriMesh) -> Vec<u32> {
     rim
 }
 
-/// The mesh with vertex v replaced by vertex `same_as[v]` (its own representative), the others left out.
+/// The mesh with vertex v replaced by vertex `same_as[v]` (its own representative), the others left
+/// out.
 fn renumbered(mesh: &TriMesh, same_as: &[u32]) -> TriMesh {
     let mut new_index = vec![0u32; same_as.len()];
     let mut vertices = Vec::with_capacity(same_as.len());

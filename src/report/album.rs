@@ -19,7 +19,8 @@ use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
 
-/// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to mail.
+/// Width and height of a picture, pixels: sharp at half the width of an A4 page, small enough to
+/// mail.
 const SIZE_PX: [usize; 2] = [720, 560];
 /// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
 pub(super) const TEXT_PX: f64 = 22.0;
@@ -31,8 +32,8 @@ const LEGEND_TEXTS: f64 = 1.8;
 const LEGEND_PX: f64 = 14.0;
 /// The share of a picture left free for words at its sides.
 const LABEL_RATIO: f64 = 0.12;
-/// How far the viewer stands to the right of the cut's normal and above the ground, radians: enough to tell depth
-/// from shape, not so much that the cut is foreshortened.
+/// How far the viewer stands to the right of the cut's normal and above the ground, radians: enough
+/// to tell depth from shape, not so much that the cut is foreshortened.
 const TURN: f64 = 0.45;
 const LIFT: f64 = 0.35;
 
@@ -199,7 +200,8 @@ impl Shot<'_> {
         })
     }
 
-    /// The name of an item: at the middle of what is seen of it, or dashed at its own middle where it is hidden.
+    /// The name of an item: at the middle of what is seen of it, or dashed at its own middle where
+    /// it is hidden.
     fn named(&self, item: usize, words: &str, (projection, seen): (&Projection, &Seen)) -> Mark {
         let middle = || {
             let of = self
@@ -286,8 +288,8 @@ impl View {
         }
     }
 
-    /// The same with its cut through what is not printed: through the axis where there is hardware on it, else through the first
-    /// piece of ballast.
+    /// The same with its cut through what is not printed: through the axis where there is hardware
+    /// on it, else through the first piece of ballast.
     fn through(self, sitting: &Sitting) -> Self {
         let rods = (!sitting.hardware.is_empty()).then(|| sitting.aim.frame().origin);
         let lump = sitting
@@ -333,7 +335,8 @@ pub(super) fn labelled_camera(toward_viewer: Vector, up: Vector) -> Camera {
     }
 }
 
-/// The direction to a viewer who faces `normal` from `turn` radians to the right and `lift` radians above.
+/// The direction to a viewer who faces `normal` from `turn` radians to the right and `lift` radians
+/// above.
 pub(super) fn turned(normal: &Vector, up: &Vector, [turn, lift]: [f64; 2]) -> Vector {
     let right = up.cross(normal);
     (normal * turn.cos() + right * turn.sin()) * lift.cos() + up * lift.sin()

@@ -1,4 +1,5 @@
-//! The parts drawn apart along the cuts, with their names, their pins and the lines along which they come together.
+//! The parts drawn apart along the cuts, with their names, their pins and the lines along which
+//! they come together.
 
 use super::album::{Label, Shot, TEXT_PX, labelled_camera, pins, turned};
 use super::figure::Role;
@@ -16,7 +17,8 @@ const APART_RATIO: f64 = 0.35;
 const AZIMUTHS: usize = 24;
 /// How far above the ground the viewer stands, radians.
 const LIFT: f64 = 0.35;
-/// The best cosine between the view and a cut's normal: the parts are seen side by side, and their cut faces too.
+/// The best cosine between the view and a cut's normal: the parts are seen side by side, and their
+/// cut faces too.
 const FACE_COSINE: f64 = 0.4;
 /// What counts as the same base of a pin, mm.
 const SAME_MM: f64 = 1e-6;
@@ -36,7 +38,8 @@ pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
         .collect()
 }
 
-/// How far each part is drawn from its place: away from every cut that is made where it lies, to its own side.
+/// How far each part is drawn from its place: away from every cut that is made where it lies, to
+/// its own side.
 pub(super) fn shifts(parts: &[TriMesh], cuts: &[Parting]) -> Vec<Vector> {
     let apart_mm = of_longest_side_mm(parts.iter());
     parts

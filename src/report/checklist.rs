@@ -19,8 +19,8 @@ use crate::verify::{
 /// The job sheet of a kit, for machines; [`super::page`] renders the same for people.
 ///
 /// Lengths in mm, masses in g, angles in degrees, as the keys say. Every number must be finite:
-/// [`Checklist::to_json`] refuses the rest. Equal runs give equal bytes as long as `timing_s` is left out, which the
-/// kit writer does; `--json` prints it.
+/// [`Checklist::to_json`] refuses the rest. Equal runs give equal bytes as long as `timing_s` is
+/// left out, which the kit writer does; `--json` prints it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checklist {
     /// The version of the keys: 1.
@@ -73,13 +73,16 @@ pub struct Checklist {
     /// How far the halves of a yo-yo are apart, mm; none where there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,
-    /// The extent of the finished object with its hardware, along the model's own axes, mm; none in kits of older versions.
+    /// The extent of the finished object with its hardware, along the model's own axes, mm; none in
+    /// kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub finished_size_mm: Option<[f64; 3]>,
-    /// What becomes of a yo-yo whose halves are not turned true against each other; none where there is one body.
+    /// What becomes of a yo-yo whose halves are not turned true against each other; none where
+    /// there is one body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnRow>,
-    /// How a top stands when it does not spin; none where it falls over, as a top does, and where it is no top.
+    /// How a top stands when it does not spin; none where it falls over, as a top does, and where
+    /// it is no top.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foot: Option<FootRow>,
     /// The stock parts that are laid in before gluing.
@@ -152,11 +155,12 @@ pub struct PrinterRow {
     pub layer_mm: f64,
     /// The edges of the build volume, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
-    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal size; none where files are
-    /// nominal.
+    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal
+    /// size; none where files are nominal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub print_scale_ratio: Option<[f64; 3]>,
-    /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or `none`.
+    /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or
+    /// `none`.
     pub support: String,
     /// The least wall the process prints, mm.
     pub minimum_wall_mm: f64,
@@ -181,8 +185,8 @@ pub struct MaterialRow {
     pub density_source: String,
     /// How sure that source is, such as `read` or `recalled`.
     pub density_sure: String,
-    /// How far the mass of a sound print may be from volume × density, as a share; no weighing window is printed where
-    /// it is not known.
+    /// How far the mass of a sound print may be from volume × density, as a share; no weighing
+    /// window is printed where it is not known.
     pub density_spread_ratio: Option<f64>,
 }
 
@@ -194,11 +198,12 @@ pub struct GoalRow {
     pub aim: Aim,
     /// What was made as small or large as possible, such as `critical_speed`.
     pub objective: String,
-    /// The weights γ_c of a low centre and γ_I of a flat tensor in Spin-It's functional (its eq. 7), where that was it.
+    /// The weights γ_c of a low centre and γ_I of a flat tensor in Spin-It's functional (its eq.
+    /// 7), where that was it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin_it_weights: Option<[f64; 2]>,
-    /// How far the contact point hangs below the surface, mm; zero when the surface is touched. A tip piece of this
-    /// length is needed.
+    /// How far the contact point hangs below the surface, mm; zero when the surface is touched. A
+    /// tip piece of this length is needed.
     pub contact_gap_mm: f64,
     /// How the axis was chosen, where the job left it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -212,11 +217,11 @@ pub struct Certificate {
     pub figure: FigureName,
     /// Its value at the solver's optimum.
     pub value: f64,
-    /// No hollowing of this model with this wall, in which `kept_solid_mm3` stay solid, can do better than this; for tops
-    /// none whose centre of mass is as high.
+    /// No hollowing of this model with this wall, in which `kept_solid_mm3` stay solid, can do
+    /// better than this; for tops none whose centre of mass is as high.
     pub bound: f64,
-    /// The volume of voids that could not have been cleaned: those places, and what lies a minimum opening around them,
-    /// were taken out of what may be emptied, mm³.
+    /// The volume of voids that could not have been cleaned: those places, and what lies a minimum
+    /// opening around them, were taken out of what may be emptied, mm³.
     pub kept_solid_mm3: f64,
     /// The optimum before anything was kept solid for that; none in kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -238,8 +243,8 @@ pub struct Certificate {
     pub course: Option<Course>,
 }
 
-/// What is proved of tops with their centre of mass at any height: on the printer's own columns, or on coarser ones where the lever is
-/// free too, or the voids are filled.
+/// What is proved of tops with their centre of mass at any height: on the printer's own columns, or
+/// on coarser ones where the lever is free too, or the voids are filled.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct HeightProof {
     /// The pitch of those columns, mm.
@@ -258,7 +263,8 @@ pub struct WallRow {
     /// What was asked for, mm; none where the printer's least was taken.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asked_mm: Option<f64>,
-    /// The least distance between a void and the outside on the written surfaces, mm; none without voids.
+    /// The least distance between a void and the outside on the written surfaces, mm; none without
+    /// voids.
     pub measured_min_mm: Option<f64>,
 }
 
@@ -313,13 +319,14 @@ impl Checklist {
     /// The version of the keys this program writes.
     pub const SCHEMA: u32 = SCHEMA;
 
-    /// The checklist as indented JSON that ends in a newline, with keys in the order of the struct; reading it back
-    /// gives an equal checklist. Fails on the first number that is not finite.
+    /// The checklist as indented JSON that ends in a newline, with keys in the order of the struct;
+    /// reading it back gives an equal checklist. Fails on the first number that is not finite.
     pub fn to_json(&self) -> Result<String, ChecklistError> {
         let text = serde_json::to_string_pretty(self)? + "\n";
         match serde_json::from_str::<Self>(&text) {
             Ok(back) if back == *self => Ok(text),
-            // JSON has no NaN: serde writes null, which is either refused on reading or read as a missing value.
+            // JSON has no NaN: serde writes null, which is either refused on reading or read as a
+            // missing value.
             _ => Err(ChecklistError::NotFinite {
                 key: first_unfinite_key(&format!("{self:#?}")),
             }),

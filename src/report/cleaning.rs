@@ -1,4 +1,5 @@
-//! What was kept solid so that every void can be cleaned, round by round, and how a void is cleaned: rows and words.
+//! What was kept solid so that every void can be cleaned, round by round, and how a void is
+//! cleaned: rows and words.
 
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
@@ -9,14 +10,16 @@ use super::{Checklist, VoidRow};
 use crate::base::units::MM3_PER_CM3;
 use crate::verify::Check;
 
-/// Less than this left solid changes no figure that is shown, mm³: where the figures differ, it is for solving again with pins
-/// and on the printer's own columns.
+/// Less than this left solid changes no figure that is shown, mm³: where the figures differ, it is
+/// for solving again with pins and on the printer's own columns.
 const LEAST_TOLD_MM3: f64 = 0.05;
 
-/// The share of a void's surface in sight from which nothing is said of hidden corners: sampling cannot tell more.
+/// The share of a void's surface in sight from which nothing is said of hidden corners: sampling
+/// cannot tell more.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// One round in which ends of voids were kept solid, most often because they could not be cleaned, and the rest solved for again.
+/// One round in which ends of voids were kept solid, most often because they could not be cleaned,
+/// and the rest solved for again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CleaningRow {
     /// The voids, as they were numbered then, and why.
@@ -25,10 +28,11 @@ pub struct CleaningRow {
     pub volume_mm3: f64,
     /// The certificate's figure before the round.
     pub value_before: f64,
-    /// And after it; none where the goal could not have been met any more, so that the round was taken back.
+    /// And after it; none where the goal could not have been met any more, so that the round was
+    /// taken back.
     pub value_after: Option<f64>,
-    /// Whether it is not cleaning that asked for it but the plan, which keeps solid what lies beyond joints without room for pins, or
-    /// what a person wrote into it.
+    /// Whether it is not cleaning that asked for it but the plan, which keeps solid what lies
+    /// beyond joints without room for pins, or what a person wrote into it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_plan: bool,
 }

@@ -15,7 +15,8 @@ pub struct Course {
 /// One pass over the columns.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PassRow {
-    /// What the interior at hand reaches, in the certificate's figure; it meets the constraints at the end only.
+    /// What the interior at hand reaches, in the certificate's figure; it meets the constraints at
+    /// the end only.
     pub value: f64,
     /// What no interior beats.
     pub bound: f64,

@@ -1,4 +1,5 @@
-//! The first page: what it is, what it will do, whether it may be printed, and the way through the sheet.
+//! The first page: what it is, what it will do, whether it may be printed, and the way through the
+//! sheet.
 
 use maud::{Markup, html};
 

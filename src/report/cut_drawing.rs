@@ -14,15 +14,18 @@ use crate::verify::Peg;
 const WIDTH_PX: usize = 1000;
 /// What is left below the section for its width and the legend, pixels.
 const BELOW_PX: f64 = 120.0;
-/// How far above the lower edge the middle of the legend is, and how far from the left one it begins, pixels.
+/// How far above the lower edge the middle of the legend is, and how far from the left one it
+/// begins, pixels.
 const LEGEND_PX: [f64; 2] = [20.0, 14.0];
 /// Height of words, pixels: 8 points at the width of an A4 page.
 const TEXT_PX: f64 = 19.0;
-/// The room of the section inside the drawing: left, top, right, bottom, pixels; beside it stand names and lengths.
+/// The room of the section inside the drawing: left, top, right, bottom, pixels; beside it stand
+/// names and lengths.
 const FRAME_PX: [f64; 4] = [230.0, 40.0, 770.0, 540.0];
 /// How far the lengths over all lie from the section, pixels.
 const ASIDE_PX: f64 = 34.0;
-/// Where up is less than this share of the plane's directions, the plane is level and nothing in it is up.
+/// Where up is less than this share of the plane's directions, the plane is level and nothing in it
+/// is up.
 const LEVEL_RATIO: f64 = 0.2;
 
 /// The section of the uncut body at a cut.
@@ -32,10 +35,11 @@ pub struct CutFace {
     pub cut: String,
     /// Its plane, model frame.
     pub plane: Plane,
-    /// The outlines of material in it, in the coordinates of [`Plane::basis`], mm: outer ones counter-clockwise, holes
-    /// clockwise.
+    /// The outlines of material in it, in the coordinates of [`Plane::basis`], mm: outer ones
+    /// counter-clockwise, holes clockwise.
     pub rings: Vec<Vec<[f64; 2]>>,
-    /// Where the wall between the outside and a void is thinnest in it: its two ends, same coordinates.
+    /// Where the wall between the outside and a void is thinnest in it: its two ends, same
+    /// coordinates.
     pub wall: Option<[[f64; 2]; 2]>,
     /// Every region of material with the parts below and above it.
     pub regions: Vec<Region>,

@@ -1,4 +1,5 @@
-//! The pictures that need the numbers of the sheet: cuts with their lengths, mass properties, and the plots of the proof.
+//! The pictures that need the numbers of the sheet: cuts with their lengths, mass properties, and
+//! the plots of the proof.
 
 use super::cut_drawing::{self, CutFace};
 use super::figure::Picture;

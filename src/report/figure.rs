@@ -27,7 +27,8 @@ pub enum Role {
 }
 
 impl Role {
-    /// How its pictures are laid out: two beside each other, or one below the other, drawings with small words wider.
+    /// How its pictures are laid out: two beside each other, or one below the other, drawings with
+    /// small words wider.
     fn class(self) -> &'static str {
         match self {
             Self::Cut => "pictures wide",

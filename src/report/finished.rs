@@ -1,5 +1,5 @@
-//! The finished object: its size with the hardware in, what a turn of one half of a yo-yo does to it, and hollows that print as
-//! closed cups.
+//! The finished object: its size with the hardware in, what a turn of one half of a yo-yo does to
+//! it, and hollows that print as closed cups.
 
 use maud::{Markup, html};
 use serde::{Deserialize, Serialize};
@@ -10,13 +10,15 @@ use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Aabb, Point, Vector};
 use crate::verify::{Hardware, PartEvidence};
 
-/// The least cup that is warned of, mm³: a socket or a letter that holds less drips empty and sucks at nothing.
+/// The least cup that is warned of, mm³: a socket or a letter that holds less drips empty and sucks
+/// at nothing.
 const LEAST_CUP_MM3: f64 = 150.0;
 
 /// What becomes of a yo-yo whose half A is glued on its axle a degree off its turn.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TurnRow {
-    /// How far half A's own centre of mass is from the axis, mm: what the other half has to make up for.
+    /// How far half A's own centre of mass is from the axis, mm: what the other half has to make up
+    /// for.
     pub half_offset_mm: f64,
     /// How far a degree takes the centre of mass of the whole off the axis, mm.
     pub offset_mm_per_deg: f64,
@@ -24,7 +26,8 @@ pub struct TurnRow {
     pub tilt_deg_per_deg: f64,
 }
 
-/// The extent of the parts put together, with their hardware, along the model's own axes, mm; exact for the files.
+/// The extent of the parts put together, with their hardware, along the model's own axes, mm; exact
+/// for the files.
 pub fn finished_size_mm(parts: &[PartEvidence], hardware: &[Hardware]) -> [f64; 3] {
     let corners = parts
         .iter()
@@ -38,7 +41,8 @@ pub fn finished_size_mm(parts: &[PartEvidence], hardware: &[Hardware]) -> [f64; 
         .into()
 }
 
-/// The box about a rod: a flat end reaches r·√(1 − d²) along an axis that the rod has the share d of, a round one r.
+/// The box about a rod: a flat end reaches r·√(1 − d²) along an axis that the rod has the share d
+/// of, a round one r.
 fn bounds(piece: &Hardware) -> Aabb {
     let [from, to] = [piece.from_mm, piece.to_mm].map(Point::from);
     let (radius_mm, along) = (0.5 * piece.diameter_mm, (to - from).normalize());

@@ -19,8 +19,8 @@ struct Closing<'a> {
     sides: [Vec<&'a str>; 2],
 }
 
-/// The closings in an order that can be carried out: cut by cut, so that what is closed first lies wholly on one side of
-/// every later cut, and two bodies meet along one plane.
+/// The closings in an order that can be carried out: cut by cut, so that what is closed first lies
+/// wholly on one side of every later cut, and two bodies meet along one plane.
 fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
     let mut bodies: Vec<Vec<&str>> = sheet
         .parts
@@ -86,7 +86,8 @@ impl Closing<'_> {
         cuts.join(", ")
     }
 
-    /// The joint whose pins align one that has not enough of its own, because both close in one movement.
+    /// The joint whose pins align one that has not enough of its own, because both close in one
+    /// movement.
     fn guide_of(&self, joint: &JointRow) -> Option<&JointRow> {
         let is_sound = |row: &JointRow| row.pins >= ONE_WAY_PINS && row.note.is_none();
         let others = self

@@ -7,9 +7,11 @@ use super::picture::{Item, Scene};
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
 
-/// How far either half is drawn from its place, as a share of the model's longest side: the axle is seen between them.
+/// How far either half is drawn from its place, as a share of the model's longest side: the axle is
+/// seen between them.
 const APART_RATIO: f64 = 0.2;
-/// Where the viewer stands: to the right and above, radians, so that both outlines are seen one over the other.
+/// Where the viewer stands: to the right and above, radians, so that both outlines are seen one
+/// over the other.
 const TURN_AND_LIFT: [f64; 2] = [0.45, 0.5];
 
 /// The picture; none where there are no halves on an axle.

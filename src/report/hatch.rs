@@ -1,19 +1,23 @@
-//! How cut faces are filled: what is printed, hardware and ballast differ in the run of their stripes, so that grey printing and
-//! every colour vision tell them apart; and the legend that names them.
+//! How cut faces are filled: what is printed, hardware and ballast differ in the run of their
+//! stripes, so that grey printing and every colour vision tell them apart; and the legend that
+//! names them.
 
 use super::palette::{BALLAST, CROSSED, HARDWARE, HATCH, RODS, SECTION, VOID, hex};
 use super::picture::Color;
 use super::svg::{Anchor, Drawing, Spot, Stroke};
 
-/// Samples of a shaded picture from one stripe to the next, and how many of them are stripe: fewer melt together in print.
+/// Samples of a shaded picture from one stripe to the next, and how many of them are stripe: fewer
+/// melt together in print.
 const PERIOD_SAMPLES: [usize; 2] = [14, 4];
-/// Pixels of a line drawing from one stripe to the next: fewer hide small pins, more pass thin walls by.
+/// Pixels of a line drawing from one stripe to the next: fewer hide small pins, more pass thin
+/// walls by.
 const PERIOD_PX: f64 = 13.0;
 /// How wide a stripe of a line drawing is, pixels.
 const STRIPE_PX: f64 = 1.2;
 /// Width and height of the samples in a legend, in heights of its words.
 const SWATCH_TEXTS: [f64; 2] = [1.6, 0.9];
-/// What a letter takes in a legend, in heights of its words: sans-serif letters are about half as wide as high.
+/// What a letter takes in a legend, in heights of its words: sans-serif letters are about half as
+/// wide as high.
 const LETTER_TEXTS: f64 = 0.55;
 
 /// How stripes run.
@@ -96,7 +100,8 @@ impl Hatch {
     }
 }
 
-/// The stretches of the lines x + way·y = k · period that are inside closed lines, by the even-odd rule.
+/// The stretches of the lines x + way·y = k · period that are inside closed lines, by the even-odd
+/// rule.
 fn stripes(rings: &[Vec<Spot>], way: f64) -> Vec<Vec<Spot>> {
     let step = PERIOD_PX * std::f64::consts::SQRT_2;
     let across = |[x, y]: Spot| (x + way * y) / step;
@@ -196,7 +201,8 @@ mod tests {
         let rings = [square(0.0, 400.0), square(100.0, 300.0)];
         for way in [1.0, -1.0] {
             let found = stripes(&rings, way);
-            // Lines a period apart cover area over period; a line more or less at either end is a hundredth of that.
+            // Lines a period apart cover area over period; a line more or less at either end is a
+            // hundredth of that.
             let expected = (400.0 * 400.0 - 200.0 * 200.0) / PERIOD_PX;
             assert!((length(&found) / expected - 1.0).abs() < 0.02);
             let middle = |ends: &Vec<Spot>| between(ends[0], ends[1], 0.5);

@@ -1,5 +1,5 @@
-//! Mass properties before and after: the ellipsoid that turns as hard as the body, its axes and its centre of mass, over a
-//! pale picture (as in Spin-It, ACM TOG 33(4), 2014, figures 4 and 5).
+//! Mass properties before and after: the ellipsoid that turns as hard as the body, its axes and its
+//! centre of mass, over a pale picture (as in Spin-It, ACM TOG 33(4), 2014, figures 4 and 5).
 
 use rayon::prelude::*;
 
@@ -22,7 +22,8 @@ const PALE: f64 = 0.35;
 const TEXT_PX: f64 = 22.0;
 /// The radius of the sign of a centre of mass, pixels.
 const CENTER_PX: f64 = 13.0;
-/// A solid ellipsoid of semi-axes a, b, c has the second moments m a²/5, m b²/5, m c²/5 about its centre.
+/// A solid ellipsoid of semi-axes a, b, c has the second moments m a²/5, m b²/5, m c²/5 about its
+/// centre.
 const ELLIPSOID_RATIO: f64 = 5.0;
 /// The colour of the ellipsoid: blue.
 const ELLIPSOID: &str = "#0072b2";
@@ -129,8 +130,8 @@ fn goal_axis(drawing: &mut Drawing, projection: &Projection, sheet: &Checklist) 
     drawing.path(&[tip.to_vec()], true, (Some(&hex(PAPER)), Stroke::THICK));
 }
 
-/// The shadow of the ellipsoid of the same mass and inertia: with second moments S about the centre it is
-/// { x : xᵀ S⁻¹ x ≤ 5/m }, and its shadow has the second moments of the shadow.
+/// The shadow of the ellipsoid of the same mass and inertia: with second moments S about the centre
+/// it is { x : xᵀ S⁻¹ x ≤ 5/m }, and its shadow has the second moments of the shadow.
 fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     let second = Matrix::identity() * (0.5 * body.inertia_g_mm2.trace()) - body.inertia_g_mm2;
     let [right, up, _] = projection.axes;
@@ -153,7 +154,8 @@ fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     ));
 }
 
-/// The semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first, and the angle of the longer one, rad.
+/// The semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first, and the
+/// angle of the longer one, rad.
 fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
     let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
     (

@@ -44,8 +44,8 @@ pub(super) fn inserts(sheet: &Checklist, plane: &Plane) -> Vec<Insert> {
     rods.chain(lumps).filter_map(insert).collect()
 }
 
-/// The section of a convex body: where its edges pass the plane, in order about their middle, in the plane's coordinates, mm. Empty
-/// where the plane passes it by.
+/// The section of a convex body: where its edges pass the plane, in order about their middle, in
+/// the plane's coordinates, mm. Empty where the plane passes it by.
 pub(super) fn convex_section(body: &TriMesh, plane: &Plane) -> Vec<[f64; 2]> {
     let (u, v) = plane.basis();
     let flat = |p: Point| [u.dot(&p.coords), v.dot(&p.coords)];
@@ -89,7 +89,8 @@ mod tests {
     fn a_ball_is_cut_in_a_circle_whose_radius_follows_pythagoras() {
         let ball = primitives::ball(&Point::new(1.0, 2.0, 3.0), 5.0, 5);
         let plane = Plane::through(&Point::new(0.0, 0.0, 6.0), &Vector::z());
-        // Three off the centre: 5² − 3² = 4². The facets of 20 480 triangles lie within 0.2 % of the ball.
+        // Three off the centre: 5² − 3² = 4². The facets of 20 480 triangles lie within 0.2 % of
+        // the ball.
         let found = area_mm2(&convex_section(&ball, &plane));
         assert!(
             (found / (16.0 * std::f64::consts::PI) - 1.0).abs() < 0.01,

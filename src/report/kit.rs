@@ -20,8 +20,8 @@ pub enum Existing {
 }
 
 impl Existing {
-    /// Whether a kit may take `target`, tried before any work is done by making a hidden folder beside it and removing it
-    /// again; see [`Kit::write`].
+    /// Whether a kit may take `target`, tried before any work is done by making a hidden folder
+    /// beside it and removing it again; see [`Kit::write`].
     pub fn allows(self, target: &Path) -> Result<(), KitError> {
         may_take(target, self)?;
         Staging::beside(target).map(drop)
@@ -90,9 +90,9 @@ impl Kit {
 
     /// Writes the kit as the folder `target`, making its parents where they are missing.
     ///
-    /// The files are written and synced in a hidden folder beside the target, which is then renamed: another program
-    /// sees the old kit or the new one, never a part of one. On any error the old kit is where it was and nothing
-    /// else is left.
+    /// The files are written and synced in a hidden folder beside the target, which is then
+    /// renamed: another program sees the old kit or the new one, never a part of one. On any error
+    /// the old kit is where it was and nothing else is left.
     pub fn write(&self, target: &Path, existing: Existing) -> Result<(), KitError> {
         may_take(target, existing)?;
         let staging = Staging::beside(target)?;
@@ -140,7 +140,8 @@ fn is_empty(folder: &Path) -> bool {
     fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
 }
 
-/// A hidden folder beside the target; removed when dropped, on a panic too, with the parents made for it.
+/// A hidden folder beside the target; removed when dropped, on a panic too, with the parents made
+/// for it.
 struct Staging {
     path: PathBuf,
     made_parents: Vec<PathBuf>,
@@ -148,8 +149,8 @@ struct Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // After the rename the folder is gone and its parents are not empty, so nothing more happens; if removing
-        // fails there is nothing to be done about it.
+        // After the rename the folder is gone and its parents are not empty, so nothing more
+        // happens; if removing fails there is nothing to be done about it.
         let _ = fs::remove_dir_all(&self.path);
         for parent in &self.made_parents {
             let _ = fs::remove_dir(parent);
@@ -178,7 +179,8 @@ impl Staging {
         sync_folder(&self.path)
     }
 
-    /// Renames the staging folder to the target, an existing target aside first and back again if that fails.
+    /// Renames the staging folder to the target, an existing target aside first and back again if
+    /// that fails.
     fn take_the_place_of(self, target: &Path) -> Result<(), KitError> {
         if !target.exists() {
             return self.rename_to(target);

@@ -1,4 +1,5 @@
-//! The kit's paperwork: the checklist as data, as a page and as pictures, and the folder it is written to.
+//! The kit's paperwork: the checklist as data, as a page and as pictures, and the folder it is
+//! written to.
 
 mod album;
 mod apart;

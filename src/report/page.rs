@@ -78,8 +78,8 @@ fn written(title: &str, body: &Markup, style: &str) -> String {
     .into_string()
 }
 
-/// The mass of something printed, and what a sound print of it may weigh where the density was measured; else its share of all
-/// parts, which no density changes.
+/// The mass of something printed, and what a sound print of it may weigh where the density was
+/// measured; else its share of all parts, which no density changes.
 pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
     html! {
         (quantity(mass_g, "g"))

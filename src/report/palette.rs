@@ -1,4 +1,5 @@
-//! Colours that every colour vision and a grey printer tell apart (Okabe and Ito, "Color universal design", 2008).
+//! Colours that every colour vision and a grey printer tell apart (Okabe and Ito, "Color universal
+//! design", 2008).
 
 use super::picture::Color;
 
@@ -20,7 +21,8 @@ pub const BALLAST: Color = [176, 180, 190];
 pub const CROSSED: Color = [52, 56, 64];
 /// The squares of a plate, two by two.
 pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
-/// Parts, in turn: six of Okabe and Ito, then paler and darker ones; neighbours in this order differ in lightness too.
+/// Parts, in turn: six of Okabe and Ito, then paler and darker ones; neighbours in this order
+/// differ in lightness too.
 pub const PARTS: [Color; 12] = [
     [240, 228, 66],
     [0, 114, 178],
@@ -87,7 +89,8 @@ mod tests {
 
     #[test]
     fn parts_that_follow_each_other_differ_in_grey() {
-        // A step of 1.3 in luminance is a step of a tenth of the grey scale, which an office printer keeps.
+        // A step of 1.3 in luminance is a step of a tenth of the grey scale, which an office
+        // printer keeps.
         for pair in PARTS.windows(2) {
             assert!(contrast(pair[0], pair[1]) > 1.3, "{pair:?}");
         }

@@ -1,4 +1,5 @@
-//! The table of parts: each as it lies on the plate, what it weighs, and boxes for what only the shop knows.
+//! The table of parts: each as it lies on the plate, what it weighs, and boxes for what only the
+//! shop knows.
 
 use maud::{Markup, html};
 
@@ -8,7 +9,8 @@ use super::words::{extent, quantity};
 use super::{Checklist, PartRow};
 use crate::base::units::{MM3_PER_CM3, counted};
 
-/// How much of a hash is shown: enough to tell files apart by eye. The whole is at the end of the sheet.
+/// How much of a hash is shown: enough to tell files apart by eye. The whole is at the end of the
+/// sheet.
 const SHORT_HASH: usize = 12;
 
 /// The section of the parts.

@@ -1,4 +1,5 @@
-//! A small z-buffer: shaded and outlined meshes to PNG, the same bytes on every machine thread count.
+//! A small z-buffer: shaded and outlined meshes to PNG, the same bytes on every machine thread
+//! count.
 
 use super::hatch::Hatch;
 use super::projection::Projection;
@@ -18,8 +19,8 @@ const SAMPLES: usize = 2;
 const AMBIENT_RATIO: f64 = 0.5;
 /// Where the lamp stands, in (right, up, toward the viewer): over the viewer's left shoulder.
 const LAMP: [f64; 3] = [-0.4, 0.5, 0.77];
-/// A step in depth of more than this share of the scene's draws an outline; a smooth surface has such steps only within
-/// 2° of its silhouette.
+/// A step in depth of more than this share of the scene's draws an outline; a smooth surface has
+/// such steps only within 2° of its silhouette.
 const STEP_RATIO: f64 = 0.02;
 /// Faces that meet at more than 50° draw an edge: below, coarse meshes show their facets.
 const CREASE_COSINE: f64 = 0.64;
@@ -55,7 +56,8 @@ pub struct Camera {
     pub up: Vector,
     /// Width and height of the picture, pixels.
     pub size_px: [usize; 2],
-    /// The share of the picture left free for words at the left and the right, and above and below; never less than a little.
+    /// The share of the picture left free for words at the left and the right, and above and below;
+    /// never less than a little.
     pub margin_ratio: [f64; 2],
 }
 
@@ -100,8 +102,9 @@ impl Image {
     }
 }
 
-/// Draws the scene, fitted to the picture, flat shaded and outlined. Sides turned away from the viewer are the inside of
-/// material seen through the cut, and get the item's hatching: that draws the cut face without building it.
+/// Draws the scene, fitted to the picture, flat shaded and outlined. Sides turned away from the
+/// viewer are the inside of material seen through the cut, and get the item's hatching: that draws
+/// the cut face without building it.
 ///
 /// About 0.1 s for 100 000 triangles at 900 × 700.
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
@@ -153,7 +156,8 @@ struct Canvas {
     samples: Vec<Sample>,
 }
 
-/// A corner on the canvas: samples to the right, samples down, mm toward the viewer, mm beyond the cut.
+/// A corner on the canvas: samples to the right, samples down, mm toward the viewer, mm beyond the
+/// cut.
 type Corner = [f64; 4];
 
 impl Canvas {
@@ -205,7 +209,8 @@ impl Canvas {
         }
     }
 
-    /// Draws one sample if the triangle covers it, in front of what is there, on this side of the cut.
+    /// Draws one sample if the triangle covers it, in front of what is there, on this side of the
+    /// cut.
     fn draw_sample(
         &mut self,
         [x, y]: [usize; 2],
@@ -401,7 +406,8 @@ mod tests {
         let cut = share_of(&image, |pixel| *pixel != BACKGROUND && !is_floor(pixel));
         assert!((cut - 0.92 * 0.92 * 0.64).abs() < 0.02);
         assert!(share_of(&image, is_floor) > 0.28);
-        // Four diagonals of fourteen are hatched, so three pixels of seven are stripe, in part or whole: the rest is 0.31.
+        // Four diagonals of fourteen are hatched, so three pixels of seven are stripe, in part or
+        // whole: the rest is 0.31.
         assert!(share_of(&image, |pixel| *pixel == CUT.dark) > 0.25);
     }
 

@@ -1,4 +1,5 @@
-//! A part on the plate as it is printed: squares of a centimetre under it, and its size along the printer's axes.
+//! A part on the plate as it is printed: squares of a centimetre under it, and its size along the
+//! printer's axes.
 
 use super::album::{Label, Shot, still, turned};
 use super::figure::Role;
@@ -15,7 +16,8 @@ const SIZE_PX: [usize; 2] = [560, 460];
 const TEXT_PX: f64 = 24.0;
 /// The share of the picture left free on each side for lengths.
 const MARGIN_RATIO: f64 = 0.17;
-/// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow that is open upward.
+/// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow
+/// that is open upward.
 const LIFT: f64 = 0.7;
 /// How far to the right, radians.
 const TURN: f64 = 0.45;
@@ -26,7 +28,8 @@ const BELOW_MM: f64 = 0.05;
 /// How far lengths are drawn from what they measure, pixels.
 const ASIDE_PX: f64 = 22.0;
 
-/// A plate under a part: whole squares that reach past it on every side, light ones and darker ones.
+/// A plate under a part: whole squares that reach past it on every side, light ones and darker
+/// ones.
 pub(super) fn under(part: &Aabb) -> [TriMesh; 2] {
     let first = |low: f64| (low / SQUARE_MM).floor() as i64 - 1;
     let last = |high: f64| (high / SQUARE_MM).ceil() as i64 + 1;

@@ -17,11 +17,13 @@ const FRAME_PX: [f64; 4] = [110.0, 40.0, 690.0, 380.0];
 const TICKS: f64 = 7.0;
 /// How much room is left beyond the least and the greatest value, as a share of their difference.
 const ROOM_RATIO: f64 = 0.08;
-/// Curves reach no more than this many times the best value above it: what is worse only flattens the rest.
+/// Curves reach no more than this many times the best value above it: what is worse only flattens
+/// the rest.
 const WORST_RATIO: f64 = 4.0;
 /// How wide a letter is about, in the height of the words.
 const LETTER_RATIO: f64 = 0.55;
-/// The colours of the two curves (Okabe and Ito): blue and vermilion, of different lightness and with different marks.
+/// The colours of the two curves (Okabe and Ito): blue and vermilion, of different lightness and
+/// with different marks.
 const LINES: [Color; 2] = [[0, 114, 178], [213, 94, 0]];
 
 /// A curve with its name.

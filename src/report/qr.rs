@@ -2,14 +2,17 @@
 
 use qrcode::{Color, EcLevel, QrCode};
 
-/// The free rim around a code, modules: ISO/IEC 18004 asks for four; with less, scanners lose the corners.
+/// The free rim around a code, modules: ISO/IEC 18004 asks for four; with less, scanners lose the
+/// corners.
 const QUIET_MODULES: usize = 4;
-/// Digits of the hash in the code of the running header, which must stay readable at 15 mm: 64 bits.
+/// Digits of the hash in the code of the running header, which must stay readable at 15 mm: 64
+/// bits.
 const HEADER_DIGITS: usize = 16;
 /// Digits of the hash in the id that people read aloud: 32 bits.
 const ID_DIGITS: usize = 8;
 
-/// A job by its name and the SHA-256 of its `checklist.json`, which holds the hashes of the other files.
+/// A job by its name and the SHA-256 of its `checklist.json`, which holds the hashes of the other
+/// files.
 #[derive(Debug, Clone, Copy)]
 pub struct JobId<'a> {
     /// The job's name.
@@ -44,8 +47,8 @@ fn digits(sha256: &str, count: usize) -> &str {
     sha256.get(..count).unwrap_or(sha256)
 }
 
-/// The side of a text's code in modules with its quiet rim, and the dark modules as an SVG path; none where the text is too
-/// long for a code (2 kB).
+/// The side of a text's code in modules with its quiet rim, and the dark modules as an SVG path;
+/// none where the text is too long for a code (2 kB).
 pub(super) fn path(text: &str) -> Option<(usize, String)> {
     let code = QrCode::with_error_correction_level(text, EcLevel::M).ok()?;
     let width = code.width();

@@ -23,8 +23,8 @@ pub struct VoidRow {
     pub least_opening_mm: f64,
     /// How far its deepest point lies from the opening, mm.
     pub depth_mm: f64,
-    /// The share of its wall in sight of the openings of its own piece and within the tool's reach; none where it was not
-    /// measured.
+    /// The share of its wall in sight of the openings of its own piece and within the tool's reach;
+    /// none where it was not measured.
     pub sight_ratio: Option<f64>,
     /// The printer's cleaning rule, in words.
     pub method: String,
@@ -88,13 +88,16 @@ pub struct PartRow {
     /// The ids sunk into its cut faces.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub marks: Vec<Mark>,
-    /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where there are no halves.
+    /// Which half of a yo-yo it belongs to: `A` above the spin point, `B` below it; none where
+    /// there are no halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub half: Option<String>,
-    /// The volume of its open hollows whose only mouth lies flat on the plate, mm³: closed cups while it is printed.
+    /// The volume of its open hollows whose only mouth lies flat on the plate, mm³: closed cups
+    /// while it is printed.
     #[serde(default)]
     pub cup_mm3: f64,
-    /// What of it hangs in the air as it lies; none where the printer does not say which surfaces print without support.
+    /// What of it hangs in the air as it lies; none where the printer does not say which surfaces
+    /// print without support.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub support: Option<SupportRow>,
     /// Its picture, relative to the kit.
@@ -117,7 +120,8 @@ pub struct JointRow {
     pub pins: usize,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
-    /// The film of glue in it, which the figures of the assembly count; none where the printer's profile says nothing of it.
+    /// The film of glue in it, which the figures of the assembly count; none where the printer's
+    /// profile says nothing of it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub glue: Option<GlueFilm>,
     /// What to mind, such as where a joint has no room for pins.

@@ -2,8 +2,8 @@
 
 use super::svg::Spot;
 
-/// How far behind what is seen a point may lie and still be told as seen, as a share of the picture's depth: its own surface
-/// is drawn at pixels beside it.
+/// How far behind what is seen a point may lie and still be told as seen, as a share of the
+/// picture's depth: its own surface is drawn at pixels beside it.
 const BEHIND_RATIO: f64 = 0.01;
 
 /// What is seen at every pixel of a picture.
@@ -18,7 +18,8 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// The middle of where an item is seen: the pixel farthest from everything else; none where it is hidden.
+    /// The middle of where an item is seen: the pixel farthest from everything else; none where it
+    /// is hidden.
     pub fn middle_of(&self, item: usize) -> Option<Spot> {
         let depths = self.depths_of(item as u32);
         let deepest = (0..depths.len()).rev().max_by_key(|&at| depths[at])?;
@@ -41,8 +42,9 @@ impl Seen {
             .is_none_or(|near| nearness_mm >= near - BEHIND_RATIO * (high - low))
     }
 
-    /// How many pixels every pixel of an item is from what is not the item, in steps along rows, columns and diagonals, by a
-    /// pass down and one up (Rosenfeld and Pfaltz, "Sequential operations in digital picture processing", 1966).
+    /// How many pixels every pixel of an item is from what is not the item, in steps along rows,
+    /// columns and diagonals, by a pass down and one up (Rosenfeld and Pfaltz, "Sequential
+    /// operations in digital picture processing", 1966).
     fn depths_of(&self, item: u32) -> Vec<u32> {
         let width = self.width;
         let mut depths: Vec<u32> = self

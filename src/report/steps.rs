@@ -15,8 +15,9 @@ use super::{BallastRow, Checklist};
 use crate::base::units::MM3_PER_CM3;
 use crate::verify::FillOrder;
 
-/// The names of the steps in their order: print, clean, weigh the parts while they can still be cleaned, dry fit, fill the voids
-/// or lay in the ballast where that is asked for, glue, put in what is not printed, weigh the whole, test.
+/// The names of the steps in their order: print, clean, weigh the parts while they can still be
+/// cleaned, dry fit, fill the voids or lay in the ballast where that is asked for, glue, put in
+/// what is not printed, weigh the whole, test.
 pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
     let names = [
         Some("Print"),

@@ -9,7 +9,8 @@ use crate::base::units::{MM2_PER_CM2, counted};
 /// Below this height over the plate a length is told as lying on it, mm.
 const ON_PLATE_MM: f64 = 0.05;
 
-/// What of a part hangs in the air as it lies on the plate, where the printer says which surfaces it prints without support.
+/// What of a part hangs in the air as it lies on the plate, where the printer says which surfaces
+/// it prints without support.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct SupportRow {
     /// The places that need support.

@@ -1,4 +1,5 @@
-//! Lines, words and circles as SVG: numbers to a hundredth of a pixel, so that equal drawings are equal bytes.
+//! Lines, words and circles as SVG: numbers to a hundredth of a pixel, so that equal drawings are
+//! equal bytes.
 
 use std::fmt::Write;
 
@@ -19,7 +20,8 @@ pub const PAPER: Color = [255, 255, 255];
 /// A line is upright where it goes aside less than this share of its height.
 const UPRIGHT_RATIO: f64 = 0.1;
 
-/// The dot at the end of a line, pixels: larger ones hide small pins, smaller ones are lost in print.
+/// The dot at the end of a line, pixels: larger ones hide small pins, smaller ones are lost in
+/// print.
 const DOT_PX: f64 = 3.5;
 
 /// How a line looks.
@@ -89,7 +91,8 @@ pub struct Mark {
     pub at: Spot,
     /// Its words.
     pub words: String,
-    /// What it is drawn as is a circle of this radius, at whose rim the line ends without a dot; zero for a dot.
+    /// What it is drawn as is a circle of this radius, at whose rim the line ends without a dot;
+    /// zero for a dot.
     pub radius_px: f64,
     /// Whether it lies behind something: then the line is dashed and the dot hollow.
     pub is_hidden: bool,
@@ -221,7 +224,8 @@ impl Drawing {
         ));
     }
 
-    /// Adds a length between two spots, drawn `aside` of them: extension lines, a line with ticks, and its words.
+    /// Adds a length between two spots, drawn `aside` of them: extension lines, a line with ticks,
+    /// and its words.
     pub fn dimension(&mut self, [a, b]: [Spot; 2], aside: Spot, words: &str) {
         let moved = |[x, y]: Spot, times: f64| [x + times * aside[0], y + times * aside[1]];
         let (from, to) = (moved(a, 1.0), moved(b, 1.0));
@@ -254,7 +258,8 @@ impl Drawing {
         self.text(moved(middle, out), anchor, words);
     }
 
-    /// Adds words at the left and right edges, each with a line to what it names, in the order of their heights.
+    /// Adds words at the left and right edges, each with a line to what it names, in the order of
+    /// their heights.
     pub fn callouts(&mut self, marks: &[Mark]) {
         let [width, height] = self.size_px();
         for (edge, anchor, is_left) in [
@@ -280,7 +285,8 @@ impl Drawing {
         }
     }
 
-    /// Adds the line from words to what they name, on a rim of paper so that it is seen on anything.
+    /// Adds the line from words to what they name, on a rim of paper so that it is seen on
+    /// anything.
     fn leader(&mut self, start: Spot, mark: &Mark) {
         let end = mark.end_from(start);
         self.line(

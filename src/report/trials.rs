@@ -8,23 +8,28 @@ use super::page::blank;
 use super::words::{extent, number, quantity};
 use crate::goal::GoalKind;
 
-/// Pictures a second of a slow-motion film: most telephones take it. With 30 a top above 900 rpm turns twice in a picture.
+/// Pictures a second of a slow-motion film: most telephones take it. With 30 a top above 900 rpm
+/// turns twice in a picture.
 const FILM_PER_S: f64 = 240.0;
 /// Seconds in a minute.
 const S_PER_MIN: f64 = 60.0;
-/// Up to this tilt a foot was tried, degrees: what rights itself from there is not told to fall from farther.
+/// Up to this tilt a foot was tried, degrees: what rights itself from there is not told to fall
+/// from farther.
 const MOST_TILT_DEG: f64 = 45.0;
-/// The length of the board of the tilt test, mm: long enough to measure a degree (5 mm), short enough to be at hand.
+/// The length of the board of the tilt test, mm: long enough to measure a degree (5 mm), short
+/// enough to be at hand.
 const BOARD_MM: f64 = 300.0;
 
 /// How a top stands on its contact when it does not spin; see [`crate::goal::Resting`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FootRow {
-    /// The radius of curvature of the contact over a tilt of a degree, mm: larger than the height, so it stands.
+    /// The radius of curvature of the contact over a tilt of a degree, mm: larger than the height,
+    /// so it stands.
     pub radius_mm: f64,
     /// The height of the centre of mass over the floor, mm.
     pub center_height_mm: f64,
-    /// It rights itself up to this tilt, to a degree, degrees; 45 where it does so at least up to there.
+    /// It rights itself up to this tilt, to a degree, degrees; 45 where it does so at least up to
+    /// there.
     pub rights_to_deg: f64,
 }
 

@@ -1,4 +1,5 @@
-//! The assembly to be turned, taken apart and cut on a screen: simplified, packed, and the controls around it.
+//! The assembly to be turned, taken apart and cut on a screen: simplified, packed, and the controls
+//! around it.
 
 use maud::{Markup, PreEscaped, html};
 use rayon::prelude::*;
@@ -18,12 +19,14 @@ use crate::repair::weld;
 
 /// What runs in the page.
 const SCRIPT: &str = include_str!("view.js");
-/// Triangles of all parts together: a packed triangle takes some 12 bytes of the page, so these take 0.7 MB; more are not
-/// seen at the size of a screen.
+/// Triangles of all parts together: a packed triangle takes some 12 bytes of the page, so these
+/// take 0.7 MB; more are not seen at the size of a screen.
 const TRIANGLES: usize = 60_000;
-/// The first tolerance of the simplification, as a share of the longest side: a quarter of a pixel of the view.
+/// The first tolerance of the simplification, as a share of the longest side: a quarter of a pixel
+/// of the view.
 const TOLERANCE_RATIO: f64 = 2.5e-4;
-/// How often the tolerance is doubled while there are too many triangles; 64 times it is 1.6 % of the longest side.
+/// How often the tolerance is doubled while there are too many triangles; 64 times it is 1.6 % of
+/// the longest side.
 const DOUBLINGS: usize = 6;
 /// The greatest number a coordinate is packed into.
 const STEPS: f64 = 65_535.0;
@@ -52,8 +55,8 @@ struct Packed {
     items: Vec<PackedItem>,
 }
 
-/// One thing for the script: vertices as three 16-bit shares of the box, triangles as 16- or (wide) 32-bit numbers of them,
-/// little endian, in base64.
+/// One thing for the script: vertices as three 16-bit shares of the box, triangles as 16- or (wide)
+/// 32-bit numbers of them, little endian, in base64.
 #[derive(Serialize)]
 struct PackedItem {
     color: [f64; 3],
@@ -68,7 +71,8 @@ struct PackedItem {
 }
 
 impl View {
-    /// The view of a kit; the same bytes on any number of threads. About 10 µs a triangle of the parts.
+    /// The view of a kit; the same bytes on any number of threads. About 10 µs a triangle of the
+    /// parts.
     pub fn of(sitting: &Sitting) -> Result<Self, ChecklistError> {
         let items = items(sitting);
         let bounds = items
@@ -129,8 +133,8 @@ fn items(sitting: &Sitting) -> Vec<Item> {
     items
 }
 
-/// The mesh with no more than `budget` triangles, if that takes no more than the greatest tolerance; as it is where it cannot be
-/// simplified.
+/// The mesh with no more than `budget` triangles, if that takes no more than the greatest
+/// tolerance; as it is where it cannot be simplified.
 fn simplified(mesh: &TriMesh, budget: usize) -> TriMesh {
     let welded = weld(mesh);
     let tolerance_mm = TOLERANCE_RATIO * welded.longest_side_mm();
@@ -235,7 +239,8 @@ mod tests {
         let fine = ball(Point::origin(), 10.0, 256);
         let simple = simplified(&fine, 5000);
         assert!(simple.triangles().len() <= 5000 && fine.triangles().len() > 50_000);
-        // The greatest tolerance is 64 · 2.5e-4 of 20 mm; it takes less of the volume than its shell.
+        // The greatest tolerance is 64 · 2.5e-4 of 20 mm; it takes less of the volume than its
+        // shell.
         let lost = 1.0 - simple.signed_volume_mm3() / fine.signed_volume_mm3();
         assert!(lost.abs() < 3.0 * 64.0 * TOLERANCE_RATIO * 2.0, "{lost}");
     }

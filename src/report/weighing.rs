@@ -1,4 +1,5 @@
-//! The two steps at the scales: every part before anything is glued, and at last the whole with all that is in it.
+//! The two steps at the scales: every part before anything is glued, and at last the whole with all
+//! that is in it.
 
 use maud::{Markup, html};
 
@@ -127,7 +128,8 @@ fn all_together(sheet: &Checklist) -> &'static str {
     }
 }
 
-/// The mass of everything, with the window that the print's density and the pieces of ballast leave.
+/// The mass of everything, with the window that the print's density and the pieces of ballast
+/// leave.
 fn whole_mass(sheet: &Checklist) -> Markup {
     let spread_g: f64 = sheet
         .ballast

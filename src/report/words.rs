@@ -4,7 +4,8 @@ use super::{Certificate, Checklist, GoalRow, WallRow};
 use crate::goal::GoalKind;
 use crate::verify::Figures;
 
-/// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
+/// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to
+/// read aloud.
 const SIGNIFICANT_DIGITS: i32 = 4;
 /// Below this a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
@@ -12,7 +13,8 @@ const SMALL: f64 = 1e-3;
 /// Below this share the gap of a certificate is rounding, of either sign.
 const NO_GAP_RATIO: f64 = 1e-9;
 
-/// A number to four digits without closing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0` for zero of either sign.
+/// A number to four digits without closing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0` for zero
+/// of either sign.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -48,7 +50,8 @@ pub fn extent(size_mm: &[f64; 3]) -> String {
     format!("{}\u{a0}mm", size_mm.map(number).join(" × "))
 }
 
-/// The coordinates of a point in mm, or of a direction, with what is below a thousandth as zero: `(0.1349, 55.76, 0)`.
+/// The coordinates of a point in mm, or of a direction, with what is below a thousandth as zero:
+/// `(0.1349, 55.76, 0)`.
 pub fn coordinates(at: &[f64; 3]) -> String {
     let shown = |value: f64| {
         if value.abs() < SMALL {

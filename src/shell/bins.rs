@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::Ruler;
 
-/// For each block of `rows_per_block` rows the things whose y-range reaches into it, in the things' own order.
+/// For each block of `rows_per_block` rows the things whose y-range reaches into it, in the things'
+/// own order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bins {
     starts: Vec<usize>,

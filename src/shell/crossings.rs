@@ -13,7 +13,8 @@ pub struct Crossing {
     pub winding_step: i32,
 }
 
-/// The crossings of all columns of one row, each column's ascending in z; made to be used again row after row.
+/// The crossings of all columns of one row, each column's ascending in z; made to be used again row
+/// after row.
 #[derive(Debug, Clone, Default)]
 pub struct RowCrossings {
     found: Vec<(u32, Crossing)>,
@@ -22,12 +23,13 @@ pub struct RowCrossings {
 }
 
 impl RowCrossings {
-    /// Finds the crossings of the columns over `xs` in the row at `y_mm` with `triangles` of a closed mesh, which
-    /// must hold every triangle that reaches the row.
+    /// Finds the crossings of the columns over `xs` in the row at `y_mm` with `triangles` of a
+    /// closed mesh, which must hold every triangle that reaches the row.
     ///
-    /// In every column the winding steps add up to zero, whatever the rounding: an edge's place on the row is
-    /// computed from its ends in the order of their indices, so that the two triangles beside it get the same
-    /// bits, and triangles share out the columns between their edges as half-open stretches.
+    /// In every column the winding steps add up to zero, whatever the rounding: an edge's place on
+    /// the row is computed from its ends in the order of their indices, so that the two triangles
+    /// beside it get the same bits, and triangles share out the columns between their edges as
+    /// half-open stretches.
     pub fn find(&mut self, mesh: &TriMesh, triangles: &[u32], y_mm: f64, xs: &Ruler) {
         self.found.clear();
         for &triangle in triangles {
@@ -82,8 +84,9 @@ struct OnRow {
 
 /// Adds the crossings of one triangle with the columns of a row.
 ///
-/// Of the two edges of a triangle that meet a row one goes up in y and one down. A triangle seen from its
-/// outside from above has the downward edge to the left; a column that rises through it leaves the solid.
+/// Of the two edges of a triangle that meet a row one goes up in y and one down. A triangle seen
+/// from its outside from above has the downward edge to the left; a column that rises through it
+/// leaves the solid.
 fn cross(mesh: &TriMesh, triangle: [u32; 3], y: f64, xs: &Ruler, found: &mut Vec<(u32, Crossing)>) {
     let (mut up, mut down) = (None, None);
     for (from, to) in [(0, 1), (1, 2), (2, 0)] {
@@ -106,7 +109,8 @@ fn cross(mesh: &TriMesh, triangle: [u32; 3], y: f64, xs: &Ruler, found: &mut Vec
     }
 }
 
-/// Where the edge between two vertices on either side of a row meets it; the same bits for either order.
+/// Where the edge between two vertices on either side of a row meets it; the same bits for either
+/// order.
 fn edge_on_row(mesh: &TriMesh, a: u32, b: u32, y: f64) -> OnRow {
     let corner = |vertex: u32| mesh.vertices()[vertex as usize];
     let (p, q): (Point, Point) = (corner(a.min(b)), corner(a.max(b)));
@@ -123,8 +127,8 @@ fn between(a: OnRow, b: OnRow, x: f64) -> f64 {
     a.z + (b.z - a.z) * ratio
 }
 
-/// Calls `visit` with the bottom and top, mm, of each stretch of positive length where the winding number is
-/// at least one, ascending.
+/// Calls `visit` with the bottom and top, mm, of each stretch of positive length where the winding
+/// number is at least one, ascending.
 pub fn inside_stretches(crossings: &[Crossing], mut visit: impl FnMut([f64; 2])) {
     let (mut winding, mut bottom) = (0, 0.0);
     for crossing in crossings {

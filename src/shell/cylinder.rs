@@ -6,8 +6,9 @@ use super::footprint::Footprint;
 use super::piece::{OnRow, Piece, RowForm, Shape};
 use crate::geom::{Point, Vector, orthonormal_basis};
 
-/// Axes with a smaller squared horizontal part count as vertical. Below, the centre of the chord (which is divided
-/// by it) would overflow; above, the lean over the height of a model could exceed rounding.
+/// Axes with a smaller squared horizontal part count as vertical. Below, the centre of the chord
+/// (which is divided by it) would overflow; above, the lean over the height of a model could exceed
+/// rounding.
 const VERTICAL_LIMIT: f64 = 1e-24;
 
 /// The points within `radius` of a segment whose foot on the segment's line lies on the segment.
@@ -38,7 +39,8 @@ impl Cylinder {
         self.into_piece_over(&square, margin_mm)
     }
 
-    /// A piece that holds the part of the cylinder within the hull of the segment's ends moved by `offsets`.
+    /// A piece that holds the part of the cylinder within the hull of the segment's ends moved by
+    /// `offsets`.
     pub fn into_piece_over(self, offsets: &[Vector], margin_mm: f64) -> Piece {
         let to = self.from + self.axis * self.length;
         let hull: Vec<Point> = offsets
@@ -72,7 +74,8 @@ impl Cylinder {
     }
 }
 
-/// A cylinder cut by a row. With q the horizontal offset of a column from the axis's start and u the axis:
+/// A cylinder cut by a row. With q the horizontal offset of a column from the axis's start and u
+/// the axis:
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CylinderRow {
     x: f64,
@@ -92,7 +95,8 @@ pub struct CylinderRow {
 }
 
 impl CylinderRow {
-    /// The stretch in the endless cylinder, relative to the axis's start: |q × u + z e × u| ≤ r solved for z.
+    /// The stretch in the endless cylinder, relative to the axis's start: |q × u + z e × u| ≤ r
+    /// solved for z.
     #[inline]
     fn endless(&self, dx: f64, along: f64) -> [f64; 2] {
         if self.lean < VERTICAL_LIMIT {
@@ -158,7 +162,8 @@ mod tests {
             && (from - cylinder.axis * along).norm() <= cylinder.radius
     }
 
-    /// How many of random points about the cylinder its columns find in it; each must be so by the definition.
+    /// How many of random points about the cylinder its columns find in it; each must be so by the
+    /// definition.
     fn check(axis: &Vector, random: &mut Random) -> usize {
         let from = Point::new(1.0, -2.0, 0.5);
         let cylinder = Cylinder::new(from, from + axis * 3.0, 1.5).unwrap();

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use crate::geom::{Point, Vector};
 use crate::mesh::{Solid, TriMesh};
 
-/// Numbers that look random and are the same on every machine (splitmix64; Steele, Lea & Flood, OOPSLA 2014).
+/// Numbers that look random and are the same on every machine (splitmix64; Steele, Lea & Flood,
+/// OOPSLA 2014).
 pub(crate) struct Random(u64);
 
 impl Random {
@@ -68,8 +69,8 @@ pub(crate) fn cells(cells: &[[i32; 3]], size_mm: f64) -> Solid {
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
-/// A sphere of `radius_mm` with its vertices moved outward by `bump(direction)` mm: an icosahedron whose faces are
-/// split into four `levels` times.
+/// A sphere of `radius_mm` with its vertices moved outward by `bump(direction)` mm: an icosahedron
+/// whose faces are split into four `levels` times.
 pub(crate) fn bumpy_ball(
     radius_mm: f64,
     levels: usize,

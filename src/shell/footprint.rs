@@ -2,7 +2,8 @@
 
 use crate::geom::Point;
 
-/// Most corners a footprint keeps; a hull with more is replaced by its bounding rectangle (larger, never smaller).
+/// Most corners a footprint keeps; a hull with more is replaced by its bounding rectangle (larger,
+/// never smaller).
 const MAX_CORNERS: usize = 8;
 
 /// A convex polygon in x and y, widened by a margin.
@@ -46,7 +47,8 @@ impl Footprint {
 
     /// The x-range, mm, over the row at `y_mm`, or None if the row misses the footprint.
     ///
-    /// With a margin m this is the x-range over the strip y ± m, widened by m: no smaller than the widened polygon's.
+    /// With a margin m this is the x-range over the strip y ± m, widened by m: no smaller than the
+    /// widened polygon's.
     pub fn on_row(&self, y_mm: f64) -> Option<[f64; 2]> {
         let strip = [y_mm - self.margin_mm, y_mm + self.margin_mm];
         if strip[1] < self.y_range_mm[0] || strip[0] > self.y_range_mm[1] {
@@ -89,8 +91,8 @@ fn edge_on_strip(from: [f64; 2], to: [f64; 2], [below, above]: [f64; 2]) -> Opti
     Some([start, end])
 }
 
-/// The convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex hulls in two dimensions",
-/// Inf. Process. Lett. 9, 1979).
+/// The convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex hulls in two
+/// dimensions", Inf. Process. Lett. 9, 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();

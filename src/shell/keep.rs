@@ -2,8 +2,8 @@
 
 use crate::geom::Point;
 
-/// A region that stays solid, in model coordinates: the points within `radius_mm` of the segment from `from` to `to`
-/// (a ball when the two ends are the same point).
+/// A region that stays solid, in model coordinates: the points within `radius_mm` of the segment
+/// from `from` to `to` (a ball when the two ends are the same point).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Keep {
     /// One end of the segment.

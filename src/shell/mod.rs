@@ -1,4 +1,5 @@
-//! The wall that stays: the region nearer to the surface than the wall, and what else must stay solid.
+//! The wall that stays: the region nearer to the surface than the wall, and what else must stay
+//! solid.
 
 mod ball;
 mod bins;

@@ -5,14 +5,16 @@ use rayon::prelude::*;
 use super::{Bins, RowCrossings, Ruler};
 use crate::mesh::TriMesh;
 
-/// Columns a side of the lattice that is searched. Fewer miss smaller overlaps; more take longer than the sweep
-/// at a coarse pitch itself.
+/// Columns a side of the lattice that is searched. Fewer miss smaller overlaps; more take longer
+/// than the sweep at a coarse pitch itself.
 const COLUMNS_A_SIDE: f64 = 160.0;
-/// Stretches of a wrong winding number shorter than this, mm, are rounding where a column grazes the surface.
+/// Stretches of a wrong winding number shorter than this, mm, are rounding where a column grazes
+/// the surface.
 const MIN_DEPTH_MM: f64 = 1e-6;
 
-/// Whether some column of a coarse lattice meets points that the surface winds around other than once or not
-/// at all: components that overlap, or parts turned inside out. Overlaps between the columns are not found.
+/// Whether some column of a coarse lattice meets points that the surface winds around other than
+/// once or not at all: components that overlap, or parts turned inside out. Overlaps between the
+/// columns are not found.
 pub(super) fn overlaps_itself(mesh: &TriMesh) -> bool {
     let bounds = mesh.aabb();
     let pitch_mm = bounds.size().xy().max() / COLUMNS_A_SIDE;

@@ -36,8 +36,8 @@ pub enum RowForm {
 
 /// A piece cut by a row: one stretch of z for each x.
 pub trait OnRow {
-    /// The bottom and top, mm, of the stretch in the column at `x_mm`; not bottom < top (and perhaps not a number)
-    /// if the column misses the piece. Exact up to rounding.
+    /// The bottom and top, mm, of the stretch in the column at `x_mm`; not bottom < top (and
+    /// perhaps not a number) if the column misses the piece. Exact up to rounding.
     fn stretch(&self, x_mm: f64) -> [f64; 2];
 }
 
@@ -61,7 +61,8 @@ impl Piece {
         self.z_min_mm
     }
 
-    /// The x-range, mm, of the piece over the row at `y_mm` and its form there; None if the row misses it.
+    /// The x-range, mm, of the piece over the row at `y_mm` and its form there; None if the row
+    /// misses it.
     pub fn on_row(&self, y_mm: f64) -> Option<([f64; 2], RowForm)> {
         let x_range_mm = self.footprint.on_row(y_mm)?;
         let form = match &self.shape {

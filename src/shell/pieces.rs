@@ -1,4 +1,5 @@
-//! The convex pieces whose union is the wall: a slab for each face, and what edges and vertices need beyond.
+//! The convex pieces whose union is the wall: a slab for each face, and what edges and vertices
+//! need beyond.
 
 use rayon::prelude::*;
 
@@ -12,13 +13,15 @@ use super::slab::{Reach, Slab};
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::{Solid, TriMesh};
 
-/// A triangle whose doubled area is less than this times the square of its longest edge has no normal to trust; its
-/// edges and vertices get whole cylinders and balls instead. Below, a normal is off by more than 1e-16/limit
-/// radians; above, the slab of a triangle up to limit · edge high is missed, which is off by its square.
+/// A triangle whose doubled area is less than this times the square of its longest edge has no
+/// normal to trust; its edges and vertices get whole cylinders and balls instead. Below, a normal
+/// is off by more than 1e-16/limit radians; above, the slab of a triangle up to limit · edge high
+/// is missed, which is off by its square.
 const SLIVER_RATIO: f64 = 1e-8;
-/// By how much the footprints of cylinders and balls are widened, and slabs extended out of the solid, so that no
-/// crack opens between pieces by rounding; a fraction of the wall. All of it is within the wall anyway: larger
-/// costs only time, smaller than [`normal_cone`]'s tolerance (4e-6) could open cracks.
+/// By how much the footprints of cylinders and balls are widened, and slabs extended out of the
+/// solid, so that no crack opens between pieces by rounding; a fraction of the wall. All of it is
+/// within the wall anyway: larger costs only time, smaller than [`normal_cone`]'s tolerance (4e-6)
+/// could open cracks.
 const MARGIN_RATIO: f64 = 1e-5;
 
 /// What the wall of one solid is built from, in the goal frame.
@@ -44,7 +47,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Every piece of the wall of `solid`, whose triangles and vertices are those of the builder's mesh.
+    /// Every piece of the wall of `solid`, whose triangles and vertices are those of the builder's
+    /// mesh.
     pub fn pieces(&self, solid: &Solid) -> Vec<Piece> {
         let stars = Stars::new(self.mesh);
         let edges = links::edges(solid);
@@ -106,8 +110,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Which part of a vertex's ball is needed: all of it beside a triangle without a normal, nothing for a vertex
-    /// of no triangle.
+    /// Which part of a vertex's ball is needed: all of it beside a triangle without a normal,
+    /// nothing for a vertex of no triangle.
     fn vertex_need(&self, vertex: u32, triangles: &[u32]) -> Need {
         let links: Vec<[u32; 2]> = triangles
             .iter()

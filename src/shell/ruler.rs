@@ -4,9 +4,10 @@ use std::ops::Range;
 
 /// Evenly spaced column centres along one axis: centre `i` lies at (first + i + phase) · pitch.
 ///
-/// The lattice is tied to the origin of the goal frame, not to the model, so that two solids in one frame share
-/// their columns. The phase is irrational: a model with rational coordinates then has no vertex on a column and
-/// a symmetric one no face between two columns that are its mirror images.
+/// The lattice is tied to the origin of the goal frame, not to the model, so that two solids in one
+/// frame share their columns. The phase is irrational: a model with rational coordinates then has
+/// no vertex on a column and a symmetric one no face between two columns that are its mirror
+/// images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruler {
     first: f64,
@@ -18,7 +19,8 @@ pub struct Ruler {
 impl Ruler {
     /// The phase of the lattice in x, a fraction of the pitch: √2 − 1.
     pub const PHASE_X: f64 = std::f64::consts::SQRT_2 - 1.0;
-    /// The phase of the lattice in y, a fraction of the pitch: √3 − 1, rationally independent of the one in x.
+    /// The phase of the lattice in y, a fraction of the pitch: √3 − 1, rationally independent of
+    /// the one in x.
     pub const PHASE_Y: f64 = 0.732_050_807_568_877_2;
 
     /// The centres within [low, high] mm; none if the interval is empty.
@@ -45,10 +47,11 @@ impl Ruler {
         (self.first + index as f64 + self.phase) * self.pitch_mm
     }
 
-    /// The number of centres below `position_mm`: the index of the first one that is not (within rounding).
+    /// The number of centres below `position_mm`: the index of the first one that is not (within
+    /// rounding).
     ///
-    /// Depends on nothing but the position and never decreases with it, which is what makes the crossings of
-    /// a closed mesh balance.
+    /// Depends on nothing but the position and never decreases with it, which is what makes the
+    /// crossings of a closed mesh balance.
     #[inline]
     pub fn index_at_or_after(&self, position_mm: f64) -> usize {
         let index = (position_mm / self.pitch_mm - self.phase).ceil() - self.first;

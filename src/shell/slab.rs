@@ -7,13 +7,14 @@ use crate::geom::{Point, Vector};
 /// Most half-spaces that bound a prism from one side: a cap and the three sides.
 const MAX_BOUNDS: usize = 4;
 
-/// Half-spaces whose unit normals have a smaller z-component bound x and y only, which the footprint does already.
-/// Above, slabs would reach further than they should by the threshold times the height of the model; below, the
-/// heights lose digits (a bound's error is the rounding of a coordinate divided by the component).
+/// Half-spaces whose unit normals have a smaller z-component bound x and y only, which the
+/// footprint does already. Above, slabs would reach further than they should by the threshold times
+/// the height of the model; below, the heights lose digits (a bound's error is the rounding of a
+/// coordinate divided by the component).
 const VERTICAL_LIMIT: f64 = 1e-9;
 
-/// A prism as bounds on z that are affine in x and y: z ≥ each lower and ≤ each upper bound, given as the
-/// coefficients of (x, y, 1).
+/// A prism as bounds on z that are affine in x and y: z ≥ each lower and ≤ each upper bound, given
+/// as the coefficients of (x, y, 1).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slab {
     lower: [[f64; 3]; MAX_BOUNDS],
@@ -30,7 +31,8 @@ pub(super) struct Reach {
 }
 
 impl Slab {
-    /// The prism over the triangle from `outward_mm` outside to `inward_mm` inside, for its outer unit normal.
+    /// The prism over the triangle from `outward_mm` outside to `inward_mm` inside, for its outer
+    /// unit normal.
     pub fn piece(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Piece {
         let mut slab = Self {
             lower: [[0.0, 0.0, f64::NEG_INFINITY]; 4],
@@ -114,7 +116,8 @@ mod tests {
         outward_mm: 0.1,
     };
 
-    /// Whether a point is in the prism, by the definition: between the caps and inside all three sides.
+    /// Whether a point is in the prism, by the definition: between the caps and inside all three
+    /// sides.
     fn holds(corners: &[Point; 3], normal: &Vector, point: &Point) -> bool {
         let height = (point - corners[0]).dot(normal);
         let is_left = |from: usize| {
@@ -126,7 +129,8 @@ mod tests {
             && (0..3).all(|side| is_left(side) >= 0.0)
     }
 
-    /// How many of random points about the triangle the columns find in its slab; each must be so by the definition.
+    /// How many of random points about the triangle the columns find in its slab; each must be so
+    /// by the definition.
     fn check(corners: &[Point; 3], random: &mut Random) -> usize {
         let normal = (corners[1] - corners[0])
             .cross(&(corners[2] - corners[0]))

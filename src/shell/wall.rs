@@ -8,15 +8,16 @@ use super::{Bins, Keep, Piece, Ruler};
 use crate::geom::{Aabb, Frame, Matrix};
 use crate::mesh::{Solid, TriMesh};
 
-/// How far the axes of a frame may be from orthonormal. Above, lengths in the goal frame would be off by more
-/// than rounding; below, frames made by a few multiplications would be refused.
+/// How far the axes of a frame may be from orthonormal. Above, lengths in the goal frame would be
+/// off by more than rounding; below, frames made by a few multiplications would be refused.
 const FRAME_TOLERANCE: f64 = 1e-9;
 
 /// The wall and the keep-solid regions of a solid in a goal frame.
 ///
-/// What may be emptied is { x inside the solid : no nearer to the surface than the wall, and outside every keep-solid
-/// region }. What must stay is held as convex pieces (a prism behind each face, parts of a cylinder about each edge
-/// and of a ball about each vertex), so that a vertical line meets each in one stretch, in closed form.
+/// What may be emptied is { x inside the solid : no nearer to the surface than the wall, and
+/// outside every keep-solid region }. What must stay is held as convex pieces (a prism behind each
+/// face, parts of a cylinder about each edge and of a ball about each vertex), so that a vertical
+/// line meets each in one stretch, in closed form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shell {
     surface: TriMesh,
@@ -34,7 +35,8 @@ pub enum ShellError {
         /// The wall asked for, mm.
         wall_mm: f64,
     },
-    /// A keep-solid region has an end that is not finite, or a radius that is not positive and finite.
+    /// A keep-solid region has an end that is not finite, or a radius that is not positive and
+    /// finite.
     #[error(
         "keep-solid region {index} is not a ball or capsule: its ends must be finite and its radius positive"
     )]
@@ -48,10 +50,11 @@ pub enum ShellError {
 }
 
 impl Shell {
-    /// The shell of `solid` with a wall of `wall_mm` and the regions `keeps` (model coordinates), in `frame`.
+    /// The shell of `solid` with a wall of `wall_mm` and the regions `keeps` (model coordinates),
+    /// in `frame`.
     ///
-    /// Costs some microseconds per triangle. If the solid overlaps itself (looked for on a lattice of columns), every
-    /// triangle has a wall on both sides, also those buried in the solid.
+    /// Costs some microseconds per triangle. If the solid overlaps itself (looked for on a lattice
+    /// of columns), every triangle has a wall on both sides, also those buried in the solid.
     pub fn new(
         solid: &Solid,
         frame: &Frame,
@@ -86,12 +89,14 @@ impl Shell {
         self.wall_mm
     }
 
-    /// Whether the solid was found to overlap itself, so that both sides of every triangle have a wall.
+    /// Whether the solid was found to overlap itself, so that both sides of every triangle have a
+    /// wall.
     pub fn overlaps_itself(&self) -> bool {
         self.overlaps_itself
     }
 
-    /// A box of the goal frame outside which nothing may be emptied: the bounds less the wall. May be empty.
+    /// A box of the goal frame outside which nothing may be emptied: the bounds less the wall. May
+    /// be empty.
     pub fn interior_bounds(&self) -> Aabb {
         self.surface.aabb().inflated(-self.wall_mm)
     }
@@ -118,7 +123,8 @@ impl Shell {
     }
 }
 
-/// The pieces ascending in their lowest points, which keeps a column's intervals few while they are carved.
+/// The pieces ascending in their lowest points, which keeps a column's intervals few while they are
+/// carved.
 fn from_low_to_high(pieces: &[Piece]) -> Vec<Piece> {
     let mut order: Vec<(f64, usize)> = pieces
         .par_iter()

@@ -1,4 +1,5 @@
-//! Ballast as a kit declares it: parts of stated mass at stated places, and whether they have room there; and fillings.
+//! Ballast as a kit declares it: parts of stated mass at stated places, and whether they have room
+//! there; and fillings.
 
 use serde::{Deserialize, Serialize};
 
@@ -26,8 +27,8 @@ pub(super) fn ballast_moments(ballast: &[BallastOrder], density_g_mm3: f64) -> M
         .fold(Moments::default(), |sum, part| sum + part)
 }
 
-/// The least gap between a part of ballast and the material around it, mm; negative where one lies in material, or
-/// outside the body; none without ballast.
+/// The least gap between a part of ballast and the material around it, mm; negative where one lies
+/// in material, or outside the body; none without ballast.
 pub(super) fn least_room_mm(
     ballast: &[BallastOrder],
     hollowed: &TriMesh,
@@ -63,7 +64,8 @@ pub struct FillOrder {
     pub density_g_cm3: f64,
 }
 
-/// What a filling of the voids, which are turned inward, adds to a body of `density_g_cm3`, model frame.
+/// What a filling of the voids, which are turned inward, adds to a body of `density_g_cm3`, model
+/// frame.
 pub(super) fn fill_moments(
     fill: Option<FillOrder>,
     voids: &TriMesh,

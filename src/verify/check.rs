@@ -45,7 +45,8 @@ pub struct Check {
     pub name: String,
     /// What was promised, in words.
     pub promise: String,
-    /// What was measured; none if there is no such number (the critical speed of a top that cannot spin).
+    /// What was measured; none if there is no such number (the critical speed of a top that cannot
+    /// spin).
     pub value: Option<f64>,
     /// What it is held against.
     pub limit: f64,
@@ -110,8 +111,8 @@ impl Limit {
 }
 
 impl Check {
-    /// Holds `value` against `limit`. A value that is missing, infinite or not a number fails and is kept as none, so
-    /// that no such number reaches a file.
+    /// Holds `value` against `limit`. A value that is missing, infinite or not a number fails and
+    /// is kept as none, so that no such number reaches a file.
     pub fn new(name: &str, promise: &str, value: Option<f64>, limit: Limit) -> Self {
         let value = value.filter(|value| value.is_finite());
         Self {

@@ -7,8 +7,8 @@ use super::{
 };
 use crate::goal::GoalKind;
 
-/// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the wobble is felt;
-/// far below it is lost in the printer's own accuracy.
+/// The centre of mass of a written top or yo-yo may lie this far from its axis, mm. Above it the
+/// wobble is felt; far below it is lost in the printer's own accuracy.
 pub const AXIS_OFFSET_LIMIT_MM: f64 = 0.005;
 /// The principal axis may lean this far from the spin axis, degrees; the same reasons.
 pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
@@ -16,34 +16,40 @@ pub const AXIS_TILT_LIMIT_DEG: f64 = 0.05;
 pub const DOMINANCE_LIMIT_RATIO: f64 = 1.0;
 /// A standing object must topple at more than this, degrees.
 pub const STANDING_LIMIT_DEG: f64 = 0.0;
-/// A floating object's waterline may be this far from the predicted one, mm: the surface of water hides far more.
+/// A floating object's waterline may be this far from the predicted one, mm: the surface of water
+/// hides far more.
 pub const WATERLINE_LIMIT_MM: f64 = 0.02;
 /// The metacentre must lie higher than this above the centre of mass, mm, for it to stay upright.
 pub const METACENTRIC_LIMIT_MM: f64 = 0.0;
 /// It must right itself from this heel, degrees: with less, a ripple turns it over.
 pub const RIGHTING_LIMIT_DEG: f64 = 5.0;
-/// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a printed wall
-/// loses a pixel.
+/// The wall may be this much thinner than ordered, mm: the chords of a curved surface. Above it a
+/// printed wall loses a pixel.
 pub const WALL_TOLERANCE_MM: f64 = 0.01;
-/// The string gap of a yo-yo may be this far from the ordered one, mm: the rounding of a file, far below a layer.
+/// The string gap of a yo-yo may be this far from the ordered one, mm: the rounding of a file, far
+/// below a layer.
 pub const STRING_GAP_TOLERANCE_MM: f64 = 1e-3;
-/// Volumes of the parts add up to this share of the body. STL's f32 coordinates leave about 1e-7 of 100 mm.
+/// Volumes of the parts add up to this share of the body. STL's f32 coordinates leave about 1e-7 of
+/// 100 mm.
 pub const VOLUME_SUM_LIMIT_RATIO: f64 = 1e-6;
-/// A part rests on the plate within this, mm: two f32 steps at 300 mm. Above it a slicer's first layer is thin.
+/// A part rests on the plate within this, mm: two f32 steps at 300 mm. Above it a slicer's first
+/// layer is thin.
 pub const RESTING_LIMIT_MM: f64 = 1e-4;
-/// A pose's matrix is rigid within this: rounding of a 4×4 matrix is 1e-15, a mirror 2, a 0.01 % stretch 2e-4.
+/// A pose's matrix is rigid within this: rounding of a 4×4 matrix is 1e-15, a mirror 2, a 0.01 %
+/// stretch 2e-4.
 pub const POSE_LIMIT_RATIO: f64 = 1e-9;
-/// A pin or socket may be this far from its promised radius, length or depth, mm: the flats of a circle of 48 sides lie 0.004 mm
-/// inside it at 4 mm across; above it a pin may bind, or rattle.
+/// A pin or socket may be this far from its promised radius, length or depth, mm: the flats of a
+/// circle of 48 sides lie 0.004 mm inside it at 4 mm across; above it a pin may bind, or rattle.
 pub const PIN_LIMIT_MM: f64 = 0.02;
-/// The gap between a pin and its socket may be this much narrower than ordered, mm: the rounding of files; above it, and
-/// still far below what a printer can hold, a shop's own clearance would be eaten into.
+/// The gap between a pin and its socket may be this much narrower than ordered, mm: the rounding of
+/// files; above it, and still far below what a printer can hold, a shop's own clearance would be
+/// eaten into.
 pub const GAP_TOLERANCE_MM: f64 = 1e-3;
-/// The written assembly may miss the promised figure by this share: above the rounding of STL (1e-6), below
-/// anything a person can measure.
+/// The written assembly may miss the promised figure by this share: above the rounding of STL
+/// (1e-6), below anything a person can measure.
 pub const FIGURE_SLACK_RATIO: f64 = 1e-3;
-/// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there, can it be
-/// printed, do the parts make the whole.
+/// Every check of a kit, in the order a person asks: does it do what was asked, is the wall there,
+/// can it be printed, do the parts make the whole.
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(
@@ -114,7 +120,8 @@ fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
     }
 }
 
-/// Whether it floats where it should, upright, and comes back when it is heeled; the outer surface is held to be tight.
+/// Whether it floats where it should, upright, and comes back when it is heeled; the outer surface
+/// is held to be tight.
 fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
     let found = |value: fn(&Afloat) -> f64| assembly.afloat.as_ref().map(value);
     let aside = found(|afloat| afloat.waterline_mm).map(|mm| (mm - order.waterline_mm).abs());
@@ -323,7 +330,8 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
     )
 }
 
-/// Whether the pins are in the files, fit their sockets, and leave the wall; and the parts leave each other room.
+/// Whether the pins are in the files, fit their sockets, and leave the wall; and the parts leave
+/// each other room.
 fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let apart = none("overlap", "no part reaches into another", found.overlaps);
     if found.pegs.is_empty() {
@@ -363,7 +371,8 @@ fn wall_around_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
     )
 }
 
-/// The largest value of any pin and which; not a number, so that the check fails, where one has none.
+/// The largest value of any pin and which; not a number, so that the check fails, where one has
+/// none.
 fn worst_of(
     pegs: &[PegFacts],
     value: impl Fn(&PegFacts) -> Option<f64>,

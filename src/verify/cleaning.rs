@@ -1,4 +1,5 @@
-//! Whether every void can be cleaned: its wall on the written parts, looked at through the mouths that the cuts leave in it.
+//! Whether every void can be cleaned: its wall on the written parts, looked at through the mouths
+//! that the cuts leave in it.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -13,8 +14,8 @@ use crate::mesh::{TriMesh, area_mm2, spread_points};
 use crate::printer::CleaningRule;
 use crate::repair::weld;
 
-/// What is within this of a void's surface is its wall, and what is within it of a cut lies in it, mm: a hundred steps of
-/// f32 coordinates at 100 mm, a tenth of the thinnest layer.
+/// What is within this of a void's surface is its wall, and what is within it of a cut lies in it,
+/// mm: a hundred steps of f32 coordinates at 100 mm, a tenth of the thinnest layer.
 const NEAR_MM: f64 = 1e-3;
 /// Points of each void's wall that are looked at: a share of 5 % is then known to four thousandths.
 const SAMPLES: f64 = 3000.0;
@@ -26,10 +27,12 @@ const LOOKED_RATIO: f64 = 0.999;
 const CRUMB_RATIO: f64 = 1e-4;
 /// A pocket no deeper than half its mouth lies in plain sight, and its mouth may be of any width.
 const DIMPLE_RATIO: f64 = 0.5;
-/// A measured opening may fall short of the least by this share: where the widest disc lies is searched for by steps.
+/// A measured opening may fall short of the least by this share: where the widest disc lies is
+/// searched for by steps.
 const OPENING_SLACK_RATIO: f64 = 2e-3;
-/// A stated share in sight may differ from the found one by this: four standard deviations of two samples of 2000 and 3000
-/// at a half, where they are widest, are 0.058; where 95 % is asked they are 0.025.
+/// A stated share in sight may differ from the found one by this: four standard deviations of two
+/// samples of 2000 and 3000 at a half, where they are widest, are 0.058; where 95 % is asked they
+/// are 0.025.
 pub const SIGHT_TOLERANCE_RATIO: f64 = 0.06;
 
 /// A cut of the checklist.
@@ -59,11 +62,13 @@ pub struct PromisedVoid {
 pub struct VoidFacts {
     /// The name on the sheet.
     pub id: String,
-    /// For every piece of it that is no dimple, the diameters of the largest discs through its mouths, the widest first, mm.
+    /// For every piece of it that is no dimple, the diameters of the largest discs through its
+    /// mouths, the widest first, mm.
     pub openings_mm: Vec<Vec<f64>>,
     /// The share of its wall in sight of the mouths of its own piece, and within the tool's reach.
     pub sight_ratio: f64,
-    /// The share that is in sight, or printed without support because it does not look down, or leans enough.
+    /// The share that is in sight, or printed without support because it does not look down, or
+    /// leans enough.
     pub clean_ratio: f64,
 }
 
@@ -259,7 +264,8 @@ impl Seeker<'_> {
         line.norm() <= self.reach_mm && felt.is_clear(eye, &(eye + line * LOOKED_RATIO))
     }
 
-    /// Whether a triangle of a part's surface prints without support: it looks up, or leans enough from the level.
+    /// Whether a triangle of a part's surface prints without support: it looks up, or leans enough
+    /// from the level.
     fn needs_nothing(&self, felt: &Felt, [a, b, c]: &[Point; 3]) -> bool {
         let Some(overhang_deg) = self.overhang_deg else {
             return false;

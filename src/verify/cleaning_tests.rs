@@ -30,8 +30,8 @@ fn kit(cleaning: Cleaning) -> Evidence {
     kit
 }
 
-/// A cover 0.4 mm thick inside the lower tray, leaving a slit at one end; it reaches into the side walls. Only the sight
-/// is looked at here.
+/// A cover 0.4 mm thick inside the lower tray, leaving a slit at one end; it reaches into the side
+/// walls. Only the sight is looked at here.
 fn covered() -> Evidence {
     let mut kit = kit(IN_SIGHT);
     let cover = block(Point::new(2.0, 2.0, 4.5), [50.0, 36.0, 0.4]);

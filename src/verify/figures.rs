@@ -20,9 +20,11 @@ pub struct Setting {
     pub density_g_cm3: f64,
     /// The goal as placed on the model.
     pub aim: Aim,
-    /// The support polygon of the outer surface, in the goal frame; only an object that stands has one.
+    /// The support polygon of the outer surface, in the goal frame; only an object that stands has
+    /// one.
     pub support: Option<Support>,
-    /// Where the outer surface begins and ends along the axis, goal frame, mm; only a rotor has its planes there.
+    /// Where the outer surface begins and ends along the axis, goal frame, mm; only a rotor has its
+    /// planes there.
     pub ends_mm: Option<[f64; 2]>,
     /// The outer surface in the goal frame; only what floats has water on it.
     pub hull: Option<Hull>,
@@ -30,8 +32,8 @@ pub struct Setting {
     pub hardware: Moments,
 }
 
-/// The mass properties of a body and its figures for the goal; a figure that the goal does not ask for, or that
-/// does not exist (the critical speed of a top that cannot spin), is `None`.
+/// The mass properties of a body and its figures for the goal; a figure that the goal does not ask
+/// for, or that does not exist (the critical speed of a top that cannot spin), is `None`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// With its hardware, g.
@@ -50,7 +52,8 @@ pub struct Figures {
     pub axis_offset_mm: Option<f64>,
     /// The angle between the spin axis and the principal axis nearest to it, degrees.
     pub axis_tilt_deg: Option<f64>,
-    /// The larger transverse moment over the axial one about the centre, I_b/I_c; below 1 the axis is dominant.
+    /// The larger transverse moment over the axial one about the centre, I_b/I_c; below 1 the axis
+    /// is dominant.
     pub dominance_ratio: Option<f64>,
     /// Spin-It's squared ratio (I_xx² + 2 I_xy² + I_yy²)/I_zz² about the centre (eq. 6).
     pub spin_it_ratio: Option<f64>,
@@ -74,8 +77,8 @@ impl Setting {
 }
 
 impl Figures {
-    /// The figures of a printed region with a load inside, both as moments of the print's density (model frame); the
-    /// volume is that of the print alone.
+    /// The figures of a printed region with a load inside, both as moments of the print's density
+    /// (model frame); the volume is that of the print alone.
     pub fn loaded(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
         Self {
             volume_mm3: printed.volume(),
@@ -83,8 +86,8 @@ impl Figures {
         }
     }
 
-    /// The figures of the region with these moments (model frame), with the setting's hardware in it. As exact as the
-    /// moments: nothing is sampled.
+    /// The figures of the region with these moments (model frame), with the setting's hardware in
+    /// it. As exact as the moments: nothing is sampled.
     pub fn new(printed: &Moments, setting: &Setting) -> Self {
         let density_g_mm3 = setting.density_g_mm3();
         let moments = &(*printed + setting.hardware * density_g_mm3.recip());
@@ -228,9 +231,11 @@ fn largest_transverse(inertia: &Matrix) -> f64 {
     0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
 }
 
-/// ω = √(g M ℓ / (I_c − I_b)) with the moments about the centre (Spin-It eq. 1), for a body in the goal frame.
+/// ω = √(g M ℓ / (I_c − I_b)) with the moments about the centre (Spin-It eq. 1), for a body in the
+/// goal frame.
 ///
-/// Zero when the centre hangs below the contact; none when the axis is not dominant, for then no speed is enough.
+/// Zero when the centre hangs below the contact; none when the axis is not dominant, for then no
+/// speed is enough.
 fn critical_speed_rpm(local: &Body) -> Option<f64> {
     let margin = local.inertia_g_mm2[(2, 2)] - largest_transverse(&local.inertia_g_mm2);
     let height_mm = local.center.z.max(0.0);
@@ -336,7 +341,8 @@ mod tests {
             corners_mm,
             ground_mm: 10.0,
         });
-        // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap if it is.
+        // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap
+        // if it is.
         let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
         assert_eq!(
             aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)),

@@ -1,4 +1,5 @@
-//! What a part's shape is known by when its file comes back: its triangles, and numbers that tell how it was changed.
+//! What a part's shape is known by when its file comes back: its triangles, and numbers that tell
+//! how it was changed.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,8 +9,9 @@ use crate::mesh::TriMesh;
 
 /// The mark of a surface: the hash of its triangles, and the moments of its area.
 ///
-/// The moments are sums over the triangles' middles, each weighed by its area: exact for the triangles as they are, and they
-/// follow every turn, mirror and scaling. The third ones tell a shape from its mirror image, which the second cannot.
+/// The moments are sums over the triangles' middles, each weighed by its area: exact for the
+/// triangles as they are, and they follow every turn, mirror and scaling. The third ones tell a
+/// shape from its mirror image, which the second cannot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fingerprint {
     /// SHA-256 of the triangles in single precision, whatever their order and the file's form.
@@ -43,10 +45,12 @@ pub enum Likeness {
     Other,
 }
 
-/// Moments agree within this share of the shape's own size. Files of six digits round to 1e-6 of it, and tell a mirror image
-/// from its original by far more; above 1e-3 a symmetrical part's image passes for the part.
+/// Moments agree within this share of the shape's own size. Files of six digits round to 1e-6 of
+/// it, and tell a mirror image from its original by far more; above 1e-3 a symmetrical part's image
+/// passes for the part.
 const TOLERANCE_RATIO: f64 = 1e-5;
-/// A shape has moved when its centre is farther away than this, mm: rounding moves it by less than a micrometre.
+/// A shape has moved when its centre is farther away than this, mm: rounding moves it by less than
+/// a micrometre.
 const STILL_MM: f64 = 1e-3;
 
 /// The axes of the second moments, in the order in which they are kept.
@@ -196,7 +200,8 @@ fn patch([a, b, c]: [Point; 3]) -> (f64, Point) {
     ((b - a).cross(&(c - a)).norm() / 2.0, middle)
 }
 
-/// SHA-256 of the triangles in single precision, each begun at its least corner, in ascending order.
+/// SHA-256 of the triangles in single precision, each begun at its least corner, in ascending
+/// order.
 fn triangles_sha256(mesh: &TriMesh) -> String {
     let mut triangles: Vec<[[u32; 3]; 3]> = mesh
         .iter_corners()

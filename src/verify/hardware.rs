@@ -1,4 +1,5 @@
-//! What is put into a kit's parts that is not printed: its mass, and whether it goes where it should.
+//! What is put into a kit's parts that is not printed: its mass, and whether it goes where it
+//! should.
 
 use std::f64::consts::TAU;
 
@@ -14,7 +15,8 @@ use crate::mesh::{TriMesh, winding_number};
 const END_MM: f64 = 1e-3;
 /// Lines along the axis on which the string gap is measured.
 const GAP_LINES: usize = 16;
-/// How far outside of the socket they lie, as a share of the ordered wall: in the middle of the hub.
+/// How far outside of the socket they lie, as a share of the ordered wall: in the middle of the
+/// hub.
 const GAP_WALL_RATIO: f64 = 0.5;
 
 /// One piece of hardware as the kit names it: a round bar in its place.
@@ -47,7 +49,8 @@ pub struct Hardware {
 /// How the hardware sits in the parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// The least room between a rod and the surface around it, mm; negative where a rod does not go in.
+    /// The least room between a rod and the surface around it, mm; negative where a rod does not go
+    /// in.
     pub room_mm: Option<f64>,
     /// How far a yo-yo's halves are apart about their axle, mm; none where there is one body.
     pub gap_mm: Option<f64>,
@@ -91,8 +94,8 @@ pub fn fit(hardware: &[Hardware], aim: &Aim, (outer, wall_mm): (&TriMesh, f64)) 
     })
 }
 
-/// The least distance of the surface from the side of a bar, mm; negative by as much as it reaches in. A bar that lies in the
-/// material as a whole has less than none.
+/// The least distance of the surface from the side of a bar, mm; negative by as much as it reaches
+/// in. A bar that lies in the material as a whole has less than none.
 fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     let frame = Frame::with_axis(bar.from, &(bar.to - bar.from));
     let middle = nalgebra::center(&bar.from, &bar.to);
@@ -110,7 +113,8 @@ fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     off_axis.fold(f64::INFINITY, f64::min) - bar.radius_mm
 }
 
-/// The corners of the part of a triangle that lies between two heights (Sutherland and Hodgman, 1974).
+/// The corners of the part of a triangle that lies between two heights (Sutherland and Hodgman,
+/// 1974).
 fn between(corners: [Vector; 3], [low_mm, high_mm]: [f64; 2]) -> Vec<Vector> {
     let above = clipped(&corners, |p| p.z - low_mm);
     clipped(&above, |p| high_mm - p.z)
@@ -152,7 +156,8 @@ fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
     sides().map(to_side).min_by(f64::total_cmp)
 }
 
-/// The least way from half to half along the axis, on lines about it at this radius, mm; none where a line meets only one.
+/// The least way from half to half along the axis, on lines about it at this radius, mm; none where
+/// a line meets only one.
 fn gap_mm(outer: &TriMesh, frame: &Frame, radius_mm: f64) -> Option<f64> {
     let local: Vec<[Vector; 3]> = outer
         .iter_corners()

@@ -1,4 +1,5 @@
-//! What joins the parts: whether the films of glue are as large as the faces in the files, and the ids in them are there.
+//! What joins the parts: whether the films of glue are as large as the faces in the files, and the
+//! ids in them are there.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,11 +9,13 @@ use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{FlatFace, Moments};
 
-/// Triangles of a file this near to a joint's plane lie in it, mm: far above the rounding of files, far below a layer.
+/// Triangles of a file this near to a joint's plane lie in it, mm: far above the rounding of files,
+/// far below a layer.
 const IN_PLANE_MM: f64 = 1e-3;
 /// A stroke may be this much shallower or deeper, as a share of its depth.
 const DEPTH_RATIO: f64 = 0.05;
-/// A film may differ from the faces in the files by this share: what pins, sockets and engraved marks take off one side.
+/// A film may differ from the faces in the files by this share: what pins, sockets and engraved
+/// marks take off one side.
 pub const FILM_LIMIT_RATIO: f64 = 0.1;
 
 /// The film of glue in a joint.
@@ -47,7 +50,8 @@ pub(super) fn film_moments(promise: &Promise) -> Moments {
         .fold(Moments::default(), |sum, film| sum + film)
 }
 
-/// By how much of it a film's area differs from that of the faces in its plane, at worst, and in which joint; none without films.
+/// By how much of it a film's area differs from that of the faces in its plane, at worst, and in
+/// which joint; none without films.
 ///
 /// All films of a plane are taken together; of the faces that look either way, the mean.
 pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f64, String)> {
@@ -73,7 +77,8 @@ pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f
     films.iter().map(error).max_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// How many strokes of engraved ids are missing from their files, or not as deep as promised; none where no part bears an id.
+/// How many strokes of engraved ids are missing from their files, or not as deep as promised; none
+/// where no part bears an id.
 pub(super) fn lost_strokes(promise: &Promise, felt: &[Felt]) -> Option<usize> {
     let parts = promise.parts.iter().zip(felt);
     let marks: Vec<(&Mark, &Felt)> = parts

@@ -55,9 +55,11 @@ pub struct Judgement {
     pub overlaps: usize,
     /// How every void lies open in the parts; none where no cleaning was ordered.
     pub voids: Vec<VoidFacts>,
-    /// By how much of it a film of glue differs from its faces at worst, and in which joint; none without films.
+    /// By how much of it a film of glue differs from its faces at worst, and in which joint; none
+    /// without films.
     pub film_error: Option<(f64, String)>,
-    /// How many strokes of engraved ids are not in their files as deep as promised; none without ids.
+    /// How many strokes of engraved ids are not in their files as deep as promised; none without
+    /// ids.
     pub lost_strokes: Option<usize>,
     /// Every promise with its verdict.
     pub checks: Vec<Check>,
@@ -74,8 +76,8 @@ impl Judgement {
 
 /// Measures the evidence and holds every promise against it.
 ///
-/// Exact integrals of the written triangles; the wall is the distance between triangles. Some seconds for a million
-/// triangles; the same judgement on any number of threads.
+/// Exact integrals of the written triangles; the wall is the distance between triangles. Some
+/// seconds for a million triangles; the same judgement on any number of threads.
 pub fn judge(evidence: &Evidence) -> Judgement {
     let promise = &evidence.promise;
     let welded = weld(&evidence.hollowed);

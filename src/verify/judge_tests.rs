@@ -10,8 +10,8 @@ use test_meshes::{block, tray};
 const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
 const WALL: f64 = 3.0;
 
-/// A box top 60 × 40 × 12 mm that floats 10 mm over its contact, hollow, cut through the middle into two equal
-/// trays: the lower lies as in the model, the upper is turned over.
+/// A box top 60 × 40 × 12 mm that floats 10 mm over its contact, hollow, cut through the middle
+/// into two equal trays: the lower lies as in the model, the upper is turned over.
 pub(crate) fn sound() -> Evidence {
     let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
     let corner = Vector::new(-30.0, -20.0, 10.0);
@@ -255,7 +255,8 @@ fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
 /// The sound box in a liquid in which it lies so deep.
 fn boat(waterline_mm: f64) -> Evidence {
     let mut evidence = sound();
-    // Its mass over the water it displaces: 1.2 · (28 800 − 11 016)/(2400 · T) at T mm; at 6 mm a liquid of 1.482.
+    // Its mass over the water it displaces: 1.2 · (28 800 − 11 016)/(2400 · T) at T mm; at 6 mm a
+    // liquid of 1.482.
     let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
     let water = Some(WaterOrder {
         liquid_g_cm3,
@@ -371,6 +372,7 @@ fn a_filling_counts_by_the_volume_of_the_voids() {
     let void_cm3 = 54.0 * 34.0 * 6.0 / 1000.0;
     assert!((filled.assembly.mass_g - bare.assembly.mass_g - 2.4 * void_cm3).abs() < 1e-9);
     assert_eq!(filled.assembly.volume_mm3, bare.assembly.volume_mm3);
-    // Twice as dense as the print, the filling outweighs the box's inside: the box is a top still, about the same centre.
+    // Twice as dense as the print, the filling outweighs the box's inside: the box is a top still,
+    // about the same centre.
     assert!(filled.passes() && (filled.assembly.center_mm[2] - 16.0).abs() < 1e-12);
 }

@@ -86,8 +86,8 @@ pub enum VerifyError {
 }
 
 impl VerifyError {
-    /// What became of files without which a kit cannot be measured: its promises are broken all the same. Nothing where
-    /// there is no kit to be judged in `folder`.
+    /// What became of files without which a kit cannot be measured: its promises are broken all the
+    /// same. Nothing where there is no kit to be judged in `folder`.
     pub fn changes(&self, folder: &Path) -> Vec<FileChange> {
         match self {
             Self::Missing { files, .. } => files
@@ -116,8 +116,8 @@ impl VerifyError {
     }
 }
 
-/// Reads every file of the kit in `folder` and judges it, without the solver: the checklist supplies the goal and the
-/// promises, the meshes everything else.
+/// Reads every file of the kit in `folder` and judges it, without the solver: the checklist
+/// supplies the goal and the promises, the meshes everything else.
 pub fn verify_kit(folder: &Path) -> Result<Judgement, VerifyError> {
     let (promise, sheet) = read_checklist(folder)?;
     check_files(folder, &promise)?;

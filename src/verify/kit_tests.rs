@@ -11,7 +11,8 @@ use super::*;
 use crate::base::digest::sha256_hex;
 use crate::io::stl;
 
-/// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads, and its papers.
+/// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads, and
+/// its papers.
 fn write_kit(folder: &Path) {
     let evidence = sound();
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");
@@ -187,7 +188,8 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_the
         .any(|table| key.starts_with(table))
     };
     let keys: Vec<String> = numbers("", &sheet).into_iter().filter(of_judge).collect();
-    // Mass, volume, centre, inertia and figures of three bodies, and the rows and marks of two parts.
+    // Mass, volume, centre, inertia and figures of three bodies, and the rows and marks of two
+    // parts.
     assert!(keys.len() > 100, "{}", keys.len());
     for key in keys {
         let mut lie = sheet.clone();

@@ -1,4 +1,5 @@
-//! The independent judge: it sees the written files, the goal and the printer, and nothing of how they were made.
+//! The independent judge: it sees the written files, the goal and the printer, and nothing of how
+//! they were made.
 
 mod ballast;
 mod changes;

@@ -1,4 +1,5 @@
-//! The mouths of a void: the open places in which a cut passes through its wall, on the surface as written.
+//! The mouths of a void: the open places in which a cut passes through its wall, on the surface as
+//! written.
 
 use std::collections::BTreeMap;
 
@@ -43,8 +44,8 @@ struct Rims {
     rings: Vec<Ring>,
 }
 
-/// Places spread over the mouths of a void's shell (turned either way) in a plane and along their rims, there with just the room for a
-/// tool of this radius, and the widest place of each.
+/// Places spread over the mouths of a void's shell (turned either way) in a plane and along their
+/// rims, there with just the room for a tool of this radius, and the widest place of each.
 pub(super) fn places(shell: &TriMesh, plane: &Plane, tool_radius_mm: f64) -> Vec<Place> {
     let (u, v) = plane.basis();
     let rims = Rims::of(shell, plane, [u, v]);
@@ -124,7 +125,8 @@ impl Rims {
         if is_inside { distance } else { -distance }
     }
 
-    /// The mouth a point of the void lies in: the smallest ring around it is that mouth's outer rim.
+    /// The mouth a point of the void lies in: the smallest ring around it is that mouth's outer
+    /// rim.
     fn mouth(&self, p: &Flat) -> Option<usize> {
         let around = self
             .rings
@@ -214,8 +216,8 @@ impl Ring {
     }
 }
 
-/// The two edges in which a triangle crosses the plane, from the one that goes down to the one that comes up, each by its
-/// ends ascending; a corner on the plane counts as above it.
+/// The two edges in which a triangle crosses the plane, from the one that goes down to the one that
+/// comes up, each by its ends ascending; a corner on the plane counts as above it.
 fn crossed(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<([u32; 2], [u32; 2])> {
     let above = |i: u32| heights[i as usize] >= 0.0;
     let edges = [[a, b], [b, c], [c, a]];

@@ -35,7 +35,8 @@ enum Kind {
 
 /// The check of all packages of a kit; none where it has none.
 ///
-/// Objects are held against the marks of the parts as they were made, so that a part's changed file is not laid to them.
+/// Objects are held against the marks of the parts as they were made, so that a part's changed file
+/// is not laid to them.
 pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check>, VerifyError> {
     let promise = &evidence.promise;
     let is_beside = |file: &&String| {
@@ -107,7 +108,8 @@ fn together(packages: Vec<Package>) -> Vec<Package> {
     all
 }
 
-/// An object of a plate or of a part's own package in the size before it was scaled for the printer.
+/// An object of a plate or of a part's own package in the size before it was scaled for the
+/// printer.
 fn nominal(object: PlacedObject, promise: &Promise) -> PlacedObject {
     PlacedObject {
         mesh: of_nominal_size(object.mesh, promise.printer.print_scale_ratio),
@@ -154,7 +156,8 @@ fn object_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
     faults
 }
 
-/// Whether an object is the part: in its place in the assembly, anywhere on a plate, with the same triangles in its own file.
+/// Whether an object is the part: in its place in the assembly, anywhere on a plate, with the same
+/// triangles in its own file.
 fn is_right(kind: Kind, object: &PlacedObject, (evidence, part): (&Evidence, usize)) -> bool {
     let (found, read) = (Fingerprint::of(&object.mesh), &evidence.parts[part]);
     let mark = evidence.promise.parts[part].fingerprint.clone();

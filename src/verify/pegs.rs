@@ -1,5 +1,5 @@
-//! Pins in their sockets, felt out in the written files by rays: are they there, as large as promised, and with the gap
-//! and the wall that were ordered?
+//! Pins in their sockets, felt out in the written files by rays: are they there, as large as
+//! promised, and with the gap and the wall that were ordered?
 
 use super::{Hardware, PartEvidence, Peg, Promise};
 use crate::geom::{Bvh, Point, Vector, orthonormal_basis};
@@ -7,19 +7,20 @@ use crate::mesh::TriMesh;
 
 /// Rays around a pin at each height: one for every flat of the pins that kits have.
 const DIRECTIONS: usize = 48;
-/// Heights at which a pin's and its socket's sides are felt, as shares of the pin's length: above the socket's chamfer,
-/// below the pin's.
+/// Heights at which a pin's and its socket's sides are felt, as shares of the pin's length: above
+/// the socket's chamfer, below the pin's.
 const HEIGHTS: [f64; 3] = [0.35, 0.5, 0.65];
 /// Places of a pin's end and a socket's bottom that are felt.
 const ENDS: usize = 4;
-/// The part of a step by which rays and places are turned about the axis, so that none meets an edge of a turned body exactly.
+/// The part of a step by which rays and places are turned about the axis, so that none meets an
+/// edge of a turned body exactly.
 const ASKEW: f64 = 0.37;
 /// Rays reach this many times the promised size: farther surfaces belong to something else.
 const REACH_RATIO: f64 = 3.0;
 /// Triangles of a part whose undersides are looked for in the other parts, at most.
 const SAMPLES: usize = 4000;
-/// How far under a part's surface it is looked whether another part is there too, mm: above the rounding of files
-/// (4e-6 at 100 mm) and cut faces that coincide, below any printer's pixel.
+/// How far under a part's surface it is looked whether another part is there too, mm: above the
+/// rounding of files (4e-6 at 100 mm) and cut faces that coincide, below any printer's pixel.
 const UNDER_MM: f64 = 0.005;
 
 /// A pin and its socket as they were found in the files.
@@ -27,8 +28,8 @@ const UNDER_MM: f64 = 0.005;
 pub struct PegFacts {
     /// The name that the pin and its socket share.
     pub id: String,
-    /// How far the largest of radius, length and depth is from what was promised, mm; infinite where the pin does not stand
-    /// in its part, or its mate has no socket there.
+    /// How far the largest of radius, length and depth is from what was promised, mm; infinite
+    /// where the pin does not stand in its part, or its mate has no socket there.
     pub deviation_mm: f64,
     /// The least gap between the pin's sides and the socket's, mm; nothing where either is missing.
     pub gap_mm: Option<f64>,
@@ -63,7 +64,8 @@ impl<'a> Felt<'a> {
         self.surface.winding(&self.part.pose.to_print(model)) != 0
     }
 
-    /// The distance from a point of the model to the part's surface along a unit direction, mm; none within `reach_mm`.
+    /// The distance from a point of the model to the part's surface along a unit direction, mm;
+    /// none within `reach_mm`.
     fn feel(&self, model: &Point, direction: &Vector, reach_mm: f64) -> Option<f64> {
         let [from, to] =
             [*model, model + direction * reach_mm].map(|p| self.part.pose.to_print(&p));
@@ -72,7 +74,8 @@ impl<'a> Felt<'a> {
             .map(|share| share * reach_mm)
     }
 
-    /// The distances of a peg's sides from its axis, mm, all around it at [`HEIGHTS`] of `length_mm`; none where there is no side.
+    /// The distances of a peg's sides from its axis, mm, all around it at [`HEIGHTS`] of
+    /// `length_mm`; none where there is no side.
     fn radii(&self, peg: &Peg, length_mm: f64) -> Option<Vec<f64>> {
         let (u, v) = orthonormal_basis(&peg.direction());
         let turn = |k: usize| std::f64::consts::TAU * (k as f64 + ASKEW) / DIRECTIONS as f64;
@@ -191,7 +194,8 @@ fn dowelled(dowel: &Hardware, (promise, felt): (&Promise, &[Felt]), whole: &Bvh)
     }
 }
 
-/// How far a dowel's socket is from what was promised, and the least gap around the dowel in it, mm; none where there is no hole.
+/// How far a dowel's socket is from what was promised, and the least gap around the dowel in it,
+/// mm; none where there is no hole.
 fn socketed((socket, part): (&Peg, &Felt), dowel: &Hardware) -> Option<(f64, f64)> {
     if part.holds(&socket.at(dowel.depth_mm / 2.0)) {
         return None;
@@ -263,8 +267,8 @@ fn seated(
     }
 }
 
-/// The least material between a socket's bore and the surfaces of the uncut body, mm: the distance of its axis from them less
-/// its radius, which is no more than the truth.
+/// The least material between a socket's bore and the surfaces of the uncut body, mm: the distance
+/// of its axis from them less its radius, which is no more than the truth.
 fn wall_mm(socket: &Peg, whole: &Bvh) -> f64 {
     let axis_mm =
         whole.segment_distance(&socket.at(0.0), &socket.at(socket.length_mm), f64::INFINITY);
@@ -285,7 +289,8 @@ pub(super) fn overlaps(felt: &[Felt]) -> usize {
         .sum()
 }
 
-/// Whether a place is in another part as well as in its own: under an acute rim it may be in neither or in the mate alone.
+/// Whether a place is in another part as well as in its own: under an acute rim it may be in
+/// neither or in the mate alone.
 fn is_in_another(place: &Point, own: &Felt, felt: &[Felt]) -> bool {
     own.holds(place)
         && felt

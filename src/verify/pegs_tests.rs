@@ -1,4 +1,5 @@
-//! Pins and sockets felt out in files: a sound joint, and the same joint with one thing wrong at a time.
+//! Pins and sockets felt out in files: a sound joint, and the same joint with one thing wrong at a
+//! time.
 
 use super::judge_tests::{failures, sound};
 use super::*;
@@ -6,7 +7,8 @@ use crate::geom::Vector;
 use crate::mass::FlatFace;
 use crate::mesh::{Csg, TriMesh, primitives::cylinder};
 
-/// Where the pin stands: in the middle of a side of the box of [`sound`], whose halves meet at z = 16.
+/// Where the pin stands: in the middle of a side of the box of [`sound`], whose halves meet at z =
+/// 16.
 const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
 const GAP_MM: f64 = 0.1;
 const PIN: [f64; 2] = [0.6, 1.2];
@@ -128,7 +130,8 @@ fn a_pin_too_stout_or_too_long_and_a_socket_too_shallow_are_found() {
 
 #[test]
 fn a_socket_sunk_aside_leaves_too_small_a_gap() {
-    // Nothing that the socket's own axis would show: half the tolerance of sizes, ten times that of gaps.
+    // Nothing that the socket's own axis would show: half the tolerance of sizes, ten times that of
+    // gaps.
     let aside = jointed((PIN, SOCKET), Vector::new(0.0, 0.01, 0.0));
     assert_eq!(wrong(&aside), ["clearance"]);
 }

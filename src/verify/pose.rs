@@ -61,8 +61,8 @@ impl Pose {
             .rotated(&self.rotation().transpose())
     }
 
-    /// How far the matrix is from a rigid motion: the largest deviation of R·Rᵀ from 1, of det R from +1 and of
-    /// the last row from (0, 0, 0, 1). A mirror gives 2.
+    /// How far the matrix is from a rigid motion: the largest deviation of R·Rᵀ from 1, of det R
+    /// from +1 and of the last row from (0, 0, 0, 1). A mirror gives 2.
     pub fn rigidity_error(&self) -> f64 {
         let rotation = self.rotation();
         let orthogonal = (rotation * rotation.transpose() - Matrix::identity()).amax();
@@ -81,7 +81,8 @@ impl Pose {
     }
 }
 
-/// The larger of two numbers; not a number if either is not, so that a broken matrix cannot pass as rigid.
+/// The larger of two numbers; not a number if either is not, so that a broken matrix cannot pass as
+/// rigid.
 fn larger(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

@@ -16,8 +16,8 @@ pub const SCHEMA: u32 = 1;
 
 /// The promises of a kit, and what is needed to hold its files against them.
 ///
-/// Every other key of the checklist is left unread, so that nothing the makers computed on the way can reach
-/// the verdict.
+/// Every other key of the checklist is left unread, so that nothing the makers computed on the way
+/// can reach the verdict.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Promise {
     /// The version of the keys, [`SCHEMA`].
@@ -68,7 +68,8 @@ pub struct Promise {
 pub struct PrinterLimits {
     /// The edges of the build volume along x, y and z, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
-    /// What part files are multiplied by along x, y and z to make up for shrinkage; none where they are of nominal size.
+    /// What part files are multiplied by along x, y and z to make up for shrinkage; none where they
+    /// are of nominal size.
     #[serde(default)]
     pub print_scale_ratio: Option<[f64; 3]>,
     /// The least wall the process prints, mm: what must stay around sockets.
@@ -264,7 +265,8 @@ pub struct Peg {
     pub joint: String,
     /// The middle of its base on the cut, model frame, mm.
     pub center_mm: [f64; 3],
-    /// Its direction: out of the part that has the pin, into the part that has the socket; model frame.
+    /// Its direction: out of the part that has the pin, into the part that has the socket; model
+    /// frame.
     pub axis: [f64; 3],
     /// mm.
     pub diameter_mm: f64,
@@ -287,7 +289,8 @@ pub struct PromisedJoint {
 }
 
 impl Promise {
-    /// The gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is not in the list.
+    /// The gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is not in
+    /// the list.
     pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
         let found = self.joints.iter().find(|known| known.id == joint);
         found.map_or(0.0, |joint| joint.clearance_mm)

@@ -22,15 +22,18 @@ pub struct Unbalance {
     pub static_g_mm: f64,
     /// The couple unbalance about the centre of mass: the products of inertia with the axis, g·mm².
     pub couple_g_mm2: f64,
-    /// The larger of the unbalances in the planes at the two ends, which together do what both of the above do, g·mm.
+    /// The larger of the unbalances in the planes at the two ends, which together do what both of
+    /// the above do, g·mm.
     pub end_plane_g_mm: f64,
-    /// The balance quality grade e·ω, mm/s, with e twice the end planes' larger unbalance over the mass: a purely static
-    /// unbalance in the middle counts with its own offset (ISO 21940-11, tolerance halved between two planes).
+    /// The balance quality grade e·ω, mm/s, with e twice the end planes' larger unbalance over the
+    /// mass: a purely static unbalance in the middle counts with its own offset (ISO 21940-11,
+    /// tolerance halved between two planes).
     pub grade_mm_s: f64,
 }
 
 impl Unbalance {
-    /// The unbalance of a body of these moments (goal frame) and this density, between planes at `ends_mm` along z.
+    /// The unbalance of a body of these moments (goal frame) and this density, between planes at
+    /// `ends_mm` along z.
     pub fn new(
         moments: &Moments,
         density_g_mm3: f64,
@@ -104,7 +107,8 @@ mod tests {
 
     #[test]
     fn a_pure_couple_is_seen_though_the_centre_is_on_the_axis() {
-        // 3 g at ±2 mm off the axis, 20 mm apart along it: U₁ = 3·2 = 6 g·mm in each of the planes there, couple 120 g·mm².
+        // 3 g at ±2 mm off the axis, 20 mm apart along it: U₁ = 3·2 = 6 g·mm in each of the planes
+        // there, couple 120 g·mm².
         let pair = balls(&[
             (3.0, [2.0, 0.0, -10.0]),
             (3.0, [-2.0, 0.0, 10.0]),
@@ -113,7 +117,8 @@ mod tests {
         let got = Unbalance::new(&pair, 1.0, [-10.0, 10.0], &ORDER);
         assert!(got.static_g_mm < 1e-12 && (got.couple_g_mm2 - 120.0).abs() < 1e-12);
         assert!((got.end_plane_g_mm - 6.0).abs() < 1e-12);
-        // The planes may lie anywhere: the couple about the centre is the same, the planes' share grows with their nearness.
+        // The planes may lie anywhere: the couple about the centre is the same, the planes' share
+        // grows with their nearness.
         let near = Unbalance::new(&pair, 1.0, [-2.5, 2.5], &ORDER);
         assert!(
             (near.couple_g_mm2 - 120.0).abs() < 1e-12 && (near.end_plane_g_mm - 24.0).abs() < 1e-12

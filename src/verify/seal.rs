@@ -1,4 +1,5 @@
-//! The list of all hashes of a kit, in the form that `sha256sum --check` reads: what holds the papers themselves.
+//! The list of all hashes of a kit, in the form that `sha256sum --check` reads: what holds the
+//! papers themselves.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,8 +19,8 @@ pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String 
 
 /// What became of the papers: the checklist, the job sheet and the list itself.
 ///
-/// The checklist has the hashes of all other files, the job sheet that of the checklist, and the list all of them; any two that
-/// disagree are told.
+/// The checklist has the hashes of all other files, the job sheet that of the checklist, and the
+/// list all of them; any two that disagree are told.
 pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>, VerifyError> {
     let changed = |file: &str, change| FileChange {
         file: file.to_owned(),

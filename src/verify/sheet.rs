@@ -1,4 +1,5 @@
-//! Whether checklist.json states what the files hold: every number of it that follows from them, computed again.
+//! Whether checklist.json states what the files hold: every number of it that follows from them,
+//! computed again.
 
 use serde_json::{Map, Value, json};
 
@@ -9,13 +10,16 @@ use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
 use crate::repair::weld;
 
-/// A number of the checklist may differ by this share of the largest number beside it. Both are exact integrals of the same
-/// triangles, which another machine rounds by 1e-12; above 1e-5 a tenth of a gram could be taken off a heavy part unseen.
+/// A number of the checklist may differ by this share of the largest number beside it. Both are
+/// exact integrals of the same triangles, which another machine rounds by 1e-12; above 1e-5 a tenth
+/// of a gram could be taken off a heavy part unseen.
 pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
-/// The same for the model and its voids, which the checklist knows from before they were rounded to a file's digits.
+/// The same for the model and its voids, which the checklist knows from before they were rounded to
+/// a file's digits.
 const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
-/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two large ones cancel. The same
-/// triangles in another order move an axis by 1e-8 mm and tilt it by 1e-7°; a nanometre is of no consequence to anybody.
+/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two
+/// large ones cancel. The same triangles in another order move an axis by 1e-8 mm and tilt it by
+/// 1e-7°; a nanometre is of no consequence to anybody.
 const NOTHING: f64 = 1e-6;
 /// So many of the places that differ are told; the rest are counted.
 const TOLD: usize = 6;
@@ -26,10 +30,11 @@ struct Comparison {
     found: Vec<String>,
 }
 
-/// Where the checklist states something else than what its files hold, a sentence each, in the order of its keys.
+/// Where the checklist states something else than what its files hold, a sentence each, in the
+/// order of its keys.
 ///
-/// Parts whose files have another shape than their marks are left out, and all that depends on them: they are another
-/// complaint, and would hide this one.
+/// Parts whose files have another shape than their marks are left out, and all that depends on
+/// them: they are another complaint, and would hide this one.
 pub fn misstatements(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Vec<String> {
     let mut exact = Comparison {
         ratio: SHEET_LIMIT_RATIO,
@@ -147,7 +152,8 @@ pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement)
     rows
 }
 
-/// Whether a part has the triangles that its mark says; parts of kits without marks are taken as they are.
+/// Whether a part has the triangles that its mark says; parts of kits without marks are taken as
+/// they are.
 pub(super) fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
     let mark = evidence.promise.parts[part].fingerprint.as_ref();
     let found = || Fingerprint::of(&evidence.parts[part].mesh);
@@ -196,7 +202,8 @@ fn joint_rows(promise: &Promise) -> Vec<Value> {
 }
 
 impl Comparison {
-    /// Holds every key of `found` against what is stated there; keys that were not computed again are passed over.
+    /// Holds every key of `found` against what is stated there; keys that were not computed again
+    /// are passed over.
     fn object(&mut self, at: &str, stated: &Value, found: &Value) {
         let Some(found) = found.as_object() else {
             return;
@@ -256,7 +263,8 @@ fn is_near(stated: &Value, found: &Value, slack: f64) -> bool {
     }
 }
 
-/// The largest magnitude in a value: a vector's or tensor's small numbers are as exact as its large ones.
+/// The largest magnitude in a value: a vector's or tensor's small numbers are as exact as its large
+/// ones.
 pub(super) fn largest(value: &Value) -> f64 {
     match value {
         Value::Array(values) => values.iter().map(largest).fold(0.0, f64::max),

@@ -15,8 +15,8 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single vertex stay apart, so
-    /// a cavity that touches the outside in a point is still seen as one.
+    /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single
+    /// vertex stay apart, so a cavity that touches the outside in a point is still seen as one.
     pub fn of_mesh(mesh: &TriMesh) -> Self {
         let (outward, inward) = pieces(mesh)
             .into_iter()

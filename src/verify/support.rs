@@ -3,8 +3,9 @@
 use crate::geom::{Frame, Point};
 use crate::mesh::TriMesh;
 
-/// Vertices within this share of the height from the lowest one touch the ground. Below it, a foot that was
-/// modelled a little uneven carries nothing; above it, the rounding of an edge counts as foot.
+/// Vertices within this share of the height from the lowest one touch the ground. Below it, a foot
+/// that was modelled a little uneven carries nothing; above it, the rounding of an edge counts as
+/// foot.
 pub const SUPPORT_BAND_RATIO: f64 = 0.002;
 
 /// The support polygon of a body in the goal frame.
@@ -17,7 +18,8 @@ pub struct Support {
 }
 
 impl Support {
-    /// The convex hull of the vertices of `mesh` (model frame) that touch the ground when `frame`'s z is up.
+    /// The convex hull of the vertices of `mesh` (model frame) that touch the ground when `frame`'s
+    /// z is up.
     pub fn of_mesh(mesh: &TriMesh, frame: &Frame) -> Self {
         let local: Vec<Point> = mesh.vertices().iter().map(|p| frame.to_local(p)).collect();
         let ground_mm = local.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
@@ -34,11 +36,11 @@ impl Support {
         }
     }
 
-    /// The tilt, in radians, at which a body with this centre of mass (goal frame) topples over its nearest edge;
-    /// negative if it does not stand at all.
+    /// The tilt, in radians, at which a body with this centre of mass (goal frame) topples over its
+    /// nearest edge; negative if it does not stand at all.
     ///
-    /// Quasi-static: it topples when the centre is over the edge, tan(tilt) = distance to the edge / height
-    /// (Prévost et al. 2013).
+    /// Quasi-static: it topples when the centre is over the edge, tan(tilt) = distance to the edge
+    /// / height (Prévost et al. 2013).
     pub fn toppling_angle(&self, center: &Point) -> f64 {
         let height = center.z - self.ground_mm;
         match self.corners_mm.as_slice() {
@@ -69,8 +71,8 @@ fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex hulls in two
-/// dimensions", IPL 9, 1979).
+/// The corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for
+/// convex hulls in two dimensions", IPL 9, 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();

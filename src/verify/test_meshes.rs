@@ -24,7 +24,8 @@ pub fn block(corner: Point, size: [f64; 3]) -> TriMesh {
     TriMesh::new((0..8).map(at).collect(), triangles).unwrap()
 }
 
-/// A ball of latitude rings: `rings` from pole to pole, twice as many around; the first vertex is the north pole.
+/// A ball of latitude rings: `rings` from pole to pole, twice as many around; the first vertex is
+/// the north pole.
 pub fn ball(center: Point, radius: f64, rings: u32) -> TriMesh {
     let around = 2 * rings;
     let at = |ring: u32, step: u32| {
@@ -66,7 +67,8 @@ fn angle(step: u32, of: u32) -> f64 {
     std::f64::consts::TAU * f64::from(step) / f64::from(of)
 }
 
-/// A block of `size` with its least corner at the origin and a pocket sunk into its top: `wall` all around and below.
+/// A block of `size` with its least corner at the origin and a pocket sunk into its top: `wall` all
+/// around and below.
 pub fn tray(size: [f64; 3], wall: f64) -> TriMesh {
     let [a, b, c] = size;
     let ring = |inset: f64, z: f64| {

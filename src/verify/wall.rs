@@ -3,8 +3,8 @@
 use super::Shells;
 use crate::mesh::MeshDistance;
 
-/// The smallest distance between the cavities of a hollowed body and its outer surface, mm: between triangles, not
-/// between samples. None if there is no cavity.
+/// The smallest distance between the cavities of a hollowed body and its outer surface, mm: between
+/// triangles, not between samples. None if there is no cavity.
 ///
 /// A cavity of the model itself counts as a void; one that pierces the outside gives 0.
 pub fn smallest_wall_mm(shells: &Shells) -> Option<f64> {

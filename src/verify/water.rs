@@ -1,8 +1,10 @@
-//! The judge's own hydrostatics: a body is floated by integrating the pressure of the water over its wet triangles.
+//! The judge's own hydrostatics: a body is floated by integrating the pressure of the water over
+//! its wet triangles.
 //!
-//! Nothing is shared with what placed the goal, which integrates volumes: here p = ρ g ζ acts on every wet triangle, ζ the
-//! depth, and what holds the body up, and where, follows. The metacentric height is not computed from the waterplane but
-//! measured: the body is heeled a little and its righting arm taken.
+//! Nothing is shared with what placed the goal, which integrates volumes: here p = ρ g ζ acts on
+//! every wet triangle, ζ the depth, and what holds the body up, and where, follows. The metacentric
+//! height is not computed from the waterplane but measured: the body is heeled a little and its
+//! righting arm taken.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,9 +27,11 @@ pub struct Afloat {
     pub waterline_mm: f64,
     /// How far its centre of mass then lies beside the centre of buoyancy, mm.
     pub offset_mm: f64,
-    /// The height of the lower metacentre over the centre of mass, mm; it stays upright where this is positive.
+    /// The height of the lower metacentre over the centre of mass, mm; it stays upright where this
+    /// is positive.
     pub metacentric_height_mm: f64,
-    /// The greatest of the heels tried from which it rights itself whichever way it leans, degrees; 0 where from none.
+    /// The greatest of the heels tried from which it rights itself whichever way it leans, degrees;
+    /// 0 where from none.
     pub rights_from_deg: f64,
 }
 
@@ -35,12 +39,13 @@ pub struct Afloat {
 const HEELS_DEG: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
 /// The ways to lean that are tried, around the axis.
 const LEANS: usize = 12;
-/// The heel whose righting arm gives the metacentric height, degrees. Above 0.1° the waterplane of a knobbly model changes
-/// with it; below 0.001° rounding shows.
+/// The heel whose righting arm gives the metacentric height, degrees. Above 0.1° the waterplane of
+/// a knobbly model changes with it; below 0.001° rounding shows.
 const PROBE_DEG: f64 = 0.02;
 /// Rounds of the search for the level; Newton's method takes about five.
 const LEVEL_ROUNDS: usize = 60;
-/// The displaced volume is found to this share; below 1e-13 rounding decides, above 1e-9 the metacentric height feels it.
+/// The displaced volume is found to this share; below 1e-13 rounding decides, above 1e-9 the
+/// metacentric height feels it.
 const VOLUME_TOLERANCE_RATIO: f64 = 1e-11;
 
 /// The outside of a body in the goal frame.
@@ -74,8 +79,8 @@ impl Hull {
         }
     }
 
-    /// How a body of this outside floats that displaces `volume_mm3` and has its centre of mass (goal frame) here; none if
-    /// it sinks or has no mass.
+    /// How a body of this outside floats that displaces `volume_mm3` and has its centre of mass
+    /// (goal frame) here; none if it sinks or has no mass.
     pub fn float(&self, volume_mm3: f64, center: &Point) -> Option<Afloat> {
         let (level, held) = self.level(volume_mm3, &Vector::z(), center.z)?;
         let held_up = Held {
@@ -92,8 +97,8 @@ impl Hull {
         })
     }
 
-    /// The least over all leans of the righting arm's growth with the heel: the lesser eigenvalue of the 2 × 2 form that
-    /// three leans determine.
+    /// The least over all leans of the righting arm's growth with the heel: the lesser eigenvalue
+    /// of the 2 × 2 form that three leans determine.
     fn metacentric_height(&self, body: &Held) -> Option<f64> {
         let heel = PROBE_DEG.to_radians();
         let growth = |lean_rad: f64| {
@@ -124,8 +129,8 @@ impl Hull {
             .unwrap_or(0.0)
     }
 
-    /// The lever with which the water turns the body back, mm, when its side at `lean_rad` about the axis is lifted by
-    /// `heel_rad` and it lies as deep as its mass wants.
+    /// The lever with which the water turns the body back, mm, when its side at `lean_rad` about
+    /// the axis is lifted by `heel_rad` and it lies as deep as its mass wants.
     fn righting_arm(&self, body: &Held, lean_rad: f64, heel_rad: f64) -> Option<f64> {
         let lifted = Vector::new(lean_rad.cos(), lean_rad.sin(), 0.0);
         let up = Vector::z() * heel_rad.cos() + lifted * heel_rad.sin();
@@ -135,8 +140,9 @@ impl Hull {
         Some(across.dot(&body.center.coords) - across.dot(&held.first_across) / held.volume)
     }
 
-    /// The height along `up` of the level at which the body displaces this volume, and what the water then does; none
-    /// where it has less. Newton's method from `near`, kept between the levels known to be too low and too high.
+    /// The height along `up` of the level at which the body displaces this volume, and what the
+    /// water then does; none where it has less. Newton's method from `near`, kept between the
+    /// levels known to be too low and too high.
     fn level(&self, volume_mm3: f64, up: &Vector, near: f64) -> Option<(f64, Buoyancy)> {
         let heights = self
             .triangles
@@ -170,9 +176,10 @@ impl Hull {
         Some((level, self.buoyancy(up, level)))
     }
 
-    /// The water's pressure summed over the triangles below a level across `up`: the divergence theorem turns
-    /// ∬ ζ n·u dA into the displaced volume and ∬ x ζ n·u dA into its first moments across u, ζ the height over the level;
-    /// the level's own plane, where ζ = 0, adds nothing. The level's section is what the wet triangles do not close.
+    /// The water's pressure summed over the triangles below a level across `up`: the divergence
+    /// theorem turns ∬ ζ n·u dA into the displaced volume and ∬ x ζ n·u dA into its first moments
+    /// across u, ζ the height over the level; the level's own plane, where ζ = 0, adds nothing. The
+    /// level's section is what the wet triangles do not close.
     fn buoyancy(&self, up: &Vector, level: f64) -> Buoyancy {
         let mut held = Buoyancy::default();
         for corners in &self.triangles {
@@ -216,8 +223,8 @@ fn wet_part(corners: &[Point; 3], height: &[f64; 3]) -> ([Sounding; 4], usize) {
 }
 
 impl Buoyancy {
-    /// Adds the pressure on one wet triangle; the middles of its edges integrate the products of two linear functions
-    /// exactly.
+    /// Adds the pressure on one wet triangle; the middles of its edges integrate the products of
+    /// two linear functions exactly.
     fn add_triangle(&mut self, corners: [Sounding; 3], up: &Vector) {
         let [(a, p), (b, q), (c, r)] = corners;
         let area_up = 0.5 * (b - a).cross(&(c - a)).dot(up);

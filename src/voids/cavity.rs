@@ -11,27 +11,31 @@ use crate::geom::{Bvh, Point};
 use crate::mesh::{Solid, TriMesh};
 use crate::shell::Keep;
 
-/// The surface is drawn this much deeper than the wall, mm, so that chords over inward curves may sag a little:
-/// less costs triangles along every inward edge, more is itself a deviation.
+/// The surface is drawn this much deeper than the wall, mm, so that chords over inward curves may
+/// sag a little: less costs triangles along every inward edge, more is itself a deviation.
 const BIAS_MM: f64 = 0.006;
 
 /// What the wall may lack on the unsimplified triangles, mm.
 const DRAWN_LACK_MM: f64 = 0.008;
 
-/// What the wall may lack on the final triangles, mm; the promise is 0.01, the rest is for rounding to `f32`.
+/// What the wall may lack on the final triangles, mm; the promise is 0.01, the rest is for rounding
+/// to `f32`.
 const FINAL_LACK_MM: f64 = 0.009;
 
-/// The corners may lie this much nearer than they were drawn, mm: a crossing at the very end of an edge is moved by a
-/// thousandth of it.
+/// The corners may lie this much nearer than they were drawn, mm: a crossing at the very end of an
+/// edge is moved by a thousandth of it.
 const CORNER_ERROR_MM: f64 = 0.001;
 
-/// Coarsest cell over the wall: the region nearer than the wall is two walls thick, so cells below one wall see it.
+/// Coarsest cell over the wall: the region nearer than the wall is two walls thick, so cells below
+/// one wall see it.
 const COARSE_RATIO: f64 = 0.8;
 
-/// How often coarse cells may be halved; an arc of the wall's radius sags (1/16)²/8 walls in the finest ones.
+/// How often coarse cells may be halved; an arc of the wall's radius sags (1/16)²/8 walls in the
+/// finest ones.
 const HALVINGS: i32 = 3;
 
-/// How often coarse cells are halved at sharp creases, where a chop is safe and only costs a little volume.
+/// How often coarse cells are halved at sharp creases, where a chop is safe and only costs a little
+/// volume.
 const CREASE_HALVINGS: i32 = 1;
 
 /// Rounds of exact checks before the whole surface is drawn deeper.
@@ -41,8 +45,8 @@ const CHECK_ROUNDS: usize = 5;
 const DEEPER_MM: f64 = 0.01;
 const ATTEMPTS: usize = 3;
 
-/// How far a simplification may stray from the drawn vertices, mm outward and in tolerances inward: the drawn triangles
-/// stray themselves.
+/// How far a simplification may stray from the drawn vertices, mm outward and in tolerances inward:
+/// the drawn triangles stray themselves.
 const SIMPLE_OUTSIDE_MM: f64 = 0.02;
 const SIMPLE_INSIDE_RATIO: f64 = 0.35;
 
@@ -53,8 +57,8 @@ struct Limits<'a> {
 }
 
 impl Limits<'_> {
-    /// Whether a triangle of the cavity, its corners `bias_mm` beyond the wall, leaves the wall and the keeps alone,
-    /// but for `lack_mm`.
+    /// Whether a triangle of the cavity, its corners `bias_mm` beyond the wall, leaves the wall and
+    /// the keeps alone, but for `lack_mm`.
     fn allow(&self, corners: &[Point; 3], bias_mm: f64, lack_mm: f64) -> bool {
         let spare_mm = bias_mm - CORNER_ERROR_MM + lack_mm;
         if sag_squared(corners) <= spare_mm * (2.0 * self.smallest_radius_mm() - lack_mm) {
@@ -67,7 +71,8 @@ impl Limits<'_> {
             && self.spec.keeps.iter().all(keeps_clear)
     }
 
-    /// The wall, or a smaller keep's radius: the same sag lets a triangle deeper into a smaller ball.
+    /// The wall, or a smaller keep's radius: the same sag lets a triangle deeper into a smaller
+    /// ball.
     fn smallest_radius_mm(&self) -> f64 {
         self.spec
             .keeps
@@ -77,9 +82,10 @@ impl Limits<'_> {
     }
 }
 
-/// No point of a triangle is nearer to anything than √(D² − s²) if no corner is nearer to it than D, where s² is this:
-/// Σ λᵢ |vᵢ − t|² = |x − t|² + Σ λᵢ |vᵢ − x|² for x = Σ λᵢ vᵢ, and the last sum is at most the squared circumradius,
-/// or a quarter of the longest side's square where the triangle is obtuse.
+/// No point of a triangle is nearer to anything than √(D² − s²) if no corner is nearer to it than
+/// D, where s² is this: Σ λᵢ |vᵢ − t|² = |x − t|² + Σ λᵢ |vᵢ − x|² for x = Σ λᵢ vᵢ, and the last
+/// sum is at most the squared circumradius, or a quarter of the longest side's square where the
+/// triangle is obtuse.
 fn sag_squared([a, b, c]: &[Point; 3]) -> f64 {
     let mut sides = [
         (b - a).norm_squared(),
@@ -133,8 +139,8 @@ pub(super) fn extract(
     })
 }
 
-/// The surface at the wall's distance plus the bias, refined until no triangle breaks the limits; `None` if that
-/// cannot be had.
+/// The surface at the wall's distance plus the bias, refined until no triangle breaks the limits;
+/// `None` if that cannot be had.
 fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>, VoidError> {
     let spec = limits.spec;
     let coarse_mm = COARSE_RATIO * spec.wall_mm;

@@ -1,5 +1,5 @@
-//! Where a closed mesh meets itself or all but does: nearer than the rounding of a file would keep apart, while
-//! [`crate::mesh::Crossings`] judges coordinates as they stand.
+//! Where a closed mesh meets itself or all but does: nearer than the rounding of a file would keep
+//! apart, while [`crate::mesh::Crossings`] judges coordinates as they stand.
 
 use std::ops::ControlFlow;
 
@@ -11,15 +11,16 @@ use crate::geom::triangle::{
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 
-/// Parts of a surface nearer than this count as meeting, mm: above the rounding of coordinates, below anything that a
-/// file's `f32` tells apart.
+/// Parts of a surface nearer than this count as meeting, mm: above the rounding of coordinates,
+/// below anything that a file's `f32` tells apart.
 const TOUCH_MM: f64 = 1e-7;
 
-/// Two triangles at a side are folded onto each other when the cosine of the angle between them exceeds this.
+/// Two triangles at a side are folded onto each other when the cosine of the angle between them
+/// exceeds this.
 const FOLD_COSINE: f64 = 1.0 - 1e-10;
 
-/// The triangles that meet another one elsewhere than at a shared corner or side, ascending; only pairs are looked at of
-/// which one `is_asked`.
+/// The triangles that meet another one elsewhere than at a shared corner or side, ascending; only
+/// pairs are looked at of which one `is_asked`.
 ///
 /// Every such pair whose boxes overlap is measured exactly.
 pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
@@ -72,7 +73,8 @@ fn meet(mesh: &TriMesh, i: usize, j: usize) -> bool {
     }
 }
 
-/// Whether a triangle lies on one side of the other's plane, but for one corner at most that may lie in it.
+/// Whether a triangle lies on one side of the other's plane, but for one corner at most that may
+/// lie in it.
 fn is_beside(a: &[Point; 3], plane: &[Point; 3]) -> bool {
     let normal = (plane[1] - plane[0]).cross(&(plane[2] - plane[0]));
     let margin = TOUCH_MM * normal.norm();

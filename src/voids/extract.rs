@@ -12,8 +12,9 @@ use super::table::IndexMap;
 use crate::geom::{Aabb, Point};
 use crate::mesh::{MeshError, TriMesh};
 
-/// A chord whose ends' normals turn by more than this (cosine; 20°) spans a crease of the surface, not a curve:
-/// a curve of the wall's radius turns less within the cells that its sag alone asks for.
+/// A chord whose ends' normals turn by more than this (cosine; 20°) spans a crease of the surface,
+/// not a curve: a curve of the wall's radius turns less within the cells that its sag alone asks
+/// for.
 const CREASE_COSINE: f64 = 0.94;
 
 /// The surface of a function's positive region while it is being refined.
@@ -34,7 +35,8 @@ type Placed = (Piece, [u32; 2]);
 type Named = ([VertexKey; 3], [u32; 2]);
 
 impl<'a, F: Field> Extractor<'a, F> {
-    /// Starts on the region inside `aabb`, coarse everywhere; `None` if the box is too large for the finest cell.
+    /// Starts on the region inside `aabb`, coarse everywhere; `None` if the box is too large for
+    /// the finest cell.
     pub fn new(field: &'a F, aabb: &Aabb, resolution: Resolution) -> Option<Self> {
         let mut tree = Octree::new(aabb, resolution.finest_mm, field)?;
         tree.grow(field);
@@ -55,8 +57,8 @@ impl<'a, F: Field> Extractor<'a, F> {
             .collect()
     }
 
-    /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Gives the leaves whose triangles
-    /// were drawn, ascending.
+    /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Gives the
+    /// leaves whose triangles were drawn, ascending.
     pub fn settle(&mut self, mut dirty: Vec<u32>) -> Vec<u32> {
         let mut drawn = Vec::new();
         while !dirty.is_empty() {
@@ -91,7 +93,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         leaves.par_iter().flat_map_iter(refused_in).collect()
     }
 
-    /// Divides those of these leaves that can be, and gives the leaves that must be looked at again.
+    /// Divides those of these leaves that can be, and gives the leaves that must be looked at
+    /// again.
     pub fn divide(&mut self, mut leaves: Vec<u32>) -> Vec<u32> {
         leaves.sort_unstable();
         leaves.dedup();
@@ -110,7 +113,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         self.numbered(&named)
     }
 
-    /// Of the two leaves of a triangle those to divide when it will not do: the larger one that holds surface.
+    /// Of the two leaves of a triangle those to divide when it will not do: the larger one that
+    /// holds surface.
     fn to_divide(&self, leaves: [u32; 2]) -> impl Iterator<Item = u32> {
         let size = |i: u32| {
             if self.tree.cell(i).is_free {
@@ -179,7 +183,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         pieces
     }
 
-    /// The triangles in a leaf's tetrahedra; quadrilaterals are cut along the diagonal that bends less.
+    /// The triangles in a leaf's tetrahedra; quadrilaterals are cut along the diagonal that bends
+    /// less.
     fn triangles_of(&self, leaf: u32) -> Vec<Named> {
         let mut triangles = Vec::new();
         for &(piece, leaves) in &self.pieces[leaf as usize] {
@@ -236,8 +241,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         if is_bent { divisible } else { Vec::new() }
     }
 
-    /// Whether the chord between two surface points strays too far: first by the turn of the normals, then, where
-    /// that leaves a doubt, by the function at its middle.
+    /// Whether the chord between two surface points strays too far: first by the turn of the
+    /// normals, then, where that leaves a doubt, by the function at its middle.
     fn is_bent(&self, a: &Known, b: &Known, size_mm: f64) -> bool {
         let bend = bend_mm(a, b);
         let Resolution {
@@ -292,10 +297,11 @@ fn crossings_of(pieces: &[Placed]) -> Vec<VertexKey> {
     keys
 }
 
-/// How far the surface is estimated to stray from the chord between two of its points, mm: positive where the
-/// chord lies inside the region.
+/// How far the surface is estimated to stray from the chord between two of its points, mm: positive
+/// where the chord lies inside the region.
 ///
-/// A single crease between two planes that meet the chord at angles α and β strays |ab| αβ/(α+β), at most
+/// A single crease between two planes that meet the chord at angles α and β strays |ab| αβ/(α+β),
+/// at most
 /// |ab| (α+β)/4, which this is; an arc strays half of it.
 fn bend_mm(a: &Known, b: &Known) -> f64 {
     (a.sample.gradient - b.sample.gradient).dot(&(b.at - a.at)) / 4.0

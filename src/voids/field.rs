@@ -5,7 +5,8 @@ use crate::geom::{NO_HINT, Point, Vector};
 /// The function at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
-    /// The value, mm: about the distance to the zero surface where that is near, positive inside the region.
+    /// The value, mm: about the distance to the zero surface where that is near, positive inside
+    /// the region.
     pub value: f64,
     /// The direction in which the value grows, unit length (zero where it has none).
     pub gradient: Vector,
@@ -52,10 +53,12 @@ pub(super) trait Field: Sync {
     /// Whether the ball about a sampled point is sure to hold no zero of the function.
     fn is_free(&self, center: &Known, radius_mm: f64) -> bool;
 
-    /// Whether a cell that may hold the surface is too large to be looked at closely, whatever its triangles.
+    /// Whether a cell that may hold the surface is too large to be looked at closely, whatever its
+    /// triangles.
     fn is_too_coarse(&self, center: &Known, size_mm: f64) -> bool;
 
-    /// Whether the surface must be within tolerance in the ball; elsewhere any closed surface will do.
+    /// Whether the surface must be within tolerance in the ball; elsewhere any closed surface will
+    /// do.
     fn matters(&self, center: &Point, radius_mm: f64) -> bool;
 }
 

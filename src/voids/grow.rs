@@ -7,18 +7,19 @@ use super::wall_field::WallField;
 use crate::geom::Bvh;
 use crate::mesh::TriMesh;
 
-/// The finest cell and the largest one near the surface, over the margin. Finer makes triangles that
-/// nobody needs: the surface only has to clear the bodies.
+/// The finest cell and the largest one near the surface, over the margin. Finer makes triangles
+/// that nobody needs: the surface only has to clear the bodies.
 const FINEST_RATIO: f64 = 0.5;
 const COARSE_RATIO: f64 = 1.0;
 
 /// How far a chord may stray from the grown surface, over the margin.
 const STRAY_RATIO: f64 = 0.4;
 
-/// A body that holds closed `bodies` and everything within about `margin_mm` of them, give or take half of it.
+/// A body that holds closed `bodies` and everything within about `margin_mm` of them, give or take
+/// half of it.
 ///
-/// A void that is refused for one quadric, grown by more than surfaces move when it is solved for again, can be kept
-/// solid for all quadrics that differ little.
+/// A void that is refused for one quadric, grown by more than surfaces move when it is solved for
+/// again, can be kept solid for all quadrics that differ little.
 pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;

@@ -9,8 +9,8 @@ use crate::mesh::TriMesh;
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
-/// The search gives up on cells whose half side is below this share of the radius. Smaller costs time with its square
-/// on sheets that are just too thin.
+/// The search gives up on cells whose half side is below this share of the radius. Smaller costs
+/// time with its square on sheets that are just too thin.
 const GIVE_UP_RATIO: f64 = 0.1;
 
 /// A cube whose points may be a ball's centre.
@@ -42,8 +42,9 @@ impl Ord for Candidate {
     }
 }
 
-/// Whether a ball of `radius_mm` fits into the body bounded by a closed mesh, by branch and bound over the distance to
-/// its surface; a ball that fits with less than a sixth of its radius to spare may be missed.
+/// Whether a ball of `radius_mm` fits into the body bounded by a closed mesh, by branch and bound
+/// over the distance to its surface; a ball that fits with less than a sixth of its radius to spare
+/// may be missed.
 pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     let size = mesh.aabb().size();
     if size.min() < 2.0 * radius_mm {

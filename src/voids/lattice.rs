@@ -1,9 +1,9 @@
 //! The conforming tetrahedra of a balanced octree: a graded body-centred cubic lattice.
 //!
-//! Two leaves that share a face make a tetrahedron with every edge of the (smaller) face: both centres and the
-//! edge's two ends, the edge halved where a finer leaf touches it. Neighbours see the same halves, so the
-//! tetrahedra fit together; where all leaves are equal they are those of the body-centred cubic lattice
-//! (Labelle & Shewchuk, "Isosurface Stuffing", SIGGRAPH 2007).
+//! Two leaves that share a face make a tetrahedron with every edge of the (smaller) face: both
+//! centres and the edge's two ends, the edge halved where a finer leaf touches it. Neighbours see
+//! the same halves, so the tetrahedra fit together; where all leaves are equal they are those of
+//! the body-centred cubic lattice (Labelle & Shewchuk, "Isosurface Stuffing", SIGGRAPH 2007).
 
 use super::octree::{Cell, Grid, NEIGHBOURS, Octree};
 
@@ -24,8 +24,9 @@ pub(super) fn grid(key: Key) -> Grid {
     [2, 1, 0].map(|i| (key >> (i * KEY_BITS) & mask) as i32)
 }
 
-/// A corner of a leaf's tetrahedra as the leaf numbers them: 0 to 26 are the places 0, 1, 2 half sides along x, then
-/// y, then z; 27 + f is the far end across face f, a neighbour's centre or the face's own on the boundary.
+/// A corner of a leaf's tetrahedra as the leaf numbers them: 0 to 26 are the places 0, 1, 2 half
+/// sides along x, then y, then z; 27 + f is the far end across face f, a neighbour's centre or the
+/// face's own on the boundary.
 pub(super) type Slot = u8;
 
 /// How many slots there are.
@@ -57,8 +58,8 @@ pub(super) struct Links {
     halved: u32,
 }
 
-/// A tetrahedron with positive volume; where it stands on the boundary of the octree, its last three corners lie
-/// there.
+/// A tetrahedron with positive volume; where it stands on the boundary of the octree, its last
+/// three corners lie there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Tetrahedron {
     /// The face of the leaf inside it.
@@ -67,15 +68,17 @@ pub(super) struct Tetrahedron {
     pub slots: [Slot; 4],
 }
 
-/// A face's corners in half sides, in the two axes that follow its own, counter-clockwise about the axis.
+/// A face's corners in half sides, in the two axes that follow its own, counter-clockwise about the
+/// axis.
 const RING: [[i32; 2]; 4] = [[0, 0], [2, 0], [2, 2], [0, 2]];
 
-/// The direction in those two axes that leads away from the face across the edge from corner i to corner i + 1.
+/// The direction in those two axes that leads away from the face across the edge from corner i to
+/// corner i + 1.
 const BEYOND: [[i32; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 
 impl Links {
-    /// The links of a leaf: it answers for its faces to leaves of its size (once for each pair) or larger, and to the
-    /// boundary; not for pairs without surface between them.
+    /// The links of a leaf: it answers for its faces to leaves of its size (once for each pair) or
+    /// larger, and to the boundary; not for pairs without surface between them.
     pub fn new(tree: &Octree, leaf: u32) -> Self {
         let cell = tree.cell(leaf);
         let across = [0, 1, 2, 3, 4, 5].map(|face| across(tree, cell, face));
@@ -175,8 +178,8 @@ fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
     }
 }
 
-/// Which edges of which faces are touched by a finer leaf: of the four places around an edge only the two beyond the
-/// pair of leaves can be divided.
+/// Which edges of which faces are touched by a finer leaf: of the four places around an edge only
+/// the two beyond the pair of leaves can be divided.
 fn halved(tree: &Octree, cell: &Cell) -> u32 {
     let mut bits = 0;
     for face in 0..6 {

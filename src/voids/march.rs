@@ -1,7 +1,7 @@
 //! Marching tetrahedra: the pieces of surface inside one tetrahedron.
 //!
-//! Every piece lies in its own tetrahedron and meets its neighbours' in whole edges, so the surface is a
-//! 2-manifold free of self-intersection by construction. Doi & Koide, IEICE Trans. E74, 1991.
+//! Every piece lies in its own tetrahedron and meets its neighbours' in whole edges, so the surface
+//! is a 2-manifold free of self-intersection by construction. Doi & Koide, IEICE Trans. E74, 1991.
 
 use super::roots::{VertexKey, corner_key, crossing_key};
 
@@ -27,7 +27,8 @@ pub(super) enum Piece {
     Quad([VertexKey; 4]),
 }
 
-/// The piece of surface between the positive and the other corners of a positively oriented tetrahedron.
+/// The piece of surface between the positive and the other corners of a positively oriented
+/// tetrahedron.
 pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece> {
     let cross = |i: usize, j: usize| crossing_key(corners[i], corners[j]);
     match positive.iter().filter(|&&p| p).count() {

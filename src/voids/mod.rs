@@ -1,4 +1,5 @@
-//! The voids as solids: the region that may be emptied, once, and its part inside a quadric, for each quadric.
+//! The voids as solids: the region that may be emptied, once, and its part inside a quadric, for
+//! each quadric.
 
 mod cavity;
 mod crossing;
@@ -36,11 +37,13 @@ use region::Region;
 pub struct CavitySpec<'a> {
     /// The wall that stays under the model's surface, mm.
     pub wall_mm: f64,
-    /// How far the voids' surface may stray from the true one on flat and smoothly curved places, mm.
+    /// How far the voids' surface may stray from the true one on flat and smoothly curved places,
+    /// mm.
     pub tolerance_mm: f64,
     /// What else stays solid.
     pub keeps: &'a [Keep],
-    /// A void that cannot hold a ball of this diameter is left solid, mm: the printer's minimum opening; 0 keeps all.
+    /// A void that cannot hold a ball of this diameter is left solid, mm: the printer's minimum
+    /// opening; 0 keeps all.
     pub min_void_mm: f64,
 }
 
@@ -49,7 +52,8 @@ pub struct CavitySpec<'a> {
 pub struct Voids {
     /// The voids as bodies of air, disjoint, by volume descending.
     pub bodies: Vec<Solid>,
-    /// What is left solid because no ball of the minimum diameter fits into it, as bodies of air, by volume descending.
+    /// What is left solid because no ball of the minimum diameter fits into it, as bodies of air,
+    /// by volume descending.
     pub refused: Vec<TriMesh>,
     /// The volume of material that would have floated loose in the voids and was emptied too, mm³.
     pub emptied_mm3: f64,
@@ -105,11 +109,12 @@ pub enum VoidError {
     Cancelled,
 }
 
-/// The whole region that may be emptied: extracted once for a model, a wall and its keeps, whatever the quadric.
+/// The whole region that may be emptied: extracted once for a model, a wall and its keeps, whatever
+/// the quadric.
 ///
-/// Holds: its surface is closed, 2-manifold and free of self-intersection, leaves the wall and the keeps but for
-/// 0.009 mm as measured between triangles, and strays from the true surface by more than the tolerance only at sharp
-/// outward creases, where it stays inside.
+/// Holds: its surface is closed, 2-manifold and free of self-intersection, leaves the wall and the
+/// keeps but for 0.009 mm as measured between triangles, and strays from the true surface by more
+/// than the tolerance only at sharp outward creases, where it stays inside.
 #[derive(Clone)]
 pub struct Cavity {
     body: Csg,
@@ -120,7 +125,8 @@ pub struct Cavity {
 }
 
 impl Cavity {
-    /// The region of `solid` farther from its surface than the wall and outside the keeps. It may be empty.
+    /// The region of `solid` farther from its surface than the wall and outside the keeps. It may
+    /// be empty.
     pub fn extract(solid: &Solid, spec: &CavitySpec, watch: &Watch) -> Result<Self, VoidError> {
         for (name, value_mm) in [
             ("the wall", spec.wall_mm),
@@ -141,13 +147,14 @@ impl Cavity {
         })
     }
 
-    /// Its surface, oriented outward as a body of air; without triangles where the wall leaves nothing.
+    /// Its surface, oriented outward as a body of air; without triangles where the wall leaves
+    /// nothing.
     pub fn mesh(&self) -> &TriMesh {
         &self.mesh
     }
 
-    /// What of the cavity hangs together with points within boxes: in each box the body that holds the point, or comes nearest to it; empty
-    /// where the cavity reaches into none of the boxes.
+    /// What of the cavity hangs together with points within boxes: in each box the body that holds
+    /// the point, or comes nearest to it; empty where the cavity reaches into none of the boxes.
     pub fn parts_about(&self, places: &[(Point, Aabb)]) -> Result<TriMesh, VoidError> {
         let mut all = Csg::of_mesh(&TriMesh::default())?;
         for (at, within) in places {
@@ -161,10 +168,10 @@ impl Cavity {
         Ok(all.to_mesh()?)
     }
 
-    /// The voids: the parts of the cavity in which the quadric, given in `frame`, is positive; in model coordinates,
-    /// the largest first. Material that would float loose in one is emptied with it.
-    /// Where a void is bounded by the quadric it follows it within half the tolerance; elsewhere it is the cavity's
-    /// own surface, so the wall is kept as the cavity keeps it.
+    /// The voids: the parts of the cavity in which the quadric, given in `frame`, is positive; in
+    /// model coordinates, the largest first. Material that would float loose in one is emptied with
+    /// it. Where a void is bounded by the quadric it follows it within half the tolerance;
+    /// elsewhere it is the cavity's own surface, so the wall is kept as the cavity keeps it.
     pub fn void_bodies(&self, quadric: &Quadric, frame: &Frame) -> Result<Voids, VoidError> {
         let parts = match region::positive_region(quadric, frame, &self.bvh, self.tolerance_mm)? {
             Region::Nothing => TriMesh::default(),
@@ -174,7 +181,8 @@ impl Cavity {
         split::voids(&parts, self.min_void_mm)
     }
 
-    /// The cavity without what lies in `solid`, a body or several that bound each other nowhere: the wall is kept as before.
+    /// The cavity without what lies in `solid`, a body or several that bound each other nowhere:
+    /// the wall is kept as before.
     pub fn without(&self, solid: &TriMesh) -> Result<Self, VoidError> {
         let body = self.body.subtract(&Csg::of_mesh(solid)?)?;
         let mesh = body.to_mesh()?;
@@ -187,8 +195,8 @@ impl Cavity {
     }
 }
 
-/// The void with the slivers closed up, or turned, that the rounding of a file would fold: no point of its surface moves by
-/// more than 2e-5 mm but at folds that are left then ([`unfolded`]).
+/// The void with the slivers closed up, or turned, that the rounding of a file would fold: no point
+/// of its surface moves by more than 2e-5 mm but at folds that are left then ([`unfolded`]).
 pub fn without_slivers(void: &Solid) -> Result<Solid, VoidError> {
     Ok(Solid::new(unfolded(
         &Csg::of_solid(void)?.without_slivers().to_mesh()?,
@@ -233,7 +241,8 @@ mod tests {
         cavity
     }
 
-    /// Closed, 2-manifold (every vertex in one fan) and free of self-intersection by every pair of triangles.
+    /// Closed, 2-manifold (every vertex in one fan) and free of self-intersection by every pair of
+    /// triangles.
     fn assert_sound(mesh: &TriMesh) {
         Solid::new(mesh.clone()).unwrap();
         assert_eq!(fans(mesh), mesh.vertices().len());
@@ -306,7 +315,8 @@ mod tests {
 
     #[test]
     fn parts_about_points_are_those_of_the_boxes_bodies_that_hold_them_or_come_nearest() {
-        // The cavity of a U of two arms 10 mm wide and 10 mm apart: a box about both holds a body of each.
+        // The cavity of a U of two arms 10 mm wide and 10 mm apart: a box about both holds a body
+        // of each.
         let arms = [
             [0, 1, 0],
             [0, 2, 0],
@@ -357,7 +367,8 @@ mod tests {
         let center = Point::new(1.0, 2.0, 3.0);
         let model = ball(center, 5.0, 5);
         let cavity = sound_cavity(&model, &spec(1.0, &[]));
-        // The model's own facets lie up to r θ²/8 = 0.004 mm inside the ball of radius 5 (θ = 90°/32 … 1.4 × that).
+        // The model's own facets lie up to r θ²/8 = 0.004 mm inside the ball of radius 5 (θ =
+        // 90°/32 … 1.4 × that).
         for p in samples(cavity.mesh()) {
             let radius = (p - center).norm();
             assert!(
@@ -377,7 +388,8 @@ mod tests {
             .collect();
         assert!(depths.iter().all(|&d| d > -0.01 && d < 0.25), "{depths:?}");
         let volume = signed_volume(cavity.mesh());
-        // 6·5·4 less the edges' chops (perimeter 60 mm by at most 0.4² / 2) and faces drawn 0.006 deeper.
+        // 6·5·4 less the edges' chops (perimeter 60 mm by at most 0.4² / 2) and faces drawn 0.006
+        // deeper.
         assert!(
             volume < 120.0 && volume > 120.0 - 60.0 * 0.08 - 148.0 * 0.021,
             "{volume}"
@@ -508,7 +520,8 @@ mod tests {
         )
     }
 
-    /// The voids of a quadric: sound, within the cavity, and on its positive side but for the tolerance.
+    /// The voids of a quadric: sound, within the cavity, and on its positive side but for the
+    /// tolerance.
     fn sound_voids(cavity: &Cavity, frame: &Frame, quadric: Quadric) -> Vec<f64> {
         let voids = cavity.void_bodies(&quadric, frame).unwrap();
         let wall = MeshDistance::new(&block([0.0; 3], [14.0, 12.0, 10.0]));
@@ -519,8 +532,9 @@ mod tests {
             for p in samples(body.mesh()) {
                 let local = frame.to_local(&p);
                 let (value, slope) = (quadric.value(&local), quadric.gradient(&local).norm());
-                // Within half a millimetre of a singular point (the second derivatives are at most 2) the surface is
-                // drawn coarsely; elsewhere half the tolerance times the slope, a little more for its own change.
+                // Within half a millimetre of a singular point (the second derivatives are at most
+                // 2) the surface is drawn coarsely; elsewhere half the tolerance times the slope, a
+                // little more for its own change.
                 let is_singular = slope < 1.0;
                 assert!(
                     is_singular || value >= -0.55 * TOLERANCE_MM * slope,
@@ -571,7 +585,8 @@ mod tests {
             Quadric([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
         );
         let half = signed_volume(cavity.mesh()) / 2.0;
-        // The cavity is point-symmetric about the middle but for its tolerance on 592 mm² of surface.
+        // The cavity is point-symmetric about the middle but for its tolerance on 592 mm² of
+        // surface.
         assert!((volumes[0] - half).abs() < 1.0, "{volumes:?}");
     }
 
@@ -655,8 +670,8 @@ mod tests {
         let rest = cavity.without(&grown(&thin, 0.3).unwrap()).unwrap();
         assert_sound(rest.mesh());
         let lost = signed_volume(cavity.mesh()) - signed_volume(rest.mesh());
-        // The slab grown by 0.3 mm on all sides: its volume, its faces' 196 mm² times 0.3, and a little at its edges;
-        // the surface may sag by 0.4 of the margin.
+        // The slab grown by 0.3 mm on all sides: its volume, its faces' 196 mm² times 0.3, and a
+        // little at its edges; the surface may sag by 0.4 of the margin.
         assert!(
             lost > 40.0 + 196.0 * 0.3 * 0.6 && lost < 40.0 + 196.0 * 0.3 + 10.0,
             "{lost}"

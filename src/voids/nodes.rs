@@ -1,4 +1,5 @@
-//! The lattice's corners: the function there, pushed off the surface so that no triangle is a sliver.
+//! The lattice's corners: the function there, pushed off the surface so that no triangle is a
+//! sliver.
 
 use rayon::prelude::*;
 
@@ -7,8 +8,9 @@ use super::lattice::{Key, Links, SLOTS, Slot, grid, key};
 use super::octree::Octree;
 use super::table::IndexMap;
 
-/// A corner nearer to the surface than this share of its smallest cell is pushed that far from it. More would
-/// endanger the tetrahedra (their least height is about 0.4 cells), less leaves thin triangles.
+/// A corner nearer to the surface than this share of its smallest cell is pushed that far from it.
+/// More would endanger the tetrahedra (their least height is about 0.4 cells), less leaves thin
+/// triangles.
 const PUSH_RATIO: f64 = 0.1;
 
 /// A corner of the lattice.

@@ -14,8 +14,8 @@ pub(super) const FINEST_UNITS: i32 = 2;
 /// The largest root in units that a packed grid position can name (21 bits an axis).
 const ROOT_UNITS_MAX: i32 = 1 << 20;
 
-/// A cell is sure to be free of the surface only beyond this share of its circumradius: its lattice points may
-/// be pushed off the surface, which must not depend on the last bit.
+/// A cell is sure to be free of the surface only beyond this share of its circumradius: its lattice
+/// points may be pushed off the surface, which must not depend on the last bit.
 const FREE_RATIO: f64 = 1.0 + 1e-9;
 
 /// Half a cube's diagonal over its side.
@@ -72,15 +72,16 @@ impl Cell {
 #[derive(Debug, Clone)]
 pub(super) struct Octree {
     cells: Vec<Cell>,
-    /// For each cell the first of its eight children, or 0 for a leaf; apart, so that a descent stays in the cache.
+    /// For each cell the first of its eight children, or 0 for a leaf; apart, so that a descent
+    /// stays in the cache.
     children: Vec<u32>,
     origin: Point,
     unit_mm: f64,
 }
 
 impl Octree {
-    /// One cell that holds `aabb`, for a finest cell of `finest_mm`; `None` if that takes more cells across than
-    /// a grid position can count.
+    /// One cell that holds `aabb`, for a finest cell of `finest_mm`; `None` if that takes more
+    /// cells across than a grid position can count.
     pub fn new(aabb: &Aabb, finest_mm: f64, field: &impl Field) -> Option<Self> {
         let unit_mm = finest_mm / f64::from(FINEST_UNITS);
         let needed = aabb.size().max() / unit_mm;
@@ -167,7 +168,8 @@ impl Octree {
             .is_some_and(|index| !self.is_leaf(index))
     }
 
-    /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new leaves.
+    /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new
+    /// leaves.
     pub fn grow(&mut self, field: &impl Field) -> Vec<u32> {
         let mut fresh = vec![0];
         let mut made = Vec::new();

@@ -3,7 +3,8 @@
 use super::field::{Field, Known, Sample};
 use crate::geom::{Bvh, Frame, Matrix, Point, Quadric};
 
-/// sign(q) times the lower bound of the distance to q = 0 that the second-order Taylor series gives.
+/// sign(q) times the lower bound of the distance to q = 0 that the second-order Taylor series
+/// gives.
 ///
 /// |q(x + v) − q(x)| ≤ |∇q| |v| + ‖H‖ |v|²/2, so no zero is nearer than 2|q| / (|∇q| + √(|∇q|² + 2‖H‖|q|)); near
 /// the surface this is the distance itself, and it is finite at a cone's apex.
@@ -85,8 +86,8 @@ impl Field for QuadricField<'_> {
     }
 }
 
-/// A surface turns too much within a cell when its gradient may change by more than this share of itself: at 0.5 two
-/// sheets or a small ellipsoid cannot hide between the lattice's corners.
+/// A surface turns too much within a cell when its gradient may change by more than this share of
+/// itself: at 0.5 two sheets or a small ellipsoid cannot hide between the lattice's corners.
 const TURN_RATIO: f64 = 0.5;
 
 #[cfg(test)]

@@ -9,7 +9,8 @@ use super::simplify::simplified;
 use crate::geom::{Aabb, Bvh, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
 
-/// The coarsest cells, mm: larger ones save nothing, as the quadrics' radii are of the model's size.
+/// The coarsest cells, mm: larger ones save nothing, as the quadrics' radii are of the model's
+/// size.
 const COARSE_MM: f64 = 4.0;
 
 /// How often coarse cells may be halved; the finest follow a radius of 0.4 mm to 0.01 mm.
@@ -18,11 +19,12 @@ const HALVINGS: i32 = 5;
 /// The largest cell near a singular point, mm: what hides in it is too thin to print or to clean.
 const SINGULAR_MM: f64 = 0.5;
 
-/// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in the box.
+/// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in
+/// the box.
 const MARGIN_MM: f64 = 1.0;
 
-/// How far the drawn triangles' sides may stray, and their simplification from them, as shares of the tolerance: half of
-/// it together, as a triangle's middle strays 4/3 as far as its sides.
+/// How far the drawn triangles' sides may stray, and their simplification from them, as shares of
+/// the tolerance: half of it together, as a triangle's middle strays 4/3 as far as its sides.
 const DRAW_RATIO: f64 = 0.25;
 const SIMPLIFY_RATIO: f64 = 0.1;
 
@@ -39,8 +41,8 @@ pub(super) enum Region {
     Part(Box<Csg>),
 }
 
-/// The part of `body`'s box in which the quadric, given in `frame`, is positive: in the body within half of
-/// `tolerance_mm`, elsewhere as is convenient.
+/// The part of `body`'s box in which the quadric, given in `frame`, is positive: in the body within
+/// half of `tolerance_mm`, elsewhere as is convenient.
 pub(super) fn positive_region(
     quadric: &Quadric,
     frame: &Frame,

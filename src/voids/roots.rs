@@ -6,10 +6,12 @@ use super::field::{Field, Known};
 use super::nodes::Nodes;
 use super::table::IndexMap;
 
-/// A crossing is found when the function is this near to zero, mm: a hundredth of the finest wish for a wall.
+/// A crossing is found when the function is this near to zero, mm: a hundredth of the finest wish
+/// for a wall.
 const ROOT_TOLERANCE_MM: f64 = 1e-4;
 
-/// Steps after which the best crossing so far is taken: at a kink of the function the secant halves the edge.
+/// Steps after which the best crossing so far is taken: at a kink of the function the secant halves
+/// the edge.
 const STEPS_MAX: usize = 24;
 
 /// The crossing stays this share of the edge away from its ends, so that no triangle collapses.
@@ -124,8 +126,8 @@ fn find(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
     }
 }
 
-/// The zero of the function on the segment between two points of different sign, by the Illinois method
-/// (Dowell & Jarratt, BIT 11, 1971).
+/// The zero of the function on the segment between two points of different sign, by the Illinois
+/// method (Dowell & Jarratt, BIT 11, 1971).
 fn crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
     let mut bracket = Bracket {
         low: (0.0, a.sample.value),
@@ -155,8 +157,8 @@ fn crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
     found
 }
 
-/// Two points (parameter, value) of different sign; `kept` counts how often the same end was replaced: below 0 the
-/// low one, above 0 the high one.
+/// Two points (parameter, value) of different sign; `kept` counts how often the same end was
+/// replaced: below 0 the low one, above 0 the high one.
 struct Bracket {
     low: (f64, f64),
     high: (f64, f64),

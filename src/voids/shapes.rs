@@ -23,7 +23,8 @@ pub fn welded(triangles: impl Iterator<Item = [Point; 3]>) -> TriMesh {
     weld(&TriMesh::new(vertices, triangles).unwrap())
 }
 
-/// The prism over a counter-clockwise polygon, star-shaped about its first corner, from z = 0 to `height`.
+/// The prism over a counter-clockwise polygon, star-shaped about its first corner, from z = 0 to
+/// `height`.
 pub fn prism(polygon: &[[f64; 2]], height: f64) -> TriMesh {
     let n = polygon.len();
     let at = |i: usize, z: f64| Point::new(polygon[i % n][0], polygon[i % n][1], z);
@@ -39,7 +40,8 @@ pub fn prism(polygon: &[[f64; 2]], height: f64) -> TriMesh {
     welded(triangles.into_iter())
 }
 
-/// The body of revolution about z of an outline (radius, z) that starts and ends on the axis, upward.
+/// The body of revolution about z of an outline (radius, z) that starts and ends on the axis,
+/// upward.
 pub fn revolved(outline: &[[f64; 2]], sides: usize) -> TriMesh {
     let at = |[r, z]: [f64; 2], k: usize| {
         let angle = (k % sides) as f64 * std::f64::consts::TAU / sides as f64;

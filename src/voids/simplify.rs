@@ -12,7 +12,8 @@ const ROUNDS: usize = 4;
 /// Rings of neighbours locked around a triangle that failed.
 const LOCKED_RINGS: usize = 2;
 
-/// The mesh with fewer triangles by these rules, free of self-intersection; the mesh itself if that cannot be had.
+/// The mesh with fewer triangles by these rules, free of self-intersection; the mesh itself if that
+/// cannot be had.
 pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
     let mut locked = vec![false; mesh.vertices().len()];
     let mut decimation = Decimation::new(&mesh, rules);
@@ -32,13 +33,14 @@ pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshErr
     Ok(mesh)
 }
 
-/// The triangles that have met none and were not forbidden, by the old numbers of their corners, ascending.
+/// The triangles that have met none and were not forbidden, by the old numbers of their corners,
+/// ascending.
 #[derive(Default)]
 struct Passed(Vec<[u32; 3]>);
 
 impl Passed {
-    /// The triangles that meet others or that the rules forbid; only those that have not passed before are looked at,
-    /// and whatever they meet.
+    /// The triangles that meet others or that the rules forbid; only those that have not passed
+    /// before are looked at, and whatever they meet.
     fn failed(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
         let named = |t: &[u32; 3]| t.map(|v| names[v as usize]);
         let is_new: Vec<bool> = mesh
@@ -80,7 +82,8 @@ fn lock(mesh: &TriMesh, seeds: impl Iterator<Item = u32>, locked: &mut [bool]) {
     }
 }
 
-/// The mesh of these triangles without the vertices that none names, and those vertices' old numbers.
+/// The mesh of these triangles without the vertices that none names, and those vertices' old
+/// numbers.
 fn compacted(mesh: &TriMesh, triangles: Vec<[u32; 3]>) -> Result<(TriMesh, Vec<u32>), MeshError> {
     let mut number = vec![u32::MAX; mesh.vertices().len()];
     let mut names = Vec::new();

@@ -6,7 +6,8 @@ use super::inscribed::ball_fits;
 use super::{VoidError, Voids};
 use crate::mesh::{Solid, TriMesh, bodies, shells, winding_number};
 
-/// Parts of less volume are rounding of the boolean engine, mm³: a cube of a hundredth of a millimetre.
+/// Parts of less volume are rounding of the boolean engine, mm³: a cube of a hundredth of a
+/// millimetre.
 const NO_VOLUME_MM3: f64 = 1e-6;
 
 /// A point is inside a surface that winds around it by more than this many turns.

@@ -1,13 +1,16 @@
-//! The region that may be emptied as a function: inside, farther from the surface than the wall, outside the keeps.
+//! The region that may be emptied as a function: inside, farther from the surface than the wall,
+//! outside the keeps.
 
 use super::field::{Field, Known, Sample};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, NO_HINT, Point, Vector};
 use crate::shell::Keep;
 
-/// min(d − iso, distance to every keep − its radius), with d the distance to the model's surface, positive inside.
+/// min(d − iso, distance to every keep − its radius), with d the distance to the model's surface,
+/// positive inside.
 ///
-/// 1-Lipschitz. The side is told by winding numbers, so it is right for meshes that overlap themselves too.
+/// 1-Lipschitz. The side is told by winding numbers, so it is right for meshes that overlap
+/// themselves too.
 pub(super) struct WallField<'a> {
     /// The model's triangles.
     pub surface: &'a Bvh,
@@ -21,13 +24,13 @@ pub(super) struct WallField<'a> {
     pub coarse_mm: f64,
 }
 
-/// Two empty balls overlap for certain below this share of the sum of their radii: balls on both sides of a surface
-/// may touch, and rounding must not join them.
+/// Two empty balls overlap for certain below this share of the sum of their radii: balls on both
+/// sides of a surface may touch, and rounding must not join them.
 const OVERLAP_RATIO: f64 = 1.0 - 1e-6;
 
 impl WallField<'_> {
-    /// Whether `p`, at distance `clearance_mm` from the surface, is inside: as the nearby points whose empty balls
-    /// overlap its own, or by a ray.
+    /// Whether `p`, at distance `clearance_mm` from the surface, is inside: as the nearby points
+    /// whose empty balls overlap its own, or by a ray.
     fn is_inside(&self, p: &Point, clearance_mm: f64, nearby: &[Known]) -> bool {
         let reach = |k: &Known| (k.sample.clearance_mm + clearance_mm) * OVERLAP_RATIO;
         let overlaps = |k: &&Known| (k.at - p).norm() < reach(k);

@@ -25,7 +25,8 @@ pub fn equipoise(arguments: &[&str]) -> Output {
         .unwrap()
 }
 
-/// Prepares the shipped model small and coarse, which is quick; the exit code, and what is printed as JSON.
+/// Prepares the shipped model small and coarse, which is quick; the exit code, and what is printed
+/// as JSON.
 pub fn prepared(out: &Path, wall: &str, goal: &[&str]) -> (Option<i32>, Value) {
     let usual = [
         "--json",

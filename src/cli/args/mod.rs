@@ -35,7 +35,8 @@ pub struct Cli {
     pub command: Command,
 }
 
-/// The most threads. Far more than there are cores, and the waiting ones take the time of those at work.
+/// The most threads. Far more than there are cores, and the waiting ones take the time of those at
+/// work.
 const MAX_THREADS: i64 = 256;
 
 /// What every command takes.
@@ -48,7 +49,8 @@ pub struct GlobalArgs {
     /// Say more: every check, the certificate, the time of each stage and the solver's steps
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Use so many threads, up to 256; the result does not depend on it [default: one for each core]
+    /// Use so many threads, up to 256; the result does not depend on it [default: one for each
+    /// core]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
     pub threads: Option<u16>,
     /// Print the result as JSON on the standard output
@@ -67,7 +69,8 @@ pub enum Command {
     Printers(PrintersArgs),
     /// Make coupons to print, weigh and try, so that a profile says what the machine does
     Coupon(CouponArgs),
-    /// Read a kit's written files again, tell what became of them, and judge them without the solver
+    /// Read a kit's written files again, tell what became of them, and judge them without the
+    /// solver
     Verify(VerifyArgs),
     /// Print the completions of a shell
     ///
@@ -87,7 +90,8 @@ pub struct InspectArgs {
     /// Tell what it could become on this printer: a known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
-    /// Tell what it could become with this wall [default: the printer's least; a hundredth of the size without a printer]
+    /// Tell what it could become with this wall [default: the printer's least; a hundredth of the
+    /// size without a printer]
     #[arg(
         long,
         value_name = "LENGTH",

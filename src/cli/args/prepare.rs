@@ -33,7 +33,8 @@ pub struct PrepareArgs {
     #[arg(required_unless_present = "job")]
     pub model: Option<PathBuf>,
 
-    /// A known printer's id (see `equipoise printers`), or a profile file [default: the shop's, from equipoise.toml]
+    /// A known printer's id (see `equipoise printers`), or a profile file [default: the shop's,
+    /// from equipoise.toml]
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
     /// A material the printer offers [default: the printer's]
@@ -51,8 +52,8 @@ pub struct PrepareArgs {
     /// What the object is to do
     #[arg(long, value_parser = words::<GoalKind>(GoalKind::WORDS), required_unless_present = "job", help_heading = "Goal")]
     pub goal: Option<GoalKind>,
-    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to spin about) or
-    /// auto (the best of all) [default: z]
+    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to
+    /// spin about) or auto (the best of all) [default: z]
     #[arg(
         long,
         value_name = "AXIS",
@@ -60,7 +61,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub up: Option<Up>,
-    /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm [default: lowest]
+    /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm
+    /// [default: lowest]
     #[arg(
         long,
         value_name = "POINT",
@@ -68,7 +70,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub contact: Option<Contact>,
-    /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm [default: center]
+    /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm
+    /// [default: center]
     #[arg(
         long,
         value_name = "POINT",
@@ -76,9 +79,10 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub spin_point: Option<SpinPoint>,
-    /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance; stand: toppling-angle,
-    /// lowest-center; float: metacentric-height; balance: least-removed, least-unbalance [default: the first]. The weights
-    /// of Spin-It's functional may follow it, that of a low centre first: spin-it:γc,γI [default: 1,1]
+    /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance;
+    /// stand: toppling-angle, lowest-center; float: metacentric-height; balance: least-removed,
+    /// least-unbalance [default: the first]. The weights of Spin-It's functional may follow it,
+    /// that of a low centre first: spin-it:γc,γI [default: 1,1]
     #[arg(
         long,
         value_name = "OBJECTIVE",
@@ -103,7 +107,8 @@ pub struct PrepareArgs {
     /// How the void is found [default: quadric]
     #[arg(long, value_parser = words::<Solver>(Solver::WORDS), help_heading = "Method")]
     pub solver: Option<Solver>,
-    /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the wall]
+    /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the
+    /// wall]
     #[arg(
         long,
         value_name = "LENGTH",

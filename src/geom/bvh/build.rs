@@ -11,7 +11,8 @@ const LEAF_SIZE: usize = 8;
 /// Bins per axis: fewer make poorer trees, more only cost building time.
 const BINS: usize = 16;
 
-/// Halves of so many triangles or more are built at the same time; below, handing over costs more than it gains.
+/// Halves of so many triangles or more are built at the same time; below, handing over costs more
+/// than it gains.
 const PARALLEL_ITEMS: usize = 4096;
 
 /// What the builder knows of a triangle.
@@ -51,7 +52,8 @@ fn item(id: usize, corners: &[Point; 3]) -> Item {
     }
 }
 
-/// The tree over `items`, whose first triangle is number `first` of the whole; large halves at the same time.
+/// The tree over `items`, whose first triangle is number `first` of the whole; large halves at the
+/// same time.
 fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len());
     if items.len() < PARALLEL_ITEMS {

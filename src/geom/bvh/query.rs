@@ -12,8 +12,8 @@ use crate::geom::{Aabb, Point, Vector};
 /// "No triangle is known to be near."
 pub const NO_HINT: u32 = u32::MAX;
 
-/// Deepest stack of postponed boxes. The trees are a few times log₂ n deep; a deeper one would only be slower,
-/// as the stack then grows on the heap.
+/// Deepest stack of postponed boxes. The trees are a few times log₂ n deep; a deeper one would only
+/// be slower, as the stack then grows on the heap.
 const STACK: usize = 64;
 
 /// The triangle nearest to a point.
@@ -34,8 +34,8 @@ pub struct Nearest {
 impl Bvh {
     /// The point of all triangles nearest to `p`, if one is nearer than `limit_mm`.
     ///
-    /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]); they save time and change the answer only
-    /// among triangles equally near up to rounding.
+    /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]); they save time and change the
+    /// answer only among triangles equally near up to rounding.
     pub fn closest(&self, p: &Point, limit_mm: f64, hints: &[u32]) -> Option<Nearest> {
         let mut search = Search {
             best: limit_mm * limit_mm,
@@ -53,7 +53,8 @@ impl Bvh {
         .nearest(self)
     }
 
-    /// The least distance from a triangle to all triangles, or `limit_mm` if none is nearer; 0 where they meet.
+    /// The least distance from a triangle to all triangles, or `limit_mm` if none is nearer; 0
+    /// where they meet.
     pub fn triangle_distance(&self, corners: &[Point; 3], limit_mm: f64) -> f64 {
         let probe = Probe::new(corners);
         self.visit(
@@ -92,7 +93,8 @@ impl Bvh {
         )
     }
 
-    /// The least distance from the segment to all triangles, or `limit_mm` if none is nearer; 0 where they meet.
+    /// The least distance from the segment to all triangles, or `limit_mm` if none is nearer; 0
+    /// where they meet.
     pub fn segment_distance(&self, a: &Point, b: &Point, limit_mm: f64) -> f64 {
         let ends = [*a, *b, *b];
         let probe = Probe::new(&ends);
@@ -107,8 +109,8 @@ impl Bvh {
         )
     }
 
-    /// Whether the segment from `a` to `b` passes through a triangle, decided in double precision: a segment that only
-    /// touches an edge may be told either way.
+    /// Whether the segment from `a` to `b` passes through a triangle, decided in double precision:
+    /// a segment that only touches an edge may be told either way.
     pub fn is_crossed_by(&self, a: &Point, b: &Point) -> bool {
         let along = b - a;
         let inverse = along.map(f64::recip);
@@ -134,8 +136,8 @@ impl Bvh {
         )
     }
 
-    /// How far along the segment from `a` to `b` it first passes through a triangle, as a share of its length; none where it
-    /// passes through none.
+    /// How far along the segment from `a` to `b` it first passes through a triangle, as a share of
+    /// its length; none where it passes through none.
     pub fn first_crossing(&self, a: &Point, b: &Point) -> Option<f64> {
         let along = b - a;
         let inverse = along.map(f64::recip);
@@ -152,8 +154,9 @@ impl Bvh {
         nearest.is_finite().then_some(nearest)
     }
 
-    /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's numbers and with their
-    /// corners, until it breaks off; in an order that depends on the tree alone.
+    /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's
+    /// numbers and with their corners, until it breaks off; in an order that depends on the tree
+    /// alone.
     pub fn visit_overlapping(
         &self,
         aabb: &Aabb,
@@ -180,8 +183,9 @@ impl Bvh {
 
     /// How often the surface winds around `p`: the signed crossings of the ray from `p` along +z.
     ///
-    /// For a closed mesh 1 inside, 0 outside; where a mesh overlaps itself the count adds up. A ray through an
-    /// edge or a corner is counted once, by exact predicates (Shewchuk 1997). Meaningless on the surface itself.
+    /// For a closed mesh 1 inside, 0 outside; where a mesh overlaps itself the count adds up. A ray
+    /// through an edge or a corner is counted once, by exact predicates (Shewchuk 1997).
+    /// Meaningless on the surface itself.
     pub fn winding(&self, p: &Point) -> i32 {
         self.visit(
             0,
@@ -197,8 +201,8 @@ impl Bvh {
         )
     }
 
-    /// Goes through the tree, nearer child first: `bound` is a box's lower bound, `limit` the value below which
-    /// boxes still matter, `leaf` sees a triangle; the state is the answer.
+    /// Goes through the tree, nearer child first: `bound` is a box's lower bound, `limit` the value
+    /// below which boxes still matter, `leaf` sees a triangle; the state is the answer.
     #[inline]
     fn visit<S>(
         &self,
@@ -326,8 +330,8 @@ fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     gap.norm_squared()
 }
 
-/// Where the segment from `a` along 1/`inverse` enters the box, as a share of its length; none where it misses it: the slab test
-/// of Kay and Kajiya (1986).
+/// Where the segment from `a` along 1/`inverse` enters the box, as a share of its length; none
+/// where it misses it: the slab test of Kay and Kajiya (1986).
 fn entered_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64> {
     let low = (aabb.min - a).component_mul(inverse);
     let high = (aabb.max - a).component_mul(inverse);
@@ -337,7 +341,8 @@ fn entered_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64> {
     (enter <= leave).then_some(enter)
 }
 
-/// Where the segment from `a` along `along` passes through the triangle, as a share of its length (Möller and Trumbore, 1997).
+/// Where the segment from `a` along `along` passes through the triangle, as a share of its length
+/// (Möller and Trumbore, 1997).
 fn crossed_at(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> Option<f64> {
     let (first, second) = (q - p, r - p);
     let normal = along.cross(&second);
@@ -362,8 +367,8 @@ fn is_above(p: &Point, aabb: &Aabb) -> bool {
 
 /// +1 or −1 if the ray from `p` along +z leaves or enters through the triangle, else 0.
 ///
-/// The projected triangle's winding about `p` by half-open edge crossings, so that triangles sharing an edge
-/// share no ray and miss none.
+/// The projected triangle's winding about `p` by half-open edge crossings, so that triangles
+/// sharing an edge share no ray and miss none.
 fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
     let winding: i32 = (0..3)
         .map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3]))

@@ -1,9 +1,10 @@
 //! One suite for every method: what each must hold, and how closely all agree.
 //!
-//! With the optimal quadric q (no unit, positive in the void) the *regret* of an interior is R = ∫|q| over where it differs
-//! from the optimal one: what it loses, as a part of the solid's volume. Two facts need no tolerance but for rounding.
-//! R ≥ 0 for every interior whatsoever. And the volume V by which it differs is at most √(2RW), W = Σ area/|∂q/∂z| over
-//! the void's surface, to first order: differences cost least in a band along the surface, where a depth d costs
+//! With the optimal quadric q (no unit, positive in the void) the *regret* of an interior is R =
+//! ∫|q| over where it differs from the optimal one: what it loses, as a part of the solid's volume.
+//! Two facts need no tolerance but for rounding. R ≥ 0 for every interior whatsoever. And the
+//! volume V by which it differs is at most √(2RW), W = Σ area/|∂q/∂z| over the void's surface, to
+//! first order: differences cost least in a band along the surface, where a depth d costs
 //! |∂q/∂z|d²/2, and Cauchy and Schwarz do the rest. What remains is how small R is, which each method's cells decide.
 
 use super::super::worlds::{self, World};
@@ -12,14 +13,17 @@ use crate::geom::Point;
 use crate::goal::Objective;
 use crate::interior::moments_and_derivative;
 
-/// How many columns of 1 mm the worlds are of does not matter; that a voxel is as high as they are wide does.
+/// How many columns of 1 mm the worlds are of does not matter; that a voxel is as high as they are
+/// wide does.
 const PITCH_MM: f64 = 1.0;
-/// What the optimisers leave undone: their slope is 1e-4 at the end, and the regret is quadratic in it.
+/// What the optimisers leave undone: their slope is 1e-4 at the end, and the regret is quadratic in
+/// it.
 const UNDONE: f64 = 1e-5;
-/// What smoothing λ_max costs besides: the regret is in the numerator's units, and what is smoothed lies between the
-/// numerator and this much above it.
+/// What smoothing λ_max costs besides: the regret is in the numerator's units, and what is smoothed
+/// lies between the numerator and this much above it.
 const SMOOTHED: f64 = 1e-4;
-/// The band's first order: on cells of 1 mm in an egg of 12 mm the surface bends by some percent within a cell.
+/// The band's first order: on cells of 1 mm in an egg of 12 mm the surface bends by some percent
+/// within a cell.
 const BEND: f64 = 1.2;
 
 /// What the optimal quadric says of other interiors.
@@ -61,8 +65,8 @@ impl<'a> Judge<'a> {
             / self.volume()
     }
 
-    /// What whole cells of this height lose at most: a cell that the surface cuts at a slope k is kept or emptied
-    /// whole, for k·h²/8 per area.
+    /// What whole cells of this height lose at most: a cell that the surface cuts at a slope k is
+    /// kept or emptied whole, for k·h²/8 per area.
     fn loss_of_cells(&self, height_mm: f64) -> f64 {
         let columns = &self.world.columns;
         let is_inside = |column: usize, z: f64| {
@@ -100,9 +104,11 @@ fn methods() -> Vec<(Box<dyn Method>, f64)> {
     vec![
         (Box::new(ByQuadric::default()), 0.0),
         (Box::new(ByRays::default()), 0.0),
-        // Twice the loss of cells at the quadric's own multipliers: the method's are a little different.
+        // Twice the loss of cells at the quadric's own multipliers: the method's are a little
+        // different.
         (Box::new(ByVoxels::default()), 2.0),
-        // Leaves of up to twice the width that the surface grazes are not split, and rounding moves as much again.
+        // Leaves of up to twice the width that the surface grazes are not split, and rounding moves
+        // as much again.
         (Box::new(octree), 2.0 * 4.0),
     ]
 }

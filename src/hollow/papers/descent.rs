@@ -4,7 +4,8 @@ use std::collections::VecDeque;
 
 use crate::base::watch::Watch;
 
-/// Steps whose curvature is remembered. Fewer than 5 slow it down; more than 20 cost more than they tell.
+/// Steps whose curvature is remembered. Fewer than 5 slow it down; more than 20 cost more than they
+/// tell.
 const MEMORY: usize = 10;
 /// A step is taken when it gains at least this part of what its slope promised (Armijo).
 const LEAST_GAIN_RATIO: f64 = 1e-4;
@@ -13,9 +14,11 @@ const SHORTEST_CUT: f64 = 0.1;
 const LONGEST_CUT: f64 = 0.5;
 /// Trials of one line search; after these the step is a millionth or less.
 const TRIALS: usize = 20;
-/// A pair whose curvature is below this part of its lengths is forgotten: the function bends the wrong way there.
+/// A pair whose curvature is below this part of its lengths is forgotten: the function bends the
+/// wrong way there.
 const LEAST_CURVATURE_RATIO: f64 = 1e-10;
-/// A number this near to its bound counts as on it (Bertsekas's ε), or the distance a gradient step moves if that is less.
+/// A number this near to its bound counts as on it (Bertsekas's ε), or the distance a gradient step
+/// moves if that is less.
 const NEAR_BOUND: f64 = 1e-6;
 /// The largest change of a number in a first step, of which the curvature is not known.
 const FIRST_STEP: f64 = 0.3;
@@ -55,9 +58,11 @@ struct Pair {
     turn: Vec<f64>,
 }
 
-/// Goes down from `x` until the projected slope is below the limit, nothing is gained, or the evaluations are used up.
+/// Goes down from `x` until the projected slope is below the limit, nothing is gained, or the
+/// evaluations are used up.
 ///
-/// Each step goes along the quasi-Newton direction of the numbers that are free (Bertsekas 1982), cut off at the bounds.
+/// Each step goes along the quasi-Newton direction of the numbers that are free (Bertsekas 1982),
+/// cut off at the bounds.
 pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> Place {
     let mut place = Place {
         value: 0.0,
@@ -124,8 +129,9 @@ fn free_weights(place: &Place, weights: &[f64], near: f64) -> Vec<f64> {
         .collect()
 }
 
-/// −H·slope over the free numbers, zero for the others: the two-loop recursion (Nocedal, "Updating quasi-Newton matrices
-/// with limited storage", Math. Comput. 35, 1980), all products over the free numbers alone.
+/// −H·slope over the free numbers, zero for the others: the two-loop recursion (Nocedal, "Updating
+/// quasi-Newton matrices with limited storage", Math. Comput. 35, 1980), all products over the free
+/// numbers alone.
 fn newton_direction(slope: &[f64], pairs: &VecDeque<Pair>, free: &[f64]) -> Vec<f64> {
     let mut direction: Vec<f64> = slope
         .iter()
@@ -172,7 +178,8 @@ fn curvature<'a>(pair: &'a Pair, free: &[f64]) -> Option<(&'a Pair, f64, f64)> {
     (bend > LEAST_CURVATURE_RATIO * (turning * length).sqrt()).then_some((pair, bend, turning))
 }
 
-/// The first place along a direction, cut off at the bounds, that gains enough; none where no short step does.
+/// The first place along a direction, cut off at the bounds, that gains enough; none where no short
+/// step does.
 fn line_search(
     function: &dyn Function,
     from: &Place,
@@ -229,7 +236,8 @@ fn remember(pairs: &mut VecDeque<Pair>, from: &Place, to: &Place) {
     pairs.push_back(pair);
 }
 
-/// Sums that are gathered side by side, so that the processor adds them at once; the order is always the same.
+/// Sums that are gathered side by side, so that the processor adds them at once; the order is
+/// always the same.
 const LANES: usize = 8;
 
 /// Σ weight·a·b
@@ -325,7 +333,8 @@ mod tests {
             .map(|middle| middle.clamp(0.0, 1.0))
             .collect();
         let least = bowl.evaluate(&cut, &mut vec![0.0; cut.len()]);
-        // It ends when thirty steps gain 1e-8 of the value; what is left is of the order of a few times that.
+        // It ends when thirty steps gain 1e-8 of the value; what is left is of the order of a few
+        // times that.
         assert!(
             place.value >= least && place.value <= least * (1.0 + 1e-6),
             "{} {least}",
@@ -339,8 +348,8 @@ mod tests {
         let place = descended(&bowl);
         assert!(place.evaluations < 1000, "{}", place.evaluations);
         assert!(place.x.iter().all(|x| (0.0..=1.0).contains(x)));
-        // Within δ of the least of a function that curves no more than L, the slope is at most √(2Lδ); here L ≤ 32 + 2·40
-        // and δ ≤ 1e-6 of a value of order one.
+        // Within δ of the least of a function that curves no more than L, the slope is at most
+        // √(2Lδ); here L ≤ 32 + 2·40 and δ ≤ 1e-6 of a value of order one.
         assert!(
             projected_slope(&place, &bowl.weights) < 0.015,
             "{}",

@@ -1,4 +1,5 @@
-//! The constraints of the papers' methods: an augmented Lagrangian, minimised again and again with better multipliers.
+//! The constraints of the papers' methods: an augmented Lagrangian, minimised again and again with
+//! better multipliers.
 
 use nalgebra::DVector;
 
@@ -10,13 +11,15 @@ use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::interior::Choice;
 
-/// The first penalty, where f and As are of order one. A hundred times less, and the first rounds stray far; a hundred
-/// times more, and f hardly shows beside it.
+/// The first penalty, where f and As are of order one. A hundred times less, and the first rounds
+/// stray far; a hundred times more, and f hardly shows beside it.
 const FIRST_PENALTY: f64 = 10.0;
-/// A round that does not bring the residual below this part of the one before raises the penalty by this factor.
+/// A round that does not bring the residual below this part of the one before raises the penalty by
+/// this factor.
 const ENOUGH_RATIO: f64 = 0.25;
 const STIFFEN: f64 = 4.0;
-/// No penalty is greater: beyond, the rows' curvature hides f's from L-BFGS, and the multipliers settle without it.
+/// No penalty is greater: beyond, the rows' curvature hides f's from L-BFGS, and the multipliers
+/// settle without it.
 const GREATEST_PENALTY: f64 = 1e5;
 /// The slope to which the first round goes, and how much exacter each one after it is.
 const FIRST_SLOPE: f64 = 1e-2;
@@ -31,7 +34,8 @@ pub(super) struct Start {
     pub x: Vec<f64>,
     /// Multipliers and penalty of an earlier run on other cells.
     pub known: Option<(DVector<f64>, f64)>,
-    /// The weight of the roughness ½Σ(xᵢ − xⱼ)² over the pairs of neighbours, as a mean over the pairs.
+    /// The weight of the roughness ½Σ(xᵢ − xⱼ)² over the pairs of neighbours, as a mean over the
+    /// pairs.
     pub smoothing: f64,
 }
 
@@ -87,7 +91,8 @@ impl Function for Lagrangian<'_> {
 }
 
 impl Lagrangian<'_> {
-    /// g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: what a grain of material adds to the whole, over its volume.
+    /// g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: what a grain of material adds to the whole, over
+    /// its volume.
     fn quadric(&self, gradient: Vector10, misses: &DVector<f64>) -> Quadric {
         let pull = self
             .target

@@ -1,4 +1,5 @@
-//! Spin-It's method: a share of every leaf of an octree, split where it is fractional until it is fine, then rounded.
+//! Spin-It's method: a share of every leaf of an octree, split where it is fractional until it is
+//! fine, then rounded.
 
 use super::super::method::{Found, Method, MethodError, Rounding, value_of};
 use super::super::problem::Problem;
@@ -8,18 +9,20 @@ use super::{Accuracy, found};
 use crate::base::watch::Watch;
 use crate::interior::{Choice, Levels, Octree};
 
-/// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform Laplacian to keep it smooth,
-/// and after each solution fractional leaves split and siblings that agree merged, until what is fractional is of the
-/// finest level, one column wide. At the end every share is rounded to 0 or 1, which breaks the constraints again: by
-/// how much is in [`Found::rounding`] and [`Found::residual`].
+/// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform
+/// Laplacian to keep it smooth, and after each solution fractional leaves split and siblings that
+/// agree merged, until what is fractional is of the finest level, one column wide. At the end every
+/// share is rounded to 0 or 1, which breaks the constraints again: by how much is in
+/// [`Found::rounding`] and [`Found::residual`].
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ByOctree {
     /// How exact, at what cost; each round of splitting has these evaluations.
     pub accuracy: Accuracy,
     /// Where it begins.
     pub levels: Levels,
-    /// The weight of the Laplacian: of the mean of ½(βᵢ − βⱼ)² over neighbouring leaves, beside f. Above 1e-3 it shapes
-    /// the void; at 0 leaves that the void's surface only grazes are split for nothing.
+    /// The weight of the Laplacian: of the mean of ½(βᵢ − βⱼ)² over neighbouring leaves, beside f.
+    /// Above 1e-3 it shapes the void; at 0 leaves that the void's surface only grazes are split for
+    /// nothing.
     pub smoothing: f64,
 }
 
@@ -40,7 +43,8 @@ impl Default for ByOctree {
     }
 }
 
-/// Evaluations of one round; most need a few hundred, and a round that does not end only delays the next splitting.
+/// Evaluations of one round; most need a few hundred, and a round that does not end only delays the
+/// next splitting.
 const EVALUATIONS_A_ROUND: usize = 4000;
 /// Shares this near to 0 or 1 are not fractional.
 const FRACTION_TOLERANCE: f64 = 1e-3;

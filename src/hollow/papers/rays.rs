@@ -8,14 +8,18 @@ use super::{Accuracy, found};
 use crate::base::watch::Watch;
 use crate::interior::{Choice, Rays};
 
-/// How often vanished segments may open again. With none, values ended up to 3e-4 above the best; the gain soon falls.
+/// How often vanished segments may open again. With none, values ended up to 3e-4 above the best;
+/// the gain soon falls.
 const REOPENINGS: usize = 4;
 
-/// The ray-rep: z₀ and z₁ on every stretch of every column, with z̲ ≤ z₀ ≤ z₁ ≤ z̄ ([`Rays`], their eq. 11, 13, 14).
+/// The ray-rep: z₀ and z₁ on every stretch of every column, with z̲ ≤ z₀ ≤ z₁ ≤ z̄ ([`Rays`], their
+/// eq. 11, 13, 14).
 ///
-/// The moments are at most cubic in them, so the programme is smooth but not convex: a segment that has vanished does not
-/// feel that material is wanted elsewhere on its ray. After each solution such segments open again there
-/// ([`Rays::reopened`]; an interior point method, whose segments never quite vanish, need not be told). λ_max (critical speed, dominance) is smoothed by 1e-4 of the solid's moments.
+/// The moments are at most cubic in them, so the programme is smooth but not convex: a segment that
+/// has vanished does not feel that material is wanted elsewhere on its ray. After each solution
+/// such segments open again there ([`Rays::reopened`]; an interior point method, whose segments
+/// never quite vanish, need not be told). λ_max (critical speed, dominance) is smoothed by 1e-4 of
+/// the solid's moments.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByRays {
     /// How exact, at what cost.

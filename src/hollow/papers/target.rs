@@ -1,4 +1,5 @@
-//! What the papers' methods minimise: a goal's formula as a smooth function of the ten moments, and its constraints.
+//! What the papers' methods minimise: a goal's formula as a smooth function of the ten moments, and
+//! its constraints.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,9 +10,10 @@ use super::super::reach::{Reach, Scale, Vector10};
 use crate::goal::{Goal, GoalKind, Objective};
 use crate::mass::Moments;
 
-/// What is added under the root of the λ_max of a 2 × 2 tensor, squared, as a part of the solid's own moments: at equal
-/// eigenvalues the root has no gradient. λ_max is at most this much too large; ten times less, and the optimiser needs
-/// three times as many steps where the best interior has them equal.
+/// What is added under the root of the λ_max of a 2 × 2 tensor, squared, as a part of the solid's
+/// own moments: at equal eigenvalues the root has no gradient. λ_max is at most this much too
+/// large; ten times less, and the optimiser needs three times as many steps where the best interior
+/// has them equal.
 const SMOOTHING: f64 = 1e-4;
 
 /// The formulas that have a gradient.
@@ -26,7 +28,8 @@ enum Formula {
 }
 
 impl Formula {
-    /// Refuses an objective that has no gradient, and the goals that the papers' methods were not made for.
+    /// Refuses an objective that has no gradient, and the goals that the papers' methods were not
+    /// made for.
     fn of(method: &'static str, goal: &Goal) -> Result<Self, MethodError> {
         match (goal.kind, goal.objective) {
             (GoalKind::Top, Objective::SpinIt { .. }) => Ok(Self::TopFunctional),
@@ -101,7 +104,8 @@ impl<'a> Target<'a> {
         self.misses(&self.scale().moments_to_units(moments)).amax()
     }
 
-    /// f and its gradient. Spin-It's functional is the square of the programme's ratio; the others are the ratio itself.
+    /// f and its gradient. Spin-It's functional is the square of the programme's ratio; the others
+    /// are the ratio itself.
     pub fn at(&self, s: &Vector10) -> (f64, Vector10) {
         let (ratio, slope) = ratio_at(&self.programme(s), s);
         let Objective::SpinIt { gamma_c, gamma_i } = self.goal.objective else {
@@ -117,8 +121,9 @@ impl<'a> Target<'a> {
         (value + gamma_c * lever * lever, slope + lowering)
     }
 
-    /// The programme whose ratio f is at s. A top's depends on the height ℓ of the centre only through
-    /// 2ℓs_z − ℓ²s₁, whose derivative by ℓ vanishes at ℓ = s_z/s₁; so its gradient there is that of the true tensor.
+    /// The programme whose ratio f is at s. A top's depends on the height ℓ of the centre only
+    /// through 2ℓs_z − ℓ²s₁, whose derivative by ℓ vanishes at ℓ = s_z/s₁; so its gradient there is
+    /// that of the true tensor.
     fn programme(&self, s: &Vector10) -> Programme {
         let height = s[index::Z] / s[index::ONE];
         match self.formula {
@@ -214,7 +219,8 @@ mod tests {
                 _ => f,
             };
             let value = value_of(&problem, &world.fixed);
-            // The smoothing adds at most its own size to λ_max, here of order 0.1 or more, and speeds are roots of it.
+            // The smoothing adds at most its own size to λ_max, here of order 0.1 or more, and
+            // speeds are roots of it.
             let agrees = (figure / value - 1.0).abs() < 2e-3 || (figure.is_nan() && value.is_nan());
             assert!(agrees, "{:?} {figure} {value}", world.goal.objective);
         }

@@ -8,8 +8,8 @@ use super::{Accuracy, found};
 use crate::base::watch::Watch;
 use crate::interior::{Choice, Voxels};
 
-/// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing is rounded: the voxels
-/// that the surface of the void cuts keep their shares.
+/// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing
+/// is rounded: the voxels that the surface of the void cuts keep their shares.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByVoxels {
     /// How exact, at what cost.

@@ -6,11 +6,12 @@ use crate::geom::Point;
 /// The mark some editors put before UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes looked at to tell ASCII from a binary file whose header says "solid": a long name, and the first facet.
+/// Bytes looked at to tell ASCII from a binary file whose header says "solid": a long name, and the
+/// first facet.
 const PROBE_BYTES: usize = 4096;
 
-/// Whether the content begins like an ASCII STL file: the word solid in any case, and no zero byte nearby (a
-/// binary file that was cut off may begin with the word too, but its numbers hold zeros).
+/// Whether the content begins like an ASCII STL file: the word solid in any case, and no zero byte
+/// nearby (a binary file that was cut off may begin with the word too, but its numbers hold zeros).
 pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
     let text = bytes
         .strip_prefix(BYTE_ORDER_MARK)

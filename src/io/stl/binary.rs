@@ -39,7 +39,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     read_triangles(bytes)
 }
 
-/// Reads the triangles, the header blanked: the reader takes a header that begins with "solid" for ASCII.
+/// Reads the triangles, the header blanked: the reader takes a header that begins with "solid" for
+/// ASCII.
 fn read_triangles(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     let mut input = Cursor::new(bytes.to_vec());
     input.get_mut()[..HEADER_BYTES].fill(0);

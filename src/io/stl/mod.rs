@@ -82,10 +82,11 @@ pub enum StlError {
     },
 }
 
-/// The triangles of an STL file, binary or ASCII as its content shows, as a soup of three vertices each.
+/// The triangles of an STL file, binary or ASCII as its content shows, as a soup of three vertices
+/// each.
 ///
-/// All solids of an ASCII file are read; facet normals and attributes are ignored. Every coordinate is finite and
-/// there is at least one triangle. ASCII coordinates keep their double precision.
+/// All solids of an ASCII file are read; facet normals and attributes are ignored. Every coordinate
+/// is finite and there is at least one triangle. ASCII coordinates keep their double precision.
 pub fn decode(bytes: &[u8]) -> Result<TriMesh, StlError> {
     let is_ascii = !binary::is_binary(bytes) && ascii::is_ascii(bytes);
     let corners = if is_ascii {

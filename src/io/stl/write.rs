@@ -19,11 +19,12 @@ pub struct WriteError {
     pub source: std::io::Error,
 }
 
-/// The bytes of a binary STL file: `name` in the header (cut at 64 bytes), coordinates rounded to f32, normals
-/// computed from the rounded corners (zero for a triangle without area).
+/// The bytes of a binary STL file: `name` in the header (cut at 64 bytes), coordinates rounded to
+/// f32, normals computed from the rounded corners (zero for a triangle without area).
 ///
-/// Triangles whose corners fall together in single precision are left out: their neighbours then meet along the edge
-/// that remains, so a closed mesh stays closed. The same mesh gives the same bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
+/// Triangles whose corners fall together in single precision are left out: their neighbours then
+/// meet along the edge that remains, so a closed mesh stays closed. The same mesh gives the same
+/// bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
 pub fn encode(mesh: &TriMesh, name: &str) -> Vec<u8> {
     let triangles: Vec<[[f32; 3]; 3]> = mesh
         .iter_corners()

@@ -6,7 +6,8 @@ use zip::{ZipArchive, result::ZipError};
 
 use super::{Limit, MODEL_PART, MODEL_TYPE, ThreeMfError, xml::Scanner};
 
-/// What may be unpacked whatever the size of the file, bytes: small files are packed best, and hurt nobody.
+/// What may be unpacked whatever the size of the file, bytes: small files are packed best, and hurt
+/// nobody.
 const FREE_BYTES: u64 = 16 << 20;
 
 /// An open package.
@@ -26,7 +27,8 @@ impl<'a> Archive<'a> {
         })
     }
 
-    /// The name of the part that holds the model: where the package's relationships lead, else where it usually is.
+    /// The name of the part that holds the model: where the package's relationships lead, else
+    /// where it usually is.
     pub fn root_part(&mut self) -> Result<String, ThreeMfError> {
         let relationships = match self.text("_rels/.rels") {
             Err(ThreeMfError::NoModel { .. }) => return Ok(MODEL_PART.to_owned()),

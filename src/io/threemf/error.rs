@@ -18,9 +18,10 @@ pub enum Limit {
 impl Limit {
     /// The most there may be.
     ///
-    /// Unpacked: the most regular meshes are packed to a fortieth, while blanks are packed to a thousandth. Depth: drawing programs nest a
-    /// few assemblies; a thousand would overflow the stack. Places and triangles: more than any printer's job, and all of them
-    /// still fit in memory (4 GB).
+    /// Unpacked: the most regular meshes are packed to a fortieth, while blanks are packed to a
+    /// thousandth. Depth: drawing programs nest a few assemblies; a thousand would overflow the
+    /// stack. Places and triangles: more than any printer's job, and all of them still fit in
+    /// memory (4 GB).
     pub const fn most(self) -> u64 {
         match self {
             Self::Unpacked => 200,

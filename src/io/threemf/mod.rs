@@ -38,10 +38,12 @@ pub struct PlacedObject {
 
 /// Every mesh that the build of a package puts somewhere, in mm, in the order of the build.
 ///
-/// The unit, the components of objects and all their transforms are applied; a mesh in a mirrored place is turned outward
-/// again. Coordinates are read in single precision, as the programs that print from this format read them. Support structures are left out. Colours, textures and other properties are ignored, and so are extensions that a
-/// reader may ignore; those that it must know are refused. Every coordinate is finite, every index in range, and there is at
-/// least one triangle. Memory and time are bounded by the size of the file ([`Limit`]).
+/// The unit, the components of objects and all their transforms are applied; a mesh in a mirrored
+/// place is turned outward again. Coordinates are read in single precision, as the programs that
+/// print from this format read them. Support structures are left out. Colours, textures and other
+/// properties are ignored, and so are extensions that a reader may ignore; those that it must know
+/// are refused. Every coordinate is finite, every index in range, and there is at least one
+/// triangle. Memory and time are bounded by the size of the file ([`Limit`]).
 pub fn decode_objects(bytes: &[u8]) -> Result<Vec<PlacedObject>, ThreeMfError> {
     let mut package = archive::Archive::open(bytes)?;
     let root = package.root_part()?;

@@ -1,4 +1,5 @@
-//! The objects of a package where its build puts them: components resolved, units and transforms applied.
+//! The objects of a package where its build puts them: components resolved, units and transforms
+//! applied.
 
 use std::collections::BTreeMap;
 
@@ -71,7 +72,8 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    /// Places what a model of that part refers to; `outer` takes that model's place to the build, both in mm.
+    /// Places what a model of that part refers to; `outer` takes that model's place to the build,
+    /// both in mm.
     fn place(
         &mut self,
         part: &'a str,

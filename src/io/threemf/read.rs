@@ -62,7 +62,8 @@ const UNITS: [(&str, f64); 6] = [
     ("foot", 12.0 * MM_PER_INCH),
     ("meter", 1e3),
 ];
-/// Extensions that leave the shape as the core's triangles say: parts in several files, colours, names of faces.
+/// Extensions that leave the shape as the core's triangles say: parts in several files, colours,
+/// names of faces.
 const HARMLESS: [&str; 3] = ["production/", "material/", "trianglesets/"];
 /// What the names of the consortium's extensions begin with.
 const CONSORTIUM: &str = "http://schemas.microsoft.com/3dmanufacturing/";
@@ -248,7 +249,8 @@ fn mesh(scanner: &mut Scanner, opened: &Tag, object: u32) -> Result<TriMesh, Thr
     })
 }
 
-/// A vertex in single precision, as the consortium's own library and the slicers keep it: what is judged is what they see.
+/// A vertex in single precision, as the consortium's own library and the slicers keep it: what is
+/// judged is what they see.
 fn vertex(tag: &Tag) -> Result<Point, ThreeMfError> {
     let mut numbers = [0.0; 3];
     for (number, wanted) in numbers.iter_mut().zip(&COORDINATES) {

@@ -128,7 +128,8 @@ fn objects_lie_where_the_build_puts_them_apart_or_together() {
         assert_eq!(objects.len(), 2);
         for (found, (_, map)) in objects.iter().zip(&places) {
             let center = found.mesh.aabb().center();
-            // The ball's coordinates are rounded to single precision, half a unit in the last place of 8.
+            // The ball's coordinates are rounded to single precision, half a unit in the last place
+            // of 8.
             assert!(
                 (center - map.apply(&mesh.aabb().center())).norm() < 1e-6,
                 "{center}"
@@ -186,7 +187,8 @@ fn every_unit_is_turned_into_millimetres() {
 
 #[test]
 fn components_and_items_are_placed_through_all_their_transforms() {
-    // A block, shifted by 5 in an assembly that is stretched twofold and shifted by 100, in centimetres.
+    // A block, shifted by 5 in an assembly that is stretched twofold and shifted by 100, in
+    // centimetres.
     let inner = components("<component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 5 0 0\"/>");
     let resources = block(1) + &object(2, &inner);
     let build =

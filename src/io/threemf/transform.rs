@@ -20,8 +20,8 @@ impl Default for Transform {
     }
 }
 
-/// How many numbers the format writes for a map: the columns of `linear`, then `shift` (3MF core 1.3, §3.3: rows of a matrix
-/// by which row vectors are multiplied from the left).
+/// How many numbers the format writes for a map: the columns of `linear`, then `shift` (3MF core
+/// 1.3, §3.3: rows of a matrix by which row vectors are multiplied from the left).
 const NUMBERS: usize = 12;
 
 impl Transform {
@@ -62,7 +62,8 @@ impl Transform {
         })
     }
 
-    /// The map of the twelve numbers; none if there are not twelve finite ones, or if they flatten space.
+    /// The map of the twelve numbers; none if there are not twelve finite ones, or if they flatten
+    /// space.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let numbers: Vec<f64> = text
             .split_ascii_whitespace()

@@ -73,9 +73,10 @@ const PERMISSIONS: u32 = 0o644;
 impl Object {
     /// An object of that name and colour (red, green, blue).
     ///
-    /// Coordinates are rounded to single precision and written with the fewest digits that give them back; corners
-    /// that fall together become one, and triangles that lose a corner are left out, as in a binary STL file of the same
-    /// mesh: both hold the same triangles in the same order.
+    /// Coordinates are rounded to single precision and written with the fewest digits that give
+    /// them back; corners that fall together become one, and triangles that lose a corner are left
+    /// out, as in a binary STL file of the same mesh: both hold the same triangles in the same
+    /// order.
     pub fn new(name: &str, color: [u8; 3], mesh: &TriMesh) -> Self {
         Self {
             name: name.to_owned(),

@@ -56,7 +56,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The next tag; none at the end of the text. A document type is refused: it could declare entities that grow without end.
+    /// The next tag; none at the end of the text. A document type is refused: it could declare
+    /// entities that grow without end.
     pub fn next_tag(&mut self) -> Result<Option<Tag<'a>>, ThreeMfError> {
         loop {
             let event = self.reader.read_event();
@@ -95,7 +96,8 @@ impl<'a> Scanner<'a> {
         Ok(())
     }
 
-    /// Calls `child` with every element that lies directly in the one that was opened; it must read what is inside of it.
+    /// Calls `child` with every element that lies directly in the one that was opened; it must read
+    /// what is inside of it.
     pub fn children(
         &mut self,
         opened: &Tag,

@@ -1,5 +1,5 @@
-//! Cura's definitions: machines (`.def.json`, each inheriting from another file of its folder), materials
-//! (`.xml.fdm_material`) and layers (`.inst.cfg`).
+//! Cura's definitions: machines (`.def.json`, each inheriting from another file of its folder),
+//! materials (`.xml.fdm_material`) and layers (`.inst.cfg`).
 
 use std::{collections::BTreeMap, path::Path};
 
@@ -148,7 +148,8 @@ fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
     }
 }
 
-/// The numbers and formulas of settings, and of their children; a formula comes before its default value.
+/// The numbers and formulas of settings, and of their children; a formula comes before its default
+/// value.
 fn gather(settings: &Value, file: &str, into: &mut Settings) {
     for (key, setting) in settings.as_object().into_iter().flatten() {
         let formula = setting["value"]

@@ -1,4 +1,5 @@
-//! Cura's formulas, as far as line widths and layers need them: numbers, names of settings, + − × ÷, brackets and `round`.
+//! Cura's formulas, as far as line widths and layers need them: numbers, names of settings, + − ×
+//! ÷, brackets and `round`.
 
 /// How deep formulas may refer to each other; real ones go three deep, and a circle would not end.
 const MOST_DEPTH: usize = 16;
@@ -11,7 +12,8 @@ pub(super) enum Setting {
     Formula(String),
 }
 
-/// The value of a formula; none where it has words, functions or operators besides those above, or refers to nothing.
+/// The value of a formula; none where it has words, functions or operators besides those above, or
+/// refers to nothing.
 pub(super) fn evaluated<'a>(
     formula: &str,
     setting: &impl Fn(&str) -> Option<&'a Setting>,
@@ -105,7 +107,8 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// What stands in brackets; with `digits` the first is rounded to the second, or to these where there is none.
+    /// What stands in brackets; with `digits` the first is rounded to the second, or to these where
+    /// there is none.
     fn bracketed(&mut self, digits: &[f64]) -> Option<f64> {
         self.depth += 1;
         if self.depth > MOST_DEPTH || !self.takes('(') {

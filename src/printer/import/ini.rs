@@ -26,7 +26,8 @@ pub(super) struct Ini {
 }
 
 impl Ini {
-    /// The sections of a text; a line that is none of section, key, comment or blank is refused with its place.
+    /// The sections of a text; a line that is none of section, key, comment or blank is refused
+    /// with its place.
     pub fn parse(file: &str, text: &str) -> Result<Self, ImportError> {
         let mut ini = Self {
             file: file.to_owned(),
@@ -67,7 +68,8 @@ impl Ini {
         }
     }
 
-    /// The names of the sections of a kind that a user sees: not those in asterisks, which only lend their keys.
+    /// The names of the sections of a kind that a user sees: not those in asterisks, which only
+    /// lend their keys.
     pub fn names(&self, kind: &str) -> Vec<&str> {
         let of_kind = self
             .sections

@@ -1,7 +1,9 @@
-//! Printers, materials and layers taken over from slicers: PrusaSlicer's and SuperSlicer's `.ini`, Cura's definitions.
+//! Printers, materials and layers taken over from slicers: PrusaSlicer's and SuperSlicer's `.ini`,
+//! Cura's definitions.
 //!
-//! What is read becomes the text of a profile of ours ([`Imported::to_toml`]), every number with the file, section and key
-//! it is from. What slicers do not know (least walls, clearances, cleaning) is inherited from the process and marked so.
+//! What is read becomes the text of a profile of ours ([`Imported::to_toml`]), every number with
+//! the file, section and key it is from. What slicers do not know (least walls, clearances,
+//! cleaning) is inherited from the process and marked so.
 
 mod cura;
 mod formula;
@@ -168,7 +170,8 @@ pub struct Imported {
 }
 
 impl Imported {
-    /// What the files say, together: a bundle or an exported configuration, or a Cura definition with materials and layers.
+    /// What the files say, together: a bundle or an exported configuration, or a Cura definition
+    /// with materials and layers.
     pub fn read(paths: &[PathBuf]) -> Result<Self, ImportError> {
         let mut all = Self::default();
         for path in paths {
@@ -231,7 +234,8 @@ fn read_text(path: &Path) -> Result<String, ImportError> {
     })
 }
 
-/// The number at the start of a slicer's value: of several by commas the first; none for `0`, `nil` and words.
+/// The number at the start of a slicer's value: of several by commas the first; none for `0`, `nil`
+/// and words.
 fn first_number(value: &str) -> Option<f64> {
     let first = value.split([',', ';']).next()?.trim();
     first

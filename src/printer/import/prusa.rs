@@ -1,4 +1,5 @@
-//! PrusaSlicer's and SuperSlicer's `.ini`: vendor bundles with many presets, and exported configurations with one of each.
+//! PrusaSlicer's and SuperSlicer's `.ini`: vendor bundles with many presets, and exported
+//! configurations with one of each.
 
 use std::collections::BTreeMap;
 
@@ -166,7 +167,8 @@ fn imported_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPri
     }
 }
 
-/// The width of a line: as set, of the layer where it is set in per cent, or the slicer's own for that nozzle.
+/// The width of a line: as set, of the layer where it is set in per cent, or the slicer's own for
+/// that nozzle.
 fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
     let key = "extrusion_width";
     let nozzle = || {
@@ -195,7 +197,8 @@ fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
     }
 }
 
-/// The pixels of a display, as they lie under the plate: a display on its side has its rows along the plate's x.
+/// The pixels of a display, as they lie under the plate: a display on its side has its rows along
+/// the plate's x.
 fn display(printer: &Preset) -> Option<[Found<f64>; 2]> {
     let pitch = |size: &str, pixels: &str| {
         let (length_mm, count) = (printer.number(size)?.value, printer.number(pixels)?.value);

@@ -11,9 +11,11 @@ const HEAD: &str = "# Made by `equipoise printers import`. What slicers do not k
                     # the process's default until it is stated here; print coupons and `equipoise printers calibrate`.\n";
 
 impl Imported {
-    /// The profile of a printer of these, under that id, with every material of its technology that has a density in reach.
+    /// The profile of a printer of these, under that id, with every material of its technology that
+    /// has a density in reach.
     ///
-    /// Numbers outside what a profile may say ([`Quantity::plausible`]) are left out: slicers hold placeholders there.
+    /// Numbers outside what a profile may say ([`Quantity::plausible`]) are left out: slicers hold
+    /// placeholders there.
     pub fn to_toml(&self, printer: &ImportedPrinter, id: &str) -> String {
         let materials = self.named_materials(printer);
         let mut text = format!(
@@ -76,7 +78,8 @@ fn numbers(printer: &ImportedPrinter) -> String {
         Some([x, y]) => [Some(x), Some(y)],
         None => [None, None],
     };
-    // The slicer's bounds are left out where its own layer lies beyond them, as presets for other nozzles do.
+    // The slicer's bounds are left out where its own layer lies beyond them, as presets for other
+    // nozzles do.
     let layer = printer.layer_mm.as_ref().map(|layer| layer.value);
     let least = printer.layers_mm[0]
         .as_ref()

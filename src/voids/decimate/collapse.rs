@@ -5,8 +5,8 @@ use super::{Rules, Stray};
 use crate::geom::triangle::closest_on_triangle;
 use crate::geom::{Point, Vector};
 
-/// The edges merged in each pass are at most this long, mm: short ones first, so that slivers go before good triangles
-/// are stretched over them.
+/// The edges merged in each pass are at most this long, mm: short ones first, so that slivers go
+/// before good triangles are stretched over them.
 const PASS_LENGTHS_MM: [f64; 6] = [0.05, 0.15, 0.4, 1.0, 3.0, f64::INFINITY];
 
 /// Neighbours tried for each vertex and pass, nearest first: more gain little.
@@ -15,16 +15,17 @@ const TRIES: usize = 4;
 /// A new triangle may turn from the one it replaces by at most this much (cosine).
 const TURN_COSINE: f64 = 0.5;
 
-/// A new triangle's height over its longest side is at least this, unless it was worse before. Thinner triangles
-/// collapse when the file's `f32` rounds them.
+/// A new triangle's height over its longest side is at least this, unless it was worse before.
+/// Thinner triangles collapse when the file's `f32` rounds them.
 const SHAPE_RATIO: f64 = 0.05;
 
-/// A new triangle that goes less than this beyond the vertex it replaces counts as inside, mm: twice the error of the
-/// drawn vertices. Above, triangles that the judge refuses pass unseen and the work is done again around them; below,
-/// he is asked about every flat place.
+/// A new triangle that goes less than this beyond the vertex it replaces counts as inside, mm:
+/// twice the error of the drawn vertices. Above, triangles that the judge refuses pass unseen and
+/// the work is done again around them; below, he is asked about every flat place.
 const FLAT_MM: f64 = 2e-4;
 
-/// Vertices that the triangles around one vertex may stand for: the time for a merge grows with them.
+/// Vertices that the triangles around one vertex may stand for: the time for a merge grows with
+/// them.
 const POINTS_MAX: usize = 160;
 
 /// Working memory, kept from merge to merge.
@@ -48,7 +49,8 @@ struct Fresh {
 }
 
 impl Fresh {
-    /// Whether it lies inside what was there: a judge who allowed the surface so far allows everything inside it.
+    /// Whether it lies inside what was there: a judge who allowed the surface so far allows
+    /// everything inside it.
     fn is_inside(&self) -> bool {
         self.outside_mm <= FLAT_MM
     }
@@ -119,8 +121,9 @@ impl Patch {
         }
     }
 
-    /// Whether the edge's ends have just the two neighbours across it in common, so that the surface stays a manifold
-    /// (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge contraction", 1999).
+    /// Whether the edge's ends have just the two neighbours across it in common, so that the
+    /// surface stays a manifold (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge
+    /// contraction", 1999).
     fn is_link_simple(&self, edge: u32, scratch: &mut Scratch) -> bool {
         let twin = self.twin[edge as usize];
         let across = [
@@ -148,7 +151,8 @@ impl Patch {
             && across.iter().all(|v| others.contains(v))
     }
 
-    /// The triangles around the start of `edge` with that vertex moved to its end; false if one turns or is thin.
+    /// The triangles around the start of `edge` with that vertex moved to its end; false if one
+    /// turns or is thin.
     fn make_fresh(&self, edge: u32, scratch: &mut Scratch) -> bool {
         let gone = [edge / 3, self.twin[edge as usize] / 3];
         let target = self.points[self.end(edge) as usize];
@@ -216,8 +220,8 @@ impl Patch {
         }
     }
 
-    /// Removes the triangle of `edge` (v → u, then a): what lay beyond a → v now borders what lay beyond u → a. Gives
-    /// the half-edge from u to a.
+    /// Removes the triangle of `edge` (v → u, then a): what lay beyond a → v now borders what lay
+    /// beyond u → a. Gives the half-edge from u to a.
     fn close(&mut self, edge: u32) -> u32 {
         let (beyond_ua, beyond_av) = (
             self.twin[next(edge) as usize],
@@ -230,7 +234,8 @@ impl Patch {
         beyond_av
     }
 
-    /// Removes the triangle of `twin` (u → v, then b): what lay beyond v → b now borders what lay beyond b → u.
+    /// Removes the triangle of `twin` (u → v, then b): what lay beyond v → b now borders what lay
+    /// beyond b → u.
     fn close_back(&mut self, twin: u32) {
         let (beyond_vb, beyond_bu) = (
             self.twin[next(twin) as usize],
@@ -251,8 +256,8 @@ impl Patch {
     }
 }
 
-/// The new triangle nearest to an old vertex, if the surface there strays little enough: a vertex above the triangle
-/// means that the surface now runs inside the body.
+/// The new triangle nearest to an old vertex, if the surface there strays little enough: a vertex
+/// above the triangle means that the surface now runs inside the body.
 fn owner(p: &Point, fresh: &[Fresh], stray: Stray) -> Option<usize> {
     let mut best = (f64::INFINITY, 0, Vector::zeros());
     for (i, candidate) in fresh.iter().enumerate() {

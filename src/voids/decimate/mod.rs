@@ -1,8 +1,9 @@
-//! Fewer triangles within a tolerance: vertices are merged into neighbours as long as every vertex ever removed stays
-//! near the triangles that replaced it.
+//! Fewer triangles within a tolerance: vertices are merged into neighbours as long as every vertex
+//! ever removed stays near the triangles that replaced it.
 //!
-//! The error is global, not per step (Ciampalini, Cignoni, Montani & Scopigno, "Multiresolution decimation based on
-//! global error", The Visual Computer 13, 1997): each triangle keeps the removed vertices that it stands for.
+//! The error is global, not per step (Ciampalini, Cignoni, Montani & Scopigno, "Multiresolution
+//! decimation based on global error", The Visual Computer 13, 1997): each triangle keeps the
+//! removed vertices that it stands for.
 
 mod collapse;
 mod patch;
@@ -13,14 +14,15 @@ use crate::geom::Point;
 use crate::mesh::TriMesh;
 use patch::Patch;
 
-/// Triangles of the mesh to a slab of the first round: fewer leave more locked seams, more leave the cache and are more to
-/// do again where one fails.
+/// Triangles of the mesh to a slab of the first round: fewer leave more locked seams, more leave
+/// the cache and are more to do again where one fails.
 const SLAB_TRIANGLES: usize = 16_000;
 
 /// Slabs of the first round to one of the later rounds, in which fewer triangles are left.
 const LATER_SLABS: usize = 2;
 
-/// Rounds, each with slabs across another axis, so that the seams of one are inside the slabs of the next.
+/// Rounds, each with slabs across another axis, so that the seams of one are inside the slabs of
+/// the next.
 const ROUNDS: usize = 3;
 
 /// How far the new surface may stray from the old vertices.
@@ -78,7 +80,8 @@ impl Parts {
 /// A mesh on its way to fewer triangles.
 struct State {
     parts: Parts,
-    /// Whether a vertex may still be removable: it was on a seam, or something beside it has changed since it was tried.
+    /// Whether a vertex may still be removable: it was on a seam, or something beside it has
+    /// changed since it was tried.
     is_open: Vec<bool>,
 }
 
@@ -138,8 +141,8 @@ impl<'a> Decimation<'a> {
 
     /// A mesh of fewer triangles over the same vertices, of which `locked` ones are not removed.
     ///
-    /// Closed and 2-manifold; it may intersect itself where sheets are nearer than the tolerance. The result does not
-    /// depend on the number of threads, nor on earlier runs.
+    /// Closed and 2-manifold; it may intersect itself where sheets are nearer than the tolerance.
+    /// The result does not depend on the number of threads, nor on earlier runs.
     pub fn run(&mut self, locked: &[bool]) -> Vec<[u32; 3]> {
         let triangles = self.mesh.triangles();
         let parts = Parts {
@@ -207,7 +210,8 @@ impl Slab {
     }
 }
 
-/// Where to cut so that `count` slabs across an axis hold equally many of the points, ascending, mm.
+/// Where to cut so that `count` slabs across an axis hold equally many of the points, ascending,
+/// mm.
 fn quantiles(points: &[Point], axis: usize, count: usize) -> Vec<f64> {
     let mut all: Vec<f64> = points.iter().map(|p| p[axis]).collect();
     all.par_sort_unstable_by(f64::total_cmp);

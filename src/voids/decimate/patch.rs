@@ -20,9 +20,11 @@ pub(super) struct Patch {
     pub leaving: Vec<u32>,
     /// Whether a vertex must stay.
     pub is_locked: Vec<bool>,
-    /// Whether a vertex's triangles fall apart into several fans, as they may at the patch's corners.
+    /// Whether a vertex's triangles fall apart into several fans, as they may at the patch's
+    /// corners.
     pub is_pinched: Vec<bool>,
-    /// The length up to which a vertex's edges were tried in vain since something beside it changed, squared, mm².
+    /// The length up to which a vertex's edges were tried in vain since something beside it
+    /// changed, squared, mm².
     pub tried: Vec<f64>,
     /// Whether a triangle is still there.
     pub is_alive: Vec<bool>,
@@ -50,7 +52,8 @@ pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
 }
 
 impl Patch {
-    /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names must stay.
+    /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names
+    /// must stay.
     pub fn new(
         state: &State,
         vertices: &[Point],
@@ -154,7 +157,8 @@ impl Patch {
         self.start[next(edge) as usize]
     }
 
-    /// The half-edges that leave a vertex, clockwise, into `fan`; false if the vertex is on the border.
+    /// The half-edges that leave a vertex, clockwise, into `fan`; false if the vertex is on the
+    /// border.
     pub fn fan(&self, v: u32, fan: &mut Vec<u32>) -> bool {
         fan.clear();
         let first = self.leaving[v as usize];
