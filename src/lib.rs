@@ -11,7 +11,7 @@
 //! pitch and material, [`shell`] keeps the wall, [`interior`] holds what may be emptied as exact
 //! columns, [`hollow`] solves, [`advice`] says what helps where that is impossible, [`voids`] draws
 //! the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without
-//! knowing how it was made, [`report`] puts the kit together; [`coupon`] lets a shop measure what
+//! knowing how it was made, [`sheet`] and [`page`] put the job sheet together, [`kit`] writes it; [`coupon`] lets a shop measure what
 //! its printer does; [`pipeline::run`] is that line.
 //!
 //! # Example
@@ -20,7 +20,7 @@
 //! use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 //! use equipoise::pipeline::{Outcome, run};
 //! use equipoise::base::watch::Watch;
-//! use equipoise::report::Existing;
+//! use equipoise::kit::Existing;
 //!
 //! let model = ModelChoice {
 //!     path: "examples/models/tilted-ellipsoid.stl".into(),
@@ -44,6 +44,7 @@ pub mod base;
 pub mod cli;
 pub mod coupon;
 pub mod cut;
+pub mod draw;
 pub mod error;
 pub mod geom;
 pub mod goal;
@@ -53,12 +54,16 @@ pub mod hollow;
 pub mod interior;
 pub mod io;
 pub mod job;
+pub mod kit;
 pub mod mass;
 pub mod mesh;
+pub mod page;
 pub mod pipeline;
 pub mod printer;
 pub mod repair;
-pub mod report;
+pub mod sheet;
 pub mod shell;
+#[cfg(test)]
+pub(crate) mod testing;
 pub mod verify;
 pub mod voids;

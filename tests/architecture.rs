@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// here.
 ///
 /// base → geom → mesh → repair → io | shell → mass → goal | printer → interior → hollow → ballast →
-/// job | voids → cut → report → pipeline → cli. `verify` sees nothing of shell, interior, hollow,
+/// job | voids → cut → draw | sheet → page | kit → pipeline → cli. `verify` sees nothing of shell, interior, hollow,
 /// voids and cut: the judge does not know the accused.
 const ARROWS: &[(&str, &[&str])] = &[
     ("base", &[]),
@@ -57,35 +57,40 @@ const ARROWS: &[(&str, &[&str])] = &[
             "repair", "base", "geom", "goal", "io", "mass", "mesh", "printer",
         ],
     ),
+    ("draw", &["base", "geom", "mesh"]),
+    ("sheet", &["base", "geom", "verify"]),
     (
-        "report",
-        &["repair", "geom", "goal", "mass", "mesh", "base", "verify"],
+        "page",
+        &[
+            "base", "draw", "geom", "goal", "mass", "mesh", "repair", "sheet", "verify",
+        ],
     ),
+    ("kit", &[]),
     (
         "coupon",
-        &["geom", "io", "mesh", "printer", "report", "base"],
+        &["geom", "io", "kit", "mesh", "page", "printer", "base"],
     ),
     ("job", &["ballast", "cut", "base", "goal"]),
     (
         "error",
         &[
-            "repair", "ballast", "cut", "goal", "hardware", "hollow", "interior", "io", "job",
-            "mesh", "printer", "report", "shell", "verify", "voids",
+            "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior", "io",
+            "job", "kit", "mesh", "printer", "sheet", "shell", "verify", "voids",
         ],
     ),
     (
         "pipeline",
         &[
-            "repair", "advice", "ballast", "cut", "base", "error", "geom", "goal", "hardware",
-            "hollow", "interior", "io", "job", "mass", "mesh", "printer", "report", "shell",
-            "verify", "voids",
+            "repair", "advice", "ballast", "cut", "base", "draw", "error", "geom", "goal",
+            "hardware", "hollow", "interior", "io", "job", "kit", "mass", "mesh", "page",
+            "printer", "sheet", "shell", "verify", "voids",
         ],
     ),
     (
         "cli",
         &[
             "repair", "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job",
-            "mass", "mesh", "pipeline", "printer", "base", "report", "verify",
+            "kit", "mass", "mesh", "page", "pipeline", "printer", "base", "sheet", "verify",
         ],
     ),
     ("guide", &[]),

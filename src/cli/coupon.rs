@@ -4,11 +4,9 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::{args_printers::CouponArgs, prepare::Voice};
-use crate::{
-    coupon::{CouponError, CouponSet, coupon_kit},
-    printer::{MaterialError, Printer, ProfileError},
-    report::{Existing, KitError},
-};
+use crate::coupon::{CouponError, CouponSet, coupon_kit};
+use crate::kit::{Existing, KitError};
+use crate::printer::{MaterialError, Printer, ProfileError};
 
 /// Why no coupons were made.
 #[derive(Debug, thiserror::Error)]

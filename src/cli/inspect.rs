@@ -9,6 +9,7 @@ use super::args::InspectArgs;
 use super::prepare::Voice;
 use super::show::{say, table};
 use crate::advice::{Case, Prospect, prospects};
+use crate::base::numbers::quantity;
 use crate::base::units::{counted, show_mm};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request};
@@ -17,7 +18,6 @@ use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
 use crate::printer::{Printer, ProfileError, WallError};
 use crate::repair::{one_body, repair};
-use crate::report::quantity;
 
 /// Why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]

@@ -10,8 +10,8 @@ use super::summary::{broken, details, ten_lines};
 use crate::advice::Remedy;
 use crate::base::watch::Watch;
 use crate::error::Error;
+use crate::kit::Existing;
 use crate::pipeline::{Failure, Impossible, Outcome, Prepared, run};
-use crate::report::Existing;
 
 /// Why `prepare` could not run.
 #[derive(Debug, thiserror::Error)]

@@ -4,8 +4,10 @@
 use std::path::Path;
 
 use super::show::{GREEN, Manner, RED, paint, table, verdict};
+use crate::base::numbers::quantity as figure;
 use crate::base::units::counted;
-use crate::report::{Checklist, Course, LogRow, PassRow, promise, quantity as figure};
+use crate::page::promise;
+use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::Check;
 
 /// Shares below this are not told by their number, %: nobody prints so exactly.

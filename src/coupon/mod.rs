@@ -8,8 +8,8 @@ mod sizes;
 pub use sizes::{CouponSet, Hole};
 
 use crate::io::stl;
+use crate::kit::{COUPON_FILE, Kit};
 use crate::mesh::{ClipError, Solid};
-use crate::report::{COUPON_FILE, Kit};
 
 /// Why coupons cannot be made.
 #[derive(Debug, thiserror::Error)]

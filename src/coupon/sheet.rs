@@ -4,7 +4,7 @@ use maud::{Markup, html};
 
 use super::{Coupon, CouponSet};
 use crate::base::units::{MM3_PER_CM3, show_mm};
-use crate::report::document;
+use crate::page::document;
 
 /// The sheet as a page without anything from outside.
 pub(super) fn page(set: &CouponSet, coupons: &[Coupon]) -> String {

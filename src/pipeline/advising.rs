@@ -3,10 +3,10 @@
 
 use super::{Failure, Impossible, Prepared, Setup, phase, setup::Model};
 use crate::advice::{Case, Remedy, best_orientation, remedies};
+use crate::base::numbers::quantity;
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Request, Up};
 use crate::printer::{Material, Printer, WallChoice};
-use crate::report::quantity;
 use crate::verify::Check;
 
 /// What to do where hardware is in the way: the remedies are sought on models as they are.

@@ -25,7 +25,7 @@ use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::Hollowed;
 use crate::printer::{Grid, PrintPose, Quantity};
-use crate::report::HeightProof;
+use crate::sheet::HeightProof;
 use crate::verify::{PartEvidence, assembly_moments};
 
 /// How often parts are made at most. Pins and sockets are foreseen exactly, so the first are right

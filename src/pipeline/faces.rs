@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, reached};
 use crate::geom::{Parting, Plane, Point};
 use crate::mesh::{MeshDistance, TriMesh};
-use crate::report::{CutFace, Mouth, Region};
+use crate::page::{CutFace, Mouth, Region};
 
 /// How far beside the middle of its widest disc a region is looked at, as a share of the disc's
 /// diameter: within it, past a pin.

@@ -9,7 +9,7 @@ use crate::mass::{Body, Moments};
 use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
 use crate::repair::weld;
-use crate::report::{PartRow, TurnRow};
+use crate::sheet::{PartRow, TurnRow};
 
 /// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no
 /// layer is thinner than this.

@@ -4,7 +4,7 @@ use super::{Setup, rows::Sheet, written::WrittenPart};
 use crate::cut::PinSite;
 use crate::geom::{Point, Vector};
 use crate::printer::{Grid, whole_steps};
-use crate::report::GridRow;
+use crate::sheet::GridRow;
 
 /// How far from a whole number of steps a length may be and still be one, in steps: files round to
 /// 1e-5 mm, and cuts keep some 1e-6 mm off vertices.

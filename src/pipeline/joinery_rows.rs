@@ -8,7 +8,7 @@ use super::joining::film;
 use super::rows::{Sheet, shown};
 use crate::base::units::MM3_PER_CM3;
 use crate::cut::{CutPlan, Dowel, JointNote, RodSource};
-use crate::report::{BossRow, CutListRow, JointRow, RoundRow};
+use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::verify::PromisedJoint;
 
 /// What dowels are to be cut, alike ones together, in the order of their rods.

@@ -14,10 +14,10 @@ use crate::cut::{CutOrder, CutPlan};
 use crate::geom::Parting;
 use crate::io::stl;
 use crate::job::JobError;
+use crate::kit::Kit;
+use crate::page::{PageInputs, Picture, Subject, View, album, drawings, page};
 use crate::repair::weld;
-use crate::report::{
-    Checklist, Kit, Papers, Picture, Sitting, Verdict, View, album, drawings, page,
-};
+use crate::sheet::{Checklist, Verdict};
 use crate::verify::{
     CHECKLIST_FILE, Density, Evidence, FigureName, Judgement, PrinterLimits, Promise,
     PromisedFigure, PromisedPart, SCHEMA, SHEET_FILE, SUMS_FILE, Shells, WallOrder, checks, judge,
@@ -114,7 +114,7 @@ fn file_papers(
     kit.add(CHECKLIST_FILE, json.into_bytes());
     kit.add(
         SHEET_FILE,
-        page(&Papers {
+        page(&PageInputs {
             sheet,
             sha256,
             pictures,
@@ -127,7 +127,7 @@ fn file_papers(
 }
 
 /// What the pictures are taken of: the files as they are written.
-fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) -> Sitting<'a> {
+fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) -> Subject<'a> {
     let Promise {
         goal,
         hardware,
@@ -135,7 +135,7 @@ fn sitting<'a>(shells: &'a Shells, cuts: &'a [Parting], evidence: &'a Evidence) 
         parts: promised,
         ..
     } = &evidence.promise;
-    Sitting {
+    Subject {
         shells,
         parts: &evidence.parts,
         promised,

@@ -3,7 +3,8 @@
 use serde::Serialize;
 
 use crate::advice::Remedy;
-use crate::report::{Checklist, Kit, Verdict};
+use crate::kit::Kit;
+use crate::sheet::{Checklist, Verdict};
 
 /// How a run ended.
 #[derive(Debug)]

@@ -5,13 +5,13 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::{Assembly, Error, Setup, written::WrittenPart};
+use crate::draw::part_color;
 use crate::geom::{Aabb, Matrix, Vector};
 use crate::io::threemf::{Build, Object, Package, Transform};
 use crate::io::{decode_model, stl};
 use crate::job::PartFormat;
 use crate::mesh::TriMesh;
 use crate::printer::{Plate, Spot};
-use crate::report::part_color;
 
 /// The name of the assembly in a kit.
 const ASSEMBLY: &str = "assembly.3mf";

@@ -2,7 +2,7 @@
 
 use super::Setup;
 use crate::printer::Support;
-use crate::report::{MaterialRow, PrinterRow};
+use crate::sheet::{MaterialRow, PrinterRow};
 
 /// The printer, as far as the shop and the judge need it.
 pub fn printer_row(setup: &Setup) -> PrinterRow {

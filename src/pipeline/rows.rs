@@ -18,9 +18,10 @@ use crate::geom::Vector;
 use crate::goal::{GoalKind, Objective, Rotor, Warning, figures};
 use crate::hollow;
 use crate::mass::moments_of_mesh;
-use crate::report::{
+use crate::page::cup_warning;
+use crate::sheet::{
     BallastRow, Certificate, Checklist, Course, FootRow, GoalRow, LogRow, ModelRow, PartRow,
-    PassRow, SpeedRow, Tool, WallRow, cup_warning, finished_size_mm,
+    PassRow, SpeedRow, Tool, WallRow, finished_size_mm,
 };
 use crate::verify::{
     Aim, BallastOrder, FigureName, FillOrder, Fingerprint, Judgement, Peg, PromisedFigure,
@@ -298,7 +299,7 @@ fn part_rows(sheet: &Sheet) -> Vec<PartRow> {
                 half: half_of(written, &halves),
                 cup_mm3: cup_mm3(&written.read_back),
                 support,
-                picture: Some(crate::report::part_picture_file(&part.id)),
+                picture: Some(crate::page::part_picture_file(&part.id)),
             }
         })
         .collect()

@@ -8,7 +8,7 @@ use crate::hollow::{
 };
 use crate::interior::Columns;
 use crate::mass::Moments;
-use crate::report::HeightProof;
+use crate::sheet::HeightProof;
 use crate::shell::Shell;
 
 /// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the

@@ -4,7 +4,7 @@
 use super::rows::Sheet;
 use crate::geom::Point;
 use crate::goal::{GoalKind, Warning, resting};
-use crate::report::FootRow;
+use crate::sheet::FootRow;
 
 /// How a top stands on its foot without spinning; none where it falls over, as a top must.
 pub fn foot_row(sheet: &Sheet) -> Option<FootRow> {

@@ -2,7 +2,7 @@
 
 use std::time::Instant;
 
-use crate::report::Timing;
+use crate::sheet::Timing;
 
 /// Adds up the time of each stage.
 #[derive(Debug, Clone)]

@@ -7,7 +7,7 @@ use crate::geom::{Plane, Point, Vector};
 use crate::mesh::union_find::UnionFind;
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::repair::weld;
-use crate::report::SupportRow;
+use crate::sheet::SupportRow;
 use crate::verify::Peg;
 
 /// How far from a surface of the uncut body a place of a part may be and still lie on it, mm: files

@@ -9,7 +9,7 @@ use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
 use crate::mesh::{Hollowed, Solid, TriMesh};
-use crate::report::HeightProof;
+use crate::sheet::HeightProof;
 use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
 /// Rounds of measuring and solving again in one go, at most. Each leaves about a hundredth of the

@@ -3,7 +3,7 @@
 use super::{Assembly, CleaningRound, Setup, rows::Sheet, written::WrittenPart};
 use crate::cut::{Cut, CutPlan, CutSide, VoidAccess};
 use crate::geom::{Bvh, Point};
-use crate::report::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
+use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
 use crate::verify::{PromisedCut, PromisedVoid};
 
 /// How near to a void's wall a corner lies on it, mm: the booleans keep corners to 1e-6 mm.

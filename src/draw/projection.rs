@@ -1,0 +1,67 @@
+//! How a scene falls on a picture: parallel lines, fitted to the paper.
+
+use super::scene::{Camera, Scene};
+use super::svg::Spot;
+use crate::geom::{Aabb, Point, Vector};
+
+/// The share of the picture left free on each side.
+const MARGIN_RATIO: f64 = 0.04;
+
+/// A parallel projection of a scene on a picture of some pixels.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Projection {
+    /// What goes right, up and toward the viewer.
+    pub axes: [Vector; 3],
+    /// Pixels in a millimetre.
+    pub scale: f64,
+    offset: Spot,
+}
+
+impl Projection {
+    /// The projection that shows all of the scene, `pixels` times as fine as the camera's.
+    pub fn of(scene: &Scene, camera: &Camera, pixels: usize) -> Self {
+        let axes = axes(camera);
+        let [width, height] = camera.size_px.map(|side| side * pixels);
+        let seen = |p: Point| Point::from(Vector::from(axes.map(|axis| axis.dot(&p.coords))));
+        let moved = scene
+            .items
+            .iter()
+            .flat_map(|i| i.mesh.vertices().iter().map(move |p| seen(p + i.shift)));
+        let bounds = moved.fold(Aabb::EMPTY, |bounds, point| bounds.grown_over(&point));
+        let [aside, over] = camera.margin_ratio.map(|ratio| MARGIN_RATIO.max(ratio));
+        let fit = |pixels: usize, margin_ratio: f64, mm: f64| {
+            pixels as f64 * (1.0 - 2.0 * margin_ratio) / mm
+        };
+        let scale = fit(width, aside, bounds.size().x).min(fit(height, over, bounds.size().y));
+        let offset = [
+            0.5 * width as f64 - scale * bounds.center().x,
+            0.5 * height as f64 + scale * bounds.center().y,
+        ];
+        Self {
+            axes,
+            scale,
+            offset,
+        }
+    }
+
+    /// Where a point falls: pixels to the right, pixels down.
+    pub fn at(&self, p: &Point) -> Spot {
+        let [right, up, _] = self.axes.map(|axis| axis.dot(&p.coords));
+        [
+            self.offset[0] + self.scale * right,
+            self.offset[1] - self.scale * up,
+        ]
+    }
+
+    /// How near a point is to the viewer, mm.
+    pub fn nearness_mm(&self, p: &Point) -> f64 {
+        self.axes[2].dot(&p.coords)
+    }
+}
+
+/// What goes right, up and toward the viewer.
+fn axes(camera: &Camera) -> [Vector; 3] {
+    let toward = camera.toward_viewer.normalize();
+    let right = camera.up.cross(&toward).normalize();
+    [right, toward.cross(&right), toward]
+}

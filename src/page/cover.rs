@@ -1,0 +1,111 @@
+//! The first page: what it is, what it will do, whether it may be printed, and the way through the
+//! sheet.
+
+use maud::{Markup, html};
+
+use super::fields::blank;
+use super::figure::{Role, figures};
+use super::inputs::PageInputs;
+use super::job_id::JobId;
+use super::running::{code, on_screen};
+use super::steps::step_names;
+use super::words;
+use crate::base::numbers::{extent, number, quantity};
+use crate::base::units::{MM3_PER_CM3, counted};
+use crate::sheet::{Checklist, Verdict};
+
+/// The cover.
+pub(super) fn cover(papers: &PageInputs, job: &JobId) -> Markup {
+    let sheet = papers.sheet;
+    html! {
+        header class="cover" {
+            (on_screen(job))
+            div class="title" {
+                p class="small" { "Job sheet" }
+                h1 { (sheet.job) }
+                p { "Job id " strong { (job.short()) } }
+                p class="promise" { (words::promise(sheet)) }
+                (verdict(sheet))
+            }
+            div class="code" { (code(job)) p class="small" { "Name of the job and SHA-256 of checklist.json" } }
+        }
+        section aria-label="Overview" {
+            (order())
+            (warnings(sheet))
+            div class="cover-pictures" { (figures(papers.pictures, Role::Cover)) (figures(papers.pictures, Role::CutAway)) }
+            (facts(sheet))
+            (way(sheet))
+        }
+    }
+}
+
+fn verdict(sheet: &Checklist) -> Markup {
+    let (class, word) = match sheet.verdict {
+        Verdict::Pass => ("verdict pass", "✓ all promises kept"),
+        Verdict::Fail => ("verdict fail", "✗ do not print: see checks"),
+    };
+    html! { p class=(class) { (word) } }
+}
+
+fn warnings(sheet: &Checklist) -> Markup {
+    html! {
+        @for warning in &sheet.warnings { p class="warn" { strong { "Mind: " } (warning) } }
+    }
+}
+
+fn facts(sheet: &Checklist) -> Markup {
+    html! {
+        table class="facts" {
+            tr { th scope="row" { "Goal" } td { (words::goal(&sheet.goal)) ". Coordinates are along the model's own axes." } }
+            tr { th scope="row" { "Model" } td { (sheet.model.file) ", " (extent(&sheet.model.size_mm)) ", " (quantity(sheet.model.volume_mm3 / MM3_PER_CM3, "cm³")) " solid" } }
+            tr { th scope="row" { "Printer" } td { (sheet.printer.name) " (" (sheet.printer.process) "), " (pixels(sheet)) ", layers of " (quantity(sheet.printer.layer_mm, "mm")) } }
+            tr { th scope="row" { "Material" } td { (sheet.material.name) ", " (quantity(sheet.material.density_g_cm3, "g/cm³")) " (" (sheet.material.density_sure) @if sheet.material.density_spread_ratio.is_none() { ", not measured by this shop" } ": " (sheet.material.density_source) ")" } }
+            tr { th scope="row" { "Mass" } td { (quantity(sheet.assembly.mass_g, "g")) " in all" (of_hardware(sheet)) @if !sheet.ballast.is_empty() { " with " (counted(sheet.ballast.len(), "piece")) " of ballast" } "; " (quantity(sheet.solid.mass_g, "g")) " if it were solid" } }
+            tr { th scope="row" { "Wall" } td { (words::wall(&sheet.wall)) } }
+        }
+    }
+}
+
+/// How much of the mass is not printed.
+fn of_hardware(sheet: &Checklist) -> String {
+    let mass_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
+    if mass_g > 0.0 {
+        format!(", {} of it hardware", quantity(mass_g, "g"))
+    } else {
+        String::new()
+    }
+}
+
+fn pixels(sheet: &Checklist) -> String {
+    let [x, y] = sheet.printer.pixel_mm.map(|pitch| number(pitch * 1000.0));
+    format!("{x} × {y}\u{a0}µm")
+}
+
+/// What there is, and the steps with links to them.
+fn way(sheet: &Checklist) -> Markup {
+    html! {
+        nav class="steps" aria-label="Steps" {
+            p {
+                "It comes as " strong { (counted(sheet.parts.len(), "part")) } " with " (counted(sheet.voids.len(), "void")) " inside, opened by "
+                (counted(sheet.cuts.len(), "cut")) " and joined at " (counted(sheet.joints.len(), "glue joint")) ". Do these steps in order, and tick each one off:"
+            }
+            ol class="way" {
+                @for (index, name) in step_names(sheet).into_iter().enumerate() {
+                    li { a href=(format!("#step-{}", index + 1)) { (name) } }
+                }
+                li { a href="#sign-off" { "Sign off" } }
+            }
+        }
+    }
+}
+
+/// What only the shop knows.
+fn order() -> Markup {
+    html! {
+        p class="fields" {
+            @for field in ["Order", "Revision", "Quantity", "Due", "Prepared by"] {
+                span class="field" { (field) " " (blank()) } " "
+            }
+        }
+    }
+}

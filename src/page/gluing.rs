@@ -1,0 +1,316 @@
+//! Fitting and gluing: which joints close together, in which order, and what to mind of each.
+
+use maud::{Markup, html};
+
+use super::fields::blank;
+use crate::base::numbers::quantity;
+use crate::base::units::counted;
+use crate::goal::GoalKind;
+use crate::sheet::{Checklist, JointRow};
+use crate::verify::GlueFilm;
+
+/// So many pins let parts together one way only, where nothing else is to be minded of a joint.
+const ONE_WAY_PINS: usize = 2;
+
+/// Joints between the same two bodies, each glued so far: they close in one movement.
+struct Closing<'a> {
+    joints: Vec<&'a JointRow>,
+    /// The parts of either body.
+    sides: [Vec<&'a str>; 2],
+}
+
+/// The closings in an order that can be carried out: cut by cut, so that what is closed first lies
+/// wholly on one side of every later cut, and two bodies meet along one plane.
+fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
+    let mut bodies: Vec<Vec<&str>> = sheet
+        .parts
+        .iter()
+        .map(|part| vec![part.id.as_str()])
+        .collect();
+    let mut open: Vec<&JointRow> = in_order_of_cuts(&sheet.joints);
+    let mut closings = Vec::new();
+    while let Some(first) = open.first() {
+        let sides = first.parts.each_ref().map(|part| body_of(&bodies, part));
+        let closes = |joint: &&JointRow| {
+            joint
+                .parts
+                .iter()
+                .all(|part| sides.iter().any(|side| side.contains(&part.as_str())))
+        };
+        let (joints, rest) = open.into_iter().partition(closes);
+        bodies.retain(|body| !sides.contains(body));
+        bodies.push(sides.concat());
+        closings.push(Closing { joints, sides });
+        open = rest;
+    }
+    closings
+}
+
+/// The joints of the first cut, then those of the next, cuts as their first joints come.
+fn in_order_of_cuts(joints: &[JointRow]) -> Vec<&JointRow> {
+    let first = |cut: &str| joints.iter().position(|joint| joint.cut == cut);
+    let mut sorted: Vec<&JointRow> = joints.iter().collect();
+    sorted.sort_by_key(|joint| first(&joint.cut));
+    sorted
+}
+
+/// The body that a part belongs to; the part alone where it is not known.
+fn body_of<'a>(bodies: &[Vec<&'a str>], part: &'a str) -> Vec<&'a str> {
+    bodies
+        .iter()
+        .find(|body| body.contains(&part))
+        .cloned()
+        .unwrap_or_else(|| vec![part])
+}
+
+impl Closing<'_> {
+    /// `J6 and J7 together`.
+    fn name(&self) -> String {
+        let ids: Vec<&str> = self.joints.iter().map(|joint| joint.id.as_str()).collect();
+        match ids.split_last() {
+            Some((last, [])) => (*last).to_owned(),
+            Some((last, others)) => format!("{} and {last} together", others.join(", ")),
+            None => String::new(),
+        }
+    }
+
+    /// `P01 + P03`, for each of the two bodies.
+    fn bodies(&self) -> [String; 2] {
+        self.sides.each_ref().map(|side| side.join(" + "))
+    }
+
+    /// The cuts it lies in.
+    fn cuts(&self) -> String {
+        let mut cuts: Vec<&str> = self.joints.iter().map(|joint| joint.cut.as_str()).collect();
+        cuts.dedup();
+        cuts.join(", ")
+    }
+
+    /// The joint whose pins align one that has not enough of its own, because both close in one
+    /// movement.
+    fn guide_of(&self, joint: &JointRow) -> Option<&JointRow> {
+        let is_sound = |row: &JointRow| row.pins >= ONE_WAY_PINS && row.note.is_none();
+        let others = self
+            .joints
+            .iter()
+            .copied()
+            .filter(|other| other.id != joint.id);
+        others
+            .into_iter()
+            .find(|other| is_sound(other))
+            .filter(|_| !is_sound(joint))
+    }
+
+    /// How it is aligned: its pins, and what to mind of any joint.
+    fn alignment(&self) -> Markup {
+        let is_one = self.joints.len() == 1;
+        html! {
+            @for joint in &self.joints {
+                div {
+                    @if !is_one { (joint.id) ": " }
+                    @if joint.pins > 0 { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
+                    @else if joint.note.is_none() { "no pins" }
+                    @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
+                    @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, which closes with it" }
+                }
+            }
+        }
+    }
+}
+
+/// The step in which everything is put together dry.
+pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.joints.is_empty() { p { "Nothing is glued to another printed part: nothing to fit." } }
+        (cut_list(sheet))
+        ul class="ticks" {
+            @for closing in closings(sheet) {
+                @let [one, other] = closing.bodies();
+                li {
+                    strong { (closing.name()) } ": " (one) " on " (other) " along " (closing.cuts()) ". No gap and no step at the seam" @if closing.joints.iter().any(|joint| joint.pins > 0) { ", every pin all the way in" } "."
+                    (closing.alignment())
+                }
+            }
+        }
+    }
+}
+
+/// The step in which the parts are glued, two bodies at a time.
+pub(super) fn glue(sheet: &Checklist) -> Markup {
+    html! {
+        @if sheet.joints.is_empty() { p { "No printed part is glued to another." } }
+        @else {
+            div class="lead" {
+                p { "In this order; each row sets before the next. Joints in one row close in one movement: put glue on all of them first." }
+                p { (sparing(sheet.goal.aim.kind)) }
+                (films(sheet))
+            }
+            table {
+                thead { tr { th scope="col" { "Done" } th scope="col" { "Joint" } th scope="col" { "Bodies" } th scope="col" { "Cut" } th scope="col" class="n" { "Area" } th scope="col" { "Alignment" } th scope="col" { "Adhesive, clamped until" } } }
+                tbody { @for closing in closings(sheet) { (line(&closing)) } }
+            }
+        }
+    }
+}
+
+fn line(closing: &Closing) -> Markup {
+    let [one, other] = closing.bodies();
+    let area_mm2 = closing.joints.iter().map(|joint| joint.area_mm2).sum();
+    html! {
+        tr {
+            td { "☐" }
+            td { strong { (closing.name()) } }
+            td { "(" (one) ") on (" (other) ")" }
+            td { (closing.cuts()) }
+            td class="n" { (quantity(area_mm2, "mm²")) }
+            td { (closing.alignment()) }
+            td { (blank()) }
+        }
+    }
+}
+
+/// Why glue is used sparingly, and all around what must be tight.
+fn sparing(kind: GoalKind) -> &'static str {
+    match kind {
+        GoalKind::Float => {
+            "Seal every joint all around: a void that fills with water sinks it or turns it over."
+        }
+        GoalKind::Top | GoalKind::Yoyo | GoalKind::Balance => {
+            "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance."
+        }
+        GoalKind::Stand => "Thin glue, kept off the voids.",
+    }
+}
+
+/// The dowels to cut; nothing where pins are printed.
+fn cut_list(sheet: &Checklist) -> Markup {
+    html! {
+        @if !sheet.cut_list.is_empty() {
+            p { "Cut the dowels, ends square and free of burr; each goes half into either part." }
+            ul class="ticks" {
+                @for row in &sheet.cut_list {
+                    li {
+                        strong { (row.count) " × " (row.name) } " (" code { (row.rod) } "), " (quantity(row.length_mm, "mm")) " long, "
+                        (quantity(row.mass_g, "g")) " each" br; span class="small" { (row.sources.join("; ")) }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// What the films of glue weigh, and how thick they are counted; nothing where that is not known.
+fn films(sheet: &Checklist) -> Markup {
+    let films: Vec<GlueFilm> = sheet.joints.iter().filter_map(|joint| joint.glue).collect();
+    let mass_g: f64 = films.iter().map(|film| film.mass_g).sum();
+    html! {
+        @if let Some(film) = films.first() {
+            p {
+                "The figures count films of glue of " (quantity(film.thickness_mm, "mm")) " and " (quantity(film.density_g_cm3, "g/cm³"))
+                ", " (quantity(mass_g, "g")) " in all; what is pressed out is wiped off."
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::sample;
+
+    /// A sheet of these parts and joints: parts joined, and the cut.
+    fn sheet(count: usize, joints: &[(usize, usize, &str)]) -> Checklist {
+        let mut sheet = sample().0;
+        let id = |index: usize| format!("P{:02}", index);
+        let (part, joint) = (sheet.parts[0].clone(), sheet.joints[0].clone());
+        sheet.parts = (1..=count)
+            .map(|index| crate::sheet::PartRow {
+                id: id(index),
+                ..part.clone()
+            })
+            .collect();
+        let row = |(index, (a, b, cut)): (usize, &(usize, usize, &str))| JointRow {
+            id: format!("J{}", index + 1),
+            parts: [id(*a), id(*b)],
+            cut: (*cut).to_owned(),
+            ..joint.clone()
+        };
+        sheet.joints = joints.iter().enumerate().map(row).collect();
+        sheet
+    }
+
+    fn names(sheet: &Checklist) -> Vec<String> {
+        closings(sheet).iter().map(Closing::name).collect()
+    }
+
+    #[test]
+    fn four_quarters_are_glued_to_halves_and_the_halves_in_one_movement() {
+        let crossed = sheet(4, &[(1, 2, "C1"), (1, 3, "C2"), (3, 4, "C1"), (2, 4, "C2")]);
+        assert_eq!(names(&crossed), ["J1", "J3", "J2 and J4 together"]);
+        assert_eq!(closings(&crossed)[2].bodies(), ["P01 + P02", "P03 + P04"]);
+    }
+
+    #[test]
+    fn eight_octants_close_in_seven_movements_each_along_one_cut() {
+        let bit = |index: usize, axis: usize| (index >> axis) & 1;
+        let pairs =
+            (0..8usize).flat_map(|a| (0..3usize).map(move |axis| (a, a | (1 << axis), axis)));
+        let joints: Vec<(usize, usize, &str)> = pairs
+            .filter(|&(a, _, axis)| bit(a, axis) == 0)
+            .map(|(a, b, axis)| (a + 1, b + 1, ["C1", "C2", "C3"][axis]))
+            .collect();
+        let octants = sheet(8, &joints);
+        let made = closings(&octants);
+        assert_eq!(made.len(), 7);
+        assert_eq!(
+            made.iter()
+                .map(|closing| closing.joints.len())
+                .sum::<usize>(),
+            12
+        );
+        assert!(made.iter().all(|closing| {
+            closing
+                .joints
+                .iter()
+                .all(|joint| joint.cut == closing.joints[0].cut)
+        }));
+    }
+
+    #[test]
+    fn a_side_that_a_cut_was_kept_to_is_closed_before_the_other_side_comes_on() {
+        let kept = sheet(3, &[(3, 2, "C2"), (2, 1, "C1"), (3, 1, "C1")]);
+        assert_eq!(names(&kept), ["J1", "J2 and J3 together"]);
+        assert_eq!(closings(&kept)[1].bodies(), ["P03 + P02", "P01"]);
+    }
+
+    #[test]
+    fn a_joint_without_pins_is_aligned_by_one_that_closes_with_it() {
+        let mut crossed = sheet(4, &[(1, 2, "C1"), (1, 3, "C2"), (3, 4, "C1"), (2, 4, "C2")]);
+        for (index, pins) in [0, 0, 2, 2].into_iter().enumerate() {
+            crossed.joints[index].pins = pins;
+            crossed.joints[index].note = (pins == 0).then(|| "no room for pins".to_owned());
+        }
+        let told = |closing: usize| closings(&crossed)[closing].alignment().into_string();
+        // J1 closes alone; J2 closes with J4.
+        assert!(!told(0).contains("align it"), "{}", told(0));
+        assert!(
+            told(2).contains("no room for pins</strong>; the pins of J4 align it"),
+            "{}",
+            told(2)
+        );
+        assert_eq!(told(2).matches("align it").count(), 1);
+    }
+
+    #[test]
+    fn a_ring_of_parts_on_one_plane_closes_every_joint_once() {
+        let fan = sheet(5, &[(2, 4, "C1"), (3, 1, "C1"), (3, 4, "C1"), (5, 4, "C1")]);
+        assert_eq!(names(&fan), ["J1", "J2", "J3", "J4"]);
+    }
+
+    #[test]
+    fn only_what_turns_is_told_of_balance() {
+        assert!(
+            sparing(GoalKind::Top).contains("axis") && !sparing(GoalKind::Stand).contains("axis")
+        );
+    }
+}

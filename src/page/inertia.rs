@@ -1,0 +1,241 @@
+//! Mass properties before and after: the ellipsoid that turns as hard as the body, its axes and its
+//! centre of mass, over a pale picture (as in Spin-It, ACM TOG 33(4), 2014, figures 4 and 5).
+
+use rayon::prelude::*;
+
+use super::figure::{Picture, Role};
+use super::subject::Subject;
+use super::viewpoint::Viewpoint;
+use crate::base::numbers::quantity;
+use crate::draw::{
+    Anchor, BODY, Camera, Drawing, Drawn, INK, PAPER, PictureError, Projection, Scene, Spot,
+    Stroke, VOID, camera, hex, render, short, still,
+};
+use crate::geom::{Matrix, Point, Vector};
+use crate::goal::GoalKind;
+use crate::mass::Body;
+use crate::sheet::Checklist;
+use crate::verify::Figures;
+
+/// How much of the pale picture is seen.
+const PALE: f64 = 0.35;
+
+/// Height of words, pixels.
+const TEXT_PX: f64 = 22.0;
+
+/// The radius of the sign of a centre of mass, pixels.
+const CENTER_PX: f64 = 13.0;
+
+/// A solid ellipsoid of semi-axes a, b, c has the second moments m a²/5, m b²/5, m c²/5 about its
+/// centre.
+const ELLIPSOID_RATIO: f64 = 5.0;
+
+/// The colour of the ellipsoid: blue.
+const ELLIPSOID: &str = "#0072b2";
+
+/// What one of the pictures is of.
+struct State<'a> {
+    file: &'static str,
+    name: &'static str,
+    body: &'a Figures,
+    scene: Scene<'a>,
+}
+
+/// The pictures before and after, seen from the side.
+pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Picture>, PictureError> {
+    let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
+    let frame = subject.aim.frame();
+    let view = Viewpoint::of(&outer, &frame);
+    let side = Camera {
+        margin_ratio: [0.14; 2],
+        ..camera(view.cut.normal, frame.axis())
+    };
+    let cut = Some(view.cut);
+    let states = [
+        State {
+            file: "pictures/inertia-before.svg",
+            name: "Solid",
+            body: &sheet.solid,
+            scene: Scene {
+                items: vec![still(&outer, BODY)],
+                cut: None,
+            },
+        },
+        State {
+            file: "pictures/inertia-after.svg",
+            name: "As made",
+            body: &sheet.assembly,
+            scene: Scene {
+                items: vec![still(&outer, BODY), still(&voids, VOID)],
+                cut,
+            },
+        },
+    ];
+    states
+        .par_iter()
+        .map(|state| picture(state, &side, sheet))
+        .collect()
+}
+
+fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, PictureError> {
+    let projection = Projection::of(&state.scene, side, 1);
+    let mut drawing = Drawing::new(side.size_px, TEXT_PX);
+    drawing.picture(&render(&state.scene, side).to_png()?, side.size_px, PALE);
+    let body = Body {
+        mass_g: state.body.mass_g,
+        center: Point::from(state.body.center_mm),
+        inertia_g_mm2: Matrix::from_fn(|row, column| state.body.inertia_g_mm2[row][column]),
+    };
+    goal_axis(&mut drawing, &projection, sheet);
+    ellipsoid(&mut drawing, &projection, &body);
+    axes(&mut drawing, &projection, &body);
+    center(&mut drawing, projection.at(&body.center));
+    drawing.text([12.0, TEXT_PX], Anchor::Start, state.name);
+    Ok(Picture {
+        file: state.file.to_owned(),
+        role: Role::Inertia,
+        caption: caption(state, sheet),
+        alt: format!(
+            "{}: side view with its inertia ellipsoid, principal axes and centre of mass against the axis of the goal.",
+            state.name
+        ),
+        drawn: Drawn::Svg(drawing),
+    })
+}
+
+fn caption(state: &State, sheet: &Checklist) -> String {
+    let [a, b, c] = state
+        .body
+        .principal_moments_g_mm2
+        .map(|moment| quantity(moment, "g·mm²"));
+    let height = match sheet.goal.aim.kind {
+        GoalKind::Top | GoalKind::Stand => {
+            format!(
+                "; its centre of mass {} up",
+                quantity(state.body.center_height_mm, "mm")
+            )
+        }
+        _ => String::new(),
+    };
+    format!(
+        "{}: {}, I_a = {a}, I_b = {b}, I_c = {c}{height}.",
+        state.name,
+        quantity(state.body.mass_g, "g")
+    )
+}
+
+/// The axis of the goal through its point, over the whole height.
+fn goal_axis(drawing: &mut Drawing, projection: &Projection, sheet: &Checklist) {
+    let frame = sheet.goal.aim.frame();
+    let [x, _] = projection.at(&frame.origin);
+    let [_, height] = drawing.size_px();
+    drawing.line([[x, 6.0], [x, height - 6.0]], Stroke::DASH_DOT);
+    let [_, y] = projection.at(&frame.origin);
+    let tip = [[x, y], [x - 11.0, y + 18.0], [x + 11.0, y + 18.0]];
+    drawing.path(&[tip.to_vec()], true, (Some(&hex(PAPER)), Stroke::THICK));
+}
+
+/// The shadow of the ellipsoid of the same mass and inertia: with second moments S about the centre
+/// it is { x : xᵀ S⁻¹ x ≤ 5/m }, and its shadow has the second moments of the shadow.
+fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
+    let second = Matrix::identity() * (0.5 * body.inertia_g_mm2.trace()) - body.inertia_g_mm2;
+    let [right, up, _] = projection.axes;
+    let squared = |a: &Vector, b: &Vector| {
+        ELLIPSOID_RATIO / body.mass_g * a.dot(&(second * b)) * projection.scale * projection.scale
+    };
+    // Pixels count downward, so the mixed moment changes its sign.
+    let ([major, minor], angle) = ellipse([
+        squared(&right, &right),
+        -squared(&right, &up),
+        squared(&up, &up),
+    ]);
+    let [x, y] = projection.at(&body.center).map(short);
+    drawing.add(&format!(
+        "<ellipse rx=\"{}\" ry=\"{}\" transform=\"translate({x} {y}) rotate({})\" fill=\"{ELLIPSOID}\" fill-opacity=\"0.25\" \
+         stroke=\"{ELLIPSOID}\" stroke-width=\"3\"/>",
+        short(major),
+        short(minor),
+        short(angle.to_degrees())
+    ));
+}
+
+/// The semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first, and the
+/// angle of the longer one, rad.
+fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
+    let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
+    (
+        [(mean + half).max(0.0).sqrt(), (mean - half).max(0.0).sqrt()],
+        0.5 * (2.0 * b).atan2(a - c),
+    )
+}
+
+/// The principal axes as far as the ellipsoid, I_c thick.
+fn axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
+    let principal = body.principal();
+    let trace = principal.moments_g_mm2.iter().sum::<f64>();
+    let names = ["I_a", "I_b", "I_c"];
+    for (index, (moment, name)) in principal.moments_g_mm2.iter().zip(names).enumerate() {
+        let semi_mm = (ELLIPSOID_RATIO / body.mass_g * (0.5 * trace - moment))
+            .max(0.0)
+            .sqrt();
+        let along: Vector = principal.axes.column(index) * semi_mm;
+        let up = if along.dot(&projection.axes[1]) < 0.0 {
+            -along
+        } else {
+            along
+        };
+        let ends = [body.center - up, body.center + up].map(|end| projection.at(&end));
+        drawing.line(
+            ends,
+            if index == 2 {
+                Stroke::THICK
+            } else {
+                Stroke::DASHED
+            },
+        );
+        let [from, to] = ends;
+        let length = (to[0] - from[0]).hypot(to[1] - from[1]);
+        if length > 4.0 * CENTER_PX {
+            let beyond = 0.8 * TEXT_PX / length;
+            let size = drawing.size_px();
+            let inside =
+                |i: usize| (to[i] + beyond * (to[i] - from[i])).clamp(TEXT_PX, size[i] - TEXT_PX);
+            drawing.text([inside(0), inside(1)], Anchor::Middle, name);
+        }
+    }
+}
+
+/// The sign of a centre of mass: a disc in quarters.
+fn center(drawing: &mut Drawing, [x, y]: Spot) {
+    let ink = hex(INK);
+    drawing.circle([x, y], CENTER_PX, (Some(&hex(PAPER)), Stroke::THIN));
+    let r = CENTER_PX;
+    let (x, y) = (short(x), short(y));
+    drawing.add(&format!(
+        "<path d=\"M{x} {y}v-{r}a{r} {r} 0 0 1 {r} {r}zM{x} {y}v{r}a{r} {r} 0 0 1 -{r} -{r}z\" fill=\"{ink}\"/>"
+    ));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_ellipse_has_the_axes_of_its_matrix() {
+        let ([major, minor], angle) = ellipse([4.0, 0.0, 9.0]);
+        assert_eq!([major, minor], [3.0, 2.0]);
+        assert!((angle.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
+        // The same turned by 45°: M = R diag(9, 4) Rᵀ = [[6.5, 2.5], [2.5, 6.5]].
+        let ([major, minor], angle) = ellipse([6.5, 2.5, 6.5]);
+        assert!((major - 3.0).abs() < 1e-12 && (minor - 2.0).abs() < 1e-12);
+        assert!((angle - std::f64::consts::FRAC_PI_4).abs() < 1e-15);
+    }
+
+    #[test]
+    fn the_ellipsoid_of_a_solid_ball_is_its_outline() {
+        // m = 5 g, r = 2 mm: I = 2/5 m r² = 8 g·mm²; S = 4 about each axis, so 5/m · S = r².
+        let inertia = Matrix::identity() * 8.0;
+        let second = Matrix::identity() * (0.5 * inertia.trace()) - inertia;
+        assert!((ELLIPSOID_RATIO / 5.0 * second[(0, 0)] - 4.0).abs() < 1e-12);
+    }
+}

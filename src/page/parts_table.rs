@@ -1,0 +1,59 @@
+//! The table of parts: each as it lies on the plate, what it weighs, and boxes for what only the
+//! shop knows.
+
+use maud::{Markup, html};
+
+use super::fields::{blank, file_name, mass_with_window};
+use super::figure::Picture;
+use crate::base::numbers::{extent, quantity};
+use crate::base::units::{MM3_PER_CM3, counted};
+use crate::sheet::{Checklist, PartRow};
+
+/// How much of a hash is shown: enough to tell files apart by eye. The whole is at the end of the
+/// sheet.
+const SHORT_HASH: usize = 12;
+
+/// The section of the parts.
+pub(super) fn parts(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+    html! {
+        section class="new-page" {
+            h2 id="parts" { "Parts" }
+            p { "Print one of each, just as the file lies: z = 0 is the plate. Sizes are along the printer's x, y and z." }
+            table class="parts" {
+                thead { tr { th scope="col" { "As it lies on the plate" } th scope="col" { "Part and file" } th scope="col" class="n" { "Mass" } th scope="col" { "To fill in" } } }
+                tbody { @for part in &sheet.parts { (line(sheet, part, pictures)) } }
+            }
+        }
+    }
+}
+
+fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
+    let picture = pictures
+        .iter()
+        .find(|picture| part.picture.as_ref() == Some(&picture.file));
+    html! {
+        tr {
+            td class="picture" { @if let Some(picture) = picture { (picture.image()) } }
+            td { (described(part)) }
+            td class="n" { (mass_with_window(sheet, part.mass_g)) }
+            td class="boxes" {
+                @for field in ["Machine", "Material lot", "Operator"] { span class="field" { (field) " " (blank()) } br; }
+                span class="field" { "Sound ☐" }
+            }
+        }
+    }
+}
+
+/// What a part is, how it lies, and what its file is.
+fn described(part: &PartRow) -> Markup {
+    html! {
+        strong class="part-id" { (part.id) } @if let Some(half) = &part.half { ", half " (half) } br;
+        (file_name(&part.file)) br;
+        "SHA-256 " code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) "…" } br;
+        (extent(&part.size_mm)) br;
+        (quantity(part.volume_mm3 / MM3_PER_CM3, "cm³")) ", " (part.triangles) " triangles" br;
+        (part.lies) br;
+        (counted(part.pins.len(), "pin")) ", " (counted(part.sockets.len(), "socket"))
+        @for mark in &part.marks { br; "“" (mark.text) "” sunk into its face in " (mark.cut) }
+    }
+}

@@ -1,0 +1,189 @@
+//! The back of the sheet: what was checked, how good the result is, and every file with its hash.
+
+use maud::{Markup, html};
+
+use super::cleaning::cost;
+use super::figure::{Picture, Role, figures};
+use super::inputs::PageInputs;
+use super::words;
+use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
+use crate::sheet::{BossRow, Checklist};
+use crate::verify::{Check, Figures};
+
+/// What an engineer reads here, for those who are none.
+const READING: &str = "For engineers. I_a ≤ I_b ≤ I_c are the moments of inertia about the three principal axes through the centre of mass. \
+    The axis of I_c is the one a body spins about stably; the farther I_b/I_c is below 1 the better. Spin-It's functional adds the squares of such \
+    ratios (for a top with the centre's height): the lower the better. It is what was made best where the sheet says so, and is another figure than \
+    the ratio or the speed on the first page. The score of a cut adds up what speaks against it: 0 is best.";
+
+/// Every promise with its verdict.
+pub(super) fn checks(checks: &[Check]) -> Markup {
+    html! {
+        section {
+            h2 { "Checks on the written files" }
+            table {
+                thead { tr { th scope="col" { "Check" } th scope="col" { "Promise" } th scope="col" class="n" { "Measured" } th scope="col" class="n" { "Limit" } th scope="col" { "Verdict" } } }
+                tbody { @for check in checks { (check_line(check)) } }
+            }
+            p class="small" { "Measured on the triangles of the files in this kit, put together as on this sheet, by a part of the program that knows nothing of the solver." }
+        }
+    }
+}
+
+fn check_line(check: &Check) -> Markup {
+    html! {
+        tr {
+            td { (check.name) }
+            td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (detail) } } }
+            td class="n" { (quantity_or_dash(check.value, &check.unit)) }
+            td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }
+            td { @if check.pass { strong class="pass" { "✓ kept" } } @else { strong class="fail" { "✗ broken" } } }
+        }
+    }
+}
+
+/// How good it is, in words, pictures and numbers.
+pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+    html! {
+        section {
+            h2 { "How good it is" }
+            p class="small" { (READING) }
+            @for sentence in words::certificate(sheet) { p { (sentence) } }
+            (cost(sheet))
+            (rounds(sheet))
+            (figures(pictures, Role::Proof))
+            h3 { "Before and after" }
+            p class="small" {
+                "Blue: the solid ellipsoid of the same mass and inertia. The quartered disc is the centre of mass, the dash-dotted line the axis of the goal, "
+                "the thick line the axis of the greatest moment I_c."
+            }
+            (figures(pictures, Role::Inertia))
+            (bodies(sheet))
+        }
+    }
+}
+
+/// A column of the table of bodies: its head, its unit, and what stands in it.
+type Column = (&'static str, &'static str, fn(&Figures) -> Option<f64>);
+
+/// What is told of a body where it is known.
+const COLUMNS: [Column; 13] = [
+    ("Off the axis", "mm", |body| body.axis_offset_mm),
+    ("Axis tilt", "°", |body| body.axis_tilt_deg),
+    ("I_b/I_c", "", |body| body.dominance_ratio),
+    ("Critical speed", "rpm", |body| body.critical_speed_rpm),
+    ("Centre's height", "mm", |body| Some(body.center_height_mm)),
+    ("Topples at", "°", |body| body.topples_deg),
+    ("Waterline", "mm", |body| {
+        body.afloat.map(|afloat| afloat.waterline_mm)
+    }),
+    ("Off buoyancy", "mm", |body| {
+        body.afloat.map(|afloat| afloat.offset_mm)
+    }),
+    ("GM", "mm", |body| {
+        body.afloat.map(|afloat| afloat.metacentric_height_mm)
+    }),
+    ("Rights from", "°", |body| {
+        body.afloat.map(|afloat| afloat.rights_from_deg)
+    }),
+    ("Static unbalance", "g·mm", |body| {
+        body.unbalance.map(|unbalance| unbalance.static_g_mm)
+    }),
+    ("Couple", "g·mm²", |body| {
+        body.unbalance.map(|unbalance| unbalance.couple_g_mm2)
+    }),
+    ("Grade G", "mm/s", |body| {
+        body.unbalance.map(|unbalance| unbalance.grade_mm_s)
+    }),
+];
+
+fn bodies(sheet: &Checklist) -> Markup {
+    let bodies = [
+        ("solid", &sheet.solid),
+        ("hollowed", &sheet.hollowed),
+        ("assembly", &sheet.assembly),
+    ];
+    let columns = COLUMNS
+        .iter()
+        .filter(|(_, _, of)| bodies.iter().any(|(_, body)| of(body).is_some()));
+    let columns: Vec<&Column> = columns.collect();
+    html! {
+        table {
+            thead {
+                tr {
+                    th scope="col" { "Body" } th scope="col" class="n" { "Mass" } th scope="col" { "Centre of mass, mm" }
+                    @for (head, _, _) in &columns { th scope="col" class="n" { (head) } }
+                }
+            }
+            tbody {
+                @for (name, body) in bodies {
+                    tr {
+                        th scope="row" { (name) }
+                        td class="n" { (quantity(body.mass_g, "g")) }
+                        td { (coordinates(&body.center_mm)) }
+                        @for (_, unit, of) in &columns { td class="n" { (quantity_or_dash(of(body), unit)) } }
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// The hashes of everything, and what the numbers rest on.
+pub(super) fn files(papers: &PageInputs) -> Markup {
+    let sheet = papers.sheet;
+    html! {
+        section class="loose" {
+            h2 { "Files, software and sources" }
+            p { "Whether a file is the one this sheet speaks of: " code { "equipoise verify" } " compares all of them, " code { "sha256sum" } " each." }
+            table class="hashes" {
+                thead { tr { th scope="col" { "What" } th scope="col" { "SHA-256" } } }
+                tbody {
+                    (hash_line("checklist.json", papers.sha256))
+                    @for (file, sha256) in &sheet.files { (hash_line(file, sha256)) }
+                    (hash_line(&format!("the model, {}", sheet.model.file), &sheet.model.sha256))
+                    (hash_line(&format!("the printer profile, {}", sheet.printer.id), &sheet.printer.profile_sha256))
+                }
+            }
+            p {
+                "Made by " (sheet.tool.name) " " (sheet.tool.version) " from " (sheet.model.file) " (" (sheet.model.triangles)
+                " triangles, scaled by " (number(sheet.model.scale_ratio)) ") for printer profile " code { (sheet.printer.id) } ", material "
+                code { (sheet.material.id) } ". The same numbers are in checklist.json; job.toml repeats the run."
+            }
+            @for note in &sheet.notes { p class="small" { (note) } }
+            h3 { "What the printer's numbers rest on, and how sure they are" }
+            ul class="sources small" { @for source in &sheet.printer.sources { li { (source) } } }
+        }
+    }
+}
+
+fn hash_line(what: &str, sha256: &str) -> Markup {
+    html! { tr { td { (what) } td { code { (sha256) } } } }
+}
+
+/// What the rounds kept solid, and what that cost.
+fn rounds(sheet: &Checklist) -> Markup {
+    let figure = sheet.certificate.figure;
+    html! {
+        @for row in &sheet.rounds {
+            p {
+                "Boss round " (row.round) ": the walls alone left no room for pins, so material was kept solid around "
+                (listed(&row.bosses)) ". The " (figure.name()) " went from " (quantity(row.before, figure.unit())) " to "
+                (quantity(row.after, figure.unit())) "; " (quantity(row.kept_solid_mm3, "mm³"))
+                " that could have been emptied stay solid."
+            }
+        }
+    }
+}
+
+fn listed(bosses: &[BossRow]) -> String {
+    let named = bosses.iter().map(|boss| {
+        format!(
+            "{} at {} between {}",
+            boss.pin,
+            coordinates(&boss.center_mm),
+            boss.parts.join(" and ")
+        )
+    });
+    named.collect::<Vec<_>>().join(", ")
+}

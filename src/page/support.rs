@@ -1,0 +1,128 @@
+//! Where a part needs support as it lies on the plate, and what is told of it.
+
+use crate::base::numbers::quantity;
+use crate::base::units::{MM2_PER_CM2, counted};
+use crate::sheet::{Checklist, PartRow, SupportRow};
+
+/// Below this height over the plate a length is told as lying on it, mm.
+const ON_PLATE_MM: f64 = 0.05;
+
+/// What to set in the slicer for a part, and where support touches it.
+fn words(support: &SupportRow) -> String {
+    if support.places == 0 {
+        return "off, nothing hangs in the air".to_owned();
+    }
+    let areas = [
+        ("outside", support.outside_mm2),
+        ("in the open hollow", support.hollow_mm2),
+        (
+            "on cut faces and pins, where every rest of it must be cut off flush",
+            support.cut_face_mm2,
+        ),
+    ];
+    let areas = areas.into_iter().filter(|(_, mm2)| *mm2 > 0.0);
+    let areas: Vec<String> = areas
+        .map(|(place, mm2)| format!("{} {place}", quantity(mm2 / MM2_PER_CM2, "cm²")))
+        .collect();
+    let areas = if areas.is_empty() {
+        "no more than points".to_owned()
+    } else {
+        areas.join(", ")
+    };
+    let lowest = if support.from_mm < ON_PLATE_MM {
+        0.0
+    } else {
+        support.from_mm
+    };
+    let [from, to] = [lowest, support.to_mm].map(|mm| quantity(mm, "mm"));
+    format!(
+        "on, under {} from {from} to {to} over the plate: {areas}",
+        counted(support.places, "place")
+    )
+}
+
+/// What is told of a part's support behind its name; nothing where it is not known by the part.
+pub(super) fn of_part(part: &PartRow) -> Option<String> {
+    part.support
+        .map(|support| format!("Support {}.", words(&support)))
+}
+
+/// Where support belongs, for the whole job.
+pub(super) fn of_all(sheet: &Checklist) -> String {
+    let known: Option<Vec<usize>> = sheet
+        .parts
+        .iter()
+        .map(|part| part.support.map(|support| support.places))
+        .collect();
+    match known {
+        Some(places) if places.iter().all(|&count| count == 0) => {
+            "off for every part: nothing hangs in the air as they lie.".to_owned()
+        }
+        Some(places) if places.contains(&0) => {
+            "on for some parts and off for others, as told at each below; none in sockets. What stands in an open hollow comes out in the \
+             next step."
+                .to_owned()
+        }
+        Some(_) => "on for every part, where told at each below; none in sockets. What stands in an open hollow comes out in the next step."
+            .to_owned(),
+        None => by_process(sheet).to_owned(),
+    }
+}
+
+/// Where support belongs by the process alone.
+fn by_process(sheet: &Checklist) -> &'static str {
+    match (
+        sheet.printer.support.as_str(),
+        sheet.printer.process.as_str(),
+    ) {
+        ("none", _) => "none; the powder holds every part.",
+        ("breakaway", "sla") => {
+            "on, outside and under what overhangs in an open hollow; none on cut faces, pins and sockets. It comes out in the next step."
+        }
+        ("breakaway", _) => {
+            "on where a part overhangs; none in sockets. What stands in an open hollow comes out in the next step."
+        }
+        _ => "as the machine lays it; what it lays in the voids comes out in the next step.",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing::sample;
+
+    #[test]
+    fn support_is_told_by_the_part_where_it_is_known_and_by_the_process_where_not() {
+        let mut sheet = sample().0;
+        let process = of_all(&sheet);
+        assert!(process.contains("as the machine lays it") && of_part(&sheet.parts[0]).is_none());
+        sheet
+            .parts
+            .iter_mut()
+            .for_each(|part| part.support = Some(SupportRow::default()));
+        assert!(of_all(&sheet).starts_with("off for every part"));
+        assert_eq!(
+            of_part(&sheet.parts[0]).unwrap(),
+            "Support off, nothing hangs in the air."
+        );
+        let hangs = SupportRow {
+            places: 2,
+            hollow_mm2: 150.0,
+            from_mm: 3.0,
+            to_mm: 8.0,
+            ..SupportRow::default()
+        };
+        sheet.parts[0].support = Some(hangs);
+        assert!(of_all(&sheet).contains("on for some parts"));
+        let told = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
+        assert_eq!(
+            told,
+            "Support on, under 2 places from 3 mm to 8 mm over the plate: 1.5 cm² in the open hollow."
+        );
+        sheet
+            .parts
+            .iter_mut()
+            .for_each(|part| part.support = Some(hangs));
+        assert!(of_all(&sheet).starts_with("on for every part"));
+    }
+}

@@ -1,0 +1,286 @@
+//! Goals, promises and proofs as people read them.
+
+use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
+use crate::goal::GoalKind;
+use crate::sheet::{Certificate, Checklist, GoalRow, WallRow};
+use crate::verify::Figures;
+
+/// Below this a number is written with a power of ten.
+const SMALL: f64 = 1e-3;
+
+/// Below this share the gap of a certificate is rounding, of either sign.
+const NO_GAP_RATIO: f64 = 1e-9;
+
+/// What the object is to do and what was made best, in one sentence.
+pub fn goal(goal: &GoalRow) -> String {
+    let [at, along] = [&goal.aim.origin_mm, &goal.aim.axis].map(coordinates);
+    let best = best(&goal.objective) + &weights(goal);
+    match goal.aim.kind {
+        GoalKind::Top => {
+            format!(
+                "top: spins on its contact point {at}\u{a0}mm about the axis {along}, with {best}"
+            )
+        }
+        GoalKind::Yoyo => {
+            format!("yo-yo: spins about the axis {along} through {at}\u{a0}mm, with {best}")
+        }
+        GoalKind::Stand => {
+            format!("standing: {along} is up, the middle of its support {at}\u{a0}mm, with {best}")
+        }
+        GoalKind::Float => format!(
+            "floating: {along} is up, {}with {best}",
+            goal.aim.water.map_or(String::new(), |order| format!(
+                "in a liquid of {} up to {} above its lowest point, ",
+                quantity(order.liquid_g_cm3, "g/cm³"),
+                quantity(order.waterline_mm, "mm")
+            ))
+        ),
+        GoalKind::Balance => format!(
+            "rotor: turns about the axis {along} through {at}\u{a0}mm{}, with {best}",
+            goal.aim.rotor.map_or(String::new(), |order| format!(
+                " at {}",
+                quantity(order.speed_rpm, "rpm")
+            ))
+        ),
+    }
+}
+
+/// The weights of Spin-It's functional, where there are any to tell of.
+fn weights(goal: &GoalRow) -> String {
+    match (goal.aim.kind, goal.spin_it_weights) {
+        (GoalKind::Top, Some([c, i])) => format!(" (γ_c = {}, γ_I = {})", number(c), number(i)),
+        _ => String::new(),
+    }
+}
+
+/// What an objective of the checklist asks for.
+fn best(objective: &str) -> String {
+    match objective {
+        "critical_speed" => "the least speed at which it stays upright".to_owned(),
+        "spin_it" => "the least value of Spin-It's functional".to_owned(),
+        "dominance" => "the most dominant axis".to_owned(),
+        "toppling_angle" => "the largest tilt before it topples".to_owned(),
+        "lowest_center" => "the lowest centre of mass".to_owned(),
+        "metacentric_height" => "the greatest metacentric height".to_owned(),
+        "least_removed" => "the least material removed that balances it".to_owned(),
+        "least_unbalance" => "the least unbalance".to_owned(),
+        other => format!("the best {}", other.replace('_', " ")),
+    }
+}
+
+/// What the finished object does, in one sentence with its figure.
+pub fn promise(sheet: &Checklist) -> String {
+    let body = &sheet.assembly;
+    match (
+        sheet.goal.aim.kind,
+        body.critical_speed_rpm,
+        body.topples_deg,
+        body.dominance_ratio,
+    ) {
+        (GoalKind::Top, Some(rpm), _, _) => format!("Spins upright from {}.", quantity(rpm, "rpm")),
+        (GoalKind::Top, None, _, _) => "Does not spin upright at any speed.".to_owned(),
+        (GoalKind::Yoyo, _, _, Some(ratio)) if ratio < 1.0 => {
+            format!(
+                "Spins stably: its moment of inertia across the axis is at most {} of the one about it; below 1 is stable.",
+                number(ratio)
+            )
+        }
+        (GoalKind::Yoyo, ..) => "Does not spin stably about its axis.".to_owned(),
+        (GoalKind::Stand, _, Some(tilt), _) if tilt > 0.0 => {
+            format!("Stands until tilted by {}.", quantity(tilt, "°"))
+        }
+        (GoalKind::Stand, ..) => "Does not stand.".to_owned(),
+        (GoalKind::Float, ..) => floats(sheet),
+        (GoalKind::Balance, ..) => runs_true(sheet),
+    }
+}
+
+/// How it floats.
+fn floats(sheet: &Checklist) -> String {
+    match sheet.assembly.afloat {
+        Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
+            "Floats upright, {} deep, with a metacentric height of {}.",
+            quantity(afloat.waterline_mm, "mm"),
+            quantity(afloat.metacentric_height_mm, "mm")
+        ),
+        Some(_) => "Floats, but not upright.".to_owned(),
+        None => "Sinks.".to_owned(),
+    }
+}
+
+/// How true a rotor runs, before and after.
+fn runs_true(sheet: &Checklist) -> String {
+    let grade = |body: &Figures| body.unbalance.map(|unbalance| number(unbalance.grade_mm_s));
+    match (
+        sheet.goal.aim.rotor,
+        grade(&sheet.solid),
+        grade(&sheet.assembly),
+    ) {
+        (Some(order), Some(solid), Some(written)) => format!(
+            "Balanced to G\u{a0}{written} at {}; solid it is G\u{a0}{solid}.",
+            quantity(order.speed_rpm, "rpm")
+        ),
+        _ => "Not known to run true.".to_owned(),
+    }
+}
+
+/// The certificate in plain words.
+pub fn certificate(sheet: &Checklist) -> Vec<String> {
+    let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
+    let is_top = sheet.goal.aim.kind == GoalKind::Top;
+    let better = if proof.figure.more_is_better() {
+        "higher"
+    } else {
+        "lower"
+    };
+    let mut words = vec![
+        format!(
+            "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
+            quantity(sheet.wall.required_mm, "mm"),
+            kept_solid(proof),
+            if is_top {
+                " and its centre of mass at this height"
+            } else {
+                ""
+            },
+            proof.figure.name(),
+            quantity(proof.bound, unit)
+        ),
+        format!(
+            "The calculated optimum is {}, {} away from that.",
+            quantity(proof.value, unit),
+            gap(proof.gap_ratio)
+        ),
+    ];
+    words.extend(is_top.then(|| other_heights(proof)));
+    words.extend(proof.written_value.map(|written| {
+        let share = reached_ratio(proof, written);
+        format!(
+            "The files of this kit, with pins, sockets and rounding, reach {}: {:.2} % of the best possible.",
+            quantity(written, unit),
+            share * 100.0
+        )
+    }));
+    words
+}
+
+/// The wall that was asked for, what the printer makes of it, and what was measured.
+pub fn wall(wall: &WallRow) -> String {
+    let given = quantity(wall.required_mm, "mm");
+    let ordered = match wall.asked_mm {
+        Some(asked_mm) if (asked_mm - wall.required_mm).abs() > SMALL * asked_mm => {
+            format!(
+                "{} ordered, {given} as the printer gives it",
+                quantity(asked_mm, "mm")
+            )
+        }
+        Some(_) => format!("{given} ordered"),
+        None => format!("{given}, the least this printer makes"),
+    };
+    let measured = quantity_or_dash(wall.measured_min_mm, "mm");
+    format!(
+        "{ordered}; thinnest measured {measured}, where 1 % less than the wall is allowed for facets"
+    )
+}
+
+/// What the proof takes as solid besides the wall.
+fn kept_solid(proof: &Certificate) -> String {
+    let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
+    let reasons = [
+        (
+            proof.kept_solid_mm3 > 0.0,
+            "where voids could not be cleaned",
+        ),
+        (by_plan, "where the plan keeps it so"),
+        (proof.bosses_mm3 > 0.0, "in bosses around pins"),
+    ];
+    let said: Vec<&str> = reasons
+        .into_iter()
+        .filter_map(|(is_so, words)| is_so.then_some(words))
+        .collect();
+    if said.is_empty() {
+        String::new()
+    } else {
+        format!(", solid {},", said.join(" and "))
+    }
+}
+
+/// What is known of a top's centre of mass at other heights.
+fn other_heights(proof: &Certificate) -> String {
+    let Some(over) = proof.over_heights else {
+        return "Other heights of the centre of mass were searched, and none was better; a proof for them is missing."
+            .to_owned();
+    };
+    format!(
+        "At any other height of the centre of mass the {} could be lower by {} of it at most (proved on columns {} apart).",
+        proof.figure.name(),
+        number(1.0 - over.bound / over.value),
+        quantity(over.pitch_mm, "mm")
+    )
+}
+
+/// The distance between the optimum and its proof, in words.
+fn gap(ratio: f64) -> String {
+    if ratio.abs() <= NO_GAP_RATIO {
+        format!("less than {} of it", number(NO_GAP_RATIO))
+    } else {
+        format!("{} of it", number(ratio))
+    }
+}
+
+/// The share of the best possible that was reached, 1 at the bound.
+fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
+    if proof.figure.more_is_better() {
+        written / proof.bound
+    } else {
+        proof.bound / written
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sheet::CleaningRow;
+    use crate::testing::sample;
+
+    #[test]
+    fn the_proof_says_that_it_holds_with_solid_places_where_there_are_any() {
+        let (mut sheet, _) = sample();
+        let is_said = |sheet: &Checklist| {
+            certificate(sheet)[0].contains("solid where voids could not be cleaned")
+        };
+        assert!(!is_said(&sheet));
+        sheet.certificate.kept_solid_mm3 = 12.0;
+        assert!(is_said(&sheet));
+        sheet.certificate.bosses_mm3 = 5.0;
+        assert!(is_said(&sheet) && certificate(&sheet)[0].contains("in bosses around pins"));
+        assert!(!certificate(&sheet)[0].contains("the plan keeps it so"));
+        let round = CleaningRow {
+            voids: Vec::new(),
+            volume_mm3: 3.0,
+            value_before: 1.0,
+            value_after: Some(1.1),
+            by_plan: true,
+        };
+        sheet.certificate.cleaning_rounds.push(round);
+        assert!(
+            certificate(&sheet)[0].contains("cleaned and where the plan keeps it so and in bosses")
+        );
+    }
+
+    #[test]
+    fn a_wall_is_told_as_it_was_ordered_and_as_the_printer_gives_it() {
+        let told = |asked_mm| {
+            wall(&WallRow {
+                required_mm: 1.016,
+                asked_mm,
+                measured_min_mm: Some(1.01),
+            })
+        };
+        assert!(
+            told(Some(1.0)).starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer gives it")
+        );
+        assert!(told(Some(1.016)).starts_with("1.016\u{a0}mm ordered; thinnest"));
+        assert!(told(None).contains("the least this printer makes"));
+    }
+}

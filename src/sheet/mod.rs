@@ -1,0 +1,22 @@
+//! The job sheet as data: the checklist and its rows, as `checklist.json` holds them.
+
+mod certificate;
+mod checklist;
+mod goal;
+mod joints;
+mod parts;
+mod printer;
+#[cfg(test)]
+mod tests;
+mod timing;
+mod voids;
+
+pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
+pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, Tool, Verdict};
+pub use goal::{FootRow, GoalRow, TurnRow};
+pub use joints::{BallastRow, BossRow, CutListRow, JointRow, RoundRow};
+pub use parts::{PartRow, SupportRow, finished_size_mm};
+pub use printer::{GridRow, MaterialRow, PrinterRow, WallRow};
+pub use timing::Timing;
+pub(crate) use voids::checks_of_void;
+pub use voids::{CutRow, SideRow, VoidRow, is_clean};

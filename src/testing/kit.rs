@@ -1,0 +1,303 @@
+//! A sound checklist for the tests of the paperwork: the hollow box of the judge's tests.
+
+use crate::geom::{Parting, Plane, Point, Vector};
+use crate::page::{
+    CutFace, Mouth, Picture, Region, Subject, View, album, drawings, part_picture_file,
+};
+use crate::repair::weld;
+use crate::sheet::*;
+use crate::verify::judge_tests::sound;
+use crate::verify::{
+    Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
+    PromisedVoid, Shells, judge,
+};
+
+/// The rule of a water jet.
+const CLEANING: Cleaning = Cleaning {
+    rule: crate::verify::CleaningRule::InSight,
+    sight_ratio: 0.95,
+    reach_mm: Some(150.0),
+    pair_opening_mm: None,
+    overhang_deg: None,
+};
+
+/// What the sheet says of the void's wall: less than is found, within what two samples may differ.
+const SIGHT_RATIO: f64 = 0.96;
+
+/// The promise of a kit whose void is cut at z = 16 and to be cleaned.
+fn order_cleaning(promise: &mut Promise) {
+    promise.printer.minimum_opening_mm = Some(4.0);
+    promise.printer.cleaning = Some(CLEANING);
+    promise.cuts = vec![PromisedCut {
+        point_mm: [0.0, 0.0, 16.0],
+        normal: [0.0, 0.0, 1.0],
+    }];
+    let sight_ratio = Some(SIGHT_RATIO);
+    promise.voids = vec![PromisedVoid {
+        id: "V1".into(),
+        sight_ratio,
+        least_opening_mm: Some(4.0),
+    }];
+}
+
+/// The checklist of a sound kit, and what it was judged on.
+pub fn sample() -> (Checklist, Evidence) {
+    let mut evidence = sound();
+    order_cleaning(&mut evidence.promise);
+    let found = judge(&evidence);
+    (checklist(&evidence, &found), evidence)
+}
+
+/// Its pictures and its view.
+pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let cuts = [Parting::everywhere(Plane::through(
+        &Point::new(0.0, 0.0, 16.0),
+        &Vector::z(),
+    ))];
+    let Promise {
+        goal: aim,
+        parts: promised,
+        hardware,
+        ballast,
+        ..
+    } = &evidence.promise;
+    let subject = Subject {
+        shells: &shells,
+        parts: &evidence.parts,
+        promised,
+        cuts: &cuts,
+        aim: *aim,
+        hardware,
+        ballast,
+    };
+    let frame = |[x, y]: [f64; 2]| vec![[-x, -y], [x, -y], [x, y], [-x, y]];
+    let face = CutFace {
+        cut: "C1".into(),
+        plane: cuts[0].plane,
+        rings: vec![
+            frame([30.0, 20.0]),
+            frame([27.0, 17.0]).into_iter().rev().collect(),
+        ],
+        wall: Some([[27.0, 0.0], [30.0, 0.0]]),
+        whole: vec![],
+        regions: vec![Region {
+            at: [28.5, 0.0],
+            parts: ["P01".into(), "P02".into()],
+        }],
+        mouths: vec![Mouth {
+            void: "V1".into(),
+            at: [0.0, 0.0],
+            diameter_mm: 34.0,
+        }],
+    };
+    let mut pictures = album(&subject).unwrap();
+    pictures.extend(drawings(sheet, &subject, &[face]).unwrap());
+    (pictures, View::of(&subject).unwrap())
+}
+
+fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
+    let speed = found.assembly.critical_speed_rpm.unwrap();
+    Checklist {
+        schema: Checklist::SCHEMA,
+        tool: Tool {
+            name: "equipoise".into(),
+            version: "0.1.0".into(),
+        },
+        job: "box".into(),
+        model: ModelRow {
+            file: "box <&> lid.stl".into(),
+            sha256: "ab".repeat(32),
+            triangles: 12,
+            size_mm: [60.0, 40.0, 12.0],
+            volume_mm3: found.solid.volume_mm3,
+            scale_ratio: 1.0,
+        },
+        printer: printer(),
+        material: material(),
+        goal: GoalRow {
+            aim: evidence.promise.goal,
+            objective: "critical_speed".into(),
+            spin_it_weights: None,
+            contact_gap_mm: 10.0,
+            choice: None,
+        },
+        promise: Some(PromisedFigure {
+            figure: FigureName::CriticalSpeedRpm,
+            value: speed,
+        }),
+        solid: found.solid.clone(),
+        hollowed: found.hollowed.clone(),
+        assembly: found.assembly.clone(),
+        certificate: Certificate {
+            figure: FigureName::CriticalSpeedRpm,
+            value: speed,
+            bound: speed,
+            gap_ratio: 1e-9,
+            kept_solid_mm3: 0.0,
+            value_before_cleaning: Some(speed),
+            cleaning_rounds: vec![],
+            bosses_mm3: 0.0,
+            over_heights: Some(HeightProof {
+                pitch_mm: 0.5,
+                value: speed,
+                bound: 0.998 * speed,
+            }),
+            written_value: Some(speed),
+            course: Some(course(speed)),
+        },
+        wall: WallRow {
+            required_mm: 3.0,
+            asked_mm: None,
+            measured_min_mm: found.wall_min_mm,
+        },
+        voids: vec![the_void()],
+        cuts: vec![CutRow {
+            id: "C1".into(),
+            point_mm: [0.0, 0.0, 16.0],
+            normal: [0.0, 0.0, 1.0],
+            within: Vec::new(),
+        }],
+        parts: evidence
+            .promise
+            .parts
+            .iter()
+            .zip(&found.parts)
+            .map(part)
+            .collect(),
+        joints: vec![joint()],
+        grid: vec![grid_row()],
+        hardware: vec![],
+        dowels: vec![],
+        cut_list: vec![],
+        string_gap_mm: None,
+        finished_size_mm: Some(finished_size_mm(&evidence.parts, &[])),
+        turn: None,
+        foot: None,
+        ballast: Vec::new(),
+        fill: None,
+        rounds: Vec::new(),
+        checks: found.checks.clone(),
+        verdict: Verdict::of(&found.checks),
+        warnings: vec![
+            "the contact point hangs 10 mm below the surface: glue on a tip of that length".into(),
+        ],
+        notes: vec![],
+        files: Default::default(),
+        timing_s: Some(Timing(vec![("load".into(), 0.25), ("judge".into(), 0.5)])),
+        log: vec![LogRow {
+            phase: "newton".into(),
+            figures: [("gap_ratio".to_owned(), 1e-9)].into(),
+        }],
+    }
+}
+
+/// Three passes to a speed, and the speeds about its height.
+fn course(speed: f64) -> Course {
+    let pass = |share: f64| PassRow {
+        value: speed * (1.0 + share),
+        bound: speed * (1.0 - share),
+    };
+    let at = |height_mm: f64| SpeedRow {
+        height_mm,
+        critical_speed_rpm: speed + (height_mm - 16.0).powi(2),
+    };
+    Course {
+        passes: [0.5, 0.1, 0.0].map(pass).into(),
+        speeds: [12.0, 16.0, 20.0].map(at).into(),
+    }
+}
+
+fn printer() -> PrinterRow {
+    PrinterRow {
+        id: "objet-connex350".into(),
+        profile_sha256: "ef".repeat(32),
+        name: "Objet Connex350".into(),
+        process: "polyjet".into(),
+        pixel_mm: [0.0423, 0.0423],
+        layer_mm: 0.016,
+        build_volume_mm: Some([100.0, 100.0, 6.0]),
+        print_scale_ratio: None,
+        support: "water-jet".into(),
+        minimum_wall_mm: 1.0,
+        minimum_opening_mm: 4.0,
+        cleaning: CLEANING,
+        sources: vec!["layer: read: user guide".into()],
+    }
+}
+
+fn material() -> MaterialRow {
+    MaterialRow {
+        id: "vero".into(),
+        name: "VeroWhite".into(),
+        density_g_cm3: 1.2,
+        density_source: "datasheet".into(),
+        density_sure: "recalled".into(),
+        density_spread_ratio: Some(0.02),
+    }
+}
+
+fn grid_row() -> GridRow {
+    GridRow {
+        what: "wall".into(),
+        along: "x".into(),
+        asked_mm: 3.0,
+        drawn_mm: 3.0033,
+        steps_of: "pixels".into(),
+        step_mm: 0.0423,
+        steps: 71,
+        given_mm: 71.0 * 0.0423,
+        is_whole: true,
+    }
+}
+
+fn the_void() -> VoidRow {
+    VoidRow {
+        id: "V1".into(),
+        volume_mm3: 54.0 * 34.0 * 6.0,
+        opened_by: vec!["C1".into()],
+        parts: vec!["P01".into(), "P02".into()],
+        opening_mm: 34.0,
+        least_opening_mm: 4.0,
+        depth_mm: 3.0,
+        sight_ratio: Some(SIGHT_RATIO),
+        method: CLEANING.rule.words().into(),
+        is_clean: true,
+        clean: "Flush with the water jet.".into(),
+    }
+}
+
+fn joint() -> JointRow {
+    JointRow {
+        id: "J1".into(),
+        cut: "C1".into(),
+        parts: ["P01".into(), "P02".into()],
+        area_mm2: 60.0 * 40.0 - 54.0 * 34.0,
+        pins: 0,
+        clearance_mm: 0.2,
+        glue: None,
+        note: None,
+    }
+}
+
+fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRow {
+    PartRow {
+        id: promised.id.clone(),
+        file: promised.file.clone(),
+        sha256: "cd".repeat(32),
+        fingerprint: None,
+        triangles: facts.surface.triangles,
+        volume_mm3: facts.surface.volume_mm3,
+        mass_g: facts.surface.volume_mm3 * 1.2e-3,
+        size_mm: facts.size_mm,
+        lies: "open side up".into(),
+        print_from_model: promised.print_from_model,
+        pins: vec![],
+        sockets: vec![],
+        marks: vec![],
+        half: None,
+        cup_mm3: 0.0,
+        support: None,
+        picture: Some(part_picture_file(&promised.id)),
+    }
+}

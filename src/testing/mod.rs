@@ -1,0 +1,5 @@
+//! What the tests of several rooms share.
+
+mod kit;
+
+pub use kit::{sample, sample_pictures};
