@@ -1,7 +1,6 @@
 //! Why no cut plan or no parts could be made.
 
-use crate::base::toml_text::TextFault;
-use crate::mesh::ClipError;
+use crate::{base::toml_text::TextFault, mesh::ClipError};
 
 /// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by
 /// their ids.

@@ -3,12 +3,14 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    pin_shape::PinSite,
-    plan::{Cut, CutPlan, UncutFace, cut_id, tree_of},
-    solid::SolidEnd,
+use crate::{
+    base::toml_text::{self, TextFault},
+    cut::{
+        ids::cut_id,
+        joints::pin_shape::PinSite,
+        plan::{Cut, CutPlan, SolidEnd, UncutFace, tree_of},
+    },
 };
-use crate::base::toml_text::{self, TextFault};
 
 /// The head of every written file.
 const REMARK: &str = r#"# Cuts and pins, mm, in the frame of the scaled model. Edit, then: equipoise prepare … --cut FILE

@@ -1,23 +1,20 @@
 //! A cut plan as plain data: which planes, where the pins go, what is left whole.
 
-use serde::{Deserialize, Serialize};
-
-use super::{
-    access::VoidAccess,
-    error::CutError,
-    label::Label,
-    layers::CutMove,
-    pin_shape::PinSite,
-    rejoin::Bridge,
-    section::Chart,
-    solid::SolidEnd,
-    tree::{CutTree, Limit},
-};
 use crate::{
-    geom::{Parting, Plane, Point, Vector},
+    cut::{
+        access::void_access::VoidAccess,
+        error::CutError,
+        geometry::{
+            chart::{Chart, Point2},
+            tree::{CutTree, Limit},
+        },
+        joints::{label::Label, pin_shape::PinSite},
+    },
+    geom::{Aabb, Parting, Plane, Point, Vector},
     mass::FlatFace,
     mesh::{Hollowed, Solid, TriMesh},
 };
+use serde::{Deserialize, Serialize};
 
 /// The cuts, pins and joints of a kit: plain data, to be written, edited and read again.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -126,6 +123,38 @@ pub struct JointNote {
     pub one_way: bool,
     /// Where the parts touch: the section less the mouths of the sockets.
     pub face: FlatFace,
+}
+
+/// A part of the interior that is not emptied: what of it hangs together with a point within a box
+/// of the model frame.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SolidEnd {
+    /// A point in it or at its wall, mm.
+    pub at_mm: [f64; 3],
+    /// The least corner of the box, mm.
+    pub low_mm: [f64; 3],
+    /// The greatest corner of the box, mm.
+    pub high_mm: [f64; 3],
+}
+
+/// A cut that was moved so that a part's face ends at a whole layer.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct CutMove {
+    /// The cut's id.
+    pub cut: String,
+    /// The part whose face decided.
+    pub part: String,
+    /// How far the plane was moved along its normal, mm: half a layer at most.
+    pub moved_mm: f64,
+}
+
+/// A place on a cut where the body is left whole.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Bridge {
+    pub(crate) cut: usize,
+    /// A point well inside the face that is not cut, in the plane's coordinates.
+    pub(crate) at: Point2,
 }
 
 impl JointNote {
@@ -244,17 +273,30 @@ impl Cut {
     }
 }
 
-/// The name of the cut with this index.
-pub(crate) fn cut_id(index: usize) -> String {
-    format!("C{}", index + 1)
-}
+impl SolidEnd {
+    pub(crate) fn new(at: &Point, aabb: &Aabb) -> Self {
+        Self {
+            at_mm: (*at).into(),
+            low_mm: aabb.min.into(),
+            high_mm: aabb.max.into(),
+        }
+    }
 
-/// The name of the pin with this index.
-pub(crate) fn pin_id(index: usize) -> String {
-    format!("N{}", index + 1)
-}
+    /// The box.
+    pub fn aabb(&self) -> Aabb {
+        Aabb {
+            min: self.low_mm.into(),
+            max: self.high_mm.into(),
+        }
+    }
 
-/// The name of the part with this index.
-pub(crate) fn part_id(index: usize) -> String {
-    format!("P{:02}", index + 1)
+    /// Whether the point lies in a box that has a volume.
+    pub(crate) fn is_sound(&self) -> bool {
+        let sides = self.low_mm.iter().zip(self.high_mm).zip(self.at_mm);
+        sides.into_iter().all(|((&low, high), at)| {
+            [low, high, at].iter().all(|number| number.is_finite())
+                && low < high
+                && (low..=high).contains(&at)
+        })
+    }
 }

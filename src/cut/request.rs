@@ -2,8 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{label::LabelStyle, rod::Rod, seat::Seat};
 use crate::{
+    cut::{joints::rod::Rod, seat::Seat},
     geom::{Point, Vector},
     printer::Cleaning,
 };
@@ -98,4 +98,13 @@ pub enum PosePreference {
     CutFaceDown,
     /// The opened hollows look up, so that support can be washed out of them (PolyJet).
     OpenHollowUp,
+}
+
+/// How ids are sunk into cut faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LabelStyle {
+    /// The width of a stroke, mm: the smallest detail that prints.
+    pub stroke_mm: f64,
+    /// How deep it is, mm.
+    pub depth_mm: f64,
 }

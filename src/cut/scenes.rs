@@ -1,7 +1,7 @@
 //! Bodies and requests for the tests of this folder.
 
-use super::{GoalAxis, PinSettings, PlanRequest, PosePreference};
 use crate::{
+    cut::{GoalAxis, PinSettings, PlanRequest, PosePreference},
     geom::{Point, Vector},
     mesh::{Hollowed, Solid, TriMesh},
     printer::Cleaning,

@@ -1,10 +1,11 @@
 //! What cut plans and parts promise, on bodies whose answer is known.
 
-use super::{
-    scenes::{ball, cuboid, request, with_balls},
-    *,
-};
 use crate::{
+    cut::{
+        joints::pin_shape::SIDES,
+        scenes::{ball, cuboid, request, with_balls},
+        *,
+    },
     geom::{Point, Vector},
     mass::moments_of_mesh,
     mesh::{Csg, Hollowed, Solid, shells},
@@ -16,7 +17,7 @@ fn volume(solid: &Solid) -> f64 {
 
 /// Plans and cuts, and checks what every kit promises: voids opened wide enough, parts without
 /// cavities that rest on the plate, volumes that add up.
-pub(super) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
+pub(crate) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<Part>) {
     let plan = plan(hollowed, request).unwrap();
     let parts = parts(hollowed, &plan, request).unwrap();
     for void in &plan.voids {
@@ -42,14 +43,14 @@ pub(super) fn kit(hollowed: &Hollowed, request: &PlanRequest) -> (CutPlan, Vec<P
 }
 
 /// An order of these cuts, pins to be placed.
-pub(super) fn cuts(cuts: Vec<Cut>) -> CutOrder {
+pub(crate) fn cuts(cuts: Vec<Cut>) -> CutOrder {
     CutOrder {
         cuts,
         ..CutOrder::default()
     }
 }
 
-pub(super) fn assert_volumes_add_up(hollowed: &Hollowed, parts: &[Part]) {
+pub(crate) fn assert_volumes_add_up(hollowed: &Hollowed, parts: &[Part]) {
     let body = moments_of_mesh(&hollowed.to_mesh()).volume();
     let written: f64 = parts.iter().map(|part| volume(&part.solid)).sum();
     let promised = body + parts.iter().map(Part::added_volume_mm3).sum::<f64>();
@@ -220,7 +221,7 @@ fn a_pin_stands_in_its_socket_with_the_clearance_on_every_side_and_the_wall_arou
         .filter(|&r| r > pin_radius)
         .fold(f64::INFINITY, f64::min);
         // The socket's flats lie nearer to the axis than its corners, by the cosine of half a side.
-        let flat = corner * (std::f64::consts::PI / pin_shape::SIDES as f64).cos();
+        let flat = corner * (std::f64::consts::PI / SIDES as f64).cos();
         let gap_mm = (pin.socket_diameter_mm - pin.diameter_mm) / 2.0;
         assert!(
             (flat - pin_radius - gap_mm).abs() < 1e-9,

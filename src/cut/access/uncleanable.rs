@@ -1,0 +1,479 @@
+//! What of a void is better kept solid, because a plan does not let it be cleaned.
+
+use rayon::prelude::*;
+
+use crate::{
+    cut::{
+        access::{
+            chamber::Chamber,
+            sight::Seen,
+            void_access::{Mouths, Opened, asked_ratio},
+        },
+        error::CutError,
+        geometry::tree::CutTree,
+        ids::part_id,
+        pieces::{
+            part::pieces,
+            split::{Joint, Piece, joints},
+        },
+        plan::{Cut, CutPlan, JointNote, SolidEnd, tree_of},
+        request::PlanRequest,
+    },
+    geom::{Plane, Point, Vector},
+    mesh::{Csg, Hollowed, Solid, TriMesh, bodies, union_find::UnionFind},
+};
+
+/// Hidden points nearer to each other than this many times their spacing are one place.
+const LINK_RATIO: f64 = 3.0;
+/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all
+/// around, so it may begin a little behind the first.
+const BEGIN_SHARE: f64 = 0.25;
+/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved
+/// again.
+const LEFT_HIDDEN_RATIO: f64 = 0.8;
+/// So many hidden places are weighed against each other in a round: each costs a cut of the void;
+/// smaller ones are left to the next round, and hide next to nothing.
+const WEIGHED_ENDS: usize = 16;
+/// What is to be kept solid beyond this share of a piece is all of it.
+const WHOLE_RATIO: f64 = 0.5;
+/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep
+/// its corners but for rounding.
+const SAME_CORNER_MM: f64 = 1e-9;
+
+/// A void that the plan does not let be cleaned.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Unclean {
+    /// The void's index in the hollowed body.
+    pub void: usize,
+    /// Why, in words with numbers.
+    pub why: String,
+    /// What of it is to be kept solid, as bodies.
+    pub lumps: Vec<TriMesh>,
+}
+
+/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are
+/// not asked. With `whole` all of such a void must go.
+pub fn unclean(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+    whole: bool,
+) -> Result<Vec<Unclean>, CutError> {
+    let tree = plan.tree()?;
+    let count = hollowed.voids.len();
+    let is_plain = |void: usize| request.seat_of(void, count).is_none();
+    let dirty: Vec<_> = plan
+        .voids
+        .iter()
+        .filter(|void| !void.is_clean && is_plain(void.void))
+        .collect();
+    let chambers = if dirty.is_empty() {
+        Vec::new()
+    } else {
+        Chamber::all(hollowed)?
+    };
+    let of = |access: &&crate::cut::access::void_access::VoidAccess| {
+        let opened = Opened::new(&chambers, access.void, &tree, request);
+        let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
+        let lumps = if whole {
+            vec![opened.chamber.solid.mesh().clone()]
+        } else {
+            lumps(&opened)?
+        };
+        let why = if access.sight_ratio < asked {
+            let percent = |ratio: f64| 100.0 * ratio;
+            let (seen, asked) = (percent(access.sight_ratio), percent(asked));
+            format!(
+                "{seen:.1} % of its wall in sight, asked are {asked:.1} %, the planner's margin with it"
+            )
+        } else {
+            format!(
+                "it opens by {:.2} mm, asked are {needed_mm:.2} mm",
+                access.opening_mm
+            )
+        };
+        Ok(Unclean { void, why, lumps })
+    };
+    dirty.par_iter().map(of).collect()
+}
+
+/// The plain voids that none of the cuts meets: all of them must go.
+pub fn closed(
+    hollowed: &Hollowed,
+    cuts: &[Cut],
+    request: &PlanRequest,
+) -> Result<Vec<Unclean>, CutError> {
+    let tree = tree_of(cuts)?;
+    let count = hollowed.voids.len();
+    let voids = hollowed
+        .voids
+        .iter()
+        .enumerate()
+        .filter(|(void, _)| request.seat_of(*void, count).is_none());
+    let is_met = |solid: &Solid, cut: usize| {
+        let there: Vec<Point> = solid
+            .mesh()
+            .vertices()
+            .iter()
+            .filter(|p| tree.acts_at(cut, p))
+            .copied()
+            .collect();
+        tree.planes[cut].passes_through(&there)
+    };
+    let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
+    let all = |(void, solid): (usize, &Solid)| Unclean {
+        void,
+        why: "no cut opens it".to_owned(),
+        lumps: vec![solid.mesh().clone()],
+    };
+    Ok(shut.map(all).collect())
+}
+
+/// What of voids lies beyond joints that have not at least two pins that fit one way only: the
+/// pieces within that of the two parts in which less is empty, and what lies so many minimum
+/// openings around them. Kept solid, they leave the joint material for pins, or no need of it.
+/// Seats for parts stay.
+pub fn beyond(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    (request, openings): (&PlanRequest, f64),
+) -> Result<Vec<SolidEnd>, CutError> {
+    let tree = plan.tree()?;
+    let parts = pieces(hollowed, plan, &tree)?;
+    let count = hollowed.voids.len();
+    let chambers = Chamber::all(hollowed)?;
+    let mut inside: Vec<(usize, Piece)> = Vec::new();
+    for void in (0..count).filter(|&void| request.seat_of(void, count).is_none()) {
+        for piece in chambers[void].split(&tree)? {
+            let part = parts
+                .iter()
+                .position(|part| borders(part, &piece.mesh, &tree));
+            inside.extend(part.map(|part| (part, piece)));
+        }
+    }
+    let empty_mm3 = |part: usize| -> f64 {
+        inside
+            .iter()
+            .filter(|(of, _)| *of == part)
+            .map(|(_, piece)| piece.volume_mm3)
+            .sum()
+    };
+    let lacks_pins = |joint: &&Joint| {
+        let ids = [joint.below, joint.above].map(part_id);
+        let is_it = |note: &&JointNote| note.parts == ids && note.cut == plan.cuts[joint.cut].id;
+        plan.joints
+            .iter()
+            .find(is_it)
+            .is_some_and(|note| !note.is_aligned())
+    };
+    let lesser = |joint: &Joint| {
+        let sides = [joint.below, joint.above]
+            .into_iter()
+            .filter(|&part| empty_mm3(part) > 0.0);
+        sides.min_by(|&a, &b| empty_mm3(a).total_cmp(&empty_mm3(b)))
+    };
+    let given_up: Vec<usize> = joints(&parts, &tree)
+        .iter()
+        .filter(lacks_pins)
+        .filter_map(lesser)
+        .collect();
+    let margin_mm = openings * request.min_opening_mm;
+    let end = |(_, piece): &(usize, Piece)| {
+        let at = farthest_corner(&piece.mesh, &tree)?;
+        Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
+    };
+    Ok(inside
+        .iter()
+        .filter(|(part, _)| given_up.contains(part))
+        .filter_map(end)
+        .collect())
+}
+
+/// The corner of a piece of a void that is farthest from all cuts.
+fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
+    let off_cuts_mm = |p: &Point| {
+        tree.planes
+            .iter()
+            .map(|plane| plane.distance(p).abs())
+            .fold(f64::INFINITY, f64::min)
+    };
+    lump.vertices()
+        .iter()
+        .max_by(|a, b| off_cuts_mm(a).total_cmp(&off_cuts_mm(b)))
+        .copied()
+}
+
+/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of
+/// both.
+fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
+    let corner = farthest_corner(lump, tree);
+    corner.is_some_and(|corner| {
+        part.mesh
+            .vertices()
+            .iter()
+            .any(|p| (p - corner).norm() <= SAME_CORNER_MM)
+    })
+}
+
+/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen:
+/// those first that are solid for the least volume over what they hide.
+fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
+    let pieces = opened.chamber.split(opened.tree)?;
+    let seen = opened.seen_each(&pieces);
+    let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
+    let (mut lumps, mut hidden) = (Vec::new(), Vec::new());
+    for (piece, seen) in pieces.iter().zip(&seen) {
+        if opened.lets_out(&Mouths::of(piece, &opened.tree.planes)) {
+            hidden.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
+        } else {
+            lumps.push(piece.mesh.clone());
+        }
+    }
+    hidden.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
+    let mut hidden_mm2: f64 = hidden.iter().map(|(place, ..)| place.area_mm2).sum();
+    let left_mm2 = LEFT_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
+    for end in cheapest_ends(&hidden)? {
+        if hidden_mm2 <= left_mm2 {
+            break;
+        }
+        hidden_mm2 -= end.area_mm2;
+        lumps.extend(end.bodies);
+    }
+    Ok(lumps)
+}
+
+/// What is to be kept solid for one hidden place.
+struct End {
+    bodies: Vec<TriMesh>,
+    area_mm2: f64,
+    volume_mm3: f64,
+}
+
+/// The ends for the largest hidden places, those first that cost the least volume over the hidden
+/// area.
+fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError> {
+    let of = |(place, piece, seen): &(Place, &Piece, &Seen)| {
+        let bodies = end(piece, seen, place)?;
+        let volume_mm3 = bodies.iter().map(TriMesh::signed_volume_mm3).sum();
+        Ok(End {
+            bodies,
+            area_mm2: place.area_mm2,
+            volume_mm3,
+        })
+    };
+    let ends = hidden[..hidden.len().min(WEIGHED_ENDS)].par_iter().map(of);
+    let mut ends = ends.collect::<Result<Vec<End>, CutError>>()?;
+    let price_mm = |end: &End| end.volume_mm3 / end.area_mm2;
+    ends.sort_by(|a, b| price_mm(a).total_cmp(&price_mm(b)));
+    Ok(ends)
+}
+
+/// A place of a piece's wall that is hidden.
+struct Place {
+    points: Vec<Point>,
+    area_mm2: f64,
+}
+
+/// The places of a wall that are hidden: points of the sample near each other.
+fn places(seen: &Seen) -> Vec<Place> {
+    let hidden = &seen.hidden;
+    let link_mm = LINK_RATIO * seen.share_mm2.sqrt();
+    let mut sets = UnionFind::new(hidden.len());
+    for i in 0..hidden.len() {
+        for j in 0..i {
+            if (hidden[i] - hidden[j]).norm() <= link_mm {
+                sets.merge(i as u32, j as u32);
+            }
+        }
+    }
+    let (labels, count) = sets.labels();
+    let mut places: Vec<Place> = (0..count)
+        .map(|_| Place {
+            points: Vec::new(),
+            area_mm2: 0.0,
+        })
+        .collect();
+    for (point, label) in hidden.iter().zip(labels) {
+        places[label as usize].points.push(*point);
+        places[label as usize].area_mm2 += seen.share_mm2;
+    }
+    places
+}
+
+/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in
+/// sight; all of it where that is most of it.
+fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutError> {
+    let middle = |points: &[Point]| {
+        points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / points.len().max(1) as f64
+    };
+    let whole = || vec![piece.mesh.clone()];
+    let away = middle(&place.points) - middle(&seen.visible);
+    let Some(normal) = away.try_normalize(f64::EPSILON) else {
+        return Ok(whole());
+    };
+    let mut heights: Vec<f64> = place.points.iter().map(|p| normal.dot(&p.coords)).collect();
+    heights.sort_by(f64::total_cmp);
+    let offset_mm = heights[(BEGIN_SHARE * heights.len() as f64) as usize];
+    let (beyond, _) = Csg::of_mesh(&piece.mesh)?.split_by_plane(&Plane { normal, offset_mm })?;
+    let holds = |body: &TriMesh| {
+        let room = body.aabb().inflated(seen.share_mm2.sqrt());
+        place.points.iter().any(|p| room.distance_squared(p) == 0.0)
+    };
+    let ends: Vec<TriMesh> = bodies(&beyond.to_mesh()?)
+        .into_iter()
+        .filter(holds)
+        .collect();
+    let volume_mm3: f64 = ends.iter().map(TriMesh::signed_volume_mm3).sum();
+    Ok(if volume_mm3 > WHOLE_RATIO * piece.volume_mm3 {
+        whole()
+    } else {
+        ends
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        cut::{CutOrder, plan_by, scenes::request},
+        mesh::primitives,
+        printer::{Cleaning, CleaningRule},
+    };
+
+    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked
+    /// of it.
+    fn bent() -> (Hollowed, PlanRequest, CutOrder) {
+        let cuboid = |low: [f64; 3], high: [f64; 3]| primitives::cuboid(&low.into(), &high.into());
+        let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
+        let arm = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [40.0, 6.0, -22.0])).unwrap();
+        let outer = Solid::new(cuboid([-15.0, -15.0, -40.0], [50.0, 15.0, 20.0])).unwrap();
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![shaft.union(&arm).unwrap().to_solid().unwrap()],
+        };
+        let cleaning = Cleaning {
+            rule: CleaningRule::InSight,
+            sight_ratio: 0.95,
+            ..Cleaning::MELT_OUT
+        };
+        let cut = Cut {
+            id: "C1".into(),
+            point_mm: [0.0, 0.0, 5.0],
+            normal: [0.0, 0.0, 1.0],
+            within: Vec::new(),
+        };
+        let order = CutOrder {
+            cuts: vec![cut],
+            ..CutOrder::default()
+        };
+        (
+            hollowed,
+            PlanRequest {
+                cleaning,
+                ..request()
+            },
+            order,
+        )
+    }
+
+    #[test]
+    fn the_far_end_of_an_arm_is_what_must_go() {
+        let (hollowed, request, order) = bent();
+        let plan = plan_by(&hollowed, &request, &order).unwrap();
+        let found = unclean(&hollowed, &plan, &request, false).unwrap();
+        assert_eq!(
+            (found.len(), found[0].lumps.len()),
+            (1, 1),
+            "{:?}",
+            plan.voids
+        );
+        let lump = found[0].lumps[0].aabb();
+        assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
+        assert!(found[0].why.contains("in sight"));
+        let all = unclean(&hollowed, &plan, &request, true).unwrap();
+        assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
+    }
+
+    /// A block with a post on it, hollow up to the post's top but for a thin wall, cut across both.
+    fn posted() -> (Hollowed, PlanRequest, CutPlan) {
+        let cuboid = |low: [f64; 3], high: [f64; 3]| {
+            Csg::of_mesh(&primitives::cuboid(&low.into(), &high.into()))
+        };
+        let union = |a: [[f64; 3]; 2], b: [[f64; 3]; 2]| {
+            cuboid(a[0], a[1])
+                .unwrap()
+                .union(&cuboid(b[0], b[1]).unwrap())
+                .unwrap()
+                .to_solid()
+                .unwrap()
+        };
+        let outer = union(
+            [[-30.0, -30.0, 0.0], [30.0, 30.0, 30.0]],
+            [[-3.5, -3.0, 20.0], [3.5, 3.0, 60.0]],
+        );
+        let void = union(
+            [[-20.0, -20.0, 5.0], [20.0, 20.0, 25.0]],
+            [[-2.5, -2.0, 15.0], [2.5, 2.0, 59.0]],
+        );
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![void],
+        };
+        let level = |id: &str, z: f64| Cut {
+            id: id.into(),
+            point_mm: [0.0, 0.0, z],
+            normal: [0.0, 0.0, 1.0],
+            within: Vec::new(),
+        };
+        let order = CutOrder {
+            cuts: vec![level("C1", 15.0), level("C2", 40.0)],
+            ..CutOrder::default()
+        };
+        let plan = plan_by(&hollowed, &request(), &order).unwrap();
+        (hollowed, request(), plan)
+    }
+
+    #[test]
+    fn beyond_a_joint_without_pins_lies_what_is_hollow_of_the_part_with_less_of_it() {
+        let (hollowed, request, plan) = posted();
+        let pins: Vec<usize> = plan.joints.iter().map(|joint| joint.pins.len()).collect();
+        assert!(
+            pins.contains(&0) && pins.iter().any(|&count| count >= 2),
+            "{pins:?}"
+        );
+        let found = beyond(&hollowed, &plan, (&request, 0.0)).unwrap();
+        let [end] = found[..] else {
+            panic!("{found:?}")
+        };
+        let known =
+            [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
+        assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
+        assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
+        let wider = beyond(&hollowed, &plan, (&request, 2.0)).unwrap()[0];
+        assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
+        // With its joints pinned nothing need go.
+        let mut pinned = plan.clone();
+        pinned.joints.retain(|joint| joint.is_aligned());
+        assert_eq!(beyond(&hollowed, &pinned, (&request, 0.0)).unwrap(), vec![]);
+    }
+
+    #[test]
+    fn where_any_opening_does_nothing_must_go() {
+        let (hollowed, request, order) = bent();
+        let request = PlanRequest {
+            cleaning: Cleaning::MELT_OUT,
+            ..request
+        };
+        let plan = plan_by(&hollowed, &request, &order).unwrap();
+        assert!(plan.voids[0].is_clean);
+        assert_eq!(unclean(&hollowed, &plan, &request, false).unwrap(), vec![]);
+    }
+
+    #[test]
+    fn the_planner_cuts_along_the_bend_so_that_all_is_seen() {
+        let (hollowed, request, _) = bent();
+        let plan = crate::cut::plan(&hollowed, &request).unwrap();
+        assert!(plan.voids[0].is_clean, "{:?}", plan.voids);
+        assert_eq!(plan.cuts.len(), 1, "{:?}", plan.cuts);
+    }
+}

@@ -1,0 +1,19 @@
+//! Pins, dowels, bosses and labels of the joints between parts.
+
+pub(crate) mod boss;
+pub(crate) mod boss_maker;
+pub(crate) mod boss_places;
+pub(crate) mod boss_view;
+pub(crate) mod bosses;
+pub(crate) mod contact;
+pub(crate) mod face;
+pub(crate) mod label;
+pub(crate) mod pattern;
+pub(crate) mod pin_shape;
+pub(crate) mod pin_size;
+pub(crate) mod pins;
+pub(crate) mod placement;
+pub(crate) mod rod;
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,155 @@
+//! Where alignment pins go: inside the material with the wall around them, spread wide, and one way
+//! only.
+
+use crate::{
+    cut::{
+        error::CutError,
+        geometry::chart::Chart,
+        ids::{cut_id, pin_id},
+        joints::{
+            face::{Face, face_points},
+            pattern::Peg,
+            pin_shape::PinSite,
+            pin_size::{short_pairs, size_pairs},
+            placement::{PinScene, Placement, is_confused, peg},
+        },
+        pieces::split::Joint,
+    },
+    geom::Point,
+};
+
+/// How far from its cut an ordered pin's middle may lie, mm: numbers typed with three decimals.
+const ON_CUT_MM: f64 = 1e-3;
+
+/// Which pins a plan gets.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Pins<'a> {
+    /// Those of the planner in every joint.
+    Placed,
+    /// Exactly these.
+    Ordered(&'a [PinSite]),
+    /// These, and those of the planner in every joint where none of them stands.
+    Around(&'a [PinSite]),
+}
+
+/// The pins of every joint.
+pub(crate) fn pinned(
+    scene: &PinScene,
+    joints: &[Joint],
+    pins: Pins,
+) -> Result<Vec<Placement>, CutError> {
+    let held = match pins {
+        Pins::Placed => &[],
+        Pins::Around(pins) => pins,
+        Pins::Ordered(pins) => return seated(scene, joints, pins),
+    };
+    let mut placements = seated(scene, joints, held)?;
+    for index in 0..joints.len() {
+        if placements[index].sites.is_empty() {
+            let placed: Vec<&Placement> = placements.iter().collect();
+            placements[index] = place(scene, &joints[index], &placed);
+        }
+    }
+    Ok(numbered(placements, joints))
+}
+
+/// The pins numbered through, and named after their cuts.
+fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> {
+    let pins = placements.iter_mut().zip(joints);
+    let pins = pins
+        .flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
+    for (count, (site, joint)) in pins.enumerate() {
+        (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
+    }
+    placements
+}
+
+/// The pins of a joint; `placed` are those of the joints before it, whose pins its own must keep
+/// off, and with whose patterns its own must not be confused.
+///
+/// Both directions are tried, the normal's first; the one that aligns better wins.
+fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
+    let upward = place_along(scene, joint, (placed, true));
+    if upward.is_sound() {
+        return upward;
+    }
+    let downward = place_along(scene, joint, (placed, false));
+    let worth = |p: &Placement| (p.is_sound(), p.sites.len());
+    if worth(&downward) > worth(&upward) {
+        downward
+    } else {
+        upward
+    }
+}
+
+/// The ordered pins joint by joint, with whether they let the parts together one way only. A pin
+/// between no two cut faces is refused.
+pub(crate) fn seated(
+    scene: &PinScene,
+    joints: &[Joint],
+    pins: &[PinSite],
+) -> Result<Vec<Placement>, CutError> {
+    let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
+    for pin in pins {
+        let lost = || CutError::PinOffFace {
+            pin: pin.id.clone(),
+        };
+        let is_under = |joint: &Joint| {
+            let plane = &scene.tree.planes[joint.cut];
+            let center = Point::from(pin.center_mm);
+            let at = Chart::of_plane(plane).flat(&center);
+            pin.cut == cut_id(joint.cut)
+                && plane.distance(&center).abs() <= ON_CUT_MM
+                && joint.faces.iter().any(|face| face.holds(&at))
+        };
+        let joint = joints.iter().position(is_under).ok_or_else(lost)?;
+        of_joint[joint].push(pin);
+    }
+    let mut placed: Vec<Placement> = Vec::new();
+    for (joint, pins) in joints.iter().zip(of_joint) {
+        let pegs: Vec<Peg> = pins
+            .iter()
+            .map(|pin| peg(&scene.tree.planes[joint.cut], pin))
+            .collect();
+        let is_one_way = pegs.len() >= 2 && !is_confused(&pegs, &placed.iter().collect::<Vec<_>>());
+        let widest_mm = face_points(scene, joint).1;
+        placed.push(Placement {
+            sites: pins.into_iter().cloned().collect(),
+            pegs,
+            is_one_way,
+            widest_mm,
+        });
+    }
+    Ok(placed)
+}
+
+/// The pins of a joint that stand out upward, or downward.
+fn place_along(
+    scene: &PinScene,
+    joint: &Joint,
+    (placed, is_upward): (&[&Placement], bool),
+) -> Placement {
+    let face = Face::new(scene, joint, (placed, is_upward));
+    let mut fallback = Placement {
+        widest_mm: face.widest_mm,
+        ..Placement::default()
+    };
+    for sizes in size_pairs(scene.request)
+        .into_iter()
+        .chain(short_pairs(scene.request))
+    {
+        let places = face.places(&sizes[0]);
+        if places.is_empty() {
+            continue;
+        }
+        let pattern = face.pattern(&places, &sizes, placed);
+        let is_one_way = pattern.len() >= 2 && !is_confused(&face.end_views(&pattern), placed);
+        if is_one_way || pattern.len() > fallback.pegs.len() {
+            fallback = face.placement(&pattern, is_one_way);
+        }
+        if is_one_way {
+            break;
+        }
+    }
+    fallback
+}

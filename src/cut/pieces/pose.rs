@@ -1,0 +1,215 @@
+//! How a part is laid in the printer.
+
+use crate::{
+    cut::{
+        ids::cut_id,
+        pieces::split::Piece,
+        request::{PlanRequest, PosePreference},
+    },
+    geom::{Aabb, Matrix, Plane, Point, Vector, orthonormal_basis},
+    mesh::TriMesh,
+};
+
+/// A part laid in the printer.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pose {
+    /// The rigid motion from the model frame to the print frame, as rows of a 4×4 matrix.
+    pub print_from_model: [[f64; 4]; 4],
+    /// The part's extents in the printer: x, y, z, mm.
+    pub size_mm: [f64; 3],
+    /// Whether that fits the build volume.
+    pub fits: bool,
+    /// How the part lies, in words: "cut face C1 down".
+    pub lies: String,
+}
+
+/// Turns about the vertical that are tried when a part does not fit as it stands, degrees.
+const TURNS_DEG: [f64; 12] = [
+    0.0, 90.0, 15.0, 30.0, 45.0, 60.0, 75.0, 105.0, 120.0, 135.0, 150.0, 165.0,
+];
+
+/// A side of a part that may look down in the printer.
+#[derive(Debug, Clone)]
+pub(crate) struct Side {
+    /// The direction of the model that looks down.
+    down: Vector,
+    /// How the part lies then.
+    lies: String,
+}
+
+/// A cut face of a part for choosing its pose.
+struct Rest {
+    area_mm2: f64,
+    /// The direction the face looks, out of the part.
+    outward: Vector,
+    has_pins: bool,
+    cut: usize,
+}
+
+impl Rest {
+    /// The face looking down (sign 1) or up (sign −1).
+    fn laid(&self, sign: f64, word: &str) -> Side {
+        Side {
+            down: self.outward * sign,
+            lies: format!("cut face {} {word}", cut_id(self.cut)),
+        }
+    }
+}
+
+/// The sides of the piece that may look down in the printer, the preferred first: the cut faces by
+/// area, as the request prefers, then the sides of the axis. `pin_cuts` are the cuts on whose faces
+/// pins stand out.
+pub(crate) fn sides_down(
+    piece: &Piece,
+    planes: &[Plane],
+    pin_cuts: &[usize],
+    request: &PlanRequest,
+) -> Vec<Side> {
+    let mut rests = rests(piece, planes, pin_cuts);
+    rests.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    let flat = rests
+        .iter()
+        .filter(|rest| !rest.has_pins)
+        .map(|rest| rest.laid(1.0, "down"));
+    let up = rests.iter().map(|rest| rest.laid(-1.0, "up"));
+    let mut sides: Vec<Side> = match request.pose {
+        PosePreference::CutFaceDown => flat.chain(up).collect(),
+        PosePreference::OpenHollowUp => up.chain(flat).collect(),
+    };
+    let axis = request.axis.direction.normalize();
+    let (u, v) = orthonormal_basis(&axis);
+    let words = [
+        "upright",
+        "upside down",
+        "on its side",
+        "on its side",
+        "on its side",
+        "on its side",
+    ];
+    let turned = [-axis, axis, -u, u, -v, v].into_iter().zip(words);
+    sides.extend(turned.map(|(down, lies)| Side {
+        down,
+        lies: lies.into(),
+    }));
+    sides
+}
+
+/// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on
+/// the first of all if none does.
+pub(crate) fn laid(mesh: &TriMesh, sides: &[Side], request: &PlanRequest) -> Pose {
+    let mut choices = sides
+        .iter()
+        .flat_map(|side| TURNS_DEG.map(|turn| (side, turn)));
+    let fitting = choices
+        .find_map(|(side, turn)| Some(lay(mesh, side, turn, request)).filter(|pose| pose.fits));
+    fitting.unwrap_or_else(|| lay(mesh, &sides[0], 0.0, request))
+}
+
+/// Whether the piece fits the build volume in some pose.
+pub(crate) fn fits(piece: &Piece, planes: &[Plane], request: &PlanRequest) -> bool {
+    laid(
+        &piece.mesh,
+        &sides_down(piece, planes, &[], request),
+        request,
+    )
+    .fits
+}
+
+/// The cut faces of the piece, one for each cut and side.
+fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
+    let mut rests = Vec::new();
+    for (cut, plane) in planes.iter().enumerate() {
+        for is_above in [false, true] {
+            let caps = piece
+                .caps
+                .iter()
+                .filter(|cap| cap.cut == cut && cap.is_above == is_above);
+            let area_mm2: f64 = caps.map(|cap| cap.area_mm2).sum();
+            if area_mm2 > 0.0 {
+                let outward = if is_above {
+                    -plane.normal
+                } else {
+                    plane.normal
+                };
+                rests.push(Rest {
+                    area_mm2,
+                    outward,
+                    has_pins: pin_cuts.contains(&cut),
+                    cut,
+                });
+            }
+        }
+    }
+    rests
+}
+
+/// The mesh turned so that the side looks down and turned about the vertical, resting on z = 0, in
+/// the middle of the build plate.
+fn lay(mesh: &TriMesh, side: &Side, turn_deg: f64, request: &PlanRequest) -> Pose {
+    let rotation = upright(&side.down, turn_deg);
+    let turned = mesh
+        .vertices()
+        .iter()
+        .map(|p| Point::from(rotate(&rotation, p)));
+    let aabb = turned.fold(Aabb::EMPTY, |aabb, p| aabb.grown_over(&p));
+    let middle = request
+        .build_volume_mm
+        .map_or([0.0; 2], |[x, y, _]| [x / 2.0, y / 2.0]);
+    let center = aabb.center();
+    let shift = [middle[0] - center.x, middle[1] - center.y, -aabb.min.z];
+    let size_mm: [f64; 3] = aabb.size().into();
+    let fits = request
+        .build_volume_mm
+        .is_none_or(|room| (0..3).all(|i| size_mm[i] <= room[i]));
+    let row = |i: usize| {
+        [
+            rotation[(i, 0)],
+            rotation[(i, 1)],
+            rotation[(i, 2)],
+            shift[i],
+        ]
+    };
+    let print_from_model = [row(0), row(1), row(2), [0.0, 0.0, 0.0, 1.0]];
+    Pose {
+        print_from_model,
+        size_mm,
+        fits,
+        lies: side.lies.clone(),
+    }
+}
+
+/// The rotation that takes `down` to −z, then turns by `turn_deg` about z.
+fn upright(down: &Vector, turn_deg: f64) -> Matrix {
+    let up = -down.normalize();
+    let (u, v) = if up.z.abs() > 1.0 - f64::EPSILON {
+        // The model's own up or down: keep its x axis, so that an upright model is not turned for
+        // nothing.
+        (Vector::x(), up.cross(&Vector::x()))
+    } else {
+        orthonormal_basis(&up)
+    };
+    let (sin, cos) = turn_deg.to_radians().sin_cos();
+    Matrix::from_rows(&[
+        (u * cos - v * sin).transpose(),
+        (u * sin + v * cos).transpose(),
+        up.transpose(),
+    ])
+}
+
+/// The rotated position, each coordinate summed in the order of [`apply`].
+fn rotate(rotation: &Matrix, p: &Point) -> Vector {
+    Vector::from([0, 1, 2].map(|i| dot([rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)]], p)))
+}
+
+fn dot(row: [f64; 3], p: &Point) -> f64 {
+    row[0] * p.x + row[1] * p.y + row[2] * p.z
+}
+
+/// A point moved by a rigid motion given as rows of a 4×4 matrix. For the motion of a [`Pose`], the
+/// lowest point of its part lands on z = 0 exactly.
+pub fn apply(motion: &[[f64; 4]; 4], p: &Point) -> Point {
+    Point::from([0, 1, 2].map(|i| {
+        let [x, y, z, shift] = motion[i];
+        dot([x, y, z], p) + shift
+    }))
+}

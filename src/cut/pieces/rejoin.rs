@@ -1,0 +1,469 @@
+//! Pieces that a cut parts needlessly are joined again: a plane through a body also slices what
+//! merely reaches across it.
+
+use crate::{
+    cut::{
+        error::CutError,
+        geometry::{
+            chart::{Chart, Point2},
+            section::Section,
+            tree::{CutTree, Limit},
+        },
+        pieces::{
+            pose::{laid, sides_down},
+            split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
+        },
+        plan::Bridge,
+        request::PlanRequest,
+    },
+    geom::{Plane, Point},
+    mesh::{Csg, Hollowed, Solid, TriMesh, union_find::UnionFind},
+    repair::sewn,
+};
+use rayon::prelude::*;
+
+/// Corners of a void's mouth lie this near to the outline of the cut face, mm: they are the same
+/// points but for rounding, and a wall lies between different mouths.
+const MOUTH_TOLERANCE_MM: f64 = 1e-6;
+
+/// Corners of two faces that meet lie this near to each other, mm: both are made by the same cut,
+/// with a rounding of 1e-13; a model's own corners are farther apart.
+const SEAM_TOLERANCE_MM: f64 = 1e-9;
+
+/// Cells a side of the grid on which the way out of a part is checked. A coarser grid joins fewer
+/// pieces.
+const SHADOW_CELLS: usize = 96;
+
+/// What is cut, by what, for which printer.
+pub(crate) struct Cutting<'a> {
+    pub(crate) hollowed: &'a Hollowed,
+    pub(crate) tree: &'a CutTree,
+    pub(crate) request: &'a PlanRequest,
+}
+
+impl Cutting<'_> {
+    /// Whether a piece lies where a cut is made; beyond, it is off before that cut's sides come
+    /// apart.
+    fn parts(&self, cut: usize, piece: &Piece) -> bool {
+        let holds = |limit: &Limit| piece.is_above(&self.tree.planes[limit.cut]) == limit.is_above;
+        self.tree.limits(cut).iter().all(holds)
+    }
+}
+
+/// Where pieces had better stay joined: a piece that touches a single other one, where
+/// * no void opens in the face between them,
+/// * the piece is not in the way of what is taken off on its side of the cut,
+/// * both together fit the build volume.
+///
+/// A piece thinner than the wall stays joined even where a void opens beside it: it is a bump of
+/// the void's wall that the plane grazes, or a sliver of the outside, and no part to print.
+///
+/// The smallest pieces are offered first; a piece that others stay joined to is not joined to a
+/// third.
+pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
+    let joints = joints(pieces, cutting.tree);
+    if joints.len() < 2 {
+        return Vec::new();
+    }
+    let mouths = mouths(cutting);
+    let mut order: Vec<usize> = (0..pieces.len()).collect();
+    order.sort_by(|&i, &j| pieces[i].volume_mm3.total_cmp(&pieces[j].volume_mm3));
+    let mut is_host = vec![false; pieces.len()];
+    let mut is_guest = vec![false; pieces.len()];
+    let mut bridges = Vec::new();
+    for index in order {
+        let touching: Vec<&Joint> = joints.iter().filter(|joint| joint.touches(index)).collect();
+        let [joint] = touching[..] else { continue };
+        let host = joint.other(index);
+        if !is_host[index]
+            && !is_guest[host]
+            && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
+            && comes_free(cutting, pieces, (joint, index))
+            && fit_together(cutting, &pieces[index], &pieces[host])
+        {
+            (is_guest[index], is_host[host]) = (true, true);
+            let at = |face: &Cap| Bridge {
+                cut: joint.cut,
+                at: face.inner_point(),
+            };
+            bridges.extend(joint.faces.iter().map(at));
+        }
+    }
+    bridges
+}
+
+/// The pieces with those made one that meet at a bridge. A bridge on no cut face changes nothing.
+pub(crate) fn rejoined(
+    pieces: Vec<Piece>,
+    tree: &CutTree,
+    bridges: &[Bridge],
+) -> Result<Vec<Piece>, CutError> {
+    let mut sets = UnionFind::new(pieces.len());
+    for bridge in bridges {
+        let side = |is_above| piece_at(&pieces, bridge.cut, is_above, &bridge.at);
+        if let (Some(below), Some(above)) = (side(false), side(true)) {
+            sets.merge(below as u32, above as u32);
+        }
+    }
+    let mut groups: Vec<Vec<Piece>> = pieces.iter().map(|_| Vec::new()).collect();
+    for (index, piece) in pieces.into_iter().enumerate() {
+        groups[sets.root(index as u32) as usize].push(piece);
+    }
+    groups.retain(|group| !group.is_empty());
+    let united = groups
+        .into_par_iter()
+        .map(|group| united(group, tree, bridges));
+    Ok(in_order(united.collect::<Result<_, _>>()?))
+}
+
+/// The corners of every void's section by every plane.
+fn mouths(cutting: &Cutting) -> Vec<Vec<Point2>> {
+    let corners = |plane: &Plane| {
+        let sections = cutting
+            .hollowed
+            .voids
+            .iter()
+            .map(|void| Section::of_mesh(void.mesh(), plane));
+        sections
+            .flat_map(|section| section.rings)
+            .flat_map(|ring| ring.points)
+            .collect()
+    };
+    cutting.tree.planes.par_iter().map(corners).collect()
+}
+
+/// Whether a void opens in one of the joint's faces.
+fn has_mouth(joint: &Joint, mouths: &[Vec<Point2>]) -> bool {
+    let on_edge = |cap: &Cap| {
+        let Some((min, max)) = cap.outline.bounds() else {
+            return false;
+        };
+        let near = mouths[joint.cut]
+            .iter()
+            .filter(|p| p.x >= min.x && p.y >= min.y && p.x <= max.x && p.y <= max.y);
+        near.into_iter()
+            .any(|p| cap.outline.signed_distance(p).abs() <= MOUTH_TOLERANCE_MM)
+    };
+    joint.faces.iter().any(on_edge)
+}
+
+/// Whether a piece is thinner than the least wall over the face that it would be glued by.
+fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
+    let face_mm2: f64 = piece
+        .caps
+        .iter()
+        .filter(|cap| cap.cut == joint.cut)
+        .map(|cap| cap.area_mm2)
+        .sum();
+    piece.volume_mm3 < cutting.request.wall_mm * face_mm2
+}
+
+/// Whether what lies on the piece's side of the cut can be taken off along the normal while the
+/// piece stays.
+fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
+    let plane = &cutting.tree.planes[joint.cut];
+    let is_above = joint.above == index;
+    let sign = if is_above { 1.0 } else { -1.0 };
+    let shadow = Shadow::new(&pieces[index].mesh, plane, sign);
+    let is_parted = |i: usize| cutting.parts(joint.cut, &pieces[i]);
+    let moves = |i: &usize| *i != index && is_parted(*i) && pieces[*i].is_above(plane) == is_above;
+    (0..pieces.len())
+        .filter(moves)
+        .all(|i| !shadow.holds_back(&pieces[i].mesh))
+}
+
+fn fit_together(cutting: &Cutting, a: &Piece, b: &Piece) -> bool {
+    let both = a.mesh.clone().joined(&b.mesh);
+    laid(
+        &both,
+        &sides_down(b, &cutting.tree.planes, &[], cutting.request),
+        cutting.request,
+    )
+    .fits
+}
+
+/// One piece of several that touch at bridges.
+fn united(mut members: Vec<Piece>, tree: &CutTree, bridges: &[Bridge]) -> Result<Piece, CutError> {
+    if members.len() == 1 {
+        return Ok(members.remove(0));
+    }
+    let mesh = match stitched(&members, bridges) {
+        Some(mesh) => mesh,
+        None => unioned(members)?,
+    };
+    Ok(piece(mesh, tree))
+}
+
+/// The members without the faces in which they meet, sewn together along the rims of those; none
+/// where the rims have not the same corners.
+///
+/// A union would find the faces' planes 1e-14 mm apart, and at times leaves a sheet between them.
+fn stitched(members: &[Piece], bridges: &[Bridge]) -> Option<TriMesh> {
+    let is_bridge = |cap: &Cap| {
+        bridges
+            .iter()
+            .any(|bridge| bridge.cut == cap.cut && cap.holds(&bridge.at))
+    };
+    let open = |member: &Piece| {
+        let mut stays = vec![true; member.mesh.triangles().len()];
+        for cap in member.caps.iter().filter(|cap| is_bridge(cap)) {
+            cap.faces.iter().for_each(|&face| stays[face] = false);
+        }
+        let left = member
+            .mesh
+            .triangles()
+            .iter()
+            .zip(stays)
+            .filter_map(|(t, stays)| stays.then_some(*t));
+        TriMesh::new(member.mesh.vertices().to_vec(), left.collect()).ok()
+    };
+    let all = members.iter().try_fold(TriMesh::default(), |all, member| {
+        Some(all.joined(&open(member)?))
+    })?;
+    Some(Solid::new(sewn(&all, SEAM_TOLERANCE_MM)).ok()?.into_mesh())
+}
+
+/// The union of the members; the smaller are united first, which is cheap.
+fn unioned(mut members: Vec<Piece>) -> Result<TriMesh, CutError> {
+    members.sort_by(|a, b| a.volume_mm3.total_cmp(&b.volume_mm3));
+    let mut body = Csg::of_mesh(&TriMesh::default())?;
+    for member in &members {
+        body = body.union(&Csg::of_mesh(&member.mesh)?)?;
+    }
+    Ok(body.to_mesh()?)
+}
+
+/// The height of a piece over a grid on the plane, to tell whether another can be drawn out past
+/// it.
+struct Shadow {
+    chart: Chart,
+    plane: Plane,
+    sign: f64,
+    min: Point2,
+    cell: nalgebra::Vector2<f64>,
+    /// The greatest height in each cell, mm.
+    top: Vec<f64>,
+}
+
+impl Shadow {
+    fn new(mesh: &TriMesh, plane: &Plane, sign: f64) -> Self {
+        let chart = Chart::of_plane(plane);
+        let flat = mesh.vertices().iter().map(|p| chart.flat(p));
+        let all = Point2::new(f64::INFINITY, f64::INFINITY);
+        let (min, max) = flat.fold((all, -all), |(min, max), p| (min.inf(&p), max.sup(&p)));
+        let cell = (max - min) / SHADOW_CELLS as f64;
+        let top = vec![f64::NEG_INFINITY; SHADOW_CELLS * SHADOW_CELLS];
+        let mut shadow = Self {
+            chart,
+            plane: *plane,
+            sign,
+            min,
+            cell,
+            top,
+        };
+        for corners in mesh.iter_corners() {
+            let (_, high, cells) = shadow.span(&corners);
+            for cell in cells {
+                shadow.top[cell] = shadow.top[cell].max(high);
+            }
+        }
+        shadow
+    }
+
+    /// Whether a triangle of the mesh lies under the shadow's body.
+    fn holds_back(&self, mesh: &TriMesh) -> bool {
+        mesh.iter_corners().any(|corners| {
+            let (low, _, mut cells) = self.span(&corners);
+            cells.any(|cell| low < self.top[cell])
+        })
+    }
+
+    /// The least and greatest height of a triangle, and the cells it meets.
+    fn span(&self, corners: &[Point; 3]) -> (f64, f64, impl Iterator<Item = usize> + use<>) {
+        let heights = corners.map(|p| self.sign * self.plane.distance(&p));
+        let places = corners.map(|p| (self.chart.flat(&p) - self.min).component_div(&self.cell));
+        let range = |axis: usize| {
+            let (from, to) = extent(places.map(|p| p[axis]));
+            // Casts saturate: a triangle beside the grid has an empty range.
+            let first = if to < 0.0 {
+                SHADOW_CELLS
+            } else {
+                from.max(0.0) as usize
+            };
+            first..((to.max(0.0) as usize).saturating_add(1)).min(SHADOW_CELLS)
+        };
+        let (columns, rows) = (range(0), range(1));
+        let cells = columns.flat_map(move |i| rows.clone().map(move |j| [i, j]));
+        let met = cells
+            .filter(move |cell| meets(&places, *cell))
+            .map(|[i, j]| i * SHADOW_CELLS + j);
+        let (low, high) = extent(heights);
+        (low, high, met)
+    }
+}
+
+fn extent(values: [f64; 3]) -> (f64, f64) {
+    (
+        values.iter().copied().fold(f64::INFINITY, f64::min),
+        values.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+    )
+}
+
+/// Whether a triangle meets a unit cell whose box its own box meets: no side of it has all of the
+/// cell beyond it.
+fn meets(places: &[nalgebra::Vector2<f64>; 3], cell: [usize; 2]) -> bool {
+    let middle = nalgebra::Vector2::new(cell[0] as f64 + 0.5, cell[1] as f64 + 0.5);
+    let area = (places[1] - places[0]).perp(&(places[2] - places[0]));
+    let is_beyond = |from: usize| {
+        let side = places[(from + 1) % 3] - places[from];
+        let reach = (side.x.abs() + side.y.abs()) / 2.0;
+        side.perp(&(middle - places[from])) * area.signum() < -reach
+    };
+    !(0..3).any(is_beyond)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        cut::{
+            pieces::split::split,
+            scenes::{cuboid, request},
+        },
+        geom::Vector,
+    };
+
+    fn union(boxes: &[([f64; 3], [f64; 3])]) -> Solid {
+        let bodies = boxes
+            .iter()
+            .map(|&(min, max)| Csg::of_solid(&cuboid(min, max)).unwrap());
+        bodies
+            .reduce(|sum, body| sum.union(&body).unwrap())
+            .unwrap()
+            .to_solid()
+            .unwrap()
+    }
+
+    /// The pieces that the plane z = 15 leaves and those left after joining again.
+    fn cut_at_15(hollowed: &Hollowed) -> (usize, Vec<Piece>) {
+        let tree = CutTree::everywhere(&[Plane {
+            normal: Vector::z(),
+            offset_mm: 15.0,
+        }]);
+        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
+        let bridges = bridges(
+            &Cutting {
+                hollowed,
+                tree: &tree,
+                request: &request(),
+            },
+            &pieces,
+        );
+        (pieces.len(), rejoined(pieces, &tree, &bridges).unwrap())
+    }
+
+    #[test]
+    fn the_solid_legs_of_a_table_are_not_cut_off_with_the_hollow_one() {
+        let leg = |x: f64, y: f64| ([x, y, 0.0], [x + 10.0, y + 10.0, 31.0]);
+        let outer = union(&[
+            ([0.0, 0.0, 30.0], [50.0, 50.0, 40.0]),
+            leg(0.0, 0.0),
+            leg(40.0, 0.0),
+            leg(0.0, 40.0),
+            leg(40.0, 40.0),
+        ]);
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])],
+        };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (5, 2));
+        let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
+        assert!((volume - hollowed.to_mesh().signed_volume_mm3()).abs() < 1e-9 * volume);
+    }
+
+    #[test]
+    fn a_bump_of_a_voids_floor_that_the_plane_grazes_is_no_part() {
+        let outer = cuboid([0.0; 3], [30.0; 3]);
+        // A post in the void that reaches `over` mm beyond the plane z = 15.
+        let post = |over: f64| {
+            let void = Csg::of_solid(&cuboid([5.0; 3], [25.0; 3])).unwrap();
+            let post =
+                Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.0 + over])).unwrap();
+            Hollowed {
+                outer: outer.clone(),
+                voids: vec![void.subtract(&post).unwrap().to_solid().unwrap()],
+            }
+        };
+        let (cut, left) = cut_at_15(&post(0.05));
+        assert_eq!((cut, left.len()), (3, 2));
+        // What is as thick as a wall can be printed and stays a part of its own.
+        let (cut, left) = cut_at_15(&post(2.0 * request().wall_mm));
+        assert_eq!((cut, left.len()), (3, 3));
+    }
+
+    #[test]
+    fn a_bump_is_held_back_only_by_what_lies_over_it_and_not_by_what_has_it_in_its_box() {
+        // A void with a post that reaches past a level cut, and a cut askew beside it: the boxes
+        // about the large triangles of the faces hold the post.
+        let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
+        let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
+        let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];
+        let hollowed = Hollowed {
+            outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]),
+            voids,
+        };
+        let level = Plane {
+            normal: Vector::z(),
+            offset_mm: 15.0,
+        };
+        let askew = Plane::through(&Point::new(46.0, 0.0, 0.0), &Vector::new(1.0, 0.5, 0.0));
+        let tree = CutTree::everywhere(&[level, askew]);
+        let pieces = split(&hollowed.to_mesh(), &tree).unwrap();
+        let bridges = bridges(
+            &Cutting {
+                hollowed: &hollowed,
+                tree: &tree,
+                request: &request(),
+            },
+            &pieces,
+        );
+        let left = rejoined(pieces.clone(), &tree, &bridges).unwrap();
+        assert_eq!((pieces.len(), left.len()), (5, 4));
+    }
+
+    #[test]
+    fn a_triangle_meets_the_cells_it_covers_and_crosses_and_no_others() {
+        let corner = nalgebra::Vector2::new;
+        for triangle in [
+            [corner(0.0, 0.0), corner(9.0, 0.5), corner(0.5, 9.0)],
+            [corner(0.0, 0.0), corner(0.5, 9.0), corner(9.0, 0.5)],
+        ] {
+            assert!(
+                meets(&triangle, [0, 0]) && meets(&triangle, [2, 2]) && meets(&triangle, [4, 4])
+            );
+            assert!(!meets(&triangle, [5, 5]) && !meets(&triangle, [8, 8]));
+        }
+        let needle = [corner(0.2, 0.2), corner(8.8, 8.8), corner(8.8, 8.8)];
+        assert!(
+            meets(&needle, [3, 3]),
+            "a degenerate triangle counts as meeting, which is the safe side"
+        );
+    }
+
+    #[test]
+    fn a_solid_hook_over_the_hollow_tower_is_cut_or_the_tower_could_not_be_lifted() {
+        let outer = union(&[
+            ([0.0, 0.0, 0.0], [50.0, 10.0, 5.0]),
+            ([0.0, 0.0, 0.0], [10.0, 10.0, 30.0]),
+            ([40.0, 0.0, 0.0], [50.0, 10.0, 40.0]),
+            ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
+        ]);
+        let hollowed = Hollowed {
+            outer,
+            voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])],
+        };
+        let (cut, left) = cut_at_15(&hollowed);
+        assert_eq!((cut, left.len()), (3, 3));
+    }
+}

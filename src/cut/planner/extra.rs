@@ -1,0 +1,343 @@
+//! Further cuts, where the fewest that open every void do not let every void be cleaned.
+
+use rayon::prelude::*;
+
+use crate::{
+    cut::{
+        access::void_access::{Opened, VoidAccess, access, accesses, asked_ratio},
+        error::CutError,
+        geometry::tree::CutTree,
+        ids::cut_id,
+        planner::score::{Scene, burden},
+    },
+    geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
+    mass::{Body, moments_of_mesh},
+    mesh::off_vertices,
+};
+
+/// Cuts that are made at most so that voids can be seen into. A void that still hides something is
+/// winding; cutting on would leave crumbs, and keeping its end solid costs less.
+const MAX_SIGHT_CUTS: usize = 3;
+/// A further cut must bring at least this share of what is missing, or it is not worth its joint.
+const WORTH_RATIO: f64 = 0.1;
+/// Where along a direction further cuts are tried: at these shares of the hidden points.
+const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
+/// Of the cuts that are within this share of the best, the least burdensome is taken.
+const NEARLY_BEST_RATIO: f64 = 0.05;
+/// How many of those are weighed: each costs a cut of a void and two passes over the model.
+const WEIGHED: usize = 6;
+/// How many of the best plans are glanced at before further cuts are made: two planes may leave a
+/// corner out of sight, and a further cut costs a joint. A glance takes some hundredths of a
+/// second.
+const GLANCED_PLANS: usize = 48;
+/// So many are glanced at together before those that seem clean are tried.
+const GLANCED_AT_ONCE: usize = 8;
+/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for
+/// trial.
+const GLANCE_ERROR_RATIO: f64 = 0.01;
+/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what
+/// further cuts mend.
+const HOPELESS_TRIALS: usize = 3;
+
+/// Cuts for trial, and how they open the voids.
+#[derive(Clone)]
+pub(crate) struct Tried {
+    pub(crate) planes: Vec<Plane>,
+    pub(crate) voids: Vec<VoidAccess>,
+    lack_mm2: f64,
+}
+
+impl Tried {
+    pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
+        let planes: Vec<Plane> = planes
+            .iter()
+            .map(|plane| off_vertices(&scene.material, plane))
+            .collect();
+        let voids = accesses(
+            &scene.chambers,
+            &CutTree::everywhere(&planes),
+            scene.request,
+        )?;
+        Ok(Self::of(scene, planes, voids))
+    }
+
+    fn of(scene: &Scene, planes: Vec<Plane>, voids: Vec<VoidAccess>) -> Self {
+        let lack_mm2 = voids.iter().map(|void| void.lack_mm2(scene.request)).sum();
+        Self {
+            planes,
+            voids,
+            lack_mm2,
+        }
+    }
+
+    /// The areas of all voids as [`VoidAccess::area_mm2`] has them, mm².
+    fn area_mm2(&self) -> f64 {
+        self.voids.iter().map(VoidAccess::area_mm2).sum()
+    }
+
+    /// Whether every void can be cleaned.
+    pub(crate) fn is_clean(&self) -> bool {
+        self.voids.iter().all(|void| void.is_clean)
+    }
+
+    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a
+    /// joint.
+    fn is_nearly_clean(&self, scene: &Scene) -> bool {
+        let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
+        self.voids
+            .iter()
+            .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
+    }
+
+    /// The cleaner of two, the first where they are alike.
+    fn or_cleaner(self, other: Self) -> Self {
+        if other.lack_mm2 < self.lack_mm2 {
+            other
+        } else {
+            self
+        }
+    }
+
+    /// The same cuts and one more; the voids that it does not meet stay as they are.
+    fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
+        let planes = [&self.planes[..], &[plane]].concat();
+        let voids = looked_at_again(
+            scene,
+            &self.voids,
+            (&CutTree::everywhere(&planes), &[plane]),
+        )?;
+        Ok(Self::of(scene, planes, voids))
+    }
+
+    /// About the lack with one more cut, of the voids that it meets.
+    fn glanced_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
+        let planes = [&self.planes[..], &[plane]].concat();
+        let lack_mm2 = |before: &VoidAccess| {
+            if meets(scene, before.void, &plane) {
+                before.area_mm2() * glanced_lack_ratio(scene, before.void, &planes)
+            } else {
+                before.lack_mm2(scene.request)
+            }
+        };
+        self.voids.iter().map(lack_mm2).sum()
+    }
+}
+
+/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the
+/// changed planes meets.
+pub(crate) fn looked_at_again(
+    scene: &Scene,
+    before: &[VoidAccess],
+    (tree, changed): (&CutTree, &[Plane]),
+) -> Result<Vec<VoidAccess>, CutError> {
+    let again = |known: &VoidAccess| {
+        if changed.iter().any(|plane| meets(scene, known.void, plane)) {
+            access(&scene.chambers, known.void, tree, scene.request)
+        } else {
+            Ok(known.clone())
+        }
+    };
+    before.iter().map(again).collect()
+}
+
+/// Whether a plane passes through a void.
+fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
+    plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
+}
+
+/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
+/// in sight.
+fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
+    let asked = asked_ratio(scene.request);
+    if asked == 0.0 {
+        return 0.0;
+    }
+    (asked - scene.chambers[void].glance(&CutTree::everywhere(planes), scene.request)).max(0.0)
+}
+
+/// The first of the plans with which every void can be cleaned; the cleanest where there is none.
+///
+/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most
+/// hopeful of the others.
+pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
+    let glance = |planes: &Vec<Plane>| {
+        (0..scene.chambers.len())
+            .map(|void| glanced_lack_ratio(scene, void, planes))
+            .fold(0.0, f64::max)
+    };
+    let mut trial = Trial { scene, best: None };
+    let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
+    for some in plans[..plans.len().min(GLANCED_PLANS)].chunks(GLANCED_AT_ONCE) {
+        let lacks: Vec<f64> = some.par_iter().map(glance).collect();
+        for (lack, planes) in lacks.into_iter().zip(some) {
+            if lack > GLANCE_ERROR_RATIO {
+                others.push((lack, planes));
+            } else if let Some(clean) = trial.of(planes)? {
+                return Ok(clean);
+            }
+        }
+    }
+    others.sort_by(|a, b| a.0.total_cmp(&b.0));
+    for (_, planes) in others.into_iter().take(HOPELESS_TRIALS) {
+        if let Some(clean) = trial.of(planes)? {
+            return Ok(clean);
+        }
+    }
+    trial.best.map_or_else(|| Tried::new(scene, &[]), Ok)
+}
+
+/// Plans cut for trial.
+struct Trial<'a> {
+    scene: &'a Scene<'a>,
+    /// The cleanest so far.
+    best: Option<Tried>,
+}
+
+impl Trial<'_> {
+    /// The plan cut for trial, if every void is clean.
+    fn of(&mut self, planes: &[Plane]) -> Result<Option<Tried>, CutError> {
+        let tried = Tried::new(self.scene, planes)?;
+        if tried.is_clean() {
+            return Ok(Some(tried));
+        }
+        self.best = Some(match self.best.take() {
+            Some(best) => best.or_cleaner(tried),
+            None => tried,
+        });
+        Ok(None)
+    }
+}
+
+/// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut
+/// brings much more; each is told in the notes.
+pub(crate) fn add_extra_cuts(
+    scene: &Scene,
+    mut tried: Tried,
+    notes: &mut Vec<String>,
+) -> Result<Tried, CutError> {
+    for _ in 0..MAX_SIGHT_CUTS {
+        if tried.is_nearly_clean(scene) {
+            break;
+        }
+        let Some(next) = one_more(scene, &tried)? else {
+            break;
+        };
+        let gain_mm2 = tried.lack_mm2 - next.lack_mm2;
+        if gain_mm2 < WORTH_RATIO * tried.lack_mm2
+            || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
+        {
+            break;
+        }
+        notes.push(note(&tried, &next));
+        tried = next;
+    }
+    Ok(tried)
+}
+
+/// What a further cut is for.
+fn note(before: &Tried, after: &Tried) -> String {
+    let changed = before
+        .voids
+        .iter()
+        .zip(&after.voids)
+        .filter(|(b, a)| a.sight_ratio > b.sight_ratio);
+    let percent = |ratio: f64| 100.0 * ratio;
+    let told = changed.map(|(b, a)| {
+        let (was, is) = (percent(b.sight_ratio), percent(a.sight_ratio));
+        format!(
+            "void V{}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
+            a.void + 1
+        )
+    });
+    let told: Vec<String> = told.collect();
+    format!(
+        "cut {}: so that voids can be cleaned ({})",
+        cut_id(before.planes.len()),
+        told.join("; ")
+    )
+}
+
+/// The cuts with the one more that lets the void that lacks most be cleaned best.
+fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
+    let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
+    let Some(worst) = tried
+        .voids
+        .iter()
+        .max_by(|a, b| lack(a).total_cmp(&lack(b)))
+    else {
+        return Ok(None);
+    };
+    let tree = CutTree::everywhere(&tried.planes);
+    let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
+    let planes = through(scene, worst.void, &hidden);
+    let glanced = planes
+        .par_iter()
+        .map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
+    let mut glanced: Vec<(f64, Plane)> = glanced.collect();
+    glanced.sort_by(|a, b| a.0.total_cmp(&b.0));
+    glanced.truncate(WEIGHED);
+    let more = glanced
+        .par_iter()
+        .map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
+    let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
+    more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
+    let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else {
+        return Ok(None);
+    };
+    let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (tried.lack_mm2 - least_mm2);
+    let near = more
+        .into_iter()
+        .take_while(|next| next.lack_mm2 <= enough_mm2);
+    let penalty = |next: &Tried| {
+        next.planes
+            .last()
+            .map_or(0.0, |plane| burden(scene, plane).penalty(scene))
+    };
+    let weighed = near.map(|next| (penalty(&next), next));
+    Ok(weighed
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, next)| next))
+}
+
+/// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
+/// of the points.
+fn through(scene: &Scene, void: usize, hidden: &[Point]) -> Vec<Plane> {
+    let axis = scene.request.axis.direction.normalize();
+    let (u, v) = orthonormal_basis(&axis);
+    let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
+    let own = Body::new(&moments_of_mesh(scene.hollowed.voids[void].mesh()), 1.0)
+        .principal()
+        .axes;
+    normals.extend((0..3).map(|i| own.column(i).into_owned()));
+    normals.extend(axes_of(hidden));
+    let at = |normal: &Vector| {
+        let mut heights: Vec<f64> = hidden.iter().map(|p| normal.dot(&p.coords)).collect();
+        heights.sort_by(f64::total_cmp);
+        let place = |share: f64| {
+            heights
+                .get((share * heights.len() as f64) as usize)
+                .copied()
+        };
+        let normal = *normal;
+        QUANTILES
+            .map(place)
+            .into_iter()
+            .flatten()
+            .map(move |offset_mm| Plane { normal, offset_mm })
+    };
+    normals.iter().flat_map(at).collect::<Vec<_>>()
+}
+
+/// The axes along which points are spread most and least.
+fn axes_of(points: &[Point]) -> Vec<Vector> {
+    let count = points.len().max(1) as f64;
+    let middle = points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / count;
+    let spread = points.iter().fold(Matrix::zeros(), |sum, p| {
+        let aside = p.coords - middle;
+        sum + aside * aside.transpose()
+    });
+    let axes = spread.symmetric_eigen().eigenvectors;
+    let axes = (0..3).map(|i| axes.column(i).into_owned());
+    axes.filter(|axis| (axis.norm() - 1.0).abs() < f64::EPSILON.sqrt())
+        .collect()
+}

@@ -1,0 +1,282 @@
+//! Cut planes moved by less than a layer, so that the cut faces that look up in the printer end at
+//! whole layers.
+
+use crate::{
+    cut::{
+        access::void_access::{VoidAccess, accesses},
+        error::CutError,
+        geometry::chart::Chart,
+        ids::{cut_id, part_id},
+        joints::{pin_shape::PinSite, pins::Pins},
+        pieces::{
+            pose::{apply, laid, sides_down},
+            rejoin::rejoined,
+            split::check_no_cavity,
+        },
+        plan::{CutMove, CutPlan},
+        planner::{layout::Layout, score::Scene, to_plan::to_plan},
+        request::PlanRequest,
+    },
+    geom::{Plane, Vector},
+    mesh::off_vertices,
+};
+/// A face whose normal has this much of the vertical ends at one height, within a thousandth of a
+/// layer over 100 mm.
+const LEVEL_COSINE: f64 = 1.0 - 1e-9;
+
+/// A face so near to the plate lies on it, mm.
+const ON_PLATE_MM: f64 = 1e-6;
+
+/// How often all cuts are gone through: a part that rests on one cut and ends at another depends on
+/// both.
+const SWEEPS: usize = 4;
+
+/// A cut face that is level in the printer.
+struct Level {
+    cut: usize,
+    part: usize,
+    area_mm2: f64,
+    /// Its height over the plate before any cut is moved, mm.
+    height_mm: f64,
+    /// The cut's normal along the printer's z: +1 or −1.
+    up: f64,
+    /// The cut the part rests on, with its normal along z.
+    rest: Option<(usize, f64)>,
+}
+
+/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the
+/// plan itself where that would change more than a hair: the number of pieces, a cavity, or an
+/// opening below the least.
+pub(crate) fn at_layers(
+    scene: &Scene,
+    layout: &Layout,
+    plan: CutPlan,
+    notes: Vec<String>,
+) -> Result<CutPlan, CutError> {
+    let moves = moves(scene.request, layout, &plan);
+    if moves.is_empty() {
+        return Ok(plan);
+    }
+    let mut planes = layout.tree.planes.clone();
+    for (cut, _, moved_mm) in &moves {
+        let plane = planes[*cut];
+        planes[*cut] = off_vertices(
+            &scene.material,
+            &Plane {
+                offset_mm: plane.offset_mm + moved_mm,
+                ..plane
+            },
+        );
+    }
+    let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
+        cut: cut_id(cut),
+        part: part_id(part),
+        moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
+    });
+    let moved = moved.collect();
+    let Some(layout) = still_open(scene, layout, planes)? else {
+        return Ok(plan);
+    };
+    Ok(CutPlan {
+        moves: moved,
+        ..to_plan(scene, &layout, (Pins::Placed, notes))?
+    })
+}
+
+/// Which cuts are moved for which part, and how far along their normals, mm.
+fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, usize, f64)> {
+    if request.layer_mm <= 0.0 {
+        return Vec::new();
+    }
+    let mut levels: Vec<Level> = (0..layout.pieces.len())
+        .flat_map(|part| levels(request, layout, plan, part))
+        .collect();
+    levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
+    let decides = |cut: usize| {
+        levels
+            .iter()
+            .find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM)
+    };
+    let mut moved_mm = vec![0.0; layout.tree.planes.len()];
+    for _ in 0..SWEEPS {
+        for cut in 0..moved_mm.len() {
+            if let Some(level) = decides(cut) {
+                moved_mm[cut] = to_layer_mm(level, &moved_mm, request.layer_mm);
+            }
+        }
+    }
+    let moves = moved_mm
+        .iter()
+        .enumerate()
+        .filter(|(_, moved)| **moved != 0.0);
+    moves
+        .filter_map(|(cut, &moved)| Some((cut, decides(cut)?.part, moved)))
+        .collect()
+}
+
+/// How far the face's plane must move along its normal to end at the nearest whole layer, mm.
+fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
+    let sunk_mm = level.rest.map_or(0.0, |(cut, up)| moved_mm[cut] * up);
+    let height_mm = level.height_mm - sunk_mm;
+    let layers = (height_mm / layer_mm).round().max(1.0);
+    (layers * layer_mm - height_mm) * level.up
+}
+
+/// The level cut faces of a piece as it will lie in the printer.
+fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -> Vec<Level> {
+    let piece = &layout.pieces[part];
+    let pin_cuts = pin_cuts(layout, plan, part);
+    let sides = sides_down(piece, &layout.tree.planes, &pin_cuts, request);
+    let motion = laid(&piece.mesh, &sides, request).print_from_model;
+    let mut levels: Vec<Level> = Vec::new();
+    for cap in &piece.caps {
+        let plane = &layout.tree.planes[cap.cut];
+        let up: f64 = (0..3).map(|i| motion[2][i] * plane.normal[i]).sum();
+        if up.abs() >= LEVEL_COSINE {
+            let at = Chart::of_plane(plane).lift(plane, &cap.inner_point());
+            let height_mm = apply(&motion, &at).z;
+            let (cut, area_mm2) = (cap.cut, cap.area_mm2);
+            levels.push(Level {
+                cut,
+                part,
+                area_mm2,
+                height_mm,
+                up: up.signum(),
+                rest: None,
+            });
+        }
+    }
+    let rest = levels
+        .iter()
+        .find(|level| level.height_mm <= ON_PLATE_MM)
+        .map(|level| (level.cut, level.up));
+    for level in &mut levels {
+        level.rest = rest;
+    }
+    levels
+}
+
+/// The cuts on whose faces pins stand out of the part.
+fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
+    let id = part_id(part);
+    let carries = |cut: usize| {
+        plan.joints
+            .iter()
+            .filter(|joint| joint.cut == cut_id(cut))
+            .any(|joint| {
+                let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
+                let pins = plan.pins.iter().filter(stands);
+                let carrier = |direction: [f64; 3]| {
+                    let is_upward =
+                        layout.tree.planes[cut].normal.dot(&Vector::from(direction)) > 0.0;
+                    &joint.parts[usize::from(!is_upward)]
+                };
+                pins.into_iter().any(|pin| *carrier(pin.direction) == id)
+            })
+    };
+    (0..layout.tree.planes.len())
+        .filter(|&cut| carries(cut))
+        .collect()
+}
+
+/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it
+/// must be.
+fn still_open(
+    scene: &Scene,
+    layout: &Layout,
+    planes: Vec<Plane>,
+) -> Result<Option<Layout>, CutError> {
+    let tree = layout.tree.moved(planes);
+    let Ok(pieces) = rejoined(scene.split(&tree)?, &tree, &layout.bridges) else {
+        return Ok(None);
+    };
+    if pieces.len() != layout.pieces.len() || check_no_cavity(&pieces).is_err() {
+        return Ok(None);
+    }
+    let voids = accesses(&scene.chambers, &tree, scene.request)?;
+    let least_mm = scene.request.min_opening_mm;
+    let is_worse = |(now, before): (&VoidAccess, &VoidAccess)| {
+        let is_narrower = now.opening_mm < least_mm && now.opening_mm < before.opening_mm;
+        is_narrower || (before.is_clean && !now.is_clean)
+    };
+    let is_open = !voids.iter().zip(&layout.voids).any(is_worse);
+    Ok(is_open.then(|| Layout {
+        tree,
+        voids,
+        pieces,
+        bridges: layout.bridges.clone(),
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        cut::{
+            PlanRequest, PosePreference, apply, parts, plan,
+            scenes::{cuboid, request, with_balls},
+        },
+        geom::{Point, Vector},
+    };
+
+    /// How far the faces of a body's parts that look up are from whole layers, in layers.
+    fn off_layers(request: &PlanRequest) -> Vec<f64> {
+        let outer = cuboid([0.0; 3], [50.0, 47.0, 41.3]);
+        let hollowed = with_balls(outer, &[[14.0, 20.0, 20.0, 8.0], [36.0, 26.0, 21.0, 8.0]]);
+        let plan = plan(&hollowed, request).unwrap();
+        let mut off = Vec::new();
+        for part in parts(&hollowed, &plan, request).unwrap() {
+            for cut in &plan.cuts {
+                let motion = &part.pose.print_from_model;
+                let height = apply(motion, &Point::from(cut.point_mm)).z;
+                let normal = Vector::from(cut.normal);
+                let up: f64 = (0..3).map(|i| motion[2][i] * normal[i]).sum();
+                if up.abs() > 0.999_999 && height > 1e-3 {
+                    let layers = height / request.layer_mm;
+                    off.push((layers - layers.round()).abs());
+                }
+            }
+        }
+        off
+    }
+
+    #[test]
+    fn a_face_that_looks_up_ends_at_a_whole_layer() {
+        for layer_mm in [0.2, 0.03] {
+            let off = off_layers(&PlanRequest {
+                layer_mm,
+                ..request()
+            });
+            assert!(!off.is_empty());
+            // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest
+            // layer.
+            assert!(off.iter().all(|off| *off < 1e-3), "{layer_mm}: {off:?}");
+        }
+    }
+
+    #[test]
+    fn where_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
+        let both = PlanRequest {
+            pose: PosePreference::OpenHollowUp,
+            layer_mm: 0.2,
+            ..request()
+        };
+        let off = off_layers(&both);
+        assert_eq!(off.len(), 2);
+        assert!(off.iter().any(|off| *off < 1e-3), "{off:?}");
+    }
+
+    #[test]
+    fn without_layers_nothing_is_moved() {
+        let outer = cuboid([0.0; 3], [30.0; 3]);
+        let hollowed = with_balls(outer, &[[15.0, 15.0, 15.0, 8.0]]);
+        let still = plan(
+            &hollowed,
+            &PlanRequest {
+                layer_mm: 0.0,
+                ..request()
+            },
+        )
+        .unwrap();
+        assert!(still.moves.is_empty());
+    }
+}

@@ -1,0 +1,504 @@
+//! How good a plan is: named terms, each 0 (nothing to improve) to 1 (bad), weighed and added.
+//!
+//! | term | measured | bad | weight |
+//! |---|---|---|---|
+//! | opening | the narrowest opening, mm | nothing; good from three times the least | 1 |
+//! | room for pins | the disc in the joint with least, mm; where wide joints are wanted a quarter of that with its voids filled | half of what pins need, filled nothing | 2 |
+//! | smallest part | its share of the volume | nothing; good from 2 % | 2 |
+//! | parts | pieces beyond two | each | 0.2 |
+//! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
+//! | seam | its length on the outside, mm | the circle about the model | 0.5 |
+//! | detail | how much more the seam turns than a convex one, rad | two turns more | 0.1 |
+//! | glue | the area of the joint with least, mm² | nothing; good from four pins' discs | 0.3 |
+//! | build volume | halves that do not fit it | each | 0.5 |
+//! | overhang | the share of the surface that leans less than 45° over the plate, as the cut face lies | all | 0.3 |
+//!
+//! The number of cuts comes before the score, and so does cleaning: of the plans with the fewest
+//! cuts the first in the order of the score is taken with which every void is clean, the share of
+//! its wall in sight included ([`crate::cut::access::void_access`]).
+
+use crate::{
+    cut::{
+        access::chamber::Chamber,
+        error::CutError,
+        geometry::{
+            opening::{Opening, opening},
+            section::{Ring, Section},
+            sides::Sides,
+            tree::CutTree,
+        },
+        joints::pin_size::needed_room_mm,
+        pieces::split::{Piece, split_body},
+        request::{PlanRequest, PosePreference},
+    },
+    geom::{Aabb, Plane, Point},
+    mass::moments_of_mesh,
+    mesh::{Csg, Hollowed, TriMesh},
+};
+
+/// The body that is to be cut, with what every plane is compared against.
+pub(crate) struct Scene<'a> {
+    pub(crate) hollowed: &'a Hollowed,
+    pub(crate) request: &'a PlanRequest,
+    /// The surface of the material: the outside and the voids turned inside out.
+    pub(crate) material: TriMesh,
+    /// The same, ready to be cut.
+    body: Csg,
+    /// The voids, ready to be cut and looked into.
+    pub(crate) chambers: Vec<Chamber<'a>>,
+    volume_mm3: f64,
+    diagonal_mm: f64,
+}
+
+impl<'a> Scene<'a> {
+    pub(crate) fn new(hollowed: &'a Hollowed, request: &'a PlanRequest) -> Result<Self, CutError> {
+        let material = hollowed.to_mesh();
+        let (body, chambers) = rayon::join(|| Csg::of_mesh(&material), || Chamber::all(hollowed));
+        let volume_mm3 = moments_of_mesh(&material).volume();
+        let diagonal_mm = hollowed.outer.mesh().aabb().size().norm();
+        let (body, chambers) = (body?, chambers?);
+        Ok(Self {
+            hollowed,
+            request,
+            material,
+            body,
+            chambers,
+            volume_mm3,
+            diagonal_mm,
+        })
+    }
+
+    /// The pieces of the body between the cuts.
+    pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
+        split_body(&self.body, tree)
+    }
+
+    /// How the plane opens each void of `met`; `None` for those it misses.
+    pub(crate) fn openings(
+        &self,
+        plane: &Plane,
+        met: crate::cut::planner::cover::VoidSet,
+    ) -> Vec<Option<Opening>> {
+        let voids = self.hollowed.voids.iter().enumerate();
+        voids
+            .map(|(i, void)| {
+                (met >> i & 1 == 1)
+                    .then(|| opening(void.mesh(), plane))
+                    .flatten()
+            })
+            .collect()
+    }
+}
+
+/// Openings wider than this many times the least asked for are no better.
+pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
+/// A joint that is so many times as wide with its voids filled as what a pin needs has room for two
+/// bosses, and for an opening between them.
+const WIDE_JOINT_RATIO: f64 = 4.0;
+/// Parts larger than this share of the material are not too small.
+const AMPLE_PART_RATIO: f64 = 0.02;
+/// Cuts farther than this from the contact point do not disturb it, mm.
+const AMPLE_CONTACT_MM: f64 = 3.0;
+
+/// Weight of the narrowest opening: washing out is what cuts are for.
+const OPENING_WEIGHT: f64 = 1.0;
+/// Weight of a joint without room for pins: parts that cannot be aligned spoil the balance.
+const ROOM_WEIGHT: f64 = 2.0;
+/// Weight of crumbs: they are lost, or glued wrongly.
+const SMALL_PART_WEIGHT: f64 = 2.0;
+/// Weight of each piece a cut leaves beyond two: every part is one more to print, clean and glue.
+const EXTRA_PART_WEIGHT: f64 = 0.2;
+/// Weight of a cut through the contact point: the tip wears along a seam.
+const CONTACT_WEIGHT: f64 = 1.0;
+/// Weight of a seam as long as the circle about the model: looks, and glue.
+const SEAM_WEIGHT: f64 = 0.5;
+/// Weight of a seam over features, such as ears and folds of cloth: a step shows there, and edges
+/// chip.
+const DETAIL_WEIGHT: f64 = 0.1;
+/// Weight of a joint without face to glue.
+const GLUE_WEIGHT: f64 = 0.3;
+/// Weight of each half that must be cut again to fit the printer.
+const BUILD_VOLUME_WEIGHT: f64 = 0.5;
+/// Weight of a surface that all hangs over the plate: support is printed, removed, and leaves
+/// marks.
+const OVERHANG_WEIGHT: f64 = 0.3;
+
+/// A seam that turns by so much more than a convex one runs over features everywhere, rad: two full
+/// turns.
+const PLENTY_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
+/// A joint with the area of so many discs as wide as a pin needs has enough to glue.
+const AMPLE_GLUE_DISCS: f64 = 4.0;
+/// A surface that looks down hangs over where its normal is nearer to the vertical than this
+/// cosine: 45°, the usual limit.
+const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
+
+/// What a cut does to the body, apart from the voids it opens.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Burden {
+    /// The visible length of the seam, mm.
+    pub(crate) seam_mm: f64,
+    /// The diameter of the largest disc of material in the joint that has the least, mm (at most
+    /// what pins need; 0 when below half of it); where wide joints are wanted a quarter of that
+    /// with the voids in it filled.
+    pub(crate) room_mm: f64,
+    /// How many pieces it leaves beyond two.
+    pub(crate) extra_parts: usize,
+    /// The volume of the smallest piece over that of the body.
+    pub(crate) smallest_ratio: f64,
+    /// The distance of the cut from the contact point, mm.
+    pub(crate) contact_mm: f64,
+    /// How much more the seam turns than a convex one, rad.
+    pub(crate) detail_rad: f64,
+    /// The area of material in the joint that has the least, mm².
+    pub(crate) glue_mm2: f64,
+    /// How many halves do not fit the build volume.
+    pub(crate) oversize: usize,
+    /// The share of the surface that hangs over the plate when both halves lie as is preferred.
+    pub(crate) overhang_ratio: f64,
+}
+
+/// What the plane does to the body, pieces left out that stay joined to another because nothing
+/// opens between them. Costs two passes over the triangles.
+pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
+    let sides = Sides::new(
+        &scene.material,
+        *plane,
+        Section::of_mesh(&scene.material, plane),
+    );
+    let outside = scene.hollowed.outer.mesh().vertices().len();
+    let joints = joints(&sides, outside);
+    let cut: Vec<&Joint> = joints
+        .iter()
+        .filter(|joint| !is_needless(joint, &joints))
+        .collect();
+    let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
+    let volumes = sides
+        .piece_volumes_mm3()
+        .into_iter()
+        .filter(|&(piece, _)| is_part(piece));
+    let volumes: Vec<f64> = volumes
+        .map(|(_, volume)| volume / scene.volume_mm3)
+        .collect();
+    let groups = || cut.iter().flat_map(|joint| &joint.groups);
+    let needed_mm = needed_room_mm(scene.request);
+    let disc_mm = |&group: &usize| {
+        if scene.request.wants_wide_joints {
+            let is_outside = |ring: &Ring| (ring.above as usize) < outside;
+            sides.filled_disc_diameter_mm(group, is_outside) / WIDE_JOINT_RATIO
+        } else {
+            sides.disc_diameter_mm(group, needed_mm / 2.0)
+        }
+    };
+    let room_mm = |joint: &&Joint| joint.groups.iter().map(disc_mm).fold(0.0, f64::max);
+    Burden {
+        seam_mm: groups()
+            .map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm())
+            .sum(),
+        extra_parts: volumes.len().saturating_sub(2),
+        room_mm: cut.iter().map(room_mm).fold(needed_mm, f64::min),
+        smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
+        contact_mm: plane.distance(&scene.request.axis.point).abs(),
+        detail_rad: groups()
+            .map(|&group| excess_turn_rad(&sides.section.rings[sides.polygons[group][0]]))
+            .sum(),
+        glue_mm2: cut
+            .iter()
+            .map(|joint| glue_mm2(&sides, joint))
+            .fold(f64::INFINITY, f64::min),
+        oversize: scene
+            .request
+            .build_volume_mm
+            .map_or(0, |room_mm| oversize(scene, plane, room_mm)),
+        overhang_ratio: overhang_ratio(scene, plane),
+    }
+}
+
+/// The area of material in a joint, mm².
+fn glue_mm2(sides: &Sides, joint: &Joint) -> f64 {
+    let rings = joint
+        .groups
+        .iter()
+        .flat_map(|&group| &sides.polygons[group]);
+    rings
+        .map(|&ring| sides.section.rings[ring].area_mm2())
+        .sum()
+}
+
+/// How much more a ring turns than a convex one, rad; 0 for a convex ring, however finely it is
+/// divided.
+fn excess_turn_rad(ring: &Ring) -> f64 {
+    let sides: Vec<_> = ring
+        .segments()
+        .map(|[a, b]| b - a)
+        .filter(|side| side.norm() > 0.0)
+        .collect();
+    let next = sides.iter().cycle().skip(1);
+    let turn: f64 = sides
+        .iter()
+        .zip(next)
+        .map(|(a, b)| a.perp(b).atan2(a.dot(b)).abs())
+        .sum();
+    (turn - std::f64::consts::TAU).max(0.0)
+}
+
+/// How many of the two halves are larger than the build volume, each side against the side of its
+/// rank.
+fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
+    let mut halves = [Aabb::EMPTY; 2];
+    for corners in scene.hollowed.outer.mesh().iter_corners() {
+        for i in 0..3 {
+            grow(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
+        }
+    }
+    room_mm.sort_by(f64::total_cmp);
+    let is_over = |half: &Aabb| {
+        let mut size: [f64; 3] = if half.is_empty() {
+            [0.0; 3]
+        } else {
+            half.size().into()
+        };
+        size.sort_by(f64::total_cmp);
+        size.iter().zip(room_mm).any(|(size, room)| *size > room)
+    };
+    halves.iter().filter(|half| is_over(half)).count()
+}
+
+/// Grows the boxes of the halves above and below a plane, in its own coordinates, over an edge.
+fn grow(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
+    let (u, v) = plane.basis();
+    let [low, high] = [plane.distance(&from), plane.distance(&to)];
+    let turned = |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
+    let side = usize::from(low < 0.0);
+    halves[side] = halves[side].grown_over(&turned(&from, low));
+    if (low < 0.0) != (high < 0.0) {
+        let met = turned(&(from + (to - from) * (low / (low - high))), 0.0);
+        *halves = halves.map(|half| half.grown_over(&met));
+    }
+}
+
+/// The share of the material's surface that leans less than 45° over the plate, both halves lying
+/// on their cut faces, or with them up where hollows are to look up.
+fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
+    let down = match scene.request.pose {
+        PosePreference::CutFaceDown => -1.0,
+        PosePreference::OpenHollowUp => 1.0,
+    };
+    let (mut over, mut all) = (0.0, 0.0);
+    for [a, b, c] in scene.material.iter_corners() {
+        let normal = (b - a).cross(&(c - a));
+        let is_above = plane.distance(&a) + plane.distance(&b) + plane.distance(&c) >= 0.0;
+        let toward_plate = plane.normal.dot(&normal) * if is_above { down } else { -down };
+        all += normal.norm();
+        over += if toward_plate > OVERHANG_COSINE * normal.norm() {
+            normal.norm()
+        } else {
+            0.0
+        };
+    }
+    if all > 0.0 { over / all } else { 0.0 }
+}
+
+/// Two pieces and the polygons of the section between them.
+struct Joint {
+    pieces: [u32; 2],
+    groups: Vec<usize>,
+    /// Whether a void opens in one of the polygons.
+    is_open: bool,
+}
+
+/// The joints of the section; vertices of the material from `first_void_vertex` on are the voids'.
+fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
+    let mut joints: Vec<Joint> = Vec::new();
+    for (group, rings) in sides.polygons.iter().enumerate() {
+        let is_mouth =
+            |&ring: &usize| sides.section.rings[ring].above as usize >= first_void_vertex;
+        let (pieces, is_open) = (sides.neighbours(group), rings.iter().any(is_mouth));
+        match joints.iter_mut().find(|joint| joint.pieces == pieces) {
+            Some(joint) => {
+                joint.groups.push(group);
+                joint.is_open |= is_open;
+            }
+            None => joints.push(Joint {
+                pieces,
+                groups: vec![group],
+                is_open,
+            }),
+        }
+    }
+    joints
+}
+
+/// Whether nothing opens in the joint, and one of its pieces has no other.
+fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
+    let count = |piece: &u32| {
+        joints
+            .iter()
+            .filter(|other| other.pieces.contains(piece))
+            .count()
+    };
+    !joint.is_open && joint.pieces.iter().any(|piece| count(piece) == 1)
+}
+
+impl Burden {
+    /// The sum of the weighed terms of one cut, 0 at best.
+    pub(crate) fn penalty(&self, scene: &Scene) -> f64 {
+        self.terms(scene).iter().map(|(_, value)| value).sum()
+    }
+
+    /// The weighed terms of one cut by their names, each 0 at best.
+    pub(crate) fn terms(&self, scene: &Scene) -> [(&'static str, f64); 9] {
+        let needed_mm = needed_room_mm(scene.request);
+        let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
+        let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
+        [
+            (
+                "room for pins",
+                ROOM_WEIGHT * shortfall(self.room_mm, needed_mm),
+            ),
+            (
+                "smallest part",
+                SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO),
+            ),
+            ("parts", EXTRA_PART_WEIGHT * self.extra_parts as f64),
+            (
+                "contact",
+                CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM),
+            ),
+            ("seam", SEAM_WEIGHT * self.seam_mm / circle_mm),
+            (
+                "detail",
+                DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0),
+            ),
+            (
+                "glue",
+                GLUE_WEIGHT * shortfall(self.glue_mm2, ample_glue_mm2),
+            ),
+            ("build volume", BUILD_VOLUME_WEIGHT * self.oversize as f64),
+            ("overhang", OVERHANG_WEIGHT * self.overhang_ratio),
+        ]
+    }
+}
+
+/// The weighed term of the narrowest of the voids' openings (mm), 0 at best.
+pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
+    let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
+    OPENING_WEIGHT
+        * openings_mm
+            .map(|mm| shortfall(mm, ample_mm))
+            .fold(0.0, f64::max)
+}
+
+/// How far `value` falls short of `ample`: 0 when it does not, 1 when it is nothing.
+fn shortfall(value: f64, ample: f64) -> f64 {
+    (1.0 - value / ample).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        cut::scenes::{ball, cuboid, request, with_balls},
+        geom::Vector,
+    };
+
+    fn level(z: f64) -> Plane {
+        Plane {
+            normal: Vector::z(),
+            offset_mm: z,
+        }
+    }
+
+    fn burden_of(hollowed: &Hollowed, request: &PlanRequest, z: f64) -> Burden {
+        burden(&Scene::new(hollowed, request).unwrap(), &level(z))
+    }
+
+    #[test]
+    fn a_convex_seam_has_no_detail_and_one_over_a_notch_has() {
+        let plain = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+        assert!(burden_of(&plain, &request(), 0.1).detail_rad < 1e-9);
+        let corners = [
+            [0.0, 0.0],
+            [10.0, 0.0],
+            [10.0, 10.0],
+            [5.0, 5.0],
+            [0.0, 10.0],
+        ];
+        let points = corners.map(|[x, y]| crate::cut::Point2::new(x, y)).to_vec();
+        // Into the notch and out of it again: one corner turned back by a quarter, and as much more
+        // at the others.
+        let turn = excess_turn_rad(&Ring {
+            points,
+            above: 0,
+            below: 0,
+        });
+        assert!((turn - std::f64::consts::PI).abs() < 1e-9, "{turn}");
+    }
+
+    #[test]
+    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not()
+    {
+        let usual = request();
+        let wide = PlanRequest {
+            wants_wide_joints: true,
+            ..request()
+        };
+        let shell = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 24.0]]);
+        let needed_mm = needed_room_mm(&usual);
+        assert_eq!(burden_of(&shell, &usual, 0.1).room_mm, 0.0);
+        assert_eq!(burden_of(&shell, &wide, 0.1).room_mm, needed_mm);
+        // A slab's section is as long as you like, and no disc of more than 8 mm lies in it.
+        let slab = with_balls(
+            cuboid([0.0; 3], [8.0, 40.0, 60.0]),
+            &[[4.0, 20.0, 30.0, 2.0]],
+        );
+        assert_eq!(burden_of(&slab, &usual, 30.1).room_mm, needed_mm);
+        assert!((burden_of(&slab, &wide, 30.1).room_mm - 2.0).abs() < 0.05);
+    }
+
+    #[test]
+    fn the_glue_of_a_box_is_its_section_less_the_void() {
+        let body = with_balls(
+            cuboid([0.0; 3], [30.0, 20.0, 20.0]),
+            &[[15.0, 10.0, 10.0, 4.0]],
+        );
+        let burden = burden_of(&body, &request(), 10.0);
+        let hole = 12.0 * 16.0 * (std::f64::consts::PI / 12.0).sin();
+        assert!(
+            (burden.glue_mm2 - (600.0 - hole)).abs() < 1e-6,
+            "{}",
+            burden.glue_mm2
+        );
+    }
+
+    #[test]
+    fn a_half_too_long_for_the_printer_counts() {
+        let body = with_balls(
+            cuboid([0.0; 3], [30.0, 20.0, 90.0]),
+            &[[15.0, 10.0, 45.0, 6.0]],
+        );
+        let within = |room: f64| PlanRequest {
+            build_volume_mm: Some([room; 3]),
+            ..request()
+        };
+        assert_eq!(burden_of(&body, &within(50.0), 45.1).oversize, 0);
+        assert_eq!(burden_of(&body, &within(50.0), 20.0).oversize, 1);
+        assert_eq!(burden_of(&body, &within(29.0), 45.1).oversize, 2);
+    }
+
+    #[test]
+    fn half_a_ball_on_its_cut_face_hangs_over_nowhere_but_in_its_void() {
+        // Outside all looks up; of the void's half the ceiling within 45° of its pole: 1 − cos 45°
+        // of a half sphere.
+        let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
+        let share = 144.0 / (625.0 + 144.0) * (1.0 - OVERHANG_COSINE);
+        let down = burden_of(&body, &request(), 0.1).overhang_ratio;
+        // The ball has 12 rows of facets: 45° lies in the middle of the third, so that a row more
+        // or less counts.
+        assert!((down - share).abs() < 0.35 * share, "{down} {share}");
+        let up = PlanRequest {
+            pose: PosePreference::OpenHollowUp,
+            ..request()
+        };
+        assert!(burden_of(&body, &up, 0.1).overhang_ratio > 3.0 * share);
+    }
+}
