@@ -2,7 +2,7 @@
 //! the papers' own.
 
 use super::problem::Problem;
-use super::settings::Settings;
+use super::problem::Settings;
 use super::solution::{Figure, Solution};
 use super::status::Status;
 use crate::base::watch::Watch;

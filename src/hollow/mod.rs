@@ -150,53 +150,34 @@
 //! optimization using ray-reps", Computers & Graphics 58, 2016. Dinkelbach, "On nonlinear
 //! fractional programming", Management Science 13, 1967.
 
-mod answer;
-mod ascent;
-mod balance;
-mod ballast;
-mod course;
-mod cover;
-mod fill;
-mod float;
-mod frontier;
+mod dual;
+mod goals;
 mod golden;
-mod heights;
-mod lever;
-mod mend;
 mod method;
 mod papers;
 mod problem;
-mod programme;
-mod reach;
-mod scout;
-mod set;
-mod settings;
 mod solution;
-mod stand;
 mod status;
 mod top;
-mod valley;
-mod work;
 #[cfg(test)]
 mod worlds;
-mod yoyo;
 
 use crate::base::watch::Watch;
 use crate::goal::GoalKind;
 
-pub use ballast::{Ballast, has_spare, least_ballast};
-pub use course::{TopCourse, top_course};
-pub use fill::Fill;
+pub use goals::ballast::{Ballast, has_spare, least_ballast};
+pub use goals::fill::Fill;
 pub use golden::golden_section;
 pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
 pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
-pub use problem::Problem;
-pub use settings::Settings;
+pub use problem::{Problem, Settings};
 pub use solution::{Certificate, Figure, LogRow, Pass, Solution, Stage};
 pub use status::{Obstacle, Status};
+pub use top::course::{TopCourse, top_course};
 
-use answer::Answer;
-use work::Work;
+use dual::answer::Answer;
+use dual::work::Work;
+use goals::{balance, float, stand, yoyo};
 
 /// The best interior, or the proof that none will do, from nothing.
 ///

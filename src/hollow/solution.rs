@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::programme::DualPoint;
+use super::dual::programme::DualPoint;
 use super::status::Status;
 use crate::geom::Quadric;
 use crate::goal::Objective;

@@ -7,10 +7,10 @@
 //! first order: differences cost least in a band along the surface, where a depth d costs
 //! |∂q/∂z|d²/2, and Cauchy and Schwarz do the rest. What remains is how small R is, which each method's cells decide.
 
-use super::super::worlds::{self, World};
 use super::super::*;
 use crate::geom::Point;
 use crate::goal::Objective;
+use crate::hollow::worlds::{self, World};
 use crate::interior::moments_and_derivative;
 
 /// How many columns of 1 mm the worlds are of does not matter; that a voxel is as high as they are

@@ -3,12 +3,12 @@
 
 use nalgebra::DVector;
 
-use super::super::reach::Vector10;
 use super::Accuracy;
 use super::descent::{Function, Limits, descend};
 use super::target::{Target, as_vector10};
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
+use crate::hollow::dual::reach::Vector10;
 use crate::interior::Choice;
 
 /// The first penalty, where f and As are of order one. A hundred times less, and the first rounds

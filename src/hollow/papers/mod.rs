@@ -40,8 +40,8 @@ pub use octree::ByOctree;
 pub use rays::ByRays;
 pub use voxels::ByVoxels;
 
-use super::method::{Found, Outcome, figure_for, value_of};
-use super::problem::Problem;
+use crate::hollow::method::{Found, Outcome, figure_for, value_of};
+use crate::hollow::problem::Problem;
 use crate::interior::Choice;
 use lagrangian::Optimum;
 use target::Target;

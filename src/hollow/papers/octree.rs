@@ -1,12 +1,12 @@
 //! Spin-It's method: a share of every leaf of an octree, split where it is fractional until it is
 //! fine, then rounded.
 
-use super::super::method::{Found, Method, MethodError, Rounding, value_of};
-use super::super::problem::Problem;
 use super::lagrangian::{Optimum, Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
 use crate::base::watch::Watch;
+use crate::hollow::method::{Found, Method, MethodError, Rounding, value_of};
+use crate::hollow::problem::Problem;
 use crate::interior::{Choice, Levels, Octree};
 
 /// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform

@@ -1,11 +1,11 @@
 //! Wu, Kramer and Westermann's method: the two ends of the solid segment on every ray.
 
-use super::super::method::{Found, Method, MethodError};
-use super::super::problem::Problem;
 use super::lagrangian::{Optimum, Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
 use crate::base::watch::Watch;
+use crate::hollow::method::{Found, Method, MethodError};
+use crate::hollow::problem::Problem;
 use crate::interior::{Choice, Rays};
 
 /// How often vanished segments may open again. With none, values ended up to 3e-4 above the best;

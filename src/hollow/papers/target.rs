@@ -3,11 +3,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::super::method::MethodError;
-use super::super::problem::Problem;
-use super::super::programme::{Programme, index};
-use super::super::reach::{Reach, Scale, Vector10};
 use crate::goal::{Goal, GoalKind, Objective};
+use crate::hollow::dual::programme::{Programme, index};
+use crate::hollow::dual::reach::{Reach, Scale, Vector10};
+use crate::hollow::method::MethodError;
+use crate::hollow::problem::Problem;
 use crate::mass::Moments;
 
 /// What is added under the root of the λ_max of a 2 × 2 tensor, squared, as a part of the solid's
@@ -166,11 +166,11 @@ fn ratio_at(programme: &Programme, s: &Vector10) -> (f64, Vector10) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::super::method::value_of;
-    use super::super::super::worlds::{self, World};
     use super::*;
     use crate::base::units::STANDARD_GRAVITY_MM_S2;
     use crate::goal::to_rpm;
+    use crate::hollow::method::value_of;
+    use crate::hollow::worlds::{self, World};
 
     fn smooth_worlds() -> Vec<World> {
         let spin_it = |gamma_c| Objective::SpinIt {

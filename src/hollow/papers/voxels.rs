@@ -1,11 +1,11 @@
 //! The voxel form that Wu, Kramer and Westermann compare with: a share of every voxel.
 
-use super::super::method::{Found, Method, MethodError};
-use super::super::problem::Problem;
 use super::lagrangian::{Start, minimise};
 use super::target::Target;
 use super::{Accuracy, found};
 use crate::base::watch::Watch;
+use crate::hollow::method::{Found, Method, MethodError};
+use crate::hollow::problem::Problem;
 use crate::interior::{Choice, Voxels};
 
 /// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing

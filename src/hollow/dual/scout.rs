@@ -17,10 +17,10 @@
 //!   derivative, all of them side by side.
 
 use super::ascent::{Climb, End};
-use super::cover::Post;
 use super::programme::{DualPoint, Programme};
 use super::reach::Vector10;
 use super::work::Work;
+use crate::hollow::top::cover::Post;
 
 /// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a
 /// Newton step; more cost as much as the passes they save.
@@ -32,14 +32,14 @@ const WORTH_A_CLIMB: usize = 3;
 /// more beside a pass over all.
 const GREATEST_STEP: usize = 16;
 /// How exact ascents on thinned columns are: those err by more.
-pub(super) const ROUGH_TOLERANCE: f64 = 1e-3;
+pub(crate) const ROUGH_TOLERANCE: f64 = 1e-3;
 /// How exact ascents on mended columns are: what is left is for the last Newton steps on all
 /// columns.
-pub(super) const MENDED_TOLERANCE: f64 = 1e-6;
+pub(crate) const MENDED_TOLERANCE: f64 = 1e-6;
 
 /// How much less than what a scout sees is claimed of all columns.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Prudence {
+pub(crate) struct Prudence {
     /// The share of a margin that is claimed where the columns are mended. More, and claims fail;
     /// less, and more posts are needed.
     near_ratio: f64,

@@ -1,13 +1,13 @@
 //! A top's objective as a function of one number: the height at which its tensor is made linear.
 
-use super::answer::Answer;
-use super::ascent::{Climb, End, Slack, Visit};
 use super::lever::{Levers, Weighed};
-use super::programme::{DualPoint, Programme};
-use super::solution::Tangent;
 use super::valley::{Bottom, Place, Sample, Valley};
-use super::work::Work;
 use crate::goal::Objective;
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::ascent::{Climb, End, Slack, Visit};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::work::Work;
+use crate::hollow::solution::Tangent;
 
 /// By which part of themselves the ends of the range of heights may be too far out. Less costs
 /// passes, and saves the proof none, which steps over what is out of reach in one or two.
@@ -20,7 +20,7 @@ const RANGE_SLACK: Slack = Slack {
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
 
 /// A dual point to start from, and the best lever where it was found.
-pub(super) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
+pub(crate) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 
 /// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
 ///
@@ -29,7 +29,7 @@ pub(super) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 /// all interiors, whatever their heights, and needs no row that fixes them. T is smooth: its slope
 /// is that of s₁(h − ℓ)².
 #[derive(Clone, Copy)]
-pub(super) struct Heights<'a> {
+pub(crate) struct Heights<'a> {
     pub work: &'a Work<'a>,
     pub objective: Objective,
     /// No interior that meets the constraints has its centre lower or higher.
@@ -201,9 +201,9 @@ impl<'a> Heights<'a> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Settings, worlds};
     use super::*;
     use crate::base::watch::Watch;
+    use crate::hollow::{Settings, worlds};
 
     #[test]
     fn the_slope_by_the_height_is_that_of_finite_differences() {

@@ -3,18 +3,18 @@
 
 use nalgebra::DMatrix;
 
-use super::ascent::{Climb, End};
-use super::golden::golden_section;
-use super::heights::Heights;
-use super::problem::Problem;
-use super::programme::{DualPoint, Programme};
-use super::reach::{Heavy, Vector10};
-use super::settings::Settings;
-use super::solution::{Figure, Solution};
-use super::work::Work;
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
+use crate::hollow::dual::ascent::{Climb, End};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::reach::{Heavy, Vector10};
+use crate::hollow::dual::work::Work;
+use crate::hollow::golden::golden_section;
+use crate::hollow::problem::Problem;
+use crate::hollow::problem::Settings;
+use crate::hollow::solution::{Figure, Solution};
+use crate::hollow::top::heights::Heights;
 
 /// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an
 /// ascent starts with; far smaller, the cost is lost beside the tolerance of its value.
@@ -69,7 +69,7 @@ pub struct Ballast {
 /// to a limit on the goal's ratio" the dual prices the limit with one weight; for given multipliers
 /// a grain is emptied where the quadric q > 0 and replaced where q is so far below zero that the
 /// gain pays, q < −price/(ratio − 1): two level sets of one quadric. So two passes find the extreme
-/// interior and everything else is the ascent of [`super::solve`].
+/// interior and everything else is the ascent of [`crate::hollow::solve`].
 pub fn least_ballast(
     problem: &Problem,
     density_ratio: f64,
@@ -306,7 +306,7 @@ fn priced(wish: &Programme, weight: f64, limit: f64) -> Programme {
     let set = if has_limit {
         wish.set
     } else {
-        super::set::DualSet::Ball
+        crate::hollow::dual::set::DualSet::Ball
     };
     Programme {
         numerator,
@@ -327,8 +327,8 @@ fn is_kept(wish: &Programme, limit: f64, climb: &Climb) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds;
     use super::*;
+    use crate::hollow::worlds;
     use crate::interior::moments_where_positive;
 
     fn ballast(world: &worlds::World, density_ratio: f64) -> Option<Ballast> {
@@ -403,7 +403,7 @@ mod tests {
     fn a_stump_is_made_a_top_by_steel_around_its_middle() {
         let world = worlds::stump(14.0);
         let hollowed =
-            super::super::solve(&world.problem(), &Settings::default(), &Watch::silent());
+            crate::hollow::solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert!(hollowed.status.is_impossible());
         let found = ballast(&world, 7.0).unwrap();
         let filled = moments_where_positive(&world.columns, &found.filled);
@@ -414,7 +414,7 @@ mod tests {
             fixed,
             columns: &rest,
         };
-        let solution = super::super::solve(&problem, &Settings::default(), &Watch::silent());
+        let solution = crate::hollow::solve(&problem, &Settings::default(), &Watch::silent());
         assert!(solution.is_usable(), "{:?}", solution.status);
         assert!(found.bound_mm3 > 0.98 * found.volume_mm3);
     }

@@ -1,13 +1,13 @@
 //! Spin-It's functional where it weighs the lever: at each height also the best lever has to be
 //! found.
 
-use super::ascent::Visit;
 use super::heights::{Heights, Start};
-use super::programme::{DualPoint, LEVER_ROW, index};
-use super::solution::Tangent;
 use super::valley::{Place, Sample, Valley};
-use super::work::Work;
 use crate::goal::Objective;
+use crate::hollow::dual::ascent::Visit;
+use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
+use crate::hollow::dual::work::Work;
+use crate::hollow::solution::Tangent;
 
 /// How exactly the lever that the search begins at is found.
 const ROUGH_TOLERANCE: f64 = 1e-2;
@@ -17,7 +17,7 @@ const STEP_RATIO: f64 = 0.1;
 
 /// Spin-It's functional k s_z² + γ ρ² where it weighs the lever, in the solver's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Weighed {
+pub(crate) struct Weighed {
     /// k = γ_c over the square of the solid's lever.
     pub lever: f64,
     /// γ = γ_I, of the square of the inertia's ratio.
@@ -52,7 +52,7 @@ impl Weighed {
 ///
 /// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant
 /// and the second is.
-pub(super) struct Levers<'a> {
+pub(crate) struct Levers<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
     pub height: f64,

@@ -5,11 +5,11 @@ use nalgebra::{DMatrix, DVector};
 
 use super::reach::{Reach, Vector10};
 use super::set::DualSet;
-use super::solution::Stage;
 use crate::goal::{Afloat, Goal, support_edges};
+use crate::hollow::solution::Stage;
 
 /// Where the ten moments stand.
-pub(super) mod index {
+pub(crate) mod index {
     pub const ONE: usize = 0;
     pub const X: usize = 1;
     pub const Y: usize = 2;
@@ -26,7 +26,7 @@ use index::*;
 /// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY
 /// §3).
 #[derive(Debug, Clone)]
-pub(super) struct Programme {
+pub(crate) struct Programme {
     /// What it is for.
     pub stage: Stage,
     /// n
@@ -49,7 +49,7 @@ pub(super) struct Programme {
 
 /// A point of the dual: the weights y, a multiplier for each row, and the ratio on trial.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct DualPoint {
+pub(crate) struct DualPoint {
     pub y: DVector<f64>,
     pub lambda: DVector<f64>,
     pub tau: f64,
@@ -95,7 +95,7 @@ fn mean_across(height: f64) -> Vector10 {
 }
 
 /// Which row of a top's programme fixes its lever s_z, where there is one.
-pub(super) const LEVER_ROW: usize = 4;
+pub(crate) const LEVER_ROW: usize = 4;
 
 /// The rows that put the centre on the axis and make the axis principal.
 fn axis_rows() -> DMatrix<f64> {

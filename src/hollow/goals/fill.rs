@@ -3,17 +3,17 @@
 //! A grain that is filled weighs ρ_fill instead of ρ, so the moments are s = s_fixed − κ ∫β m with
 //! the relief κ = 1 − ρ_fill/ρ: the same convex set for air (κ = 1), stretched by κ, and turned
 //! over where the filling is the heavier material (κ < 0). Dividing all moments by |κ| makes it the
-//! very problem of [`super::solve`]: ratios and equations without a constant do not change, the
+//! very problem of [`crate::hollow::solve`]: ratios and equations without a constant do not change, the
 //! mass of what floats is divided with the rest. Where κ < 0, what the solver empties of the body
 //! filled everywhere is what must not be filled, so the void is where its quadric is negative.
 //!
 //! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same
 //! equations.
 
-use super::{Problem, Settings, Solution, refine, solve};
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
 use crate::goal::Goal;
+use crate::hollow::{Problem, Settings, Solution, refine, solve};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
@@ -98,9 +98,9 @@ fn scaled(goal: &Goal, factor: f64) -> Goal {
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds::{self, World};
     use super::*;
     use crate::goal::{Objective, figures};
+    use crate::hollow::worlds::{self, World};
 
     fn filled(world: &World, density_ratio: f64) -> Solution {
         let fill = Fill::new(density_ratio).unwrap();

@@ -3,8 +3,8 @@
 use super::cover::{Cover, Doubt, Post, Stake};
 use super::heights::Heights;
 use super::lever::Weighed;
-use super::programme::{DualPoint, LEVER_ROW, index};
 use super::valley::Bottom;
+use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
 
 /// Half the angle of the first side, as a part of √(how far below the value the claim is).
 const FIRST_ANGLE_RATIO: f64 = 0.25;
@@ -42,7 +42,7 @@ const MOST_SIDES: usize = 80;
 /// a unit below σ and by more above it. So the posts of a corner speak for all smaller levers where
 /// a ≥ |t′| times the greatest I_zz, and for all greater ones where a ≤ |t′| times the least I_zz,
 /// plus m/h.
-pub(super) struct Frontier<'a> {
+pub(crate) struct Frontier<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
     /// V
@@ -311,11 +311,11 @@ fn aimed(before: &Corner, last: &Corner, lever: f64) -> Post {
 
 #[cfg(test)]
 mod tests {
-    use super::super::work::Work;
-    use super::super::{Settings, worlds};
     use super::*;
     use crate::base::watch::Watch;
     use crate::goal::Objective;
+    use crate::hollow::dual::work::Work;
+    use crate::hollow::{Settings, worlds};
 
     #[test]
     fn a_true_claim_is_proved_to_the_last_digits_and_a_false_one_is_not() {

@@ -1,15 +1,15 @@
 //! From the end of a search to a solution in mm, with its status and certificate.
 
 use super::ascent::{Climb, End};
-use super::balance;
-use super::method::figure_for;
 use super::programme::index;
 use super::reach::Vector10;
-use super::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
-use super::status::{Obstacle, Status};
 use super::work::Work;
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
+use crate::hollow::goals::balance;
+use crate::hollow::method::figure_for;
+use crate::hollow::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
+use crate::hollow::status::{Obstacle, Status};
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
 const SOLE_OBSTACLE_RATIO: f64 = 0.95;
@@ -21,7 +21,7 @@ const USABLE_GAP_RATIO: f64 = 1e-2;
 
 /// What a search found, in the solver's units.
 #[derive(Debug, Clone)]
-pub(super) struct Answer {
+pub(crate) struct Answer {
     /// What was minimised in the end.
     pub objective: Objective,
     /// The ascent that gave it.
@@ -163,7 +163,7 @@ impl Answer {
 }
 
 /// Spin-It's functional of an interior with these moments and this inertia ratio.
-pub(super) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
+pub(crate) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
     let Objective::SpinIt { gamma_c, gamma_i } = objective else {
         return ratio * ratio;
     };

@@ -14,7 +14,7 @@ use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_p
 use crate::mass::Moments;
 
 /// Ten numbers over the monomials of the moments, in the solver's own units.
-pub(super) type Vector10 = SVector<f64, 10>;
+pub(crate) type Vector10 = SVector<f64, 10>;
 
 /// The degree of each of the ten monomials.
 const DEGREES: [i32; 10] = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2];
@@ -23,7 +23,7 @@ const DEGREES: [i32; 10] = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2];
 /// In them all ten moments are of the order of one, so one tolerance and one damping serve every
 /// row.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Scale {
+pub(crate) struct Scale {
     pub volume_mm3: f64,
     pub length_mm: f64,
 }
@@ -58,7 +58,7 @@ impl Scale {
 
 /// A denser material that may take the place of the printed one, at a price.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Heavy {
+pub(crate) struct Heavy {
     /// Its density over that of the printed material; above 1.
     pub density_ratio: f64,
     /// What as much of it as the solid's volume costs, in the units of the programme's value.
@@ -68,7 +68,7 @@ pub(super) struct Heavy {
 /// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the
 /// passes made over it; with a heavy material, β may also be as far below zero as its density
 /// allows.
-pub(super) struct Reach<'a> {
+pub(crate) struct Reach<'a> {
     columns: Cow<'a, Columns>,
     /// From moments in the columns' coordinates to moments in the goal's; none where they are the
     /// same.
@@ -87,7 +87,7 @@ pub(super) struct Reach<'a> {
 
 /// The point of K least along a direction g: the interior with { g·m > 0 } emptied.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Extreme {
+pub(crate) struct Extreme {
     /// Its moments.
     pub s: Vector10,
     /// −∂s/∂g, positive semidefinite.
@@ -307,9 +307,9 @@ fn over_columns(turn: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds;
     use super::*;
     use crate::goal::Objective;
+    use crate::hollow::worlds;
 
     #[test]
     fn no_other_quadric_empties_to_a_lower_point() {

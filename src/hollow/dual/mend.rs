@@ -28,7 +28,7 @@ type Eigen10 = SymmetricEigen<f64, Const<10>>;
 ///
 /// and it leaves g alone, as both derivatives do: extreme points do not feel g's length.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Mend {
+pub(crate) struct Mend {
     stretch: Matrix10,
     shift: Vector10,
 }
@@ -94,9 +94,9 @@ fn of_eigen(eigen: &Eigen10, function: impl Fn(f64) -> f64) -> Matrix10 {
 #[cfg(test)]
 mod tests {
     use super::super::reach::{Reach, Scale};
-    use super::super::worlds;
     use super::*;
     use crate::goal::Objective;
+    use crate::hollow::worlds;
 
     #[test]
     fn thinned_columns_osculate_all_of_them_where_they_are_mended_and_still_make_a_convex_set() {

@@ -1,8 +1,8 @@
 //! The least of a smooth function of one number whose slope comes free with its value.
 
-use super::ascent::Climb;
-use super::programme::DualPoint;
-use super::solution::{Tangent, Warm};
+use crate::hollow::dual::ascent::Climb;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::solution::{Tangent, Warm};
 
 /// Rounds of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
@@ -27,7 +27,7 @@ const TRUSTED_RATIO: f64 = 10.0;
 
 /// The function at one place.
 #[derive(Debug, Clone)]
-pub(super) struct Sample {
+pub(crate) struct Sample {
     pub at: f64,
     pub value: f64,
     pub slope: f64,
@@ -48,7 +48,7 @@ impl Sample {
 
 /// Where the function is to be sampled, how exactly, and the sample before.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(crate) struct Place<'a> {
     pub at: f64,
     pub tolerance: f64,
     pub near: Option<&'a Sample>,
@@ -56,7 +56,7 @@ pub(super) struct Place<'a> {
 
 /// The lowest point of a valley.
 #[derive(Debug, Clone)]
-pub(super) struct Bottom {
+pub(crate) struct Bottom {
     pub sample: Sample,
     /// The derivative of the slope there.
     pub curvature: f64,
@@ -90,7 +90,7 @@ impl Bottom {
 
 /// A search for the place where the slope turns from falling to rising.
 #[derive(Debug, Clone)]
-pub(super) struct Valley {
+pub(crate) struct Valley {
     /// The bottom lies between these, as far as trusted samples tell.
     low: f64,
     high: f64,

@@ -1,12 +1,12 @@
 //! What floats: the lowest centre of mass over the centre of buoyancy at the mass that the water
 //! carries.
 
-use super::answer::Answer;
-use super::ascent::End;
-use super::programme::{DualPoint, Programme, index};
-use super::status::Status;
-use super::work::Work;
 use crate::goal::{Afloat, Objective};
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::ascent::End;
+use crate::hollow::dual::programme::{DualPoint, Programme, index};
+use crate::hollow::dual::work::Work;
+use crate::hollow::status::Status;
 
 /// A proved distance of the centre of mass from its place below which the constraints count as met,
 /// in the solver's units: the residual that is accepted.
@@ -14,7 +14,7 @@ const TRIM_TOLERANCE: f64 = 1e-7;
 
 /// The interior of the right mass, with its centre above that of buoyancy and as low as it can be;
 /// or the proof that at this waterline there is none, or none that rights itself.
-pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let afloat = work.goal.afloat.unwrap_or_default();
     if let Some(answer) = out_of_range(work, objective, &afloat) {
         return answer;
@@ -78,11 +78,11 @@ fn cannot_trim(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Ans
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds::{self, World};
-    use super::super::{Figure, Settings, Solution, refine, solve as solved};
     use super::*;
     use crate::base::watch::Watch;
     use crate::geom::Point;
+    use crate::hollow::worlds::{self, World};
+    use crate::hollow::{Figure, Settings, Solution, refine, solve as solved};
     use crate::interior::moments_where_positive;
 
     fn solution(world: &World) -> Solution {

@@ -1,11 +1,11 @@
 //! The proof over every height: a finite set of intervals in each of which no interior is better.
 
-use super::ascent::{End, Slack, Visit};
 use super::heights::Heights;
-use super::programme::{DualPoint, Programme};
-use super::reach::Vector10;
-use super::solution::Stage;
 use super::valley::Bottom;
+use crate::hollow::dual::ascent::{End, Slack, Visit};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::reach::Vector10;
+use crate::hollow::solution::Stage;
 
 /// Posts at most. A smooth valley takes about twenty.
 const MOST_POSTS: usize = 400;
@@ -39,7 +39,7 @@ const COUNTED_REACH: f64 = 0.85;
 /// height. With T's bottom at ℓ* and curvature c, δ ≈ ½c(ℓ − ℓ*)²: the reach of a post grows with
 /// its distance from the bottom, and the posts for a precision of ε number about log(1/ε), not
 /// 1/√ε.
-pub(super) struct Cover<'a> {
+pub(crate) struct Cover<'a> {
     pub heights: &'a Heights<'a>,
     pub target: f64,
     /// The lever of the interiors it is about; none where it is about all.
@@ -50,7 +50,7 @@ pub(super) struct Cover<'a> {
 
 /// Why a claim was not proved.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Doubt {
+pub(crate) enum Doubt {
     /// An interior below the target has its centre at this height.
     Refuted(f64),
     /// It was not found out.
@@ -59,7 +59,7 @@ pub(super) enum Doubt {
 
 /// A dual point at ℓ that speaks for all heights within its reach.
 #[derive(Debug, Clone)]
-pub(super) struct Post {
+pub(crate) struct Post {
     pub at: f64,
     /// δ
     pub margin: f64,
@@ -73,7 +73,7 @@ pub(super) struct Post {
 /// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme
 /// point of K.
 #[derive(Debug, Clone)]
-pub(super) struct Stake {
+pub(crate) struct Stake {
     /// g
     pub direction: Vector10,
     pub least: f64,
@@ -234,11 +234,11 @@ fn aimed(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint 
 
 #[cfg(test)]
 mod tests {
-    use super::super::work::Work;
-    use super::super::{Settings, worlds};
     use super::*;
     use crate::base::watch::Watch;
     use crate::goal::Objective;
+    use crate::hollow::dual::work::Work;
+    use crate::hollow::{Settings, worlds};
 
     #[test]
     fn a_true_claim_is_proved_and_a_false_one_is_refuted() {

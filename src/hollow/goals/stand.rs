@@ -1,14 +1,14 @@
 //! The standing object: the largest tilt before it topples, or the lowest centre over the middle of
 //! its support.
 
-use super::answer::Answer;
-use super::programme::{DualPoint, Programme};
-use super::status::Status;
-use super::work::Work;
 use crate::goal::Objective;
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::work::Work;
+use crate::hollow::status::Status;
 
 /// The best interior of a standing object, or the proof that none stands.
-pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = match objective {
         Objective::LowestCenter => Programme::stand_lowest_center(&work.reach),
         _ => Programme::stand_toppling(&work.reach, work.goal),

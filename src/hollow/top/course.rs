@@ -1,14 +1,14 @@
 //! How an answer came about, for people to look at: value and bound pass by pass, and a top's speed
 //! by height.
 
-use super::answer::Answer;
 use super::heights::Heights;
-use super::problem::Problem;
-use super::settings::Settings;
-use super::solution::{Figure, Pass, Solution};
-use super::work::Work;
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::work::Work;
+use crate::hollow::problem::Problem;
+use crate::hollow::problem::Settings;
+use crate::hollow::solution::{Figure, Pass, Solution};
 
 /// Heights at which a top's speed is found: fewer draw corners, more cost an ascent each.
 const HEIGHTS: usize = 33;
@@ -72,8 +72,8 @@ fn speeds(heights: &Heights) -> Vec<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{solve, worlds};
     use super::*;
+    use crate::hollow::{solve, worlds};
 
     #[test]
     fn the_optimum_is_the_least_of_the_curve_over_heights_and_where_the_ascent_ends() {

@@ -13,7 +13,7 @@ const ACTIVE_TOLERANCE: f64 = 1e-13;
 /// The set the dual weights y live in; its support function is the convex part of a goal's
 /// numerator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum DualSet {
+pub(crate) enum DualSet {
     /// ‖y‖ ≤ 1: the numerator has a Euclidean norm; in two dimensions also the λ_max of a 2 × 2
     /// tensor.
     Ball,

@@ -1,15 +1,15 @@
 //! The yo-yo: the functional asked for, and the dominance that decides whether it is worth
 //! anything.
 
-use super::answer::Answer;
-use super::ascent::{Climb, End};
-use super::programme::{DualPoint, Programme};
-use super::status::Status;
-use super::work::Work;
 use crate::goal::Objective;
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::ascent::{Climb, End};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::work::Work;
+use crate::hollow::status::Status;
 
 /// The best interior of a yo-yo, or the proof that its axis cannot be made dominant.
-pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     if objective == Objective::Dominance {
         return dominance(work, start);
     }

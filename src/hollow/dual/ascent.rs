@@ -4,18 +4,18 @@ use nalgebra::{DMatrix, DVector};
 
 use super::programme::{DualPoint, Programme, index};
 use super::reach::{Extreme, Reach, Vector10};
-use super::solution::Pass;
 use crate::base::watch::Watch;
+use crate::hollow::solution::Pass;
 
 /// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and
 /// the first steps overshoot to where the model is worthless; ten times more costs a pass an
 /// ascent.
-pub(super) const COLD_DAMPING: f64 = 1e-2;
+pub(crate) const COLD_DAMPING: f64 = 1e-2;
 /// The first damping near a known answer, where the model is good. A hundred times more costs a
 /// pass an ascent.
-pub(super) const WARM_DAMPING: f64 = 1e-4;
+pub(crate) const WARM_DAMPING: f64 = 1e-4;
 /// The first damping where a scout has been: the model is all but exact there.
-pub(super) const SCOUTED_DAMPING: f64 = 1e-7;
+pub(crate) const SCOUTED_DAMPING: f64 = 1e-7;
 /// Damping below this part is none; above the greatest the steps are shorter than rounding.
 const LEAST_DAMPING: f64 = 1e-12;
 const GREATEST_DAMPING: f64 = 1e9;
@@ -43,7 +43,7 @@ const PROOF_TOLERANCE: f64 = 1e-3;
 
 /// A dual point, its quadric's extreme interior, and what they prove.
 #[derive(Debug, Clone)]
-pub(super) struct Visit {
+pub(crate) struct Visit {
     pub point: DualPoint,
     /// The quadric's coefficients in the solver's units.
     pub quadric: Vector10,
@@ -128,7 +128,7 @@ impl Visit {
 
 /// How an ascent ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum End {
+pub(crate) enum End {
     /// Residual and gap are within the tolerance.
     Converged,
     /// No step gains any more.
@@ -143,7 +143,7 @@ pub(super) enum End {
 
 /// Where an ascent came to.
 #[derive(Debug, Clone)]
-pub(super) struct Climb {
+pub(crate) struct Climb {
     pub best: Visit,
     pub end: End,
     /// Value and bound of every point it was at, the last one `best`.
@@ -169,7 +169,7 @@ impl Climb {
 
 /// When a bound is good enough.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Slack {
+pub(crate) struct Slack {
     /// It may still rise by this share of itself,
     pub share: f64,
     /// or it is this much.
@@ -178,7 +178,7 @@ pub(super) struct Slack {
 
 /// What an ascent may cost and whom it obeys.
 #[derive(Clone, Copy)]
-pub(super) struct Budget<'a> {
+pub(crate) struct Budget<'a> {
     pub tolerance: f64,
     /// When the bound is good enough whatever the tolerance; none where it never is.
     pub slack: Option<Slack>,
@@ -194,7 +194,7 @@ pub(super) struct Budget<'a> {
 /// model over y ∈ Y and all λ, with τ moved to where D vanishes (Dinkelbach, "On nonlinear
 /// fractional programming", Management Science 13, 1967). Damping follows Levenberg and Marquardt.
 /// Near the optimum every step squares the error.
-pub(super) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
+pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes.saturating_sub(1);
     let mut here = start;
     let mut stride = Stride::first(programme, budget);
@@ -418,7 +418,7 @@ fn separation(
 
 /// The same from where the proof is to be looked for: multipliers of the rows, as the weights of
 /// [`Programme::feasibility`].
-pub(super) fn refusal(
+pub(crate) fn refusal(
     reach: &Reach,
     programme: &Programme,
     start: DualPoint,
@@ -443,9 +443,9 @@ pub(super) fn refusal(
 #[cfg(test)]
 mod tests {
     use super::super::reach::Scale;
-    use super::super::worlds;
     use super::*;
     use crate::goal::Objective;
+    use crate::hollow::worlds;
 
     /// A dual point of the egg's dominance where no column is about to be touched or left by the
     /// quadric.

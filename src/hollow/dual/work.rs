@@ -5,18 +5,18 @@ use std::cell::RefCell;
 use super::ascent::{
     Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb, refusal,
 };
-use super::cover::Post;
-use super::problem::Problem;
 use super::programme::{DualPoint, Programme};
 use super::reach::{Heavy, Reach, Scale};
 use super::scout::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
-use super::settings::Settings;
-use super::solution::{LogRow, Stage};
 use crate::base::watch::Watch;
 use crate::goal::Goal;
+use crate::hollow::problem::Problem;
+use crate::hollow::problem::Settings;
+use crate::hollow::solution::{LogRow, Stage};
+use crate::hollow::top::cover::Post;
 
 /// What every search of one run shares.
-pub(super) struct Work<'a> {
+pub(crate) struct Work<'a> {
     pub goal: &'a Goal,
     pub reach: Reach<'a>,
     pub settings: &'a Settings,

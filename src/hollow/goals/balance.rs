@@ -2,19 +2,19 @@
 
 use std::f64::consts::SQRT_2;
 
-use super::answer::Answer;
-use super::ascent::{Climb, End};
-use super::programme::{DualPoint, Programme};
-use super::status::Status;
-use super::work::Work;
 use crate::goal::{Objective, Spindle};
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::ascent::{Climb, End};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::work::Work;
+use crate::hollow::status::Status;
 
 /// The balanced interior with the most material, or, where none is balanced, the least unbalanced
 /// one; with the proof that none reaches the grade, where none does.
 ///
 /// Whichever was asked for: no unbalance at all is the least, and of the interiors that have none
 /// the one with the most material is as good as any.
-pub(super) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
+pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_least_removed();
     let climb = work.ascend(&programme, start);
     let is_balanced = work.accepts(&climb) || objective == Objective::LeastRemoved;
@@ -44,7 +44,7 @@ fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> A
 /// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the
 /// two planes' unbalances per mass, times ω; the larger of two vectors is at least their joint
 /// length over √2.
-pub(super) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
+pub(crate) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
     SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
 }
 
@@ -68,10 +68,10 @@ fn cannot_balance(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Statu
 
 #[cfg(test)]
 mod tests {
-    use super::super::worlds::{self, World};
-    use super::super::{Figure, Settings, Solution, refine, solve as solved};
     use super::*;
     use crate::base::watch::Watch;
+    use crate::hollow::worlds::{self, World};
+    use crate::hollow::{Figure, Settings, Solution, refine, solve as solved};
     use crate::mass::Moments;
 
     fn solution(world: &World) -> Solution {

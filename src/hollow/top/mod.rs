@@ -1,17 +1,24 @@
 //! The top: the best height of the centre, whether any is stable, and the proof over all of them.
 
-use super::answer::Answer;
-use super::ascent::Climb;
-use super::cover::{Cover, Doubt, Post};
-use super::frontier::Frontier;
-use super::heights::Heights;
-use super::lever::Weighed;
-use super::programme::{Programme, index};
-use super::solution::Warm;
-use super::status::Status;
-use super::valley::{Bottom, Sample, Valley};
-use super::work::Work;
+pub(crate) mod course;
+pub(crate) mod cover;
+mod frontier;
+pub(crate) mod heights;
+mod lever;
+mod valley;
+
+use self::cover::{Cover, Doubt, Post};
+use self::frontier::Frontier;
+use self::heights::Heights;
+use self::lever::Weighed;
+use self::valley::{Bottom, Sample, Valley};
 use crate::goal::Objective;
+use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::ascent::Climb;
+use crate::hollow::dual::programme::{Programme, index};
+use crate::hollow::dual::work::Work;
+use crate::hollow::solution::Warm;
+use crate::hollow::status::Status;
 
 /// By how much of the value another height might still be better than the bound over all heights
 /// says. A hundredth of it costs a quarter more posts; below 1e-8 the bottom itself is not known
@@ -26,7 +33,7 @@ const MOST_PLANS: usize = 2;
 const MOST_LOOKS: usize = 8;
 
 /// The best interior of a top, or the proof that no interior makes it stable.
-pub(super) fn solve(work: &Work, objective: Objective) -> Answer {
+pub(crate) fn solve(work: &Work, objective: Objective) -> Answer {
     scouted(work, objective).unwrap_or_else(|| from_nothing(work, objective))
 }
 
@@ -133,7 +140,7 @@ fn from_nothing(work: &Work, objective: Objective) -> Answer {
 
 /// The same search near a known answer, in a few passes: its dual point, height and curvature are
 /// aimed by. None where the ground has changed too much for that.
-pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
+pub(crate) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<Answer> {
     let hint = warm.height?;
     let heights = Heights {
         work,
@@ -159,7 +166,7 @@ pub(super) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
 
 /// A lower bound of the ratio over all heights and levers, proved on all columns near a known
 /// answer; none where that does not succeed.
-pub(super) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
+pub(crate) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
     let scout = work.scout()?;
     let heights = Heights {
         work,
@@ -281,10 +288,10 @@ fn unstable(heights: Heights, tried: Found) -> Answer {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Settings, worlds};
     use super::*;
     use crate::base::watch::Watch;
     use crate::geom::Quadric;
+    use crate::hollow::{Settings, worlds};
     use crate::interior::moments_where_positive;
 
     const OBJECTIVES: [Objective; 3] = [
