@@ -1,0 +1,249 @@
+//! Holds the house in order: which room may see which, and the rules every file keeps.
+
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+
+mod arrows;
+mod functions;
+mod names;
+mod prose;
+mod scanner;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+use scanner::first_word;
+
+/// Who may see whom: a room and everything it may import. A new arrow is a decision, written down
+/// here.
+///
+/// base → geom → mesh → repair → io | shell → mass → goal | printer → interior → hollow → ballast →
+/// job | voids → cut → report → pipeline → cli. `verify` sees nothing of shell, interior, hollow,
+/// voids and cut: the judge does not know the accused.
+const ARROWS: &[(&str, &[&str])] = &[
+    ("base", &[]),
+    ("geom", &["base"]),
+    ("mesh", &["base", "geom"]),
+    ("repair", &["geom", "mesh"]),
+    ("io", &["repair", "geom", "mesh", "base"]),
+    ("shell", &["geom", "mesh", "base"]),
+    ("mass", &["geom", "mesh", "base"]),
+    ("goal", &["geom", "mass", "mesh", "shell", "base"]),
+    ("hardware", &["geom", "goal", "mass", "mesh", "base"]),
+    ("printer", &["base"]),
+    ("interior", &["geom", "mass", "mesh", "base", "shell"]),
+    (
+        "hollow",
+        &["geom", "goal", "interior", "mass", "mesh", "base", "shell"],
+    ),
+    (
+        "ballast",
+        &[
+            "geom", "goal", "hollow", "interior", "mass", "mesh", "printer", "base", "shell",
+        ],
+    ),
+    (
+        "advice",
+        &[
+            "geom", "goal", "hollow", "interior", "mass", "mesh", "base", "shell",
+        ],
+    ),
+    (
+        "voids",
+        &["repair", "geom", "mass", "mesh", "base", "shell"],
+    ),
+    (
+        "cut",
+        &["repair", "geom", "mass", "mesh", "printer", "base", "voids"],
+    ),
+    (
+        "verify",
+        &[
+            "repair", "base", "geom", "goal", "io", "mass", "mesh", "printer",
+        ],
+    ),
+    ("draw", &["base", "geom", "mesh"]),
+    ("sheet", &["base", "geom", "verify"]),
+    (
+        "page",
+        &[
+            "base", "draw", "geom", "goal", "mass", "mesh", "repair", "sheet", "verify",
+        ],
+    ),
+    ("kit", &[]),
+    (
+        "coupon",
+        &["geom", "io", "kit", "mesh", "page", "printer", "base"],
+    ),
+    ("job", &["ballast", "cut", "base", "goal"]),
+    (
+        "error",
+        &[
+            "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior", "io",
+            "job", "kit", "mesh", "printer", "sheet", "shell", "verify", "voids",
+        ],
+    ),
+    (
+        "pipeline",
+        &[
+            "repair", "advice", "ballast", "cut", "base", "draw", "error", "geom", "goal",
+            "hardware", "hollow", "interior", "io", "job", "kit", "mass", "mesh", "page",
+            "printer", "sheet", "shell", "verify", "voids",
+        ],
+    ),
+    (
+        "cli",
+        &[
+            "repair", "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job",
+            "kit", "mass", "mesh", "page", "pipeline", "printer", "base", "sheet", "verify",
+        ],
+    ),
+    ("guide", &[]),
+    ("lib", &[]),
+    ("main", &["cli"]),
+];
+
+/// Traces of work that was not finished.
+const SCAFFOLDING: [&str; 4] = ["TODO", "FIXME", "XXX", "HACK"];
+/// What the compiler and clippy refuse for us.
+const LINTS: [&str; 7] = [
+    "unsafe_code = \"forbid\"",
+    "missing_docs = \"warn\"",
+    "unwrap_used = \"warn\"",
+    "expect_used = \"warn\"",
+    "panic = \"warn\"",
+    "dbg_macro = \"warn\"",
+    "todo = \"warn\"",
+];
+/// Calls that print, which only the command line may make.
+const PRINTS: [&str; 4] = ["println!(", "eprintln!(", "print!(", "eprint!("];
+
+#[test]
+fn every_room_sees_only_the_rooms_it_may() {
+    let allowed: BTreeMap<&str, &[&str]> = ARROWS.iter().copied().collect();
+    let wrong = scanner::program().flat_map(|source| {
+        let here = source.room();
+        let may = allowed.get(here).copied();
+        let strange = rooms_seen(&source.code)
+            .into_iter()
+            .filter(move |seen| *seen != here && !may.is_some_and(|may| may.contains(seen)));
+        strange.map(|seen| format!("{} sees {seen}", source.path.display()))
+    });
+    holds(
+        wrong,
+        "an arrow points the wrong way, or a room is missing in ARROWS",
+    );
+}
+
+#[test]
+fn the_rooms_form_no_circle() {
+    let mut placed = BTreeSet::new();
+    while placed.len() < ARROWS.len() {
+        let next = ARROWS
+            .iter()
+            .find(|(room, sees)| !placed.contains(room) && sees.iter().all(|s| placed.contains(s)));
+        let Some((room, _)) = next else {
+            panic!("a circle among the rooms besides {placed:?}")
+        };
+        placed.insert(room);
+    }
+}
+
+#[test]
+fn every_file_says_first_what_lives_in_it() {
+    let wrong = scanner::program().filter(|source| !source.text.starts_with("//! "));
+    holds(
+        wrong.map(|source| source.path.display().to_string()),
+        "the first line must be `//! …`",
+    );
+}
+
+#[test]
+fn nothing_is_left_unfinished() {
+    let wrong = scanner::program().flat_map(|source| {
+        let left = SCAFFOLDING
+            .iter()
+            .filter(|word| source.text.contains(**word));
+        left.map(|word| format!("{}: {word}", source.path.display()))
+    });
+    holds(wrong, "finish it, or open an issue");
+}
+
+#[test]
+fn only_the_command_line_prints() {
+    let quiet = scanner::program().filter(|source| !matches!(source.room(), "cli" | "main"));
+    let prints = quiet.flat_map(|source| {
+        let calls = PRINTS
+            .iter()
+            .flat_map(|call| source.code.match_indices(call));
+        calls.map(|(at, call)| format!("{}: {call}", source.place(at)))
+    });
+    holds(prints, "return a value, or report progress");
+}
+
+#[test]
+fn the_compiler_keeps_out_unsafe_code_panics_and_undocumented_items() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let library = fs::read_to_string(root.join("src/lib.rs")).unwrap();
+    assert!(library.contains("#![forbid(unsafe_code)]"));
+    let manifest = fs::read_to_string(root.join("Cargo.toml")).unwrap();
+    for lint in LINTS {
+        assert!(manifest.contains(lint), "{lint} is missing in Cargo.toml");
+    }
+}
+
+#[test]
+fn rooms_are_seen_by_the_paths_that_name_them() {
+    let code = "use crate::{geom::{Point, Vector}, mesh};\nlet x = crate::io::name(crate::Error);";
+    assert_eq!(rooms_seen(code), BTreeSet::from(["geom", "io", "mesh"]));
+}
+
+/// Fails with every fault on its own line.
+fn holds(faults: impl Iterator<Item = String>, remedy: &str) {
+    at_most(0, faults, remedy);
+}
+
+/// Fails with every fault on its own line if there are more than a ceiling allows.
+fn at_most(ceiling: usize, faults: impl Iterator<Item = String>, remedy: &str) {
+    let faults: Vec<String> = faults.collect();
+    println!("{} of at most {ceiling}: {remedy}", faults.len());
+    assert!(
+        faults.len() <= ceiling,
+        "{remedy} ({}, at most {ceiling}):\n{}",
+        faults.len(),
+        faults.join("\n")
+    );
+}
+
+/// The rooms named in `crate::…` paths.
+fn rooms_seen(code: &str) -> BTreeSet<&str> {
+    let paths = code
+        .match_indices("crate::")
+        .map(|(at, path)| &code[at + path.len()..]);
+    let words = paths.flat_map(|rest| match rest.strip_prefix('{') {
+        Some(group) => top_level(group),
+        None => vec![first_word(rest)],
+    });
+    words
+        .filter(|word| word.starts_with(char::is_lowercase))
+        .collect()
+}
+
+/// The first words of the items of a list that ends with the brace it was opened with.
+fn top_level(group: &str) -> Vec<&str> {
+    let mut depth = 0;
+    let mut words = vec![first_word(group)];
+    for (at, c) in group.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth == 0 => break,
+            '}' => depth -= 1,
+            ',' if depth == 0 => words.push(first_word(&group[at + 1..])),
+            _ => {}
+        }
+    }
+    words
+}
