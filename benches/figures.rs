@@ -26,7 +26,7 @@ use equipoise::io::stl;
 use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
 use equipoise::mass::moments_of_mesh;
 use equipoise::mesh::{Solid, scaled};
-use equipoise::pipeline;
+use equipoise::prepare::prepare;
 use equipoise::printer::Printer;
 use equipoise::repair::repair;
 use equipoise::shell::Shell;
@@ -376,5 +376,5 @@ fn void_bodies(bencher: Bencher, name: &str) {
 #[divan::bench(args = names(), sample_count = 1, sample_size = 1)]
 fn whole_prepare(bencher: Bencher, name: &str) {
     let job = scene(name).job();
-    bencher.bench(|| pipeline::run(black_box(&job), &Watch::silent()).unwrap());
+    bencher.bench(|| prepare(black_box(&job), &Watch::silent()).unwrap());
 }

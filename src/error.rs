@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::ballast::{BallastError, Order};
+use crate::base::watch::Cancelled;
 use crate::cut::CutError;
 use crate::draw::PictureError;
 use crate::goal::GoalError;
@@ -141,4 +142,10 @@ pub enum Error {
     /// The caller stopped the run.
     #[error("stopped before the end")]
     Cancelled,
+}
+
+impl From<Cancelled> for Error {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }

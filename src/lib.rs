@@ -12,13 +12,13 @@
 //! columns, [`hollow`] solves, [`advice`] says what helps where that is impossible, [`voids`] draws
 //! the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without
 //! knowing how it was made, [`sheet`] and [`page`] put the job sheet together, [`kit`] writes it; [`coupon`] lets a shop measure what
-//! its printer does; [`pipeline::run`] is that line.
+//! its printer does; [`prepare::prepare`] is that line.
 //!
 //! # Example
 //! ```no_run
 //! use equipoise::goal::{GoalKind, Request};
 //! use equipoise::job::{Job, ModelChoice, PrinterChoice, Scaling};
-//! use equipoise::pipeline::{Outcome, run};
+//! use equipoise::prepare::{Outcome, prepare};
 //! use equipoise::base::watch::Watch;
 //! use equipoise::kit::Existing;
 //!
@@ -29,7 +29,7 @@
 //! };
 //! let printer = PrinterChoice { id: "objet-connex350".into(), material: None };
 //! let job = Job::new(model, printer, Request::new(GoalKind::Top));
-//! match run(&job, &Watch::silent())? {
+//! match prepare(&job, &Watch::silent())? {
 //!     Outcome::Prepared(prepared) => prepared.kit.write("top-kit".as_ref(), Existing::Keep)?,
 //!     Outcome::Impossible(why) => println!("{}", why.reason),
 //! }
@@ -55,12 +55,15 @@ pub mod interior;
 pub mod io;
 pub mod job;
 pub mod kit;
+pub mod make;
 pub mod mass;
 pub mod mesh;
+pub mod open;
 pub mod page;
-pub mod pipeline;
+pub mod prepare;
 pub mod printer;
 pub mod repair;
+pub mod run;
 pub mod sheet;
 pub mod shell;
 #[cfg(test)]

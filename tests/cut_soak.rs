@@ -21,9 +21,9 @@ use equipoise::cut::{
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
+use equipoise::make::write;
 use equipoise::mass::moments_of_mesh;
 use equipoise::mesh::{Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, primitives};
-use equipoise::pipeline::WrittenPart;
 use equipoise::printer::Cleaning;
 use equipoise::repair::{one_body, repair, weld};
 
@@ -341,7 +341,7 @@ fn along(pin: &PinSite, height_mm: f64) -> Point {
 
 fn assert_written_parts_are_sound(told: &str, made: &[Part]) {
     for part in made {
-        let written = WrittenPart::of(part.clone(), "soak", made.len(), [1.0; 3]).unwrap();
+        let written = write(part.clone(), &format!("soak_{}", part.id), [1.0; 3]).unwrap();
         let surface = weld(&written.read_back);
         let crossings = Crossings::of(&surface).pairs;
         let defect = Solid::new(surface).err();

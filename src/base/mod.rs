@@ -4,5 +4,6 @@ pub mod digest;
 pub mod numbers;
 pub mod toml_text;
 pub mod units;
+pub mod verdict;
 pub mod watch;
 pub mod words;

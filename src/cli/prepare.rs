@@ -11,7 +11,7 @@ use crate::advice::Remedy;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::kit::Existing;
-use crate::pipeline::{Failure, Impossible, Outcome, Prepared, run};
+use crate::prepare::{self, Failure, Impossible, Outcome, Prepared};
 
 /// Why `prepare` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -49,8 +49,8 @@ pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<E
     };
     existing.allows(&request.out).map_err(Error::from)?;
     let bars = Bars::new(voice.manner);
-    let observer = bars.observer();
-    let outcome = run(&request.job, &Watch::observed(&observer));
+    let watch = Watch::observed(bars.observer());
+    let outcome = prepare::prepare(&request.job, &watch);
     bars.finish();
     match outcome? {
         Outcome::Prepared(prepared) => {

@@ -3,6 +3,7 @@
 
 mod access;
 mod error;
+mod for_printer;
 mod geometry;
 mod ids;
 mod joints;

@@ -6,6 +6,7 @@ mod frame;
 mod parting;
 mod plane;
 mod quadric;
+pub mod rings;
 pub mod triangle;
 
 pub use aabb::Aabb;

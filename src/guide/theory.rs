@@ -28,7 +28,7 @@
 //! What floats has its mass, and the place of its centre seen from above, as equations, and the
 //! height of the centre as a linear function to make least; the metacentre c_b + I_w/V_b depends on
 //! the outside alone, so the lowest centre is the most stable. A free waterline is one more number
-//! to search ([`crate::pipeline`]).
+//! to search ([`crate::prepare`]).
 //!
 //! A rotor's axis is free when s_x = s_y = s_xz = s_yz = 0, and the least material is removed by a
 //! linear programme. Where the equations cannot be met, the unbalances U_A, U_B in two planes are
@@ -91,4 +91,4 @@
 //! What is printed is a triangle mesh with pins, sockets and clearances, not the solver's columns.
 //! It is measured exactly, δ = s(mesh) − s(columns), and the problem is solved again with δ added
 //! to the material that stays. δ hardly depends on g, so a few rounds bring the written parts to
-//! the constraints ([`crate::pipeline`]).
+//! the constraints ([`crate::prepare`]).

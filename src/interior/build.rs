@@ -10,8 +10,6 @@ use crate::base::units::show_mm;
 use crate::base::watch::Watch;
 use crate::shell::{Bins, Ruler, Shell};
 
-/// The name of this phase in progress reports.
-const PHASE: &str = "columns";
 /// Rows a thread sweeps at a time. More make the last blocks wait for one thread; fewer list every
 /// piece in more blocks. Has no influence on the result.
 const ROWS_PER_BLOCK: usize = 8;
@@ -144,7 +142,7 @@ struct Sweep<'a> {
 impl Sweep<'_> {
     /// Every block of rows, in order.
     fn run(&self, watch: &Watch) -> Result<Vec<Block>, BuildError> {
-        watch.report(PHASE, 0.0);
+        watch.advance(0.0);
         let blocks = self.grid.ys.len().div_ceil(ROWS_PER_BLOCK);
         let done = AtomicUsize::new(0);
         let sweep = |row: &mut Row, block| {
@@ -152,10 +150,7 @@ impl Sweep<'_> {
                 return Err(BuildError::Cancelled);
             }
             let swept = self.block(row, block);
-            watch.report(
-                PHASE,
-                (done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64,
-            );
+            watch.advance((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64);
             Ok(swept)
         };
         (0..blocks)

@@ -40,7 +40,7 @@ pub use figure::{Picture, Role};
 pub use inputs::PageInputs;
 pub use job_id::JobId;
 pub use job_sheet::page;
-pub use plate::part_picture_file;
+
 pub use printing::cup_warning;
 pub use subject::Subject;
 pub use view::View;

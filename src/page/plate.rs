@@ -6,6 +6,7 @@ use crate::base::numbers::number;
 use crate::draw::{Camera, Color, Label, PLATE, Scene, Shot, still, turned};
 use crate::geom::{Aabb, Point, Vector};
 use crate::mesh::TriMesh;
+use crate::sheet::part_picture_file;
 use crate::verify::PartEvidence;
 
 /// Width and height of a picture, pixels: sharp at a third of the width of an A4 page.
@@ -127,11 +128,6 @@ fn lengths(part: &Aabb) -> Vec<Label> {
             words("z", size.z),
         ),
     ]
-}
-
-/// The file of the picture of one part.
-pub fn part_picture_file(id: &str) -> String {
-    format!("pictures/{id}.svg")
 }
 
 #[cfg(test)]

@@ -2,6 +2,7 @@
 
 mod certificate;
 mod checklist;
+pub mod from_run;
 mod goal;
 mod joints;
 mod parts;
@@ -15,7 +16,7 @@ pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, Pa
 pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, Tool, Verdict};
 pub use goal::{FootRow, GoalRow, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JointRow, RoundRow};
-pub use parts::{PartRow, SupportRow, finished_size_mm};
+pub use parts::{PartRow, SupportRow, finished_size_mm, part_picture_file};
 pub use printer::{GridRow, MaterialRow, PrinterRow, WallRow};
 pub use timing::Timing;
 pub(crate) use voids::checks_of_void;

@@ -101,6 +101,11 @@ fn bounds(piece: &Hardware) -> Aabb {
     about(from, flat).union(&end)
 }
 
+/// The file of the picture of one part.
+pub fn part_picture_file(id: &str) -> String {
+    format!("pictures/{id}.svg")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,10 +1,9 @@
 //! A sound checklist for the tests of the paperwork: the hollow box of the judge's tests.
 
 use crate::geom::{Parting, Plane, Point, Vector};
-use crate::page::{
-    CutFace, Mouth, Picture, Region, Subject, View, album, drawings, part_picture_file,
-};
+use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, album, drawings};
 use crate::repair::weld;
+use crate::sheet::part_picture_file;
 use crate::sheet::*;
 use crate::verify::judge_tests::sound;
 use crate::verify::{

@@ -164,7 +164,7 @@ fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>,
     })?;
     let mut dirty = extractor.leaves();
     for round in 0..CHECK_ROUNDS {
-        watch.report(PHASE, round as f64 / CHECK_ROUNDS as f64);
+        watch.advance(round as f64 / CHECK_ROUNDS as f64);
         stop_if_cancelled(watch)?;
         let drawn = extractor.settle(dirty);
         let refused = extractor.refused_leaves(&drawn, |corners| {
@@ -177,9 +177,6 @@ fn draw(limits: &Limits, bias_mm: f64, watch: &Watch) -> Result<Option<TriMesh>,
     }
     Ok(None)
 }
-
-/// The name under which the extraction reports its progress.
-const PHASE: &str = "cavity";
 
 fn stop_if_cancelled(watch: &Watch) -> Result<(), VoidError> {
     if watch.is_cancelled() {

@@ -6,6 +6,7 @@ mod crossing;
 mod decimate;
 mod extract;
 mod field;
+mod for_printer;
 mod grow;
 mod inscribed;
 mod lattice;

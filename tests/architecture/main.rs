@@ -53,7 +53,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ),
     (
         "voids",
-        &["repair", "geom", "mass", "mesh", "base", "shell"],
+        &["printer", "repair", "geom", "mass", "mesh", "base", "shell"],
     ),
     (
         "cut",
@@ -66,7 +66,13 @@ const ARROWS: &[(&str, &[&str])] = &[
         ],
     ),
     ("draw", &["base", "geom", "mesh"]),
-    ("sheet", &["base", "geom", "verify"]),
+    (
+        "sheet",
+        &[
+            "ballast", "base", "cut", "geom", "goal", "hardware", "hollow", "mass", "mesh",
+            "printer", "repair", "run", "verify",
+        ],
+    ),
     (
         "page",
         &[
@@ -82,23 +88,44 @@ const ARROWS: &[(&str, &[&str])] = &[
     (
         "error",
         &[
-            "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior", "io",
-            "job", "kit", "mesh", "printer", "sheet", "shell", "verify", "voids",
+            "base", "repair", "ballast", "cut", "draw", "goal", "hardware", "hollow", "interior",
+            "io", "job", "kit", "mesh", "printer", "sheet", "shell", "verify", "voids",
         ],
     ),
     (
-        "pipeline",
+        "run",
         &[
-            "repair", "advice", "ballast", "cut", "base", "draw", "error", "geom", "goal",
-            "hardware", "hollow", "interior", "io", "job", "kit", "mass", "mesh", "page",
-            "printer", "sheet", "shell", "verify", "voids",
+            "advice", "ballast", "base", "cut", "goal", "hardware", "hollow", "interior", "job",
+            "mass", "mesh", "printer", "repair", "verify",
+        ],
+    ),
+    (
+        "open",
+        &[
+            "ballast", "base", "cut", "error", "geom", "goal", "hollow", "job", "mass", "mesh",
+            "run", "voids",
+        ],
+    ),
+    (
+        "make",
+        &[
+            "base", "cut", "draw", "error", "geom", "io", "job", "mass", "mesh", "open", "printer",
+            "repair", "run", "verify",
+        ],
+    ),
+    (
+        "prepare",
+        &[
+            "advice", "ballast", "base", "cut", "error", "geom", "goal", "hardware", "hollow",
+            "interior", "io", "job", "kit", "make", "mass", "mesh", "open", "page", "printer",
+            "repair", "run", "sheet", "shell", "verify",
         ],
     ),
     (
         "cli",
         &[
             "repair", "advice", "ballast", "coupon", "cut", "error", "geom", "goal", "io", "job",
-            "kit", "mass", "mesh", "page", "pipeline", "printer", "base", "sheet", "verify",
+            "kit", "mass", "mesh", "page", "prepare", "printer", "base", "sheet", "verify",
         ],
     ),
     ("guide", &[]),

@@ -184,7 +184,7 @@ pub(crate) struct Budget<'a> {
     pub slack: Option<Slack>,
     pub passes: usize,
     pub first_damping: f64,
-    pub watch: &'a Watch<'a>,
+    pub watch: &'a Watch,
 }
 
 /// Climbs from a visit until residual and gap are within the budget's tolerance.

@@ -20,7 +20,7 @@ pub(crate) struct Work<'a> {
     pub goal: &'a Goal,
     pub reach: Reach<'a>,
     pub settings: &'a Settings,
-    watch: &'a Watch<'a>,
+    watch: &'a Watch,
     first_damping: f64,
     /// How exact ascents are at most.
     pub tolerance: f64,
@@ -37,7 +37,7 @@ struct Aim {
 }
 
 impl<'a> Work<'a> {
-    pub fn new(problem: &Problem<'a>, settings: &'a Settings, watch: &'a Watch<'a>) -> Self {
+    pub fn new(problem: &Problem<'a>, settings: &'a Settings, watch: &'a Watch) -> Self {
         // The scale is the solid's own, so that dual points stay valid when `fixed` is corrected.
         let scale = Scale::of(&problem.goal.solid);
         let reach = Reach::new(problem.columns, &problem.fixed, scale);

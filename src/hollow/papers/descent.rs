@@ -40,7 +40,7 @@ pub(super) struct Limits<'a> {
     /// The projected slope at which to end.
     pub slope: f64,
     pub evaluations: usize,
-    pub watch: &'a Watch<'a>,
+    pub watch: &'a Watch,
 }
 
 /// Where a descent came to.

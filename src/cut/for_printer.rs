@@ -1,0 +1,66 @@
+//! Requests for cuts that a printer can make.
+
+use super::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
+use crate::printer::{Grid, PrintPose, Printer, Quantity};
+
+impl PlanRequest {
+    /// Share of all voids' walls that a cut for cleaning alone must bring into sight. Below it a
+    /// kit gets joints and crumbs for nothing.
+    pub const WORTH_RATIO: f64 = 0.02;
+
+    /// Returns the request for a model whose longest side is `size_mm`, in the printer's walls,
+    /// openings, pins and grid.
+    ///
+    /// Cuts keep away from the point of `axis`. Pins are printed, ids are sunk into the cut faces,
+    /// and no void holds a part: change `rods`, `labels` and `seats` for anything else.
+    pub fn for_printer(printer: &Printer, size_mm: f64, axis: GoalAxis) -> Self {
+        let elephant_foot = printer.number(Quantity::ElephantFootMm);
+        let elephant_foot_mm = elephant_foot.map_or(0.0, |foot| foot.value);
+        let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
+        Self {
+            worth_ratio: Self::WORTH_RATIO,
+            wants_wide_joints: false,
+            min_opening_mm: printer.min_opening_mm.value,
+            cleaning: printer.cleaning_rule(),
+            build_volume_mm: printer.usable_volume_mm(),
+            wall_mm: printer.least_wall_mm(size_mm).value,
+            pins: PinSettings {
+                min_diameter_mm: printer.pin_min_diameter_mm.value,
+                length_ratio: printer.pin_length_ratio.value,
+                clearance_mm: printer.clearance_per_side_mm.value,
+                // The mouth of a socket on the plate must be wider than what spreads there.
+                chamfer_mm: printer.chamfer_mm.value.max(elephant_foot_mm),
+                bottom_relief_mm: printer.socket_extra_depth_mm.value,
+            },
+            axis,
+            pixel_mm,
+            hole_step_mm: if printer.grid == Grid::Pixel {
+                pixel_mm
+            } else {
+                0.0
+            },
+            layer_mm: printer.layer_mm.value,
+            pose: match printer.print_pose {
+                PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
+                PrintPose::CutFaceDown => PosePreference::CutFaceDown,
+            },
+            seats: Vec::new(),
+            rods: Vec::new(),
+            labels: Some(LabelStyle::for_printer(printer)),
+        }
+    }
+}
+
+impl LabelStyle {
+    /// Returns strokes as wide as the printer's least detail, or two pixels, and as deep in whole
+    /// layers.
+    pub fn for_printer(printer: &Printer) -> Self {
+        let pixel_mm = printer.pixel_x_mm.value.max(printer.pixel_y_mm.value);
+        let feature_mm = printer.min_feature_mm.value;
+        let layers = (feature_mm / printer.layer_mm.value).ceil();
+        Self {
+            stroke_mm: feature_mm.max(2.0 * pixel_mm),
+            depth_mm: layers * printer.layer_mm.value,
+        }
+    }
+}

@@ -1,0 +1,203 @@
+//! The 3MF files of a kit: each part, all of them in place, and the plates they are printed on.
+
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use crate::draw::part_color;
+use crate::error::Error;
+use crate::geom::{Aabb, Matrix, Vector};
+use crate::io::threemf::{Build, Object, Package, Transform};
+use crate::io::{decode_model, stl};
+use crate::job::PartFormat;
+use crate::mesh::TriMesh;
+use crate::printer::{Plate, Spot};
+use crate::run::{Made, Placed, WrittenPart};
+
+/// The name of the assembly in a kit.
+const ASSEMBLY: &str = "assembly.3mf";
+
+/// A file of the kit by its path, and its bytes.
+pub type File = (String, Vec<u8>);
+
+/// Puts the parts into the files that are judged: their STL files, or if the job asks for 3MF alone,
+/// their packages, read back.
+pub fn repack(placed: &Placed, mut made: Made) -> Result<Made, Error> {
+    if placed.job.format != PartFormat::ThreeMf {
+        return Ok(made);
+    }
+    let scale = Vector::from(placed.shop.printer.print_scale_ratio());
+    let parts = std::mem::take(&mut made.parts);
+    let parts = parts.into_par_iter().enumerate().map(|(index, part)| {
+        let printed = stl::decode(&part.bytes)?;
+        let (file, bytes) = pack(placed, &part, &[object(index, &part, &printed)])?;
+        let read_back = decode_model(&bytes)?;
+        Ok(WrittenPart {
+            file,
+            bytes,
+            read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+            ..part
+        })
+    });
+    made.parts = parts.collect::<Result<_, Error>>()?;
+    Ok(made)
+}
+
+/// The packages beside the judged files: twins of STL parts where both formats are asked for, the
+/// assembly and the plates.
+pub fn packages(placed: &Placed, made: &Made) -> Result<Vec<File>, Error> {
+    if placed.job.format == PartFormat::Stl {
+        return Ok(Vec::new());
+    }
+    let parts = &made.parts;
+    let printed: Vec<TriMesh> = parts
+        .par_iter()
+        .map(|part| decode_model(&part.bytes))
+        .collect::<Result<_, _>>()?;
+    let objects: Vec<Object> = (0..parts.len())
+        .into_par_iter()
+        .map(|i| object(i, &parts[i], &printed[i]))
+        .collect();
+    let mut jobs = plates(placed, &printed);
+    jobs.insert(0, (ASSEMBLY.to_owned(), together(placed, parts)));
+    let shared = jobs
+        .into_par_iter()
+        .map(|(file, (description, build))| package(placed, &objects, file, (description, build)));
+    let twins = (0..parts.len())
+        .into_par_iter()
+        .filter(|_| placed.job.format == PartFormat::Both);
+    let twins = twins.map(|i| pack(placed, &parts[i], &objects[i..=i]));
+    twins.chain(shared).collect()
+}
+
+/// What a package shows, and where its objects lie.
+type Arrangement = (String, Build);
+
+/// A part's own package, as it lies in print pose.
+fn pack(placed: &Placed, part: &WrittenPart, object: &[Object]) -> Result<File, Error> {
+    let file = Path::new(&part.file)
+        .with_extension("3mf")
+        .to_string_lossy()
+        .into_owned();
+    let description = format!("Part {} in print pose.", part.part.id);
+    let build = Build::Apart(vec![(0, Transform::default())]);
+    package(placed, object, file, (description, build))
+}
+
+fn object(index: usize, part: &WrittenPart, printed: &TriMesh) -> Object {
+    Object::new(&part.part.id, part_color(index), printed)
+}
+
+fn package(
+    placed: &Placed,
+    objects: &[Object],
+    file: String,
+    (description, build): Arrangement,
+) -> Result<File, Error> {
+    let title = Path::new(&file)
+        .file_stem()
+        .unwrap_or_default()
+        .to_string_lossy();
+    let title = format!("{} {title}", placed.name());
+    let bytes = Package {
+        title,
+        description,
+        job: placed.name(),
+        objects,
+        build,
+    }
+    .encode()?;
+    Ok((file, bytes))
+}
+
+/// The parts where they belong in the model: what was done to print them is undone.
+fn together(placed: &Placed, parts: &[WrittenPart]) -> Arrangement {
+    let unscaled = Vector::from(placed.shop.printer.print_scale_ratio()).map(f64::recip);
+    let size = Transform {
+        linear: Matrix::from_diagonal(&unscaled),
+        shift: Vector::zeros(),
+    };
+    let place = |(index, part): (usize, &WrittenPart)| {
+        let pose = part.evidence().pose;
+        let back = pose.rotation().transpose();
+        (
+            index,
+            size.then(&Transform {
+                linear: back,
+                shift: -(back * pose.translation()),
+            }),
+        )
+    };
+    let places = parts.iter().enumerate().map(place).collect();
+    let description = "The parts where they belong in the model, in its own axes.".to_owned();
+    (description, Build::Together(placed.name(), places))
+}
+
+/// The plates with their parts in print pose.
+fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
+    let boxes: Vec<Aabb> = printed.iter().map(TriMesh::aabb).collect();
+    let sizes: Vec<[f64; 2]> = boxes
+        .iter()
+        .map(|aabb| [aabb.size().x, aabb.size().y])
+        .collect();
+    let known = placed.shop.printer.plate();
+    let spots = known
+        .clone()
+        .unwrap_or_else(|| Plate::for_parts(&sizes))
+        .arranged(&sizes);
+    let count = spots.iter().map(|spot| spot.plate + 1).max().unwrap_or(0);
+    let plate = |plate: usize| {
+        let here = spots
+            .iter()
+            .enumerate()
+            .filter(|(_, spot)| spot.plate == plate);
+        let places: Vec<_> = here
+            .map(|(index, spot)| (index, laid(&boxes[index], spot)))
+            .collect();
+        let file = if count == 1 {
+            "plate.3mf".to_owned()
+        } else {
+            format!("plate_{}.3mf", plate + 1)
+        };
+        let fits = places.iter().all(|(index, _)| spots[*index].fits);
+        (
+            file,
+            (
+                plate_words(placed, [plate + 1, count], known.is_some().then_some(fits)),
+                Build::Apart(places),
+            ),
+        )
+    };
+    (0..count).map(plate).collect()
+}
+
+/// What a plate is, and whether its parts fit it; none where its size is not known.
+fn plate_words(placed: &Placed, [plate, count]: [usize; 2], fits: Option<bool>) -> String {
+    let printer = &placed.shop.printer.name;
+    let fit = match fits {
+        Some(true) => "",
+        Some(false) => " What lies on it is larger than the plate.",
+        None => " How large the plate is is not known.",
+    };
+    format!("Plate {plate} of {count} for {printer}, the parts in print pose.{fit}")
+}
+
+/// The motion that lays a part from its own file on its spot.
+fn laid(aabb: &Aabb, spot: &Spot) -> Transform {
+    let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
+    let linear = if spot.is_turned {
+        turn
+    } else {
+        Matrix::identity()
+    };
+    // Turned, the box's far side in y is its near side in x.
+    let low = if spot.is_turned {
+        [-aabb.max.y, aabb.min.x]
+    } else {
+        [aabb.min.x, aabb.min.y]
+    };
+    Transform {
+        linear,
+        shift: Vector::new(spot.low_mm[0] - low[0], spot.low_mm[1] - low[1], 0.0),
+    }
+}

@@ -1,0 +1,143 @@
+//! The parts of an opened body, corrected until what is written meets the goal.
+
+use rayon::prelude::*;
+
+use super::write::write;
+use crate::base::watch::{Phase, Watch};
+use crate::cut::{self, CutError, CutPlan, PlanRequest, parts_and_faces};
+use crate::error::Error;
+use crate::mass::{Moments, moments_of_mesh};
+use crate::open::{Candidate, Resolver, defect_ratio, finish, plan_once};
+use crate::run::{Made, Placed, Voids, WrittenPart};
+use crate::verify::{PartEvidence, assembly_moments};
+
+/// Makes the parts of a plan, measures them as they are written, and solves again with the
+/// difference until they meet the goal.
+///
+/// Pins, sockets and glue weigh too, and files round: see [`crate::guide::theory`]. Of all attempts
+/// the one that comes nearest to the goal is returned.
+pub fn make(placed: &Placed, candidate: Candidate, watch: &Watch) -> Result<Made, Error> {
+    watch.enter(Phase::Parts);
+    let Candidate {
+        opened,
+        mut resolver,
+    } = candidate;
+    let value_before_cleaning = resolver.first_value();
+    let more = moments_of_mesh(&opened.plan.pegs()) + placed.joining_moments(&opened.plan);
+    let mut corrector = Corrector {
+        placed,
+        resolver: &mut resolver,
+        request: &opened.request,
+        watch,
+    };
+    let best = corrector.best(opened.voids, opened.plan, more)?;
+    let plan = cut::plan_of(&best.voids.hollowed, best.plan, &opened.request)?;
+    let Voids {
+        solution,
+        hollowed,
+        refused_mm3,
+        rounds,
+        ..
+    } = best.voids;
+    Ok(Made {
+        load: resolver.solved().load.clone(),
+        height_proof: resolver.height_proof(),
+        course: resolver.course().clone(),
+        solution,
+        hollowed,
+        refused_mm3,
+        plan,
+        remarks: opened.remarks,
+        parts: best.parts,
+        rounds,
+        value_before_cleaning,
+        cleaning: opened.cleaning,
+        bosses: opened.bosses,
+    })
+}
+
+/// Corrects the parts of one plan.
+struct Corrector<'r, 'a> {
+    placed: &'r Placed,
+    resolver: &'r mut Resolver<'a>,
+    request: &'r PlanRequest,
+    watch: &'r Watch,
+}
+
+/// Written parts, and their distance from the goal.
+#[derive(Clone)]
+struct Attempt {
+    voids: Voids,
+    plan: CutPlan,
+    parts: Vec<WrittenPart>,
+    /// Moments of the parts beyond those of the uncut body, model frame: pins, sockets, glue, and
+    /// the rounding of files.
+    more: Moments,
+    /// Distance from the goal's constraints, in tolerances.
+    defect_ratio: f64,
+}
+
+impl Corrector<'_, '_> {
+    /// Makes parts until they meet the goal; returns the attempt nearest to it.
+    fn best(&mut self, voids: Voids, plan: CutPlan, more: Moments) -> Result<Attempt, Error> {
+        let mut last = self.attempt(voids, plan, more)?;
+        let mut best = last.clone();
+        for _ in 1..self.placed.policy.max_assemblies {
+            if best.defect_ratio <= 1.0 {
+                break;
+            }
+            last = self.attempt(last.voids, last.plan, last.more)?;
+            if last.defect_ratio < best.defect_ratio {
+                best = last.clone();
+            }
+        }
+        Ok(best)
+    }
+
+    /// Makes parts of voids that are solved for again with what the parts weighed before.
+    fn attempt(&mut self, voids: Voids, plan: CutPlan, more: Moments) -> Result<Attempt, Error> {
+        self.watch.check()?;
+        let goal = self.placed.goal();
+        let voids = finish(self.resolver.correct(voids, more)?)?;
+        let (parts, plan) = self.write_parts(&voids, plan)?;
+        let evidence: Vec<PartEvidence> = parts.iter().map(WrittenPart::evidence).collect();
+        let whole = assembly_moments(&evidence) + self.placed.joining_moments(&plan);
+        let load = &self.resolver.solved().load;
+        let inside = self.placed.moments_inside(load, &voids.hollowed);
+        let reached = (whole + inside).in_frame(&goal.frame);
+        Ok(Attempt {
+            defect_ratio: defect_ratio(goal, &voids.solution.moments, &reached),
+            more: whole - moments_of_mesh(&voids.hollowed.to_mesh()),
+            voids,
+            plan,
+            parts,
+        })
+    }
+
+    /// Cuts the body by the plan and writes its parts, in memory.
+    ///
+    /// If the voids have changed so that the plan leaves one closed, it is planned anew.
+    fn write_parts(
+        &self,
+        voids: &Voids,
+        mut plan: CutPlan,
+    ) -> Result<(Vec<WrittenPart>, CutPlan), Error> {
+        let (parts, plan) = match parts_and_faces(&voids.hollowed, &plan, self.request) {
+            Err(CutError::ClosedCavity { .. }) => {
+                let solid = std::mem::take(&mut plan.solid);
+                let anew = plan_once(self.placed, voids, self.request)?;
+                parts_and_faces(&voids.hollowed, &CutPlan { solid, ..anew }, self.request)?
+            }
+            parts => parts?,
+        };
+        self.watch.check()?;
+        let job = self.placed.name();
+        let scale_ratio = self.placed.shop.printer.print_scale_ratio();
+        let count = parts.len();
+        let parts = parts.into_par_iter().map(|part| {
+            let name = format!("{job}_{}of{count:02}", part.id);
+            write(part, &name, scale_ratio)
+        });
+        Ok((parts.collect::<Result<_, _>>()?, plan))
+    }
+}

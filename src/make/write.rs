@@ -1,0 +1,59 @@
+//! Writing a part: its STL file in memory, read back, free of folds.
+
+use crate::cut::Part;
+use crate::error::Error;
+use crate::geom::Vector;
+use crate::io::stl;
+use crate::mesh::Crossings;
+use crate::repair::{unfolded, weld};
+use crate::run::WrittenPart;
+use crate::verify::Pose;
+
+/// Writings that are tried until a part's file is free of folds: as it is, unfolded at the same
+/// place, and unfolded at other places on the plate. Each place folds another sliver of a thousand.
+const WRITINGS: usize = 7;
+/// Step from one place to the next, mm: far less than a part's room on the plate, and no multiple
+/// of a file's steps.
+const PLACE_STEP_MM: [f64; 2] = [0.013_7, 0.009_1];
+
+/// Writes a part and reads it back, at the first place on the plate where the rounding of the
+/// file's coordinates folds no sliver of its surface.
+///
+/// The file is larger than the part by `scale_ratio` along x, y and z; what is read back is in the
+/// part's own size.
+pub fn write(part: Part, name: &str, scale_ratio: [f64; 3]) -> Result<WrittenPart, Error> {
+    let mut written = write_at(part.clone(), name, 0, scale_ratio)?;
+    for writing in 1..WRITINGS {
+        if Crossings::of(&weld(&written.read_back)).pairs == 0 {
+            break;
+        }
+        written = write_at(part.clone(), name, writing, scale_ratio)?;
+    }
+    Ok(written)
+}
+
+/// Writes a part in one of the writings.
+fn write_at(
+    mut part: Part,
+    name: &str,
+    writing: usize,
+    scale_ratio: [f64; 3],
+) -> Result<WrittenPart, Error> {
+    let rows = &mut part.pose.print_from_model;
+    let place = writing.saturating_sub(1);
+    rows[0][3] += PLACE_STEP_MM[0] * place as f64;
+    rows[1][3] += PLACE_STEP_MM[1] * place as f64;
+    let pose = Pose { rows: *rows };
+    let scale = Vector::from(scale_ratio);
+    let mesh = part.solid.mesh();
+    let laid = mesh.map_vertices(|p| pose.to_print(p).coords.component_mul(&scale).into());
+    let laid = if writing > 0 { unfolded(&laid) } else { laid };
+    let bytes = stl::encode(&laid, name);
+    let read_back = stl::decode(&bytes)?;
+    Ok(WrittenPart {
+        part,
+        file: format!("parts/{name}.stl"),
+        bytes,
+        read_back: read_back.map_vertices(|p| p.coords.component_div(&scale).into()),
+    })
+}

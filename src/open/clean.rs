@@ -1,0 +1,189 @@
+//! Cleaning: what no cut lets be cleaned is kept solid, and the rest solved for again.
+
+use super::plan::plan_once;
+use super::resolve::Resolver;
+use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, Unclean, unclean};
+use crate::error::Error;
+use crate::job::CutMode;
+use crate::mesh::{MeshDistance, TriMesh};
+use crate::run::{CleaningRound, KeptCause, KeptSolid, Placed, Voids};
+
+/// Voids with a plan, and the rounds that led to them.
+pub struct Cleaned {
+    /// The voids.
+    pub voids: Voids,
+    /// The cuts and pins.
+    pub plan: CutPlan,
+    /// The rounds in which something was kept solid.
+    pub rounds: Vec<CleaningRound>,
+}
+
+/// Bodies to be kept solid.
+struct Keep {
+    bodies: Vec<TriMesh>,
+    kept: Vec<KeptSolid>,
+    /// Margin around them, in minimum openings.
+    margin_openings: f64,
+}
+
+/// Plans cuts with which every void can be cleaned by the printer's rule.
+///
+/// What a plan leaves uncleanable is kept solid, and the rest solved for again and planned anew.
+/// What is kept solid only grows, so that this ends. A round after which the goal cannot be met is
+/// undone, and the kit's checks say which void stays unclean.
+pub fn clean(
+    resolver: &mut Resolver,
+    mut voids: Voids,
+    request: &PlanRequest,
+) -> Result<Cleaned, Error> {
+    let placed = resolver.placed();
+    let mut rounds = Vec::new();
+    let mut request = request.clone();
+    loop {
+        resolver.watch().check()?;
+        let plan = plan_once(placed, &voids, &request);
+        let dirty = uncleaned(placed, &voids, &plan, &request, rounds.len())?;
+        if dirty.bodies.is_empty() || rounds.len() == placed.policy.cleaning_rounds {
+            let plan = plan?;
+            return Ok(Cleaned {
+                voids,
+                plan,
+                rounds,
+            });
+        }
+        let (round, less) = keep_solid(resolver, &voids, dirty)?;
+        match (less, plan) {
+            (Some(less), _) => {
+                voids = less;
+                rounds.push(round);
+            }
+            // Rather any further cut than a goal that cannot be met.
+            (None, Ok(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
+            (None, plan) => {
+                rounds.push(round);
+                let plan = plan?;
+                return Ok(Cleaned {
+                    voids,
+                    plan,
+                    rounds,
+                });
+            }
+        }
+    }
+}
+
+/// Finds what must be kept solid because a plan does not let it be cleaned.
+fn uncleaned(
+    placed: &Placed,
+    voids: &Voids,
+    plan: &Result<CutPlan, CutError>,
+    request: &PlanRequest,
+    rounds: usize,
+) -> Result<Keep, Error> {
+    let policy = &placed.policy;
+    let whole = rounds >= policy.shrinking_rounds;
+    let (unclean, margin_openings) = match plan {
+        Ok(plan) if placed.job.cut != CutMode::Never => (
+            unclean(&voids.hollowed, plan, request, whole)?,
+            if whole {
+                policy.refused_margin_openings
+            } else {
+                policy.cleaning_margin_openings
+            },
+        ),
+        Err(CutError::Unopenable { voids: closed, .. }) if are_empty(voids, closed, request) => {
+            let keep = keep_unopenable(voids, closed, policy.refused_margin_openings);
+            return Ok(keep);
+        }
+        _ => (Vec::new(), policy.cleaning_margin_openings),
+    };
+    let kept = |unclean: &Unclean| KeptSolid {
+        void: unclean.void,
+        cause: KeptCause::Uncleanable(unclean.why.clone()),
+    };
+    Ok(Keep {
+        kept: unclean.iter().map(kept).collect(),
+        bodies: unclean
+            .into_iter()
+            .flat_map(|unclean| unclean.lumps)
+            .collect(),
+        margin_openings,
+    })
+}
+
+/// Keeps voids solid that no cut opens.
+fn keep_unopenable(voids: &Voids, closed: &[usize], margin_openings: f64) -> Keep {
+    let body = |&void: &usize| Some((void, voids.hollowed.voids.get(void)?.mesh().clone()));
+    let (indices, bodies): (Vec<usize>, Vec<TriMesh>) = closed.iter().filter_map(body).unzip();
+    let kept = |void| KeptSolid {
+        void,
+        cause: KeptCause::Unopenable,
+    };
+    Keep {
+        kept: indices.into_iter().map(kept).collect(),
+        bodies,
+        margin_openings,
+    }
+}
+
+/// Returns whether none of these voids holds ballast, which cannot stay solid.
+fn are_empty(voids: &Voids, indices: &[usize], request: &PlanRequest) -> bool {
+    let empty = voids.hollowed.voids.len() - request.seats.len();
+    indices.iter().all(|&void| void < empty)
+}
+
+/// Keeps parts of the interior solid and solves again; `None` if nothing can be emptied there, or
+/// if the goal cannot be met any more.
+pub fn without_ends(
+    resolver: &mut Resolver,
+    voids: &Voids,
+    ends: &[SolidEnd],
+    cause: &KeptCause,
+) -> Result<Option<(CleaningRound, Voids)>, Error> {
+    let bodies = resolver.parts_about(ends)?;
+    if bodies.is_empty() {
+        return Ok(None);
+    }
+    let walls = voids.hollowed.voids.iter();
+    let walls: Vec<MeshDistance> = walls.map(|void| MeshDistance::new(void.mesh())).collect();
+    let nearest = |end: &SolidEnd| {
+        let depth = |wall: &MeshDistance| wall.signed(&end.at_mm.into());
+        let depths = walls.iter().map(depth).enumerate();
+        let (void, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let cause = cause.clone();
+        Some(KeptSolid { void, cause })
+    };
+    let keep = Keep {
+        kept: ends.iter().filter_map(nearest).collect(),
+        bodies,
+        margin_openings: resolver.placed().policy.cleaning_margin_openings,
+    };
+    let (mut round, less) = keep_solid(resolver, voids, keep)?;
+    round.by_plan = true;
+    Ok(less.map(|less| (round, less)))
+}
+
+/// Keeps bodies solid and solves again. If the goal cannot be met any more there are no voids, and
+/// the resolver is as it was.
+fn keep_solid(
+    resolver: &mut Resolver,
+    voids: &Voids,
+    keep: Keep,
+) -> Result<(CleaningRound, Option<Voids>), Error> {
+    let before = resolver.clone();
+    let less = resolver.without(voids, &keep.bodies, keep.margin_openings)?;
+    let less = less.solution.is_usable().then_some(less);
+    if less.is_none() {
+        *resolver = before;
+    }
+    let volumes = keep.bodies.iter().map(TriMesh::signed_volume_mm3);
+    let value = |voids: &Voids| voids.solution.certificate.value;
+    let round = CleaningRound {
+        kept: keep.kept,
+        volume_mm3: volumes.sum(),
+        value_before: value(voids),
+        value_after: less.as_ref().map(value),
+        by_plan: false,
+    };
+    Ok((round, less))
+}

@@ -1,0 +1,334 @@
+//! The ladder: rungs are tried in order until one gives every joint its pins; the best are kept.
+
+use super::bosses::{Bossed, add_bosses, pay_for_bosses};
+use super::clean::{clean, without_ends};
+use super::request::request;
+use super::resolve::Resolver;
+use super::way::Way;
+use crate::base::watch::{Phase, Watch};
+use crate::cut::{CutPlan, PlanRequest, SolidEnd, beyond};
+use crate::error::Error;
+use crate::job::CutMode;
+use crate::run::{CleaningRound, KeptCause, Opened, Placed, Policy, Remark, Rung, Solved, Voids};
+
+/// An opened body that is worth making, and the resolver that corrects it.
+pub struct Candidate<'a> {
+    /// The voids, cuts and pins.
+    pub opened: Opened,
+    /// The resolver as the search left it.
+    pub resolver: Resolver<'a>,
+}
+
+/// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
+///
+/// Returns the plans worth making, best first and never none. The later ones do less for the pins:
+/// they are for a kit that breaks a promise with the first. Cuts that a person ordered stay.
+pub fn climb<'a>(
+    placed: &'a Placed,
+    solved: Solved,
+    watch: &Watch,
+) -> Result<Vec<Candidate<'a>>, Error> {
+    let ladder = Ladder::new(placed, solved, watch)?;
+    let walls = ladder.plan_in_walls(&ladder.ground, &ladder.request, Rung::Walls)?;
+    let usual = ladder.add_bosses(walls.clone(), Rung::Bosses)?;
+    let mut ways: Vec<Way> = Vec::new();
+    let mut faults: Vec<Remark> = Vec::new();
+    for rung in Rung::BEYOND_USUAL {
+        watch.check()?;
+        if !ladder.needs(rung, &usual, &ways) {
+            continue;
+        }
+        match ladder.try_rung(rung, &usual, &ways) {
+            Ok(found) => ways.extend(found),
+            Err(Error::Cancelled) => return Err(Error::Cancelled),
+            Err(fault) => faults.push(Remark::RungFailed {
+                rung,
+                why: fault.to_string(),
+            }),
+        }
+    }
+    let best = ladder.best(&usual, ways);
+    Ok(ladder.candidates(best, usual, walls, faults))
+}
+
+/// The voids that a rung starts from.
+#[derive(Clone)]
+struct Ground<'a> {
+    resolver: Resolver<'a>,
+    voids: Voids,
+    /// Parts of the interior that are kept solid.
+    solid: Vec<SolidEnd>,
+    /// The rounds in which that was done.
+    rounds: Vec<CleaningRound>,
+}
+
+impl Ground<'_> {
+    /// Keeps parts of the interior solid; `None` if nothing lies there or the goal is lost.
+    fn without(&self, solid: &[SolidEnd], cause: &KeptCause) -> Result<Option<Self>, Error> {
+        let mut resolver = self.resolver.clone();
+        let less = without_ends(&mut resolver, &self.voids, solid, cause)?;
+        Ok(less.map(|(round, voids)| Self {
+            resolver,
+            voids,
+            solid: solid.to_vec(),
+            rounds: vec![round],
+        }))
+    }
+}
+
+/// The ladder from one set of voids.
+struct Ladder<'a> {
+    placed: &'a Placed,
+    policy: Policy,
+    watch: Watch,
+    ground: Ground<'a>,
+    request: PlanRequest,
+    /// What became of the regions that a person ordered to stay solid.
+    order: Option<Remark>,
+}
+
+impl<'a> Ladder<'a> {
+    /// Draws the voids, without what the job's plan keeps solid.
+    fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
+        watch.enter(Phase::Shell);
+        let request = request(placed, &solved.load);
+        let mut resolver = Resolver::new(placed, solved, watch)?;
+        watch.enter(Phase::Voids);
+        let voids = resolver.draw()?;
+        let ground = Ground {
+            resolver,
+            voids,
+            solid: Vec::new(),
+            rounds: Vec::new(),
+        };
+        let ordered = placed.job.plan.as_ref().map(|plan| &plan.solid[..]);
+        let (ground, order) = match ordered.filter(|solid| !solid.is_empty()) {
+            Some(solid) => match ground.without(solid, &KeptCause::Ordered)? {
+                Some(less) => (less, None),
+                None => (ground, Some(Remark::OrderTooSolid)),
+            },
+            None => (ground, None),
+        };
+        Ok(Self {
+            placed,
+            policy: placed.policy,
+            watch: watch.clone(),
+            ground,
+            request,
+            order,
+        })
+    }
+
+    /// Returns whether the planner may choose other cuts.
+    fn is_free(&self) -> bool {
+        self.placed.job.plan.is_none() && self.placed.job.cut == CutMode::Auto
+    }
+
+    /// Returns whether a rung beyond the usual plan is worth trying after those before it.
+    fn needs(&self, rung: Rung, usual: &Way, ways: &[Way]) -> bool {
+        let is_solved = ways.iter().any(|way| way.solves(usual, &self.policy));
+        let is_cheap = |way: &Way| way.loss_ratio(usual) <= self.policy.cheap_loss_ratio;
+        let mut solving = ways.iter().filter(|way| way.solves(usual, &self.policy));
+        if usual.is_full() {
+            return false;
+        }
+        match rung {
+            Rung::Walls | Rung::Bosses => false,
+            Rung::FewerCuts => self.is_free() && usual.bossed.plan.cuts.len() > 1,
+            Rung::WideJoints | Rung::SolidEnds => self.is_free() && !is_solved,
+            Rung::DearBosses => usual.bossed.has_dear() && !solving.any(is_cheap),
+            // What is too dear for all joints may leave some of them their pins.
+            Rung::SomeBosses => ways
+                .iter()
+                .any(|way| way.rung == Rung::DearBosses && !way.is_worth(usual, &self.policy)),
+        }
+    }
+
+    /// Tries a rung beyond the usual plan; none if the planner finds no plan on it.
+    fn try_rung(
+        &self,
+        rung: Rung,
+        usual: &Way<'a>,
+        ways: &[Way<'a>],
+    ) -> Result<Vec<Way<'a>>, Error> {
+        let spare = PlanRequest {
+            min_opening_mm: self.policy.spare_opening_ratio * self.request.min_opening_mm,
+            ..self.request.clone()
+        };
+        let way = match rung {
+            Rung::Walls | Rung::Bosses => None,
+            Rung::FewerCuts => {
+                let fewer = PlanRequest {
+                    worth_ratio: 1.0,
+                    ..spare
+                };
+                self.plan_with_bosses(&self.ground, &fewer, rung)?
+            }
+            Rung::WideJoints => {
+                let wide = PlanRequest {
+                    wants_wide_joints: true,
+                    ..spare
+                };
+                self.plan_with_bosses(&self.ground, &wide, rung)?
+            }
+            Rung::DearBosses => self.pay(usual, rung, self.policy.dear_loss_ratio)?,
+            Rung::SomeBosses => self.pay(usual, rung, self.policy.partial_loss_ratio)?,
+            Rung::SolidEnds => return self.end_voids_before_joints(usual, ways),
+        };
+        Ok(way.into_iter().collect())
+    }
+
+    /// Plans cuts, and pins where the walls have room for them.
+    fn plan_in_walls(
+        &self,
+        ground: &Ground<'a>,
+        request: &PlanRequest,
+        rung: Rung,
+    ) -> Result<Way<'a>, Error> {
+        self.watch.enter(Phase::Plan);
+        let Ground {
+            mut resolver,
+            voids,
+            solid,
+            mut rounds,
+        } = ground.clone();
+        let cleaned = clean(&mut resolver, voids, request)?;
+        rounds.extend(cleaned.rounds);
+        let plan = CutPlan {
+            solid,
+            ..cleaned.plan
+        };
+        Ok(Way {
+            rung,
+            resolver,
+            request: request.clone(),
+            cleaning: rounds,
+            bossed: Bossed::without(cleaned.voids, plan),
+        })
+    }
+
+    /// Adds bosses around pins, where they cost little.
+    fn add_bosses(&self, mut way: Way<'a>, rung: Rung) -> Result<Way<'a>, Error> {
+        self.watch.enter(Phase::Bosses);
+        way.bossed = add_bosses(&mut way.resolver, way.bossed, &way.request)?;
+        Ok(Way { rung, ..way })
+    }
+
+    /// Plans cuts and pins, with bosses; `None` if the planner finds no such plan.
+    fn plan_with_bosses(
+        &self,
+        ground: &Ground<'a>,
+        request: &PlanRequest,
+        rung: Rung,
+    ) -> Result<Option<Way<'a>>, Error> {
+        let way = self.plan_in_walls(ground, request, rung);
+        unless_refused(way.and_then(|way| self.add_bosses(way, rung)))
+    }
+
+    /// Adds the bosses that are too dear for the usual plan.
+    fn pay(&self, usual: &Way<'a>, rung: Rung, max: f64) -> Result<Option<Way<'a>>, Error> {
+        self.watch.enter(Phase::Bosses);
+        let mut way = usual.clone();
+        let paid = pay_for_bosses(&mut way.resolver, way.bossed, &self.request, max);
+        let paid = unless_refused(paid)?;
+        Ok(paid.map(|bossed| Way {
+            rung,
+            bossed,
+            resolver: way.resolver,
+            request: way.request,
+            cleaning: way.cleaning,
+        }))
+    }
+
+    /// Ends the voids before joints without pins, starting from each way so far, until one does.
+    fn end_voids_before_joints(
+        &self,
+        usual: &Way<'a>,
+        ways: &[Way<'a>],
+    ) -> Result<Vec<Way<'a>>, Error> {
+        let mut ended: Vec<Way> = Vec::new();
+        for base in std::iter::once(usual).chain(ways) {
+            if !ended.iter().any(|way| way.solves(usual, &self.policy)) {
+                ended.extend(self.end_voids_of(base)?);
+            }
+        }
+        Ok(ended)
+    }
+
+    /// Ends the voids before the joints of a way that lack pins, and before those that then do.
+    fn end_voids_of(&self, base: &Way<'a>) -> Result<Vec<Way<'a>>, Error> {
+        let mut ended: Vec<Way> = Vec::new();
+        let mut solid = Vec::new();
+        for _ in 0..self.policy.max_ends {
+            let last = ended.last().unwrap_or(base);
+            let margin = (&self.request, self.policy.ends_margin_openings);
+            let ends = beyond(&last.bossed.voids.hollowed, &last.bossed.plan, margin);
+            let ends = unless_refused(ends.map_err(Error::from))?.unwrap_or_default();
+            if ends.is_empty() {
+                break;
+            }
+            solid.extend(ends);
+            let ground = unless_refused(self.ground.without(&solid, &KeptCause::BeyondJoint))?;
+            let Some(ground) = ground.flatten() else {
+                break;
+            };
+            let way = self.plan_with_bosses(&ground, &base.request, Rung::SolidEnds)?;
+            let Some(way) = way else { break };
+            let is_full = way.is_full();
+            ended.push(way);
+            if is_full {
+                break;
+            }
+        }
+        Ok(ended)
+    }
+
+    /// Returns the way that leaves the fewest joints without pins, of several the cheapest; `None`
+    /// if none is better than the usual one.
+    fn best(&self, usual: &Way<'a>, ways: Vec<Way<'a>>) -> Option<Way<'a>> {
+        let is_better =
+            |way: &Way| way.is_worth(usual, &self.policy) && way.lacking() < usual.lacking();
+        let better = ways.into_iter().filter(is_better);
+        better.min_by(|a, b| {
+            let by_loss = a.loss_ratio(usual).total_cmp(&b.loss_ratio(usual));
+            a.lacking().cmp(&b.lacking()).then(by_loss)
+        })
+    }
+
+    /// Returns the plans worth making, the best first. Ordered pins stay whatever they break: the
+    /// kit's checks say it.
+    fn candidates(
+        &self,
+        best: Option<Way<'a>>,
+        usual: Way<'a>,
+        walls: Way<'a>,
+        faults: Vec<Remark>,
+    ) -> Vec<Candidate<'a>> {
+        let order = || self.order.clone();
+        let is_second = best.is_some();
+        let has_bosses = !usual.bossed.rounds.is_empty();
+        let price = best.as_ref().map(|best| best.price(&usual));
+        let best = best.map(|way| way.into_candidate(price.into_iter().chain(order())));
+        let stepped = is_second.then_some(Remark::SteppedDown(Rung::Bosses));
+        let usual = usual.into_candidate(order().into_iter().chain(stepped));
+        let stepped = [Remark::SteppedDown(Rung::Walls)];
+        let walls = has_bosses.then(|| walls.into_candidate(order().into_iter().chain(stepped)));
+        let mut all: Vec<Candidate> = best.into_iter().chain([usual]).chain(walls).collect();
+        if self.placed.has_ordered_pins() {
+            all.truncate(1);
+        }
+        for candidate in &mut all {
+            candidate.opened.remarks.extend(faults.iter().cloned());
+        }
+        all
+    }
+}
+
+/// Returns `None` if the planner finds no plan: the rungs before it stand.
+fn unless_refused<T>(way: Result<T, Error>) -> Result<Option<T>, Error> {
+    match way {
+        Ok(way) => Ok(Some(way)),
+        Err(Error::Cut(_)) => Ok(None),
+        Err(error) => Err(error),
+    }
+}

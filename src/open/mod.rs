@@ -1,0 +1,21 @@
+//! Open: the voids of a solution, the cuts and pins that open them, and what stays solid for both.
+//!
+//! [`climb`] tries the rungs of a ladder until every joint has its pins. Each rung draws voids
+//! ([`Resolver`]), plans cuts and keeps solid what cannot be cleaned, and then looks for room for
+//! pins in bosses. Whatever is kept solid is solved for again, so that the rest stays optimal.
+
+mod bosses;
+mod clean;
+mod defect;
+mod failed;
+mod ladder;
+mod plan;
+mod request;
+mod resolve;
+mod settle;
+mod way;
+
+pub use defect::defect_ratio;
+pub use ladder::{Candidate, climb};
+pub use plan::plan_once;
+pub use resolve::{Resolver, finish};

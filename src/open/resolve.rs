@@ -1,0 +1,248 @@
+//! Solving again: voids are drawn, measured, and solved for again until they meet the goal
+//! ([`crate::guide::theory`]).
+
+use rayon::prelude::*;
+
+use super::defect::defect_ratio;
+use crate::base::watch::Watch;
+use crate::cut::SolidEnd;
+use crate::error::Error;
+use crate::geom::{Aabb, Point};
+use crate::hollow::{Solution, TopCourse};
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::{Hollowed, Solid, TriMesh};
+use crate::run::{HeightProof, Placed, Solved, Voids};
+use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
+
+/// Draws voids, measures them and solves again. What it keeps solid stays so.
+#[derive(Clone)]
+pub struct Resolver<'a> {
+    placed: &'a Placed,
+    /// The columns of what may still be emptied, and the last solution on them.
+    solved: Solved,
+    /// The figure of the certificate before anything was kept solid.
+    first_value: f64,
+    /// The surface of the same region.
+    cavity: Cavity,
+    /// Volume of voids that were refused, mm³.
+    refused_mm3: f64,
+    /// Volume of bosses that could have been emptied, mm³.
+    bosses_mm3: f64,
+    watch: Watch,
+}
+
+impl<'a> Resolver<'a> {
+    /// Draws the region that may be emptied.
+    pub fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
+        let printer = &placed.shop.printer;
+        let keeps = &placed.placement.keeps;
+        let spec = CavitySpec::for_printer(printer, placed.shop.wall.wall_mm, keeps);
+        let whole = Cavity::extract(placed.solid(), &spec, watch)?;
+        let cavity = {
+            let mut jackets = solved.load.jackets();
+            jackets.try_fold(whole, |rest, jacket| rest.without(&jacket.mesh()))?
+        };
+        Ok(Self {
+            placed,
+            first_value: solved.solution.certificate.value,
+            solved,
+            cavity,
+            refused_mm3: 0.0,
+            bosses_mm3: 0.0,
+            watch: watch.clone(),
+        })
+    }
+
+    /// Returns the goal in its model.
+    pub fn placed(&self) -> &'a Placed {
+        self.placed
+    }
+
+    /// Returns the watch over the run.
+    pub fn watch(&self) -> &Watch {
+        &self.watch
+    }
+
+    /// Returns the solution as it was last found, with its ballast.
+    pub fn solved(&self) -> &Solved {
+        &self.solved
+    }
+
+    /// Returns the figure of the certificate before anything was kept solid.
+    pub fn first_value(&self) -> f64 {
+        self.first_value
+    }
+
+    /// Returns the course of the first answer.
+    pub fn course(&self) -> &TopCourse {
+        &self.solved.course
+    }
+
+    /// Returns the proof for other heights of a top's centre.
+    pub fn height_proof(&self) -> Option<HeightProof> {
+        self.solved.height_proof
+    }
+
+    /// Draws the voids whose uncut mesh meets the goal's constraints, before cuts and pins.
+    pub fn draw(&mut self) -> Result<Voids, Error> {
+        let solution = self.solved.solution.clone();
+        let voids = self.voids(solution, self.solved.fixed, 0)?;
+        self.correct(voids, Moments::default())
+    }
+
+    /// Solves again until the uncut mesh and `more` (model frame) together meet the goal's
+    /// constraints; the nearest round if none does.
+    ///
+    /// Each surface is drawn anew, with an error that no other foretells. If a body's moments are
+    /// nearly equal, its principal axis wanders between rounds by more than the tolerance.
+    pub fn correct(&mut self, mut voids: Voids, more: Moments) -> Result<Voids, Error> {
+        let goal = self.placed.goal();
+        let mut measured = self.measure(&voids, more);
+        let mut least = defect_ratio(goal, &voids.solution.moments, &measured);
+        let mut best = voids.clone();
+        for _ in 0..self.placed.policy.correction_rounds {
+            if least <= 1.0 {
+                break;
+            }
+            voids = self.solve_again(&voids, measured)?;
+            measured = self.measure(&voids, more);
+            let defect = defect_ratio(goal, &voids.solution.moments, &measured);
+            if defect < least {
+                (least, best) = (defect, voids.clone());
+            }
+        }
+        Ok(best)
+    }
+
+    /// Returns the moments (goal frame) of the uncut mesh with its contents, and of `more` (model
+    /// frame).
+    fn measure(&self, voids: &Voids, more: Moments) -> Moments {
+        let printed = moments_of_mesh(&voids.hollowed.to_mesh()) + more;
+        let inside = self
+            .placed
+            .moments_inside(&self.solved.load, &voids.hollowed);
+        (printed + inside).in_frame(&self.placed.goal().frame)
+    }
+
+    /// Keeps closed bodies solid, with a margin in minimum openings around them, and solves again.
+    pub fn without(
+        &mut self,
+        voids: &Voids,
+        bodies: &[TriMesh],
+        margin_openings: f64,
+    ) -> Result<Voids, Error> {
+        self.refuse(bodies, margin_openings)?;
+        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
+        let measured = self.measure(&less, Moments::default());
+        let less = self.solve_again(&less, measured)?;
+        self.correct(less, Moments::default())
+    }
+
+    /// Returns what may be emptied in these parts of the interior, as one mesh or none.
+    pub fn parts_about(&self, ends: &[SolidEnd]) -> Result<Vec<TriMesh>, Error> {
+        let place = |end: &SolidEnd| -> (Point, Aabb) { (end.at_mm.into(), end.aabb()) };
+        let places: Vec<(Point, Aabb)> = ends.iter().map(place).collect();
+        let parts = self.cavity.parts_about(&places)?;
+        let is_empty = parts.triangles().is_empty();
+        Ok(if is_empty { Vec::new() } else { vec![parts] })
+    }
+
+    /// Keeps the bodies of bosses solid and solves again.
+    pub fn with_bosses(&mut self, voids: &Voids, bodies: &[TriMesh]) -> Result<Voids, Error> {
+        let before_mm3 = self.cavity.mesh().signed_volume_mm3();
+        for body in bodies {
+            self.exclude(body)?;
+        }
+        self.bosses_mm3 += before_mm3 - self.cavity.mesh().signed_volume_mm3();
+        let less = self.voids(voids.solution.clone(), voids.fixed, voids.rounds)?;
+        let measured = moments_of_mesh(&less.hollowed.to_mesh())
+            + self
+                .placed
+                .moments_inside(&self.solved.load, &less.hollowed);
+        let measured = measured.in_frame(&self.placed.goal().frame);
+        let best = self.solve_again(&less, measured)?;
+        self.correct(best, Moments::default())
+    }
+
+    /// Returns the volume of all bosses that could have been emptied, mm³.
+    pub fn bosses_mm3(&self) -> f64 {
+        self.bosses_mm3
+    }
+
+    /// Solves once more, with the difference between the measured moments (goal frame) and those
+    /// solved for added to what stays.
+    fn solve_again(&mut self, voids: &Voids, measured: Moments) -> Result<Voids, Error> {
+        self.watch.check()?;
+        // The columns know by now what was refused since the voids were solved for.
+        let (fill, columns) = (self.placed.fill, &self.solved.columns);
+        let planned = fill.filled(voids.fixed, columns, &voids.solution.quadric);
+        let fixed = voids.fixed + (measured - planned);
+        self.solved.solution = self.solved.solve_again(self.placed, fixed, &self.watch);
+        self.voids(self.solved.solution.clone(), fixed, voids.rounds + 1)
+    }
+
+    /// Draws the voids of a solution. Voids that are too small stay solid for good, or they would
+    /// come and go from round to round.
+    fn voids(&mut self, solution: Solution, fixed: Moments, rounds: usize) -> Result<Voids, Error> {
+        self.watch.check()?;
+        let goal = self.placed.goal();
+        let bodies = self.cavity.void_bodies(&solution.quadric, &goal.frame)?;
+        let refused_mm3 = self.refused_mm3 + bodies.refused_mm3();
+        let policy = &self.placed.policy;
+        let least_mm3 = policy.significant_void_ratio * goal.solid.volume();
+        let is_significant = |body: &TriMesh| body.signed_volume_mm3() > least_mm3;
+        let refused = bodies.refused.into_iter().filter(is_significant);
+        let refused: Vec<TriMesh> = refused.collect();
+        self.refuse(&refused, policy.refused_margin_openings)?;
+        let mut hollowed = Hollowed {
+            outer: self.placed.solid().clone(),
+            voids: bodies.bodies,
+        };
+        for pocket in self.solved.load.pockets() {
+            let body = Solid::new(pocket.mesh()).map_err(VoidError::from)?;
+            hollowed.voids.push(body);
+        }
+        Ok(Voids {
+            solution,
+            fixed,
+            hollowed,
+            refused_mm3,
+            rounds,
+        })
+    }
+
+    /// Keeps bodies solid from now on, with a margin in minimum openings around them.
+    fn refuse(&mut self, bodies: &[TriMesh], margin_openings: f64) -> Result<(), Error> {
+        if bodies.is_empty() {
+            return Ok(());
+        }
+        let join = |all: TriMesh, body: &TriMesh| all.joined(body);
+        let all = bodies.iter().fold(TriMesh::default(), join);
+        let margin_mm = margin_openings * self.placed.shop.printer.min_opening_mm.value;
+        let solid = grown(&all, margin_mm)?;
+        self.refused_mm3 += all.signed_volume_mm3();
+        self.exclude(&solid)
+    }
+
+    /// Takes a body, or several that do not touch, out of what may be emptied.
+    fn exclude(&mut self, solid: &TriMesh) -> Result<(), Error> {
+        self.watch.check()?;
+        let frame = &self.placed.goal().frame;
+        let local = || solid.map_vertices(|p| frame.to_local(p));
+        let (cavity, columns) = rayon::join(
+            || self.cavity.without(solid),
+            || self.solved.columns.without(&local()),
+        );
+        self.cavity = cavity?;
+        self.solved.columns = columns;
+        Ok(())
+    }
+}
+
+/// Returns the voids without the slivers that the rounding of a file would fold.
+pub fn finish(mut voids: Voids) -> Result<Voids, Error> {
+    let bodies = std::mem::take(&mut voids.hollowed.voids);
+    let finished = bodies.par_iter().map(without_slivers);
+    voids.hollowed.voids = finished.collect::<Result<_, _>>()?;
+    Ok(voids)
+}

@@ -1,0 +1,97 @@
+//! One way to open the voids, gone through to its pins, and its rank among others.
+
+use super::bosses::Bossed;
+use super::ladder::Candidate;
+use super::plan::are_clean;
+use super::resolve::Resolver;
+use crate::cut::PlanRequest;
+use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung};
+
+/// The result of a rung.
+#[derive(Clone)]
+pub struct Way<'a> {
+    /// The rung.
+    pub rung: Rung,
+    /// The resolver as the rung left it.
+    pub resolver: Resolver<'a>,
+    /// The request that the plan answers.
+    pub request: PlanRequest,
+    /// Rounds in which something was kept solid.
+    pub cleaning: Vec<CleaningRound>,
+    /// Voids and plan, with bosses.
+    pub bossed: Bossed,
+}
+
+impl<'a> Way<'a> {
+    /// Counts the joints without at least two pins that fit one way only, and those without any.
+    pub fn lacking(&self) -> [usize; 2] {
+        let joints = &self.bossed.plan.joints;
+        let unaligned = joints.iter().filter(|joint| !joint.is_aligned());
+        let without = joints.iter().filter(|joint| joint.pins.is_empty());
+        [unaligned.count(), without.count()]
+    }
+
+    /// Returns whether every joint has its pins.
+    pub fn is_full(&self) -> bool {
+        self.lacking() == [0, 0]
+    }
+
+    fn achieved(&self) -> Achieved {
+        Achieved::of(&self.bossed.voids)
+    }
+
+    /// Returns the share of itself by which the goal's figure is worse than in another way.
+    pub fn loss_ratio(&self, other: &Self) -> f64 {
+        other.achieved().loss_ratio(&self.achieved())
+    }
+
+    /// Returns whether it keeps what the usual way keeps, at no more than pins may cost.
+    pub fn is_worth(&self, usual: &Self, policy: &Policy) -> bool {
+        let is_clean = |way: &Self| are_clean(&way.bossed.plan, &way.request);
+        let max_loss_ratio = if self.is_full() {
+            policy.dear_loss_ratio
+        } else {
+            policy.partial_loss_ratio
+        };
+        let filled_ratio = usual.achieved().filled_ratio(&self.achieved());
+        self.bossed.voids.solution.is_usable()
+            && (is_clean(self) || !is_clean(usual))
+            && self.loss_ratio(usual) <= max_loss_ratio
+            && filled_ratio <= policy.max_void_loss_ratio
+    }
+
+    /// Returns whether it gives every joint its pins and is worth it.
+    pub fn solves(&self, usual: &Self, policy: &Policy) -> bool {
+        self.is_full() && self.is_worth(usual, policy)
+    }
+
+    /// Returns why this way was taken in place of the usual one, and its price.
+    pub fn price(&self, usual: &Self) -> Remark {
+        Remark::Pins {
+            rung: self.rung,
+            lacking: usual.lacking()[0],
+            joints: usual.bossed.plan.joints.len(),
+            loss_ratio: self.loss_ratio(usual),
+        }
+    }
+
+    /// Returns the way as a plan to be made, with more remarks after those on its bosses.
+    pub fn into_candidate(mut self, more: impl IntoIterator<Item = Remark>) -> Candidate<'a> {
+        self.bossed.name_pins();
+        let mut remarks = self.bossed.remarks();
+        remarks.extend(more);
+        let opened = Opened {
+            voids: self.bossed.voids,
+            plan: self.bossed.plan,
+            request: self.request,
+            rung: self.rung,
+            remarks,
+            cleaning: self.cleaning,
+            bosses: self.bossed.rounds,
+        };
+        Candidate {
+            opened,
+            resolver: self.resolver,
+        }
+    }
+}

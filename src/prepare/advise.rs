@@ -1,0 +1,144 @@
+//! Advice: remedies for an impossible goal, and hints for a kit that breaks a promise.
+
+use super::outcome::{Failure, Impossible, Prepared};
+use crate::advice::{self, Case, Kind, Remedy};
+use crate::base::numbers::quantity;
+use crate::base::watch::{Phase, Watch};
+use crate::error::Error;
+use crate::goal::Request;
+use crate::run::{Model, Placed, Shop};
+use crate::verify::Check;
+
+/// Hint for models with hardware: remedies are searched for the bare model only.
+const BARE: &str =
+    "leave the hardware out, to be told by how much the model as it is can or cannot";
+/// What helps most goals a little.
+const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
+
+/// Returns the case that advice is sought for.
+pub fn case<'a>(model: &'a Model, shop: &Shop, request: Request) -> Case<'a> {
+    Case {
+        solid: &model.solid,
+        request,
+        wall_mm: shop.wall.wall_mm,
+        least_wall_mm: shop.printer.min_wall_mm.value,
+        wall_step_mm: shop.wall.step_mm,
+        density_g_cm3: shop.material.density_g_cm3.value,
+        greatest_size_mm: shop.printer.greatest_length_mm(),
+    }
+}
+
+/// Adds what would make an impossible goal possible, each remedy confirmed by a solve.
+pub fn remedies(
+    placed: &Placed,
+    impossible: Impossible,
+    watch: &Watch,
+) -> Result<Impossible, Error> {
+    if placed.job.fill.is_some() {
+        // The searches know of air only.
+        return Ok(impossible);
+    }
+    watch.enter(Phase::Advise);
+    if placed.fitted.is_some() {
+        let hints = impossible.hints.into_iter().chain([BARE.to_owned()]);
+        return Ok(Impossible {
+            hints: hints.collect(),
+            ..impossible
+        });
+    }
+    let remedies = advice::remedies(&case(&placed.model, &placed.shop, placed.request));
+    watch.check()?;
+    let hints = if remedies.iter().any(Remedy::helps) {
+        Vec::new()
+    } else {
+        impossible.hints
+    };
+    Ok(Impossible {
+        remedies,
+        hints,
+        ..impossible
+    })
+}
+
+/// Hints by the beginning of the name of a broken check.
+const HINTS: [(&str, &str); 8] = [
+    ("standing", "lay ballast into its foot (--ballast=auto)"),
+    (
+        "axis",
+        "a finer --pitch brings the written parts nearer to the optimum",
+    ),
+    (
+        "dominance",
+        "spin it about the axis of its largest moment (--up=principal, or --up=auto for the best of all)",
+    ),
+    (
+        "wall",
+        "give a thicker --wall, so that what is lost at sharp edges does not count",
+    ),
+    (
+        "build volume",
+        "make it smaller (--size), or choose a printer with more room",
+    ),
+    (
+        "void",
+        "make it larger with the same wall, or give the cuts yourself: edit cuts.toml and give it back with --cut",
+    ),
+    (
+        "socket wall",
+        "give a thicker --wall, or align the parts by dowels (--pins=dowel)",
+    ),
+    ("waterline", "leave the waterline free (--waterline=auto)"),
+];
+/// Adds the reason why a kit breaks a promise, and what helps.
+pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
+    if prepared.passes() {
+        return Ok(prepared);
+    }
+    watch.enter(Phase::Advise);
+    let checks = prepared.checklist.checks.iter();
+    let broken: Vec<&Check> = checks.filter(|check| !check.pass).collect();
+    let is_broken = |name: &str| broken.iter().any(|check| check.name.starts_with(name));
+    let hints = HINTS.iter().filter(|(name, _)| is_broken(name));
+    let hints = hints.map(|(_, hint)| *hint).chain([MORE_ROOM]);
+    let falls_over = broken.iter().any(|check| check.name == "standing");
+    let failure = Failure {
+        reason: reason(&prepared, &broken),
+        hints: hints.map(str::to_owned).collect(),
+        remedies: if falls_over {
+            other_faces(placed)
+        } else {
+            Vec::new()
+        },
+    };
+    watch.check()?;
+    Ok(Prepared {
+        failure: Some(failure),
+        ..prepared
+    })
+}
+
+/// What the goal could have reached, and what became of it.
+fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
+    let proof = &prepared.checklist.certificate;
+    let names: Vec<&str> = broken.iter().map(|check| check.name.as_str()).collect();
+    let unit = proof.figure.unit();
+    match proof.written_value {
+        Some(written) => format!(
+            "the kit breaks {}: the best void there is reaches a {} of {}, and of that the parts that can be made keep {}; what \
+             pins, cuts and cleaning take is more than there is to spare",
+            names.join(", "),
+            proof.figure.name(),
+            quantity(proof.bound, unit),
+            quantity(written, unit)
+        ),
+        None => format!("the kit breaks {}", names.join(", ")),
+    }
+}
+
+/// Returns the nearest other faces that the object surely stands on.
+fn other_faces(placed: &Placed) -> Vec<Remedy> {
+    let case = case(&placed.model, &placed.shop, placed.request);
+    let found = advice::remedies(&case).into_iter();
+    let is_face = |remedy: &Remedy| remedy.kind == Kind::NearestFace && remedy.helps();
+    found.filter(is_face).collect()
+}

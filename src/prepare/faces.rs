@@ -1,0 +1,209 @@
+//! The sections at the cuts, for the drawings of the job sheet.
+
+use rayon::prelude::*;
+
+use crate::cut::{CutError, Point2, Ring, Section, UncutFace, VoidAccess, reached};
+use crate::error::Error;
+use crate::geom::{Parting, Plane, Point, rings::thinnest};
+use crate::mesh::{MeshDistance, TriMesh};
+use crate::page::{CutFace, Mouth, Region};
+use crate::run::{Made, WrittenPart};
+use crate::sheet::from_run::void_id;
+
+/// How far beside the middle of its widest disc a region is looked at, as a share of the disc's
+/// diameter: within it, past a pin.
+const BESIDE_RATIO: f64 = 0.42;
+/// Directions in which that is tried.
+const LOOKS: usize = 8;
+/// How far off the cut a part is looked for, mm: past rounding, not past a wall.
+const OFF_MM: f64 = 0.02;
+
+/// The section of the uncut body at every cut.
+pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
+    let body = made.hollowed.to_mesh();
+    let plan = &made.plan;
+    let solid = |written: &WrittenPart| {
+        (
+            written.part.id.clone(),
+            MeshDistance::new(written.part.solid.mesh()),
+        )
+    };
+    let solids: Vec<(String, MeshDistance)> = made.parts.par_iter().map(solid).collect();
+    let partings = plan.partings()?;
+    let face = |(cut, parting): (&crate::cut::Cut, &Parting)| {
+        let plane = parting.plane;
+        let section = Section::of_mesh(&reached(parting, &body)?, &plane);
+        let regions = regions(&sections(&body, parting, &partings)?, &plane, &solids);
+        let rings: Vec<Vec<[f64; 2]>> = section.rings.iter().map(flat_ring).collect();
+        let whole = plan
+            .uncut
+            .iter()
+            .filter(|face| face.cut == cut.id)
+            .map(|face| flat_point(&plane, face));
+        let (whole, mouths) = (whole.collect(), mouths(made, parting)?);
+        // What ends where the cut ends is no wall.
+        let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
+        Ok(CutFace {
+            cut: cut.id.clone(),
+            plane,
+            rings,
+            wall,
+            whole,
+            regions,
+            mouths,
+        })
+    };
+    plan.cuts.iter().zip(&partings).map(face).collect()
+}
+
+/// Whether a place of a cut, in the plane's coordinates, lies where the cut ends at another.
+fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
+    let (u, v) = parting.plane.basis();
+    let at = parting.plane.foot() + u * x + v * y;
+    parting
+        .within
+        .iter()
+        .any(|(other, _)| other.distance(&at).abs() < OFF_MM)
+}
+
+/// The sections of a body at a cut on either side of every other that ends there, or the one where
+/// none does.
+fn sections(
+    body: &TriMesh,
+    parting: &Parting,
+    partings: &[Parting],
+) -> Result<Vec<Section>, CutError> {
+    let ends_here = |other: &&Parting| {
+        other
+            .within
+            .iter()
+            .any(|(plane, _)| *plane == parting.plane)
+    };
+    let halves = |cell: &Parting, other: &Parting| {
+        [true, false].map(|is_above| {
+            let within = [&cell.within[..], &[(other.plane, is_above)]].concat();
+            Parting {
+                within,
+                ..cell.clone()
+            }
+        })
+    };
+    let cells = partings
+        .iter()
+        .filter(ends_here)
+        .fold(vec![parting.clone()], |cells, other| {
+            cells.iter().flat_map(|cell| halves(cell, other)).collect()
+        });
+    cells
+        .iter()
+        .map(|cell| Ok(Section::of_mesh(&reached(cell, body)?, &cell.plane)))
+        .collect()
+}
+
+/// Every two parts between which the cut passes, with a place in the material: looked for beside
+/// the middle of the widest disc of each region, where pins stand.
+fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
+    let (u, v) = plane.basis();
+    let part_at = |at: [f64; 2], off_mm: f64| {
+        let point = plane.foot() + u * at[0] + v * at[1] + plane.normal * off_mm;
+        solids
+            .iter()
+            .find(|(_, solid)| solid.signed(&point) > 0.0)
+            .map(|(id, _)| id.clone())
+    };
+    let region = |(middle, diameter_mm): (Point2, f64)| {
+        (0..LOOKS).find_map(|look| {
+            let (sin, cos) = (std::f64::consts::TAU * look as f64 / LOOKS as f64).sin_cos();
+            let reach_mm = BESIDE_RATIO * diameter_mm;
+            let at = [middle.x + reach_mm * cos, middle.y + reach_mm * sin];
+            let (below, above) = (part_at(at, -OFF_MM)?, part_at(at, OFF_MM)?);
+            (below != above).then_some(Region {
+                at,
+                parts: [below, above],
+            })
+        })
+    };
+    let mut regions: Vec<Region> = Vec::new();
+    for found in sections
+        .iter()
+        .flat_map(Section::largest_discs)
+        .filter_map(region)
+    {
+        // A region that no other cut ends in is found on either side of it, or of two.
+        if sections.len() == 1 || regions.iter().all(|known| known.parts != found.parts) {
+            regions.push(found);
+        }
+    }
+    regions
+}
+
+/// Where the cut opens voids, each with the largest disc that passes there.
+fn mouths(made: &Made, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
+    let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
+        let Some(body) = made.hollowed.voids.get(access.void) else {
+            return Ok(Vec::new());
+        };
+        let discs =
+            Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
+        let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
+            void: void_id(access.void),
+            at: [at.x, at.y],
+            diameter_mm,
+        };
+        Ok(discs.into_iter().map(mouth).collect())
+    };
+    let of_voids = made
+        .plan
+        .voids
+        .iter()
+        .map(of_void)
+        .collect::<Result<Vec<_>, _>>()?;
+    Ok(of_voids.concat())
+}
+
+fn flat_ring(ring: &Ring) -> Vec<[f64; 2]> {
+    ring.points.iter().map(|point| [point.x, point.y]).collect()
+}
+
+fn flat_point(plane: &Plane, face: &UncutFace) -> [f64; 2] {
+    let ((u, v), at) = (plane.basis(), Point::from(face.point_mm).coords);
+    [u.dot(&at), v.dot(&at)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vector;
+    use crate::mesh::primitives;
+
+    #[test]
+    fn a_cut_is_looked_at_on_either_side_of_one_that_ends_there() {
+        let body = primitives::cuboid(
+            &Point::new(-10.0, -10.0, -10.0),
+            &Point::new(10.0, 10.0, 10.0),
+        );
+        let across = Parting::everywhere(Plane {
+            normal: Vector::x(),
+            offset_mm: 0.0,
+        });
+        let ending = Parting {
+            plane: Plane {
+                normal: Vector::y(),
+                offset_mm: 4.0,
+            },
+            within: vec![(across.plane, true)],
+        };
+        let partings = [across, ending];
+        let widths = |index: usize| -> Vec<f64> {
+            let found = sections(&body, &partings[index], &partings).unwrap();
+            let discs = found.iter().flat_map(Section::largest_discs);
+            discs.map(|(_, diameter_mm)| diameter_mm.round()).collect()
+        };
+        assert_eq!(widths(0), [6.0, 14.0]);
+        assert_eq!(
+            widths(1),
+            [10.0],
+            "nothing ends at the one that ends itself"
+        );
+    }
+}

@@ -1,0 +1,102 @@
+//! Judge: what is to be written, held against its promise. The pictures are taken meanwhile.
+
+use crate::base::watch::{Phase, Watch};
+use crate::error::Error;
+use crate::geom::Parting;
+use crate::io::stl;
+use crate::make::{File, packages, repack};
+use crate::page::{Picture, Subject, View, album};
+use crate::repair::weld;
+use crate::run::{Made, Placed};
+use crate::sheet::Verdict;
+use crate::sheet::from_run::{promise, promised_figure};
+use crate::verify::{Evidence, Judgement, PromisedFigure, Shells, checks, judge};
+
+/// A kit in draft: its parts judged, its pictures taken.
+pub struct Draft {
+    /// The parts.
+    pub made: Made,
+    /// The bytes of the uncut result.
+    pub hollowed: Vec<u8>,
+    /// The 3MF files beside the judged ones.
+    pub packages: Vec<File>,
+    /// The files as they read back, and their promise.
+    pub evidence: Evidence,
+    /// The shells of the uncut result.
+    pub shells: Shells,
+    /// The cuts.
+    pub cuts: Vec<Parting>,
+    /// The findings of the judge.
+    pub judgement: Judgement,
+    /// The pictures of the parts.
+    pub pictures: Vec<Picture>,
+    /// The view that can be turned.
+    pub view: View,
+}
+
+impl Draft {
+    /// Returns whether every promise is kept.
+    pub fn passes(&self) -> bool {
+        Verdict::of(&self.judgement.checks) == Verdict::Pass
+    }
+
+    /// Returns what pictures are taken of.
+    pub fn subject(&self) -> Subject<'_> {
+        subject(&self.evidence, &self.shells, &self.cuts)
+    }
+}
+
+/// Encodes the files of a kit, reads them back and judges them.
+pub fn draft(placed: &Placed, made: Made, watch: &Watch) -> Result<Draft, Error> {
+    let made = repack(placed, made)?;
+    watch.enter(Phase::Verify);
+    let title = format!("{} hollowed", placed.name());
+    let hollowed = stl::encode(&made.hollowed.to_mesh(), &title);
+    let mut evidence = Evidence {
+        promise: promise(placed, &made),
+        hollowed: stl::decode(&hollowed)?,
+        parts: made.evidence(),
+    };
+    let shells = Shells::of_mesh(&weld(&evidence.hollowed));
+    let cuts = made.plan.partings()?;
+    let subject = subject(&evidence, &shells, &cuts);
+    let (mut judgement, ((pictures, view), packages)) = rayon::join(
+        || judge(&evidence),
+        || {
+            let drawn = || rayon::join(|| album(&subject), || View::of(&subject));
+            rayon::join(drawn, || packages(placed, &made))
+        },
+    );
+    let (pictures, view, packages) = (pictures?, view?, packages?);
+    watch.check()?;
+    // A buyer may rely on the figure that the written parts reach.
+    let figure = promised_figure(placed.goal().kind, placed.goal().objective);
+    let reached = judgement.assembly.value_of(figure);
+    evidence.promise.promise = reached.map(|value| PromisedFigure { figure, value });
+    judgement.checks = checks(&evidence.promise, &judgement);
+    Ok(Draft {
+        made,
+        hollowed,
+        packages,
+        evidence,
+        shells,
+        cuts,
+        judgement,
+        pictures,
+        view,
+    })
+}
+
+/// Returns what pictures are taken of: the files as they are written.
+fn subject<'a>(evidence: &'a Evidence, shells: &'a Shells, cuts: &'a [Parting]) -> Subject<'a> {
+    let promise = &evidence.promise;
+    Subject {
+        shells,
+        parts: &evidence.parts,
+        promised: &promise.parts,
+        cuts,
+        aim: promise.goal,
+        hardware: &promise.hardware,
+        ballast: &promise.ballast,
+    }
+}

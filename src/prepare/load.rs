@@ -1,0 +1,77 @@
+//! Load: the printer, the model as one solid body in mm, and the lengths that the printer makes.
+
+use crate::base::digest::sha256_hex;
+use crate::base::watch::{Phase, Watch};
+use crate::cut::rods;
+use crate::error::Error;
+use crate::io;
+use crate::job::Job;
+use crate::mesh::{Defects, Solid, scaled};
+use crate::printer::{Printer, leaves_room};
+use crate::repair::{one_body, repair};
+use crate::run::{Model, Shop};
+
+/// Finds the job's printer.
+pub fn printer(job: &Job, watch: &Watch) -> Result<Printer, Error> {
+    watch.enter(Phase::Load);
+    let printer = Printer::find(&job.printer.id)?;
+    printer.material(job.printer.material.as_deref())?;
+    Ok(printer)
+}
+
+/// Reads the job's model, repairs it and proves that it bounds one solid body.
+///
+/// Defects are told at their places in the file, not in mm.
+pub fn model(job: &Job, printer: &Printer, watch: &Watch) -> Result<Model, Error> {
+    let path = || job.model.path.clone();
+    let bytes = io::read_bytes(&job.model.path)?;
+    let content = |source| io::ReadError::Content {
+        path: path(),
+        source,
+    };
+    let mesh = io::decode_model(&bytes).map_err(content)?;
+    job.clone().bound_to(&bytes)?;
+    watch.check()?;
+    let (mesh, repairs) = repair(mesh);
+    let scale_ratio = job.model.scaling.factor(mesh.longest_side_mm());
+    printer.allows_length(scale_ratio * mesh.longest_side_mm())?;
+    watch.check()?;
+    let solid = Solid::new(scaled(&mesh, scale_ratio)).map_err(|defects| Error::NotSolid {
+        path: path(),
+        source: Box::new(Defects::of(&mesh).unwrap_or(defects)),
+    })?;
+    watch.check()?;
+    one_body(&solid).map_err(|source| Error::NotOneBody {
+        path: path(),
+        source: Box::new(source),
+    })?;
+    let sha256 = sha256_hex(&[&bytes]);
+    Ok(Model {
+        solid,
+        repairs,
+        sha256,
+        scale_ratio,
+    })
+}
+
+/// Chooses wall and pitch on the printer's grid for a model of this size.
+pub fn shop(job: &Job, printer: Printer, model: &Model) -> Result<Shop, Error> {
+    let material = printer.material(job.printer.material.as_deref())?.clone();
+    let size_mm = model.solid.mesh().longest_side_mm();
+    let wall = printer.quantised_wall(job.wall.map(|wall| wall.mm()), size_mm)?;
+    let asked_pitch_mm = job.pitch.map(|pitch| pitch.mm());
+    let pitch_mm = printer.solve_pitch_mm(wall.wall_mm, size_mm, asked_pitch_mm);
+    leaves_room(size_mm, wall.wall_mm)?;
+    let rods = if job.pins.is_printed() {
+        Vec::new()
+    } else {
+        rods()?
+    };
+    Ok(Shop {
+        printer,
+        material,
+        wall,
+        pitch_mm,
+        rods,
+    })
+}

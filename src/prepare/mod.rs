@@ -1,0 +1,68 @@
+//! The line from a job to a kit: load, place, solve, open, make, judge, kit.
+
+mod advise;
+mod ballast;
+mod faces;
+mod hardware;
+mod judge;
+mod load;
+mod outcome;
+mod papers;
+mod place;
+mod solve;
+mod waterline;
+
+pub use outcome::{Failure, Impossible, Outcome, Prepared};
+
+use crate::base::verdict::Verdict;
+use crate::base::watch::Watch;
+use crate::error::Error;
+use crate::job::Job;
+use crate::make::make;
+use crate::open::{Candidate, climb};
+use judge::Draft;
+
+/// Prepares a job to its end: a kit with its checklist, or the proof that the goal cannot be met.
+///
+/// Nothing is written: [`Prepared::kit`] is in memory. The same job gives the same bytes on any
+/// number of threads.
+///
+/// # Errors
+/// An [`Error`] means that no answer was reached: the model cannot be read, the job contradicts
+/// itself, the caller stopped the run. A goal that cannot be met is an answer.
+pub fn prepare(job: &Job, watch: &Watch) -> Result<Outcome, Error> {
+    let printer = load::printer(job, watch)?;
+    let model = load::model(job, &printer, watch)?;
+    let shop = load::shop(job, printer, &model)?;
+    let placed = place::goal(job, model, shop, watch)?;
+    let solved = match solve::best(&placed, watch)? {
+        Verdict::Found(solved) => solved,
+        Verdict::No(impossible) => {
+            let impossible = advise::remedies(&placed, impossible, watch)?;
+            return Ok(Outcome::Impossible(Box::new(impossible)));
+        }
+    };
+    let candidates = climb(&placed, solved, watch)?;
+    let draft = first_that_passes(candidates, |candidate| {
+        let made = make(&placed, candidate, watch)?;
+        judge::draft(&placed, made, watch)
+    })?;
+    let prepared = papers::finish(&placed, draft, watch)?;
+    let prepared = advise::on_failure(&placed, prepared, watch)?;
+    Ok(Outcome::Prepared(Box::new(prepared)))
+}
+
+/// Drafts kits in order until one keeps every promise; else returns the last.
+fn first_that_passes<'a>(
+    candidates: Vec<Candidate<'a>>,
+    mut draft: impl FnMut(Candidate<'a>) -> Result<Draft, Error>,
+) -> Result<Draft, Error> {
+    let mut last = Err(Error::Cancelled);
+    for candidate in candidates {
+        last = Ok(draft(candidate)?);
+        if last.as_ref().is_ok_and(Draft::passes) {
+            break;
+        }
+    }
+    last
+}

@@ -1,0 +1,83 @@
+//! Place: the goal in the model, with its axis, its waterline and its hardware.
+
+use super::{advise, hardware, waterline};
+use crate::advice::best_orientation;
+use crate::base::watch::Watch;
+use crate::error::Error;
+use crate::goal::{GoalKind, Request, Stock, Up, place_made_of};
+use crate::hollow::Fill;
+use crate::job::Job;
+use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
+
+/// Places the job's goal in the model and settles what the job leaves open.
+pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
+    let choice = choose_axis(&job.goal, &model, &shop);
+    let request = match choice {
+        Some(AxisChoice::Best { request, .. }) => request,
+        Some(AxisChoice::NonePossible { up }) => Request { up, ..job.goal },
+        None => job.goal,
+    };
+    watch.check()?;
+    let stock = Stock {
+        wall_mm: shop.wall.wall_mm,
+        density_g_cm3: shop.material.density_g_cm3.value,
+    };
+    let placement = place_made_of(&model.solid, &stock, &request)?;
+    let mut bound = job.clone();
+    bound.model.sha256 = Some(model.sha256.clone());
+    let placed = Placed {
+        fill: fill(job, stock.density_g_cm3)?,
+        job: bound,
+        model,
+        shop,
+        request,
+        choice,
+        placement,
+        fitted: None,
+        policy: Policy::STANDARD,
+    };
+    hardware::fit(waterline::choose(placed, watch)?, watch)
+}
+
+/// Chooses the axis of a request that leaves it open; `None` if the request names one.
+fn choose_axis(request: &Request, model: &Model, shop: &Shop) -> Option<AxisChoice> {
+    if request.up != Up::Auto {
+        return None;
+    }
+    let Some(best) = best_orientation(&advise::case(model, shop, *request)) else {
+        let up = if request.kind == GoalKind::Stand {
+            Up::Z
+        } else {
+            Up::Principal
+        };
+        return Some(AxisChoice::NonePossible { up });
+    };
+    Some(AxisChoice::Best {
+        request: best.request,
+        tried: best.tried,
+        possible: best.possible,
+        reached: best.reached,
+    })
+}
+
+/// Returns the filling of the voids; an error if it does not go with the rest of the job.
+fn fill(job: &Job, density_g_cm3: f64) -> Result<Fill, Error> {
+    let Some(filling) = job.fill else {
+        return Ok(Fill::AIR);
+    };
+    if !job.ballast.is_none() {
+        return Err(Error::FillAndBallast {
+            fill: filling,
+            order: job.ballast.clone(),
+        });
+    }
+    let ratio = filling.density_g_cm3() / density_g_cm3;
+    let fill = Fill::new(ratio).ok_or(Error::FillLikePrint {
+        fill: filling,
+        density_g_cm3,
+    })?;
+    if fill.is_heavier() && job.goal.kind == GoalKind::Balance {
+        return Err(Error::HeavyFillInRotor { fill: filling });
+    }
+    Ok(fill)
+}

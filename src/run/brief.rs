@@ -1,0 +1,128 @@
+//! The brief of a run: the model, the shop that prints it, and the goal placed in the model.
+
+use super::{AxisChoice, Policy};
+use crate::ballast::Load;
+use crate::cut::Rod;
+use crate::goal::{Goal, Placement, Request};
+use crate::hardware::Fitted;
+use crate::hollow::Fill;
+use crate::job::Job;
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::{Hollowed, Solid};
+use crate::printer::{Material, Printer, WallChoice};
+use crate::repair::Repairs;
+
+/// A model that bounds one solid body, in mm.
+#[derive(Debug, Clone)]
+pub struct Model {
+    /// The body, without hardware.
+    pub solid: Solid,
+    /// The repairs that were needed.
+    pub repairs: Repairs,
+    /// SHA-256 of the file.
+    pub sha256: String,
+    /// Factor from the file's numbers to mm.
+    pub scale_ratio: f64,
+}
+
+/// The printer with its material, and lengths that it can print.
+#[derive(Debug, Clone)]
+pub struct Shop {
+    /// The printer.
+    pub printer: Printer,
+    /// Its material.
+    pub material: Material,
+    /// The wall that is printed.
+    pub wall: WallChoice,
+    /// Pitch of the finest columns along x and y, mm.
+    pub pitch_mm: [f64; 2],
+    /// The rods that dowels are cut from; empty if pins are printed.
+    pub rods: Vec<Rod>,
+}
+
+/// A goal in its model, ready to be solved: waterline and hardware are settled.
+#[derive(Debug, Clone)]
+pub struct Placed {
+    /// The job, bound to the bytes of its model.
+    pub job: Job,
+    /// The model.
+    pub model: Model,
+    /// The printer, material and wall.
+    pub shop: Shop,
+    /// The job's goal with its axis decided.
+    pub request: Request,
+    /// How the axis was chosen, `None` if the job names it.
+    pub choice: Option<AxisChoice>,
+    /// The goal in the model; its moments count the hardware.
+    pub placement: Placement,
+    /// The hardware and the solid with its sockets, `None` without hardware.
+    pub fitted: Option<Fitted>,
+    /// The filling of the voids.
+    pub fill: Fill,
+    /// The limits of the search for cuts and pins.
+    pub policy: Policy,
+}
+
+impl Placed {
+    /// Returns the solid that is hollowed: the model, with its sockets and with halves apart.
+    pub fn solid(&self) -> &Solid {
+        self.fitted
+            .as_ref()
+            .map_or(&self.model.solid, |fitted| &fitted.solid)
+    }
+
+    /// Returns the placed goal.
+    pub fn goal(&self) -> &Goal {
+        &self.placement.goal
+    }
+
+    /// Returns the density of the printed material, g/cm³.
+    pub fn density_g_cm3(&self) -> f64 {
+        self.shop.material.density_g_cm3.value
+    }
+
+    /// Returns the least wall that the printer makes of a model of this size, mm.
+    pub fn minimum_wall_mm(&self) -> f64 {
+        let size_mm = self.solid().mesh().longest_side_mm();
+        self.shop.printer.least_wall_mm(size_mm).value
+    }
+
+    /// Returns the moments of the hardware in volumes of the printed material, model frame; zero
+    /// without hardware.
+    pub fn hardware_moments(&self) -> Moments {
+        let density_g_cm3 = self.density_g_cm3();
+        self.fitted
+            .as_ref()
+            .map_or(Moments::default(), |fitted| fitted.moments(density_g_cm3))
+    }
+
+    /// Returns the moments of what is put into the print, model frame: ballast, hardware and the
+    /// filling of the voids.
+    pub fn moments_inside(&self, load: &Load, hollowed: &Hollowed) -> Moments {
+        let voids = hollowed.voids.iter();
+        let voids = voids.map(|void| moments_of_mesh(void.mesh()));
+        let volume = voids.fold(Moments::default(), |sum, void| sum + void);
+        load.moments() + self.hardware_moments() + volume * self.fill.density_ratio()
+    }
+
+    /// Returns the gap between the halves of a yo-yo, mm, `None` for one body.
+    pub fn string_gap_mm(&self) -> Option<f64> {
+        let gap_mm = self.fitted.as_ref().map(|fitted| fitted.gap_mm);
+        gap_mm.filter(|gap_mm| *gap_mm > 0.0)
+    }
+
+    /// Returns the name of the job in file names: the model's file name without its ending.
+    pub fn name(&self) -> String {
+        let stem = self.job.model.path.file_stem();
+        let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+        let is_plain = |c: char| c.is_alphanumeric() || c == '-' || c == '_';
+        let plain = |c: char| if is_plain(c) { c } else { '-' };
+        stem.unwrap_or_default().chars().map(plain).collect()
+    }
+
+    /// Returns whether a person ordered the pins.
+    pub fn has_ordered_pins(&self) -> bool {
+        let order = self.job.plan.as_ref();
+        order.is_some_and(|order| order.pins.is_some())
+    }
+}

@@ -1,0 +1,80 @@
+//! The parts of a kit as they are written and read back.
+
+use super::{BossRound, CleaningRound, HeightProof, Remark};
+use crate::ballast::Load;
+use crate::cut::{CutPlan, Part};
+use crate::hollow::{Solution, TopCourse};
+use crate::mass::Moments;
+use crate::mesh::{Hollowed, TriMesh};
+use crate::verify::{PartEvidence, Pose, assembly_moments};
+
+/// The parts of a kit, corrected until the written parts meet the goal.
+#[derive(Debug, Clone)]
+pub struct Made {
+    /// The solution that the parts were made from.
+    pub solution: Solution,
+    /// The ballast that is laid in.
+    pub load: Load,
+    /// The proof for other heights of a top's centre.
+    pub height_proof: Option<HeightProof>,
+    /// The course of the first answer.
+    pub course: TopCourse,
+    /// The uncut body.
+    pub hollowed: Hollowed,
+    /// Volume of voids that stay solid for cleaning or for pins, mm³.
+    pub refused_mm3: f64,
+    /// The cuts and pins.
+    pub plan: CutPlan,
+    /// Notes for the job sheet beside those of the plan.
+    pub remarks: Vec<Remark>,
+    /// The parts.
+    pub parts: Vec<WrittenPart>,
+    /// Number of times that it was solved again.
+    pub rounds: usize,
+    /// Figure of the certificate before anything was kept solid.
+    pub value_before_cleaning: f64,
+    /// Rounds in which something was kept solid so that voids can be cleaned or joints have pins.
+    pub cleaning: Vec<CleaningRound>,
+    /// Rounds in which bosses were kept solid around pins.
+    pub bosses: Vec<BossRound>,
+}
+
+impl Made {
+    /// Returns the moments of the written parts put together, model frame: without hardware,
+    /// ballast and glue.
+    pub fn written_moments(&self) -> Moments {
+        assembly_moments(&self.evidence())
+    }
+
+    /// Returns the parts as the judge reads them.
+    pub fn evidence(&self) -> Vec<PartEvidence> {
+        self.parts.iter().map(WrittenPart::evidence).collect()
+    }
+}
+
+/// A part as it is written.
+#[derive(Debug, Clone)]
+pub struct WrittenPart {
+    /// The part.
+    pub part: Part,
+    /// Its file, relative to the kit.
+    pub file: String,
+    /// The bytes of its file.
+    pub bytes: Vec<u8>,
+    /// The triangles read back from those bytes, print pose, in the part's own size.
+    pub read_back: TriMesh,
+}
+
+impl WrittenPart {
+    /// Returns the part as the judge reads it.
+    pub fn evidence(&self) -> PartEvidence {
+        let pose = Pose {
+            rows: self.part.pose.print_from_model,
+        };
+        PartEvidence {
+            id: self.part.id.clone(),
+            mesh: self.read_back.clone(),
+            pose,
+        }
+    }
+}

@@ -1,0 +1,139 @@
+//! The policy of the search for cuts and pins: every ratio and limit in one place.
+//!
+//! `tests/policy` holds the models, by file and SHA-256, that set the ratios, and runs them again.
+
+use std::fmt;
+
+use crate::cut::PlanRequest;
+
+/// A rung of the ladder to a plan in which every joint has its pins.
+///
+/// Each rung gives up more material than the one before, or searches elsewhere.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Rung {
+    /// Pins stand where the walls have room for them.
+    Walls,
+    /// Material is kept solid around pins, where it costs little.
+    Bosses,
+    /// No cut is made for cleaning alone; hidden ends of voids stay solid.
+    FewerCuts,
+    /// Cuts pass through the widest places.
+    WideJoints,
+    /// Bosses may cost most of the goal's figure.
+    DearBosses,
+    /// Bosses may cost a part of the figure, though some joint stays without.
+    SomeBosses,
+    /// Voids end before the joints that have no room for pins.
+    SolidEnds,
+}
+
+impl Rung {
+    /// The rungs beyond the usual plan, in the order in which they are tried.
+    pub const BEYOND_USUAL: [Self; 5] = [
+        Self::FewerCuts,
+        Self::WideJoints,
+        Self::DearBosses,
+        Self::SomeBosses,
+        Self::SolidEnds,
+    ];
+}
+
+impl fmt::Display for Rung {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::Walls => "pins in the walls",
+            Self::Bosses => "bosses",
+            Self::FewerCuts => "fewer cuts for cleaning alone",
+            Self::WideJoints => "cuts through wider places",
+            Self::DearBosses | Self::SomeBosses => "dear bosses",
+            Self::SolidEnds => "voids solid beyond joints without room",
+        })
+    }
+}
+
+/// The ratios and limits of the search.
+///
+/// A "loss" is the share by which the goal's figure becomes worse, a margin is in minimum openings
+/// of the printer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Policy {
+    /// Greatest loss for bosses while other places for them are left to try.
+    pub cheap_loss_ratio: f64,
+    /// Greatest loss for pins if some joint stays without them.
+    pub partial_loss_ratio: f64,
+    /// Greatest loss for pins in every joint. Beyond it the kit has lost what it was made for.
+    pub dear_loss_ratio: f64,
+    /// Greatest share of the voids that may become solid for pins. Some figures hardly tell: a
+    /// toppling angle barely changes when all voids are lost.
+    pub max_void_loss_ratio: f64,
+    /// Margin around void ends that are kept solid beyond joints.
+    pub ends_margin_openings: f64,
+    /// Times that void ends are given up beyond joints: the cuts that follow may lack pins, too.
+    pub max_ends: usize,
+    /// Factor on the least opening in plans that are solved again afterwards: solving again for
+    /// pins narrows openings.
+    pub spare_opening_ratio: f64,
+    /// Rounds in which bosses are searched. Solving again moves voids, which may take the room of
+    /// other pins.
+    pub boss_rounds: usize,
+    /// Patterns of bosses that are tried at a joint, each away from those that cost too much.
+    pub boss_patterns: usize,
+    /// Times that more is kept solid for the sake of the same bosses.
+    pub settle_rounds: usize,
+    /// Margin around voids' ends that bosses close or hide: next to nothing of a clean void.
+    pub settle_margin_openings: f64,
+    /// Rounds of cleaning in all; in the last ones whole voids stay solid, so that it ends.
+    pub cleaning_rounds: usize,
+    /// Rounds of cleaning in which only the hidden ends of voids stay solid.
+    pub shrinking_rounds: usize,
+    /// Margin around hidden ends of voids. More costs voids that could be cleaned, less takes more
+    /// rounds.
+    pub cleaning_margin_openings: f64,
+    /// Margin around voids that are refused whole: what lies nearer could hardly be cleaned.
+    pub refused_margin_openings: f64,
+    /// Share of the model's volume below which a refused void may come back: 50 mm from the axis
+    /// it moves the centre of mass by 0.1 µm.
+    pub significant_void_ratio: f64,
+    /// Share of all walls that a cut for cleaning alone must bring into sight. Below it joints and
+    /// crumbs are made for nothing.
+    pub cut_worth_ratio: f64,
+    /// Times that parts are made. The first are right but for the rounding of their files, unless
+    /// the plan had to change.
+    pub max_assemblies: usize,
+    /// Rounds of measuring and solving again in one go. Each leaves about a hundredth of the
+    /// defect before it.
+    pub correction_rounds: usize,
+}
+
+impl Policy {
+    /// The policy of every run.
+    pub const STANDARD: Self = Self {
+        cheap_loss_ratio: 0.1,
+        partial_loss_ratio: 0.35,
+        dear_loss_ratio: 0.65,
+        max_void_loss_ratio: 0.5,
+        ends_margin_openings: 0.25,
+        max_ends: 3,
+        spare_opening_ratio: 1.03,
+        boss_rounds: 3,
+        boss_patterns: 3,
+        settle_rounds: 4,
+        settle_margin_openings: 0.25,
+        cleaning_rounds: 8,
+        shrinking_rounds: 4,
+        cleaning_margin_openings: 0.5,
+        refused_margin_openings: 2.0,
+        significant_void_ratio: 2e-6,
+        cut_worth_ratio: PlanRequest::WORTH_RATIO,
+        max_assemblies: 3,
+        correction_rounds: 8,
+    };
+}
+
+impl Default for Policy {
+    fn default() -> Self {
+        Self::STANDARD
+    }
+}

@@ -1,0 +1,237 @@
+//! Facts of a run that a person is told, worded only when they are shown.
+
+use std::fmt;
+
+use super::Rung;
+use crate::advice::Reached;
+use crate::base::units::counted;
+use crate::goal::{Request, Up};
+
+/// A note for the job sheet.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum Remark {
+    /// A joint got no bosses around pins.
+    NoBosses {
+        /// The parts below and above the joint.
+        parts: [String; 2],
+        /// The reason.
+        why: Refusal,
+    },
+    /// A rung beyond the usual plan gave joints their pins.
+    Pins {
+        /// The rung.
+        rung: Rung,
+        /// Number of joints that lack pins in the usual plan.
+        lacking: usize,
+        /// Number of joints in the usual plan.
+        joints: usize,
+        /// Share of itself by which the goal's figure is worse.
+        loss_ratio: f64,
+    },
+    /// A higher rung broke a promise of the kit, so that this lower one was made.
+    SteppedDown(Rung),
+    /// A rung could not be tried to its end, by a fault of a program part.
+    RungFailed {
+        /// The rung.
+        rung: Rung,
+        /// The fault, in the words of its error.
+        why: String,
+    },
+    /// The solid regions of the ordered plan leave too little for the goal.
+    OrderTooSolid,
+}
+
+impl fmt::Display for Remark {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::NoBosses { parts, why } => {
+                let [below, above] = parts;
+                write!(
+                    f,
+                    "joint {below}–{above}: bosses around pins would {why}: it has none"
+                )
+            }
+            Self::Pins {
+                rung,
+                lacking,
+                joints,
+                loss_ratio,
+            } => write!(
+                f,
+                "pins: {rung}, because {lacking} of {} would lack them; the goal's figure is {:.1} % {} for it",
+                counted(*joints, "joint"),
+                100.0 * loss_ratio.abs(),
+                if *loss_ratio > 0.0 { "worse" } else { "better" },
+            ),
+            Self::SteppedDown(Rung::Walls) => {
+                f.write_str("bosses around pins would break a promise of the kit: no joint has them")
+            }
+            Self::SteppedDown(_) => f.write_str(
+                "pins in every joint would break a promise of the kit: some joints have none",
+            ),
+            Self::RungFailed { rung, why } => write!(f, "pins: {rung} could not be tried: {why}"),
+            Self::OrderTooSolid => f.write_str(
+                "the regions that the plan keeps solid leave too little for the goal: they are not kept solid",
+            ),
+        }
+    }
+}
+
+/// Why bosses around pins cannot be had; reads after "bosses around pins would".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Refusal {
+    /// No hollowing meets the goal beside them.
+    MakeGoalImpossible,
+    /// They take too much of the voids.
+    FillVoids {
+        /// Share of the voids' volume.
+        ratio: f64,
+    },
+    /// They take too much of the goal's figure.
+    CostTooMuch {
+        /// Share of the figure.
+        loss_ratio: f64,
+    },
+    /// They close a void.
+    CloseVoid,
+    /// They move the joint away from the pins that they were made for.
+    MoveJoint,
+    /// They leave a void that cannot be cleaned.
+    LeaveUncleanVoid,
+}
+
+impl Refusal {
+    /// Returns the loss of the goal's figure, if nothing else stands against the bosses.
+    pub fn loss_ratio(self) -> Option<f64> {
+        match self {
+            Self::CostTooMuch { loss_ratio } => Some(loss_ratio),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for Refusal {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::MakeGoalImpossible => f.write_str("make the goal impossible"),
+            Self::FillVoids { ratio } => {
+                write!(f, "make {:.0} % of the voids solid", 100.0 * ratio)
+            }
+            Self::CostTooMuch { loss_ratio } => {
+                write!(
+                    f,
+                    "cost {:.0} % of what the kit reaches",
+                    100.0 * loss_ratio
+                )
+            }
+            Self::CloseVoid => f.write_str("close a void"),
+            Self::MoveJoint => f.write_str("move the joint away from its pins"),
+            Self::LeaveUncleanVoid => f.write_str("leave a void that cannot be cleaned"),
+        }
+    }
+}
+
+/// Why a part of a void is kept solid.
+#[derive(Debug, Clone, PartialEq)]
+pub enum KeptCause {
+    /// It lies beyond a joint without room for pins.
+    BeyondJoint,
+    /// The ordered plan keeps it solid.
+    Ordered,
+    /// No cut opens the void.
+    Unopenable,
+    /// It cannot be cleaned, in the words of the cleaning rule.
+    Uncleanable(String),
+}
+
+impl fmt::Display for KeptCause {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(match self {
+            Self::BeyondJoint => "the end beyond a joint without room for pins",
+            Self::Ordered => "the plan keeps it solid",
+            Self::Unopenable => "no cut opens it wide enough",
+            Self::Uncleanable(why) => why,
+        })
+    }
+}
+
+/// How the axis was chosen for a job that leaves it open.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum AxisChoice {
+    /// The best of those tried.
+    Best {
+        /// The request with this axis, and the contact or face that goes with it.
+        request: Request,
+        /// Number of axes tried.
+        tried: usize,
+        /// Number of axes on which the goal is possible.
+        possible: usize,
+        /// The figure reached on it.
+        reached: Reached,
+    },
+    /// None of those tried allows the goal.
+    NonePossible {
+        /// The axis that the answer is for.
+        up: Up,
+    },
+}
+
+impl fmt::Display for AxisChoice {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        match self {
+            Self::Best {
+                request,
+                tried,
+                possible,
+                reached,
+            } => write!(
+                f,
+                "axis {} was chosen: {possible} of {tried} axes tried allow the goal; on this one, the best near any of them, it {reached}",
+                request.up
+            ),
+            Self::NonePossible { up } => {
+                write!(
+                    f,
+                    "none of the axes tried allows the goal; this answer is for axis {up}"
+                )
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_remark_says_which_joint_and_why() {
+        let remark = Remark::NoBosses {
+            parts: ["P01".to_owned(), "P02".to_owned()],
+            why: Refusal::FillVoids { ratio: 0.612 },
+        };
+        let words =
+            "joint P01–P02: bosses around pins would make 61 % of the voids solid: it has none";
+        assert_eq!(remark.to_string(), words);
+    }
+
+    #[test]
+    fn a_price_is_told_as_a_gain_when_it_is_one() {
+        let remark = |loss_ratio| Remark::Pins {
+            rung: Rung::FewerCuts,
+            lacking: 2,
+            joints: 5,
+            loss_ratio,
+        };
+        assert!(remark(0.058).to_string().contains("2 of 5 joints"));
+        assert!(remark(0.058).to_string().ends_with("5.8 % worse for it"));
+        assert!(remark(-0.01).to_string().ends_with("1.0 % better for it"));
+    }
+
+    #[test]
+    fn only_a_price_can_be_paid() {
+        let dear = Refusal::CostTooMuch { loss_ratio: 0.4 };
+        assert_eq!(dear.loss_ratio(), Some(0.4));
+        assert_eq!(Refusal::CloseVoid.loss_ratio(), None);
+    }
+}

@@ -1,0 +1,105 @@
+//! The certificate of the solution, and the log of the solver.
+
+use super::facts::Facts;
+use super::figures::{figure_name, shown};
+use super::joints::bosses_mm3;
+use super::voids::cleaning_rows;
+use crate::goal::figures;
+use crate::hollow;
+use crate::run::HeightProof;
+use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
+use crate::verify::FigureName;
+
+pub fn certificate(facts: &Facts) -> Certificate {
+    let certificate = &facts.made.solution.certificate;
+    let figure = figure_name(certificate.figure);
+    let shown = |value: f64| shown(facts.placed, certificate.figure, value);
+    Certificate {
+        figure,
+        value: shown(certificate.value),
+        bound: shown(certificate.bound),
+        gap_ratio: certificate.gap_ratio,
+        kept_solid_mm3: facts.made.refused_mm3,
+        value_before_cleaning: Some(shown(facts.made.value_before_cleaning)),
+        cleaning_rounds: cleaning_rows(&facts.made.cleaning, shown),
+        bosses_mm3: bosses_mm3(facts),
+        over_heights: facts.made.height_proof.map(height_proof),
+        written_value: written_value(facts, figure),
+        course: course(&facts.made.course, shown),
+    }
+}
+
+/// How the answer came about, in the units of the sheet.
+fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
+    let pass = |pass: &hollow::Pass| PassRow {
+        value: shown(pass.value),
+        bound: shown(pass.bound),
+    };
+    let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow {
+        height_mm,
+        critical_speed_rpm,
+    };
+    let (passes, speeds) = (
+        found.passes.iter().map(pass).collect(),
+        found.speeds.iter().map(speed).collect(),
+    );
+    (!found.passes.is_empty()).then_some(Course { passes, speeds })
+}
+
+/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was
+/// optimised with.
+fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
+    let (placed, goal) = (facts.placed, &facts.placed.placement.goal);
+    if figure != FigureName::SpinItRatio {
+        return facts.judgement.assembly.value_of(figure);
+    }
+    let joined = placed.joining_moments(&facts.made.plan);
+    let whole = facts.made.written_moments() + joined + placed.hardware_moments();
+    figures(goal, &whole.in_frame(&goal.frame)).spin_it
+}
+
+pub fn log_row(row: &hollow::LogRow) -> LogRow {
+    let figures = [
+        ("passes", row.passes as f64),
+        ("value", row.value),
+        ("bound", row.bound),
+        ("residual", row.residual),
+    ];
+    let finite = figures.into_iter().filter(|(_, value)| value.is_finite());
+    LogRow {
+        phase: stage_words(row.stage),
+        figures: finite
+            .map(|(name, value)| (name.to_owned(), value))
+            .collect(),
+    }
+}
+
+fn stage_words(stage: hollow::Stage) -> String {
+    use hollow::Stage;
+    match stage {
+        Stage::Goal => "goal".to_owned(),
+        Stage::Dominance => "dominance".to_owned(),
+        Stage::HeightRange => "range of heights".to_owned(),
+        Stage::AtHeight { height_mm } => format!("centre at {height_mm:.3} mm"),
+        Stage::AtLever {
+            height_mm,
+            lever_mm4,
+        } => {
+            format!("centre at {height_mm:.3} mm, lever {lever_mm4:.0} mm⁴")
+        }
+        Stage::Cover { height_mm } => format!("no better height near {height_mm:.3} mm"),
+    }
+}
+
+fn height_proof(proof: HeightProof) -> crate::sheet::HeightProof {
+    let HeightProof {
+        pitch_mm,
+        value,
+        bound,
+    } = proof;
+    crate::sheet::HeightProof {
+        pitch_mm,
+        value,
+        bound,
+    }
+}

@@ -1,0 +1,131 @@
+//! The checklist of a kit, section by section.
+
+use std::collections::BTreeMap;
+
+use super::certificate::{certificate, log_row};
+use super::facts::Facts;
+use super::finished::turn_row;
+use super::foot::foot_row;
+use super::grid::grid_rows;
+use super::hardware::{dowels, hardware};
+use super::joints::{cut_list, joint_rows, round_rows};
+use super::parts::part_rows;
+use super::printer::{material_row, printer_row};
+use super::promise::{aim, ballast_orders, fill_order};
+use super::remarks::{notes, warnings};
+use super::voids::{cut_rows, void_id, void_rows};
+use crate::ballast::Placed as PlacedPart;
+use crate::goal::{Objective, Warning};
+use crate::mass::moments_of_mesh;
+use crate::run::Placed;
+use crate::sheet::{
+    BallastRow, Checklist, GoalRow, ModelRow, Tool, Verdict, WallRow, finished_size_mm,
+};
+
+/// Fills the checklist, but for the hashes of the kit's files and the timings.
+pub fn checklist(facts: &Facts) -> Checklist {
+    let (placed, judgement) = (facts.placed, facts.judgement);
+    let parts = part_rows(facts);
+    let foot = foot_row(facts);
+    Checklist {
+        schema: Checklist::SCHEMA,
+        tool: Tool {
+            name: env!("CARGO_PKG_NAME").to_owned(),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+        },
+        job: placed.name(),
+        model: model_row(placed),
+        printer: printer_row(placed),
+        material: material_row(placed),
+        goal: goal_row(placed),
+        promise: facts.promised,
+        solid: judgement.solid.clone(),
+        hollowed: judgement.hollowed.clone(),
+        assembly: judgement.assembly.clone(),
+        certificate: certificate(facts),
+        wall: WallRow {
+            required_mm: placed.shop.wall.wall_mm,
+            asked_mm: placed.shop.wall.asked_mm,
+            measured_min_mm: judgement.wall_min_mm,
+        },
+        voids: void_rows(facts),
+        cuts: cut_rows(&facts.made.plan),
+        turn: turn_row(facts, &parts),
+        foot,
+        parts,
+        joints: joint_rows(facts),
+        grid: grid_rows(facts),
+        hardware: hardware(placed),
+        dowels: dowels(&facts.made.plan),
+        cut_list: cut_list(facts),
+        string_gap_mm: placed.string_gap_mm(),
+        finished_size_mm: Some(finished_size_mm(&facts.made.evidence(), &hardware(placed))),
+        ballast: ballast_rows(facts),
+        fill: fill_order(placed),
+        rounds: round_rows(facts),
+        checks: judgement.checks.clone(),
+        verdict: Verdict::of(&judgement.checks),
+        warnings: warnings(facts, foot.as_ref()),
+        notes: notes(facts),
+        files: BTreeMap::new(),
+        timing_s: None,
+        log: facts.made.solution.log.iter().map(log_row).collect(),
+    }
+}
+
+fn model_row(placed: &Placed) -> ModelRow {
+    let model = &placed.model;
+    let mesh = model.solid.mesh();
+    let file = placed.job.model.path.file_name().unwrap_or_default();
+    ModelRow {
+        file: file.to_string_lossy().into_owned(),
+        sha256: model.sha256.clone(),
+        triangles: mesh.triangles().len(),
+        size_mm: mesh.aabb().size().into(),
+        volume_mm3: moments_of_mesh(mesh).volume(),
+        scale_ratio: model.scale_ratio,
+    }
+}
+
+fn goal_row(placed: &Placed) -> GoalRow {
+    let gap = placed
+        .placement
+        .warnings
+        .iter()
+        .find_map(|warning| match warning {
+            Warning::ContactInAir { missing_mm } => Some(*missing_mm),
+            _ => None,
+        });
+    let asked = placed.request.objective;
+    let spin_it_weights = match asked {
+        Objective::SpinIt { gamma_c, gamma_i } => Some([gamma_c, gamma_i]),
+        _ => None,
+    };
+    GoalRow {
+        aim: aim(placed),
+        objective: asked.word().replace('-', "_"),
+        spin_it_weights,
+        contact_gap_mm: gap.unwrap_or(0.0),
+        choice: placed.choice.as_ref().map(ToString::to_string),
+    }
+}
+
+fn ballast_rows(facts: &Facts) -> Vec<BallastRow> {
+    let (load, voids) = (&facts.made.load, &facts.made.plan.voids);
+    let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
+    let rows = ballast_orders(load)
+        .into_iter()
+        .zip(&load.parts)
+        .zip(pockets);
+    rows.map(|((order, PlacedPart { part, .. }), pocket)| BallastRow {
+        order,
+        part: part.id.clone(),
+        name: part.name.clone(),
+        void: void_id(pocket.void),
+        opened_by: pocket.opened_by.clone(),
+        clearance_mm: load.fit.clearance_mm,
+        mass_spread_ratio: part.mass_spread_ratio,
+        sources: [&part.size, &part.mass].map(|known| format!("{}: {}", known.sure, known.source)),
+    })
+    .collect()
+}

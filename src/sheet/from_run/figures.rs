@@ -1,0 +1,43 @@
+//! Figures and their units as the sheet names them.
+
+use crate::goal::{GoalKind, Objective};
+use crate::hollow;
+use crate::run::Placed;
+use crate::verify::FigureName;
+
+/// The figure a goal is judged by.
+pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
+    match (kind, objective) {
+        (GoalKind::Top, _) => FigureName::CriticalSpeedRpm,
+        (_, Objective::Dominance) => FigureName::DominanceRatio,
+        (GoalKind::Yoyo, _) => FigureName::SpinItRatio,
+        (GoalKind::Stand, Objective::LowestCenter) => FigureName::CenterHeightMm,
+        (GoalKind::Stand, _) => FigureName::TopplesDeg,
+        (GoalKind::Float, _) => FigureName::MetacentricHeightMm,
+        (GoalKind::Balance, _) => FigureName::BalanceGradeMmS,
+    }
+}
+
+/// A value of a certificate's figure in the unit in which it is shown.
+pub fn shown(placed: &Placed, figure: hollow::Figure, value: f64) -> f64 {
+    match figure {
+        hollow::Figure::TopplingAngleRad => value.to_degrees(),
+        hollow::Figure::VolumeMm3 => value * placed.shop.material.density_g_mm3(),
+        _ => value,
+    }
+}
+
+/// The figure that a certificate speaks of, as the judge names it.
+pub fn figure_name(figure: hollow::Figure) -> FigureName {
+    use hollow::Figure;
+    match figure {
+        Figure::CriticalSpeedRpm => FigureName::CriticalSpeedRpm,
+        Figure::SpinIt => FigureName::SpinItRatio,
+        Figure::DominanceRatio => FigureName::DominanceRatio,
+        Figure::TopplingAngleRad => FigureName::TopplesDeg,
+        Figure::CenterHeightMm => FigureName::CenterHeightMm,
+        Figure::MetacentricHeightMm => FigureName::MetacentricHeightMm,
+        Figure::VolumeMm3 => FigureName::MassG,
+        Figure::BalanceGradeMmS => FigureName::BalanceGradeMmS,
+    }
+}

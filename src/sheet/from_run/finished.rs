@@ -1,0 +1,146 @@
+//! The checklist's rows about the finished object: what a turn of a yo-yo's half does, and what
+//! prints as a closed cup.
+
+use std::collections::BTreeMap;
+
+use super::facts::Facts;
+use crate::geom::{Matrix, Point, Vector};
+use crate::mass::{Body, Moments};
+use crate::mesh::TriMesh;
+use crate::mesh::union_find::UnionFind;
+use crate::repair::weld;
+use crate::sheet::{PartRow, TurnRow};
+
+/// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no
+/// layer is thinner than this.
+const ON_PLATE_MM: f64 = 1e-3;
+
+/// What becomes of a yo-yo whose half A is turned by a degree; none where there is one body.
+pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
+    let (placed, made) = (facts.placed, facts.made);
+    placed.string_gap_mm()?;
+    let frame = &placed.placement.goal.frame;
+    let written = made
+        .parts
+        .iter()
+        .zip(parts)
+        .filter(|(_, row)| row.half.as_deref() == Some("A"));
+    let half = written
+        .fold(Moments::default(), |sum, (part, _)| {
+            sum + part.evidence().moments()
+        })
+        .in_frame(frame);
+    let whole = made.written_moments()
+        + placed.joining_moments(&made.plan)
+        + placed.moments_inside(&made.load, &made.hollowed);
+    turned(&half, &whole.in_frame(frame))
+}
+
+/// The same by the moments of the half and of the whole about the axis, which is z.
+fn turned(half: &Moments, whole: &Moments) -> Option<TurnRow> {
+    let (sin, cos) = 1f64.to_radians().sin_cos();
+    let degree = Matrix::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    let after = *whole - *half + half.rotated(&degree);
+    let off = |moments: &Moments| moments.centroid().coords.xy();
+    (half.volume() > 0.0).then(|| TurnRow {
+        half_offset_mm: off(half).norm(),
+        offset_mm_per_deg: (off(&after) - off(whole)).norm(),
+        tilt_deg_per_deg: (greatest_axis(&after))
+            .angle(&greatest_axis(whole))
+            .to_degrees(),
+    })
+}
+
+/// The axis of the greatest moment, upward.
+fn greatest_axis(moments: &Moments) -> Vector {
+    let axis: Vector = Body::new(moments, 1.0)
+        .principal()
+        .axes
+        .column(2)
+        .into_owned();
+    axis * axis.z.signum()
+}
+
+/// The volume of all hollows of a part in print pose whose only mouth lies flat on the plate, mm³;
+/// exact for the file.
+///
+/// Without the triangles on the plate the surface falls into the outside and such hollows: each of
+/// those holds, down to the plate, minus its flux volume ∫ z n_z dA.
+pub fn cup_mm3(printed: &TriMesh) -> f64 {
+    let mesh = weld(printed);
+    let floor_mm = mesh.aabb().min.z;
+    let is_floor = |index: usize| {
+        mesh.corners(index)
+            .iter()
+            .all(|p| p.z - floor_mm < ON_PLATE_MM)
+    };
+    let rest: Vec<usize> = (0..mesh.triangles().len())
+        .filter(|&index| !is_floor(index))
+        .collect();
+    let mut sets = UnionFind::new(mesh.vertices().len());
+    for &index in &rest {
+        let [a, b, c] = mesh.triangles()[index];
+        sets.merge(a, b);
+        sets.merge(b, c);
+    }
+    let mut volumes_mm3: BTreeMap<u32, f64> = BTreeMap::new();
+    for &index in &rest {
+        let root = sets.root(mesh.triangles()[index][0]);
+        *volumes_mm3.entry(root).or_default() += under_mm3(mesh.corners(index), floor_mm);
+    }
+    -volumes_mm3
+        .into_values()
+        .filter(|volume| *volume < 0.0)
+        .sum::<f64>()
+}
+
+/// The volume between a triangle and the plate, negative where it faces down, mm³.
+fn under_mm3([a, b, c]: [Point; 3], floor_mm: f64) -> f64 {
+    let flat_mm2 = 0.5 * (b - a).cross(&(c - a)).z;
+    flat_mm2 * ((a.z + b.z + c.z) / 3.0 - floor_mm)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mass::moments_of_mesh;
+    use crate::mesh::{Csg, primitives};
+
+    fn block(low: [f64; 3], high: [f64; 3]) -> TriMesh {
+        primitives::cuboid(&low.into(), &high.into())
+    }
+
+    #[test]
+    fn a_hollow_open_downward_is_a_cup_and_one_with_a_second_mouth_or_open_upward_is_none() {
+        let body = block([0.0; 3], [20.0; 3]);
+        let body = Csg::of_mesh(&body).unwrap();
+        let cup = |hollow: &TriMesh| {
+            let left = body.subtract(&Csg::of_mesh(hollow).unwrap()).unwrap();
+            cup_mm3(&left.to_mesh().unwrap())
+        };
+        assert!((cup(&block([5.0, 5.0, -5.0], [15.0, 15.0, 12.0])) - 1200.0).abs() < 1e-9);
+        assert_eq!(cup(&block([5.0, 5.0, 8.0], [15.0, 15.0, 25.0])), 0.0);
+        assert_eq!(cup(&block([5.0, 5.0, -5.0], [15.0, 15.0, 25.0])), 0.0);
+    }
+
+    #[test]
+    fn a_turned_half_moves_the_centre_by_its_lever_and_its_share() {
+        // Half A is a cube 3 mm beside the axis, half B its mirror image: a degree moves the
+        // whole's centre by half of 2·3·sin(0.5°).
+        let cube = |x: f64, z: f64| {
+            let (low, high) = ([x - 1.0, -1.0, z - 1.0], [x + 1.0, 1.0, z + 1.0]);
+            moments_of_mesh(&block(low, high))
+        };
+        let (half, other) = (cube(3.0, 2.0), cube(-3.0, -2.0));
+        let row = turned(&half, &(half + other)).unwrap();
+        assert!((row.half_offset_mm - 3.0).abs() < 1e-12);
+        assert!((row.offset_mm_per_deg - 3.0 * 0.5f64.to_radians().sin()).abs() < 1e-12);
+        assert!(row.tilt_deg_per_deg > 0.1);
+        assert!(
+            turned(&cube(0.0, 2.0), &(cube(0.0, 2.0) + cube(0.0, -2.0)))
+                .unwrap()
+                .offset_mm_per_deg
+                < 1e-12
+        );
+    }
+}

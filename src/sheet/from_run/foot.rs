@@ -1,0 +1,49 @@
+//! What to mind of a top that stands still on its contact: its written figures, and the surface
+//! that touches the floor.
+
+use super::facts::Facts;
+use crate::geom::Point;
+use crate::goal::{GoalKind, Warning, resting};
+use crate::sheet::FootRow;
+
+/// How a top stands on its foot without spinning; none where it falls over, as a top must.
+pub fn foot_row(facts: &Facts) -> Option<FootRow> {
+    let (placed, goal) = (facts.placed, &facts.placed.placement.goal);
+    if goal.kind != GoalKind::Top {
+        return None;
+    }
+    let mesh = placed.solid().mesh();
+    let mut points: Vec<Point> = mesh
+        .vertices()
+        .iter()
+        .map(|p| goal.frame.to_local(p))
+        .collect();
+    // A tip piece touches with its end, which is the origin.
+    let has_tip = placed
+        .request
+        .hardware
+        .is_some_and(|hardware| hardware.tip.is_some());
+    points.extend(has_tip.then(Point::origin));
+    let center = goal
+        .frame
+        .to_local(&Point::from(facts.judgement.assembly.center_mm));
+    resting(&points, &center).map(|found| FootRow {
+        radius_mm: found.radius_mm,
+        center_height_mm: found.center_height_mm,
+        rights_to_deg: found.rights_to_deg,
+    })
+}
+
+/// What to mind of such a foot.
+pub fn flat_foot(foot: &FootRow) -> Warning {
+    let FootRow {
+        radius_mm,
+        center_height_mm,
+        rights_to_deg,
+    } = *foot;
+    Warning::FlatFoot {
+        radius_mm,
+        center_height_mm,
+        rights_to_deg,
+    }
+}

@@ -1,0 +1,23 @@
+//! The checklist and the judge's promise, filled from the facts of a run.
+
+mod certificate;
+mod checklist;
+mod facts;
+mod figures;
+mod finished;
+mod foot;
+mod grid;
+mod hardware;
+mod joints;
+mod parts;
+mod printer;
+mod promise;
+mod remarks;
+mod support;
+mod voids;
+
+pub use checklist::checklist;
+pub use facts::Facts;
+pub use figures::promised_figure;
+pub use promise::promise;
+pub use voids::void_id;

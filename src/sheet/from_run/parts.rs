@@ -1,0 +1,75 @@
+//! The parts as they are written.
+
+use super::facts::Facts;
+use super::finished::cup_mm3;
+use super::hardware::{half_of, halves};
+use super::promise::{mark, pin, socket};
+use super::support::{Surfaces, support_row};
+use crate::base::digest::sha256_hex;
+use crate::geom::Vector;
+use crate::run::WrittenPart;
+use crate::sheet::{PartRow, part_picture_file};
+use crate::verify::{Fingerprint, PartFacts, Peg};
+
+/// A face whose normal has this much of the vertical is level, within 0.8°.
+const LEVEL_COSINE: f64 = 0.9999;
+
+/// Returns a row for each part.
+pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
+    let halves = halves(facts.placed);
+    let surfaces = Surfaces::of(facts.made);
+    let parts = facts.made.parts.iter().zip(&facts.judgement.parts);
+    let row = |(written, measured): (&WrittenPart, &PartFacts)| {
+        let (part, plan) = (&written.part, &facts.made.plan);
+        let pins: Vec<Peg> = part.pins.iter().map(|site| pin(site, plan)).collect();
+        let sockets = part.sockets.iter().map(|site| socket(site, plan));
+        let sockets: Vec<Peg> = sockets.collect();
+        let volume_mm3 = measured.surface.volume_mm3;
+        PartRow {
+            id: part.id.clone(),
+            file: written.file.clone(),
+            sha256: sha256_hex(&[&written.bytes]),
+            fingerprint: Some(Fingerprint::of(&written.read_back)),
+            triangles: measured.surface.triangles,
+            volume_mm3,
+            mass_g: volume_mm3 * facts.placed.shop.material.density_g_mm3(),
+            size_mm: measured.size_mm,
+            lies: lies(written, facts),
+            print_from_model: written.evidence().pose,
+            support: support_row(facts.placed, &surfaces, written, [&pins, &sockets]),
+            pins,
+            sockets,
+            marks: part.labels.iter().map(mark).collect(),
+            half: half_of(written, &halves),
+            cup_mm3: cup_mm3(&written.read_back),
+            picture: Some(part_picture_file(&part.id)),
+        }
+    };
+    parts.map(row).collect()
+}
+
+/// How a part lies on the plate, in words: which of its cut faces looks down or up.
+fn lies(written: &WrittenPart, facts: &Facts) -> String {
+    let pose = written.evidence().pose;
+    let center = written.part.solid.mesh().aabb().center();
+    let facing = |cut: &crate::cut::Cut| {
+        let plane = cut.plane().ok()?;
+        let outward: Vector = -plane.normal * plane.distance(&center).signum();
+        match (pose.rotation() * outward).z {
+            z if z < -LEVEL_COSINE => Some(format!("cut face {} down", cut.id)),
+            z if z > LEVEL_COSINE => Some(format!("cut face {} up", cut.id)),
+            _ => None,
+        }
+    };
+    let facing: Vec<String> = facts
+        .made
+        .plan
+        .cuts_of(&written.part.id)
+        .filter_map(facing)
+        .collect();
+    if facing.is_empty() {
+        "as the model stands".to_owned()
+    } else {
+        facing.join(", ")
+    }
+}

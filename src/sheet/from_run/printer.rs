@@ -1,0 +1,98 @@
+//! The checklist's rows about the printer and its material, and what their numbers rest on.
+
+use crate::printer::Support;
+use crate::run::Placed;
+use crate::sheet::{MaterialRow, PrinterRow};
+
+/// The printer, as far as the shop and the judge need it.
+pub fn printer_row(placed: &Placed) -> PrinterRow {
+    let printer = &placed.shop.printer;
+    PrinterRow {
+        id: printer.id.clone(),
+        profile_sha256: printer.profile_sha256.clone(),
+        name: printer.name.clone(),
+        process: printer.process.clone().unwrap_or_default(),
+        pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
+        layer_mm: printer.layer_mm.value,
+        build_volume_mm: printer.usable_volume_mm(),
+        print_scale_ratio: scaled(printer.print_scale_ratio()),
+        support: support_word(printer.support).to_owned(),
+        minimum_wall_mm: placed.minimum_wall_mm(),
+        minimum_opening_mm: printer.min_opening_mm.value,
+        cleaning: printer.cleaning_rule(),
+        sources: sources(placed),
+    }
+}
+
+/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is
+/// not known.
+fn sources(placed: &Placed) -> Vec<String> {
+    let printer = &placed.shop.printer;
+    let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
+    let numbers = printer.numbers().into_iter();
+    let numbers = numbers
+        .map(|(quantity, number)| format!("{}: {}", words(quantity.key()), number.provenance()));
+    let volume = printer
+        .build_volume_mm
+        .iter()
+        .map(|volume| format!("build volume: {}", volume.provenance()));
+    let none = printer.build_volume_mm.is_none();
+    let unfit =
+        none.then(|| "build volume: not known; check by hand that the parts fit".to_owned());
+    let corners = printer.excluded_corners.iter().map(|corner| {
+        let [x, y] = corner.size_mm.value;
+        format!(
+            "keep clear of a corner of {x} × {y} mm: {}",
+            corner.size_mm.provenance()
+        )
+    });
+    let unknown: Vec<String> = printer
+        .unknown()
+        .into_iter()
+        .filter(|key| *key != "build_volume_mm")
+        .map(words)
+        .collect();
+    let unknown =
+        (!unknown.is_empty()).then(|| format!("not known of this printer: {}", unknown.join(", ")));
+    numbers
+        .chain(volume)
+        .chain(unfit)
+        .chain(corners)
+        .chain(unknown)
+        .collect()
+}
+
+/// What files are multiplied by; none where they are of nominal size.
+pub fn scaled(ratio: [f64; 3]) -> Option<[f64; 3]> {
+    (ratio != [1.0; 3]).then_some(ratio)
+}
+
+/// The material; its window only where its density was measured.
+pub fn material_row(placed: &Placed) -> MaterialRow {
+    let material = &placed.shop.material;
+    MaterialRow {
+        id: material.id.clone(),
+        name: material.name.clone(),
+        density_g_cm3: material.density_g_cm3.value,
+        density_source: material.density_g_cm3.source.clone(),
+        density_sure: material.density_g_cm3.sure.to_string(),
+        density_spread_ratio: material.measured_spread_ratio(),
+    }
+}
+
+/// What to mind of files that make up for shrinkage.
+pub fn scale_note([x, y, z]: [f64; 3]) -> String {
+    format!(
+        "part files are larger than the parts by {x:.5}, {y:.5} and {z:.5} along x, y and z, as this machine does not make up for \
+         shrinkage: do not scale them again"
+    )
+}
+
+fn support_word(support: Support) -> &'static str {
+    match support {
+        Support::Soluble => "soluble",
+        Support::Breakaway => "breakaway",
+        Support::WaterJet => "water-jet",
+        Support::None => "none",
+    }
+}

@@ -1,0 +1,160 @@
+//! The promise that the files are held against, as the judge reads it.
+
+use super::hardware::{dowels, hardware};
+use super::joints::{joint_id, promised_joints};
+use super::printer::scaled;
+use super::voids::{promised_cuts, promised_voids};
+use crate::ballast::{Load, Placed as PlacedPart};
+use crate::base::digest::sha256_hex;
+use crate::cut::{CutPlan, Label, PinSite};
+use crate::goal::Rotor;
+use crate::run::{Made, Placed, WrittenPart};
+use crate::verify::{
+    Aim, BallastOrder, Density, FillOrder, Mark, Peg, PrinterLimits, Promise, PromisedPart,
+    RotorOrder, SCHEMA, WallOrder, WaterOrder,
+};
+
+/// Returns the promise of the parts, without the figure that they reach.
+pub fn promise(placed: &Placed, made: &Made) -> Promise {
+    let (printer, plan) = (&placed.shop.printer, &made.plan);
+    let parts = made.parts.iter();
+    Promise {
+        schema: SCHEMA,
+        printer: PrinterLimits {
+            build_volume_mm: printer.usable_volume_mm(),
+            print_scale_ratio: scaled(printer.print_scale_ratio()),
+            minimum_wall_mm: placed.minimum_wall_mm(),
+            minimum_opening_mm: Some(printer.min_opening_mm.value),
+            cleaning: Some(printer.cleaning_rule()),
+        },
+        material: Density {
+            density_g_cm3: placed.density_g_cm3(),
+        },
+        goal: aim(placed),
+        promise: None,
+        wall: WallOrder {
+            required_mm: placed.shop.wall.wall_mm,
+        },
+        parts: parts.map(|part| promised_part(part, plan)).collect(),
+        cuts: promised_cuts(plan),
+        voids: promised_voids(placed, made),
+        hardware: hardware(placed),
+        dowels: dowels(plan),
+        string_gap_mm: placed.string_gap_mm(),
+        joints: promised_joints(placed, plan),
+        ballast: ballast_orders(&made.load),
+        fill: fill_order(placed),
+        files: Default::default(),
+    }
+}
+
+fn promised_part(written: &WrittenPart, plan: &CutPlan) -> PromisedPart {
+    let part = &written.part;
+    let sockets = part.sockets.iter();
+    PromisedPart {
+        id: part.id.clone(),
+        file: written.file.clone(),
+        sha256: sha256_hex(&[&written.bytes]),
+        fingerprint: None,
+        print_from_model: written.evidence().pose,
+        pins: part.pins.iter().map(|site| pin(site, plan)).collect(),
+        sockets: sockets.map(|site| socket(site, plan)).collect(),
+        marks: part.labels.iter().map(mark).collect(),
+    }
+}
+
+/// The goal as the judge sees it.
+pub fn aim(placed: &Placed) -> Aim {
+    let goal = &placed.placement.goal;
+    let rotor = goal.spindle.map(|spindle| {
+        let Rotor {
+            speed_rpm,
+            grade_mm_s,
+            ..
+        } = spindle.rotor;
+        RotorOrder {
+            speed_rpm,
+            grade_mm_s,
+        }
+    });
+    let water = goal.afloat.map(|afloat| WaterOrder {
+        liquid_g_cm3: placed
+            .job
+            .goal
+            .water
+            .unwrap_or_default()
+            .liquid
+            .density_g_cm3(),
+        waterline_mm: afloat.waterline_mm,
+    });
+    Aim {
+        rotor,
+        water,
+        ..Aim::new(
+            goal.kind,
+            goal.frame.origin.into(),
+            goal.frame.axis().into(),
+        )
+    }
+}
+
+/// A pin as the sheet names it.
+pub fn pin(site: &PinSite, plan: &CutPlan) -> Peg {
+    Peg {
+        id: site.id.clone(),
+        joint: joint_of(site, plan),
+        center_mm: site.center_mm,
+        axis: site.direction,
+        diameter_mm: site.diameter_mm,
+        length_mm: site.length_mm,
+        volume_mm3: site.pin_volume_mm3(),
+    }
+}
+
+/// The pin's socket as the sheet names it.
+pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
+    Peg {
+        diameter_mm: site.socket_diameter_mm,
+        length_mm: site.socket_depth_mm,
+        volume_mm3: site.socket_volume_mm3(),
+        ..pin(site, plan)
+    }
+}
+
+/// The name of the joint a pin belongs to.
+fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
+    let joint = plan
+        .joints
+        .iter()
+        .position(|joint| joint.pins.contains(&pin.id));
+    joint.map(joint_id).unwrap_or_default()
+}
+
+/// The ballast as the judge sees it.
+pub fn ballast_orders(load: &Load) -> Vec<BallastOrder> {
+    let order = |(index, placed): (usize, &PlacedPart)| BallastOrder {
+        id: format!("B{}", index + 1),
+        lump: placed.lump,
+    };
+    load.parts.iter().enumerate().map(order).collect()
+}
+
+/// The filling as the judge sees it.
+pub fn fill_order(placed: &Placed) -> Option<FillOrder> {
+    placed.job.fill.map(|filling| FillOrder {
+        density_g_cm3: filling.density_g_cm3(),
+    })
+}
+
+/// A label as the judge sees it.
+pub fn mark(label: &Label) -> Mark {
+    Mark {
+        text: label.text.clone(),
+        cut: label.cut.clone(),
+        axis: label.into,
+        depth_mm: label.depth_mm,
+        stroke_mm: label.stroke_mm,
+        strokes_mm: label.strokes().into_iter().map(Into::into).collect(),
+        volume_mm3: label.volume_mm3(),
+    }
+}
