@@ -1,5 +1,7 @@
-//! Where a closed mesh meets itself or all but does: nearer than the rounding of a file would keep
-//! apart, while [`crate::mesh::Crossings`] judges coordinates as they stand.
+//! Finds where a closed mesh meets itself, or comes nearer to itself than the rounding of a file
+//! keeps apart.
+//!
+//! [`crate::mesh::Crossings`] judges coordinates as they stand; this test has a margin.
 
 use std::ops::ControlFlow;
 
@@ -11,25 +13,25 @@ use crate::geom::triangle::{
 use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 
-/// Parts of a surface nearer than this count as meeting, mm: above the rounding of coordinates,
+/// Distance below which parts of a surface count as meeting, mm: above the rounding of coordinates,
 /// below anything that a file's `f32` tells apart.
 const TOUCH_MM: f64 = 1e-7;
 
-/// Two triangles at a side are folded onto each other when the cosine of the angle between them
-/// exceeds this.
+/// Cosine of the angle between two triangles at a shared side above which they count as folded onto
+/// each other.
 const FOLD_COSINE: f64 = 1.0 - 1e-10;
 
-/// The triangles that meet another one elsewhere than at a shared corner or side, ascending; only
-/// pairs are looked at of which one `is_asked`.
+/// Returns the triangles that meet another one elsewhere than at a shared corner or side, in
+/// ascending order. Only pairs with at least one triangle marked in `is_marked` are tested.
 ///
 /// Every such pair whose boxes overlap is measured exactly.
-pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
+pub(super) fn find_crossings_among(mesh: &TriMesh, is_marked: &[bool]) -> Vec<u32> {
     let bvh = Bvh::new(mesh.iter_corners());
-    let meets_of = |i: u32| {
+    let meetings_of = |i: u32| {
         let corners = mesh.corners(i as usize);
         let mut meeting = Vec::new();
         bvh.visit_overlapping(&Aabb::of_points(&corners).inflated(TOUCH_MM), |j, _| {
-            let is_due = j > i || !is_asked[j as usize];
+            let is_due = j > i || !is_marked[j as usize];
             if is_due && meet(mesh, i as usize, j as usize) {
                 meeting.extend([i, j]);
             }
@@ -37,16 +39,16 @@ pub(super) fn crossing_among(mesh: &TriMesh, is_asked: &[bool]) -> Vec<u32> {
         });
         meeting
     };
-    let asked = (0..mesh.triangles().len() as u32)
+    let marked = (0..mesh.triangles().len() as u32)
         .into_par_iter()
-        .filter(|&i| is_asked[i as usize]);
-    let mut crossing: Vec<u32> = asked.flat_map_iter(meets_of).collect();
+        .filter(|&i| is_marked[i as usize]);
+    let mut crossing: Vec<u32> = marked.flat_map_iter(meetings_of).collect();
     crossing.sort_unstable();
     crossing.dedup();
     crossing
 }
 
-/// Whether two triangles have a point in common that is not on a shared corner or side.
+/// Returns whether two triangles have a point in common that is not on a shared corner or side.
 fn meet(mesh: &TriMesh, i: usize, j: usize) -> bool {
     let (s, t) = (mesh.triangles()[i], mesh.triangles()[j]);
     let (a, b) = (mesh.corners(i), mesh.corners(j));
@@ -73,8 +75,8 @@ fn meet(mesh: &TriMesh, i: usize, j: usize) -> bool {
     }
 }
 
-/// Whether a triangle lies on one side of the other's plane, but for one corner at most that may
-/// lie in it.
+/// Returns whether a triangle lies on one side of the other's plane. One corner may lie in the
+/// plane if it is a corner of the other triangle.
 fn is_beside(a: &[Point; 3], plane: &[Point; 3]) -> bool {
     let normal = (plane[1] - plane[0]).cross(&(plane[2] - plane[0]));
     let margin = TOUCH_MM * normal.norm();
@@ -87,14 +89,14 @@ fn is_beside(a: &[Point; 3], plane: &[Point; 3]) -> bool {
         || (in_plane == 1 && (above == 2 || below == 2) && is_corner_of(a, plane, &heights, margin))
 }
 
-/// Whether the corner that lies in the plane is a corner of the triangle there.
+/// Returns whether each corner in the plane is also a corner of the triangle there.
 fn is_corner_of(a: &[Point; 3], plane: &[Point; 3], heights: &[f64; 3], margin: f64) -> bool {
     (0..3)
         .filter(|&k| heights[k].abs() <= margin)
         .all(|k| plane.contains(&a[k]))
 }
 
-/// Whether two triangles at the side from `a` to `b` are folded onto each other.
+/// Returns whether the triangles a, b, c and a, b, d are folded onto each other.
 fn is_fold(a: &Point, b: &Point, c: &Point, d: &Point) -> bool {
     let side = (b - a).normalize();
     let across = |p: &Point| {
@@ -111,20 +113,20 @@ mod tests {
     use crate::voids::shapes::{ball, block};
 
     fn crossing_triangles(mesh: &TriMesh) -> Vec<u32> {
-        crossing_among(mesh, &vec![true; mesh.triangles().len()])
+        find_crossings_among(mesh, &vec![true; mesh.triangles().len()])
     }
 
     #[test]
-    fn what_a_triangle_asked_about_meets_is_found_and_nothing_else() {
+    fn only_pairs_with_a_marked_triangle_are_found() {
         let two = block([0.0; 3], [2.0; 3]).joined(&block([1.0; 3], [3.0; 3]));
         let all = crossing_triangles(&two);
-        let mut asked = vec![false; two.triangles().len()];
-        assert!(crossing_among(&two, &asked).is_empty());
-        asked[..12].fill(true);
-        assert_eq!(crossing_among(&two, &asked), all);
-        asked.fill(false);
-        asked[all[0] as usize] = true;
-        let met = crossing_among(&two, &asked);
+        let mut marked = vec![false; two.triangles().len()];
+        assert!(find_crossings_among(&two, &marked).is_empty());
+        marked[..12].fill(true);
+        assert_eq!(find_crossings_among(&two, &marked), all);
+        marked.fill(false);
+        marked[all[0] as usize] = true;
+        let met = find_crossings_among(&two, &marked);
         assert!(met.contains(&all[0]) && met.len() > 1 && met.iter().all(|i| all.contains(i)));
     }
 

@@ -1,4 +1,4 @@
-//! Drawing a surface: refine the lattice until its triangles follow the function, then march.
+//! Draws a surface: refines the lattice until its triangles follow the function, then marches.
 
 use rayon::prelude::*;
 
@@ -12,9 +12,9 @@ use super::table::IndexMap;
 use crate::geom::{Aabb, Point};
 use crate::mesh::{MeshError, TriMesh};
 
-/// A chord whose ends' normals turn by more than this (cosine; 20°) spans a crease of the surface,
-/// not a curve: a curve of the wall's radius turns less within the cells that its sag alone asks
-/// for.
+/// Cosine of the turn of the normals at a chord's ends below which the chord spans a crease, not a
+/// curve (20°). A curve of the wall's radius turns less within the cells that its sag alone
+/// requires.
 const CREASE_COSINE: f64 = 0.94;
 
 /// The surface of a function's positive region while it is being refined.
@@ -24,7 +24,7 @@ pub(super) struct Extractor<'a, F> {
     tree: Octree,
     nodes: Nodes,
     roots: Roots,
-    /// For each cell the pieces of surface in its tetrahedra.
+    /// For each cell, the pieces of surface in its tetrahedra.
     pieces: Vec<Vec<Placed>>,
 }
 
@@ -50,16 +50,16 @@ impl<'a, F: Field> Extractor<'a, F> {
         })
     }
 
-    /// All leaves.
+    /// Returns all leaves.
     pub fn leaves(&self) -> Vec<u32> {
         (0..self.tree.cells().len() as u32)
             .filter(|&i| self.tree.is_leaf(i))
             .collect()
     }
 
-    /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Gives the
-    /// leaves whose triangles were drawn, ascending.
-    pub fn settle(&mut self, mut dirty: Vec<u32>) -> Vec<u32> {
+    /// Divides leaves until the triangles in and around `dirty` keep the tolerances. Returns the
+    /// leaves whose triangles were drawn, in ascending order.
+    pub fn refine(&mut self, mut dirty: Vec<u32>) -> Vec<u32> {
         let mut drawn = Vec::new();
         while !dirty.is_empty() {
             self.prepare(&dirty);
@@ -74,8 +74,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         drawn
     }
 
-    /// The leaves to divide because a triangle in these is not allowed.
-    pub fn refused_leaves(
+    /// Returns the leaves to divide because a triangle in `leaves` is not allowed.
+    pub fn leaves_to_refine(
         &self,
         leaves: &[u32],
         allows: impl Fn(&[Point; 3]) -> bool + Sync,
@@ -93,8 +93,7 @@ impl<'a, F: Field> Extractor<'a, F> {
         leaves.par_iter().flat_map_iter(refused_in).collect()
     }
 
-    /// Divides those of these leaves that can be, and gives the leaves that must be looked at
-    /// again.
+    /// Divides those of `leaves` that are not the finest, and returns the leaves to check again.
     pub fn divide(&mut self, mut leaves: Vec<u32>) -> Vec<u32> {
         leaves.sort_unstable();
         leaves.dedup();
@@ -103,18 +102,18 @@ impl<'a, F: Field> Extractor<'a, F> {
         self.tree.widened(&fresh)
     }
 
-    /// The triangles as they are now.
+    /// Returns the triangles as they are now.
     pub fn mesh(&self) -> Result<TriMesh, MeshError> {
         let leaves = self.leaves();
         let named: Vec<Named> = leaves
             .par_iter()
             .flat_map_iter(|&leaf| self.triangles_of(leaf))
             .collect();
-        self.numbered(&named)
+        self.number_vertices(&named)
     }
 
-    /// Of the two leaves of a triangle those to divide when it will not do: the larger one that
-    /// holds surface.
+    /// Returns the leaves to divide if a triangle between these two is not good enough: the larger
+    /// of those that hold surface, or both.
     fn to_divide(&self, leaves: [u32; 2]) -> impl Iterator<Item = u32> {
         let size = |i: u32| {
             if self.tree.cell(i).is_free {
@@ -130,7 +129,7 @@ impl<'a, F: Field> Extractor<'a, F> {
             .map(|(leaf, _)| leaf)
     }
 
-    /// Marches through the leaves' tetrahedra and makes ready the crossings.
+    /// Marches through the leaves' tetrahedra and finds the crossings that the pieces name.
     fn prepare(&mut self, leaves: &[u32]) {
         let linked: Vec<(u32, Links)> = leaves
             .par_iter()
@@ -154,7 +153,7 @@ impl<'a, F: Field> Extractor<'a, F> {
         }
     }
 
-    /// The pieces of surface in a leaf's tetrahedra.
+    /// Returns the pieces of surface in a leaf's tetrahedra.
     fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<Placed> {
         let mut pieces = Vec::new();
         links.for_each(|tetrahedron| {
@@ -183,8 +182,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         pieces
     }
 
-    /// The triangles in a leaf's tetrahedra; quadrilaterals are cut along the diagonal that bends
-    /// less.
+    /// Returns the triangles in a leaf's tetrahedra. Quadrilaterals are cut along the diagonal that
+    /// bends less.
     fn triangles_of(&self, leaf: u32) -> Vec<Named> {
         let mut triangles = Vec::new();
         for &(piece, leaves) in &self.pieces[leaf as usize] {
@@ -214,7 +213,7 @@ impl<'a, F: Field> Extractor<'a, F> {
         }
     }
 
-    /// The leaves to divide because a triangle's side strays too far from the surface.
+    /// Returns the leaves to divide because a triangle's side strays too far from the surface.
     fn bent_leaves(&self, leaves: &[u32]) -> Vec<u32> {
         let bent_in = |&leaf: &u32| {
             let triangles = self.triangles_of(leaf);
@@ -241,8 +240,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         if is_bent { divisible } else { Vec::new() }
     }
 
-    /// Whether the chord between two surface points strays too far: first by the turn of the
-    /// normals, then, where that leaves a doubt, by the function at its middle.
+    /// Returns whether the chord between two surface points strays too far. The turn of the normals
+    /// decides first; if that leaves a doubt, the function at the middle does.
     fn is_bent(&self, a: &Known, b: &Known, size_mm: f64) -> bool {
         let bend = bend_mm(a, b);
         let Resolution {
@@ -264,8 +263,8 @@ impl<'a, F: Field> Extractor<'a, F> {
         !(-outside_mm..=inside_mm).contains(&value)
     }
 
-    /// Numbers the vertices in the order in which the triangles name them.
-    fn numbered(&self, named: &[Named]) -> Result<TriMesh, MeshError> {
+    /// Builds the mesh; its vertices are numbered in the order in which the triangles name them.
+    fn number_vertices(&self, named: &[Named]) -> Result<TriMesh, MeshError> {
         let mut index = IndexMap::default();
         let mut vertices: Vec<Point> = Vec::new();
         let mut number = |key: VertexKey| {
@@ -282,7 +281,7 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 }
 
-/// The crossings that pieces of surface name, each once.
+/// Returns the crossings that pieces of surface name, each once.
 fn crossings_of(pieces: &[Placed]) -> Vec<VertexKey> {
     let mut keys: Vec<VertexKey> = Vec::with_capacity(4 * pieces.len());
     for (piece, _) in pieces {
@@ -297,12 +296,11 @@ fn crossings_of(pieces: &[Placed]) -> Vec<VertexKey> {
     keys
 }
 
-/// How far the surface is estimated to stray from the chord between two of its points, mm: positive
-/// where the chord lies inside the region.
+/// Returns an estimate of the surface's distance from the chord between two of its points, mm;
+/// positive if the chord lies inside the region.
 ///
-/// A single crease between two planes that meet the chord at angles α and β strays |ab| αβ/(α+β),
-/// at most
-/// |ab| (α+β)/4, which this is; an arc strays half of it.
+/// A single crease between two planes that meet the chord at angles α and β strays by |ab|
+/// αβ/(α+β). This is at most |ab| (α+β)/4, the value returned. An arc strays by half of it.
 fn bend_mm(a: &Known, b: &Known) -> f64 {
     (a.sample.gradient - b.sample.gradient).dot(&(b.at - a.at)) / 4.0
 }

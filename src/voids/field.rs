@@ -1,25 +1,24 @@
-//! What a surface extractor asks of a function whose positive region it bounds.
+//! The interface between a surface extractor and the function whose positive region it bounds.
 
 use crate::geom::{NO_HINT, Point, Vector};
 
-/// The function at one point.
+/// The function's value and what was learnt at one point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Sample {
-    /// The value, mm: about the distance to the zero surface where that is near, positive inside
-    /// the region.
+    /// Value, mm: near the zero surface about the distance to it; positive inside the region.
     pub value: f64,
-    /// The direction in which the value grows, unit length (zero where it has none).
+    /// Unit vector in which the value grows; zero if the value has no direction.
     pub gradient: Vector,
-    /// The radius of a ball about the point that no surface of the model enters, mm.
+    /// Radius of a ball about the point that the model's surface does not enter, mm.
     pub clearance_mm: f64,
-    /// Whether the point lies inside the model.
+    /// True if the point lies inside the model.
     pub inside: bool,
-    /// The token of the nearest triangle, for queries nearby.
+    /// Token of the nearest triangle, which speeds up queries nearby.
     pub hint: u32,
 }
 
 impl Sample {
-    /// A sample of a function that knows no model.
+    /// Returns a sample of a function that knows no model.
     pub fn plain(value: f64, gradient: Vector) -> Self {
         Self {
             value,
@@ -30,7 +29,7 @@ impl Sample {
         }
     }
 
-    /// Whether the point belongs to the region.
+    /// Returns whether the point belongs to the region.
     pub fn is_positive(&self) -> bool {
         self.value > 0.0
     }
@@ -39,38 +38,38 @@ impl Sample {
 /// A point with its sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Known {
-    /// Where the sample was taken.
+    /// The point.
     pub at: Point,
-    /// What was found.
+    /// The sample taken there.
     pub sample: Sample,
 }
 
-/// A continuous function whose positive region is to be bounded by triangles.
+/// A continuous function whose positive region is bounded by triangles.
 pub(super) trait Field: Sync {
-    /// The function at `p`; what is already known nearby saves time.
+    /// Returns the function at `p`. Samples from nearby save time.
     fn sample(&self, p: &Point, nearby: &[Known]) -> Sample;
 
-    /// Whether the ball about a sampled point is sure to hold no zero of the function.
+    /// Returns whether the ball about a sampled point certainly holds no zero of the function.
     fn is_free(&self, center: &Known, radius_mm: f64) -> bool;
 
-    /// Whether a cell that may hold the surface is too large to be looked at closely, whatever its
-    /// triangles.
+    /// Returns whether a cell that may hold the surface must be divided, whatever its triangles are
+    /// like.
     fn is_too_coarse(&self, center: &Known, size_mm: f64) -> bool;
 
-    /// Whether the surface must be within tolerance in the ball; elsewhere any closed surface will
-    /// do.
+    /// Returns whether the surface must be within tolerance in this ball. Elsewhere any closed
+    /// surface will do.
     fn matters(&self, center: &Point, radius_mm: f64) -> bool;
 }
 
-/// How finely a surface is drawn.
+/// Cell sizes and tolerances of a drawn surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Resolution {
-    /// The smallest cell, mm.
+    /// Smallest cell, mm.
     pub finest_mm: f64,
-    /// The smallest cell at sharp outward creases, mm.
+    /// Smallest cell at sharp outward creases, mm.
     pub crease_mm: f64,
-    /// How far a chord may lie outside the region, mm.
+    /// Largest distance of a chord outside the region, mm.
     pub outside_mm: f64,
-    /// How far a chord may lie inside the region, mm.
+    /// Largest distance of a chord inside the region, mm.
     pub inside_mm: f64,
 }

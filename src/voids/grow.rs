@@ -1,4 +1,4 @@
-//! Bodies grown on all sides: what is refused as a void is kept solid with a little around it.
+//! Grows bodies on all sides, so that a void left solid stays solid with a little around it.
 
 use super::VoidError;
 use super::extract::Extractor;
@@ -7,19 +7,21 @@ use super::wall_field::WallField;
 use crate::geom::Bvh;
 use crate::mesh::TriMesh;
 
-/// The finest cell and the largest one near the surface, over the margin. Finer makes triangles
-/// that nobody needs: the surface only has to clear the bodies.
+/// Finest cell, as a share of the margin. Finer cells make triangles that nobody needs: the surface
+/// only has to clear the bodies.
 const FINEST_RATIO: f64 = 0.5;
+
+/// Largest cell near the surface, as a share of the margin.
 const COARSE_RATIO: f64 = 1.0;
 
-/// How far a chord may stray from the grown surface, over the margin.
+/// Largest distance of a chord from the grown surface, as a share of the margin.
 const STRAY_RATIO: f64 = 0.4;
 
-/// A body that holds closed `bodies` and everything within about `margin_mm` of them, give or take
-/// half of it.
+/// Returns a body that holds the closed `bodies` and everything within about `margin_mm` of them;
+/// it is exact within half the margin.
 ///
-/// A void that is refused for one quadric, grown by more than surfaces move when it is solved for
-/// again, can be kept solid for all quadrics that differ little.
+/// A void too small for one quadric can so be kept solid for all quadrics that differ little. The
+/// margin must exceed the distance by which surfaces move when the quadric is solved for again.
 pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     let surface = Bvh::new(bodies.iter_corners());
     let coarse_mm = COARSE_RATIO * margin_mm;
@@ -43,7 +45,7 @@ pub fn grown(bodies: &TriMesh, margin_mm: f64) -> Result<TriMesh, VoidError> {
     };
     let mut extractor = Extractor::new(&field, &aabb, resolution).ok_or(too_fine)?;
     let leaves = extractor.leaves();
-    extractor.settle(leaves);
+    extractor.refine(leaves);
     Ok(extractor.mesh()?)
 }
 

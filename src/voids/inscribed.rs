@@ -1,4 +1,4 @@
-//! Whether a ball of a given radius fits into a body.
+//! Tests whether a ball of a given radius fits into a body.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -9,15 +9,15 @@ use crate::mesh::TriMesh;
 /// Half a cube's diagonal over its side.
 const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
-/// The search gives up on cells whose half side is below this share of the radius. Smaller costs
-/// time with its square on sheets that are just too thin.
+/// Half side of a cell, as a share of the radius, below which the search gives the cell up. A
+/// smaller share costs time with its square, on sheets that are just too thin.
 const GIVE_UP_RATIO: f64 = 0.1;
 
-/// A cube whose points may be a ball's centre.
+/// A cube that may hold the centre of the ball.
 struct Candidate {
     center: Point,
     half_mm: f64,
-    /// No point of it is farther inside than this.
+    /// Upper bound of the depth inside the body over the cube, mm.
     bound_mm: f64,
     hint: u32,
 }
@@ -42,9 +42,10 @@ impl Ord for Candidate {
     }
 }
 
-/// Whether a ball of `radius_mm` fits into the body bounded by a closed mesh, by branch and bound
-/// over the distance to its surface; a ball that fits with less than a sixth of its radius to spare
-/// may be missed.
+/// Returns whether a ball of `radius_mm` fits into the body bounded by a closed mesh.
+///
+/// Branch and bound over the distance to the surface. A ball that fits with less than a sixth of
+/// its radius to spare may be missed.
 pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     let size = mesh.aabb().size();
     if size.min() < 2.0 * radius_mm {
@@ -52,7 +53,7 @@ pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     }
     let bvh = Bvh::new(mesh.iter_corners());
     let mut heap = BinaryHeap::new();
-    let (root, depth_mm) = measured(&bvh, mesh.aabb().center(), size.max() / 2.0, NO_HINT);
+    let (root, depth_mm) = measure_cell(&bvh, mesh.aabb().center(), size.max() / 2.0, NO_HINT);
     if depth_mm >= radius_mm {
         return true;
     }
@@ -67,7 +68,7 @@ pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
         for i in 0..8 {
             let sign = |axis: i32| if i >> axis & 1 == 1 { 0.5 } else { -0.5 };
             let center = cell.center + Vector::new(sign(0), sign(1), sign(2)) * cell.half_mm;
-            let (child, depth_mm) = measured(&bvh, center, cell.half_mm / 2.0, cell.hint);
+            let (child, depth_mm) = measure_cell(&bvh, center, cell.half_mm / 2.0, cell.hint);
             if depth_mm >= radius_mm {
                 return true;
             }
@@ -77,8 +78,8 @@ pub(super) fn ball_fits(mesh: &TriMesh, radius_mm: f64) -> bool {
     false
 }
 
-/// A cell with its bound, and how deep inside its centre lies.
-fn measured(bvh: &Bvh, center: Point, half_mm: f64, hint: u32) -> (Option<Candidate>, f64) {
+/// Returns a cell with its bound, and the depth of its centre inside the body, mm.
+fn measure_cell(bvh: &Bvh, center: Point, half_mm: f64, hint: u32) -> (Option<Candidate>, f64) {
     let Some(nearest) = bvh.closest(&center, f64::INFINITY, &[hint]) else {
         return (None, f64::NEG_INFINITY);
     };

@@ -1,35 +1,37 @@
 //! The conforming tetrahedra of a balanced octree: a graded body-centred cubic lattice.
 //!
-//! Two leaves that share a face make a tetrahedron with every edge of the (smaller) face: both
-//! centres and the edge's two ends, the edge halved where a finer leaf touches it. Neighbours see
-//! the same halves, so the tetrahedra fit together; where all leaves are equal they are those of
-//! the body-centred cubic lattice (Labelle & Shewchuk, "Isosurface Stuffing", SIGGRAPH 2007).
+//! Two leaves that share a face make a tetrahedron with every edge of the smaller face. Its corners
+//! are both centres and the edge's two ends; an edge that a finer leaf touches is halved first.
+//! Neighbours see the same halves, so the tetrahedra fit together. If all leaves are equal, they
+//! are those of the body-centred cubic lattice (Labelle & Shewchuk, "Isosurface Stuffing", SIGGRAPH
+//! 2007).
 
 use super::octree::{Cell, Grid, NEIGHBOURS, Octree};
 
 /// A packed grid position.
 pub(super) type Key = u64;
 
-/// Bits of a packed coordinate; an octree's root is small enough for it.
+/// Bits of a packed coordinate. An octree's root is small enough for it.
 const KEY_BITS: u32 = 21;
 
-/// The name of a grid position.
+/// Returns a grid position packed into one word.
 pub(super) fn key(grid: Grid) -> Key {
     grid.iter().fold(0, |key, &c| key << KEY_BITS | c as u64)
 }
 
-/// The grid position of a name.
+/// Returns the grid position of a packed one.
 pub(super) fn grid(key: Key) -> Grid {
     let mask = (1 << KEY_BITS) - 1;
     [2, 1, 0].map(|i| (key >> (i * KEY_BITS) & mask) as i32)
 }
 
-/// A corner of a leaf's tetrahedra as the leaf numbers them: 0 to 26 are the places 0, 1, 2 half
-/// sides along x, then y, then z; 27 + f is the far end across face f, a neighbour's centre or the
-/// face's own on the boundary.
+/// A corner of a leaf's tetrahedra, in the leaf's own numbering.
+///
+/// Slots 0 to 26 are the places 0, 1, 2 half sides along x, then y, then z. Slot 27 + f is the far
+/// end across face f: a neighbour's centre, or the centre of the face itself on the boundary.
 pub(super) type Slot = u8;
 
-/// How many slots there are.
+/// Number of slots.
 pub(super) const SLOTS: Slot = 33;
 
 /// The first far end.
@@ -38,10 +40,10 @@ const FAR: Slot = 27;
 /// The leaf's own centre.
 const CENTER: Slot = 13;
 
-/// What lies across a leaf's face.
+/// The neighbour across a leaf's face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Across {
-    /// Nothing that this leaf answers for.
+    /// Nothing that this leaf is responsible for.
     Nothing,
     /// The boundary of the octree.
     Boundary,
@@ -49,47 +51,53 @@ pub(super) enum Across {
     Leaf(u32),
 }
 
-/// What a leaf needs to know to make its tetrahedra.
+/// The neighbourhood of a leaf, from which its tetrahedra follow.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Links {
-    /// What lies across each face, in the order of the first six of [`NEIGHBOURS`].
+    /// The neighbour across each face, in the order of the first six of [`NEIGHBOURS`].
     pub across: [Across; 6],
-    /// Bit 4 f + i: edge i of face f is halved.
+    /// Bit 4 f + i is set if edge i of face f is halved.
     halved: u32,
 }
 
-/// A tetrahedron with positive volume; where it stands on the boundary of the octree, its last
-/// three corners lie there.
+/// A tetrahedron with positive volume. If it stands on the boundary of the octree, its last three
+/// corners lie there.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Tetrahedron {
-    /// The face of the leaf inside it.
+    /// Face of the leaf that lies inside the tetrahedron.
     pub face: usize,
-    /// Its corners.
+    /// Corners.
     pub slots: [Slot; 4],
 }
 
-/// A face's corners in half sides, in the two axes that follow its own, counter-clockwise about the
-/// axis.
+/// Corners of a face in half sides, along the two axes that follow its own, counter-clockwise about
+/// the axis.
 const RING: [[i32; 2]; 4] = [[0, 0], [2, 0], [2, 2], [0, 2]];
 
-/// The direction in those two axes that leads away from the face across the edge from corner i to
+/// Directions along those two axes that lead out of the face across the edge from corner i to
 /// corner i + 1.
 const BEYOND: [[i32; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 
 impl Links {
-    /// The links of a leaf: it answers for its faces to leaves of its size (once for each pair) or
-    /// larger, and to the boundary; not for pairs without surface between them.
+    /// Returns the links of a leaf.
+    ///
+    /// A leaf is responsible for its faces to larger leaves, to leaves of its size (once for each
+    /// pair), and to the boundary. Pairs without surface between them are left out.
     pub fn new(tree: &Octree, leaf: u32) -> Self {
         let cell = tree.cell(leaf);
         let across = [0, 1, 2, 3, 4, 5].map(|face| across(tree, cell, face));
         let is_idle = across.iter().all(|&a| a == Across::Nothing);
         Self {
             across,
-            halved: if is_idle { 0 } else { halved(tree, cell) },
+            halved: if is_idle {
+                0
+            } else {
+                find_halved_edges(tree, cell)
+            },
         }
     }
 
-    /// Every tetrahedron that the leaf answers for.
+    /// Calls `visit` with every tetrahedron that the leaf is responsible for.
     pub fn for_each(&self, mut visit: impl FnMut(Tetrahedron)) {
         for face in (0..6).filter(|&face| self.across[face] != Across::Nothing) {
             for i in 0..4 {
@@ -111,14 +119,14 @@ impl Links {
         }
     }
 
-    /// The slots in use, as a set of bits.
+    /// Returns the slots in use, as a set of bits.
     pub fn used(&self) -> u64 {
         let mut used = 0;
         self.for_each(|t| t.slots.iter().for_each(|&slot| used |= 1 << slot));
         used
     }
 
-    /// The grid position of a slot.
+    /// Returns the grid position of a slot.
     pub fn position(&self, tree: &Octree, cell: &Cell, slot: Slot) -> Grid {
         let half = cell.size / 2;
         if slot < FAR {
@@ -136,12 +144,13 @@ impl Links {
     }
 }
 
-/// The axis of a face, and whether it looks along it.
+/// Returns the axis of a face, and whether the face is at its upper end.
 fn axis(face: usize) -> (usize, bool) {
     (face / 2, face % 2 == 1)
 }
 
-/// The ends of a face's edge, so that centre, far end and these are positively oriented.
+/// Returns the ends of a face's edge, ordered so that the leaf's centre, the far end and these two
+/// are positively oriented.
 fn ends(face: usize, i: usize) -> [Slot; 2] {
     let (axis, is_up) = axis(face);
     let slot = |ring: [i32; 2]| {
@@ -153,6 +162,7 @@ fn ends(face: usize, i: usize) -> [Slot; 2] {
     if is_up { [from, to] } else { [to, from] }
 }
 
+/// Returns the grid vector with the components u and v along the two axes that follow `axis`.
 fn in_face(axis: usize, [u, v]: [i32; 2]) -> Grid {
     let mut steps = [0; 3];
     steps[(axis + 1) % 3] = u;
@@ -160,6 +170,8 @@ fn in_face(axis: usize, [u, v]: [i32; 2]) -> Grid {
     steps
 }
 
+/// Returns the neighbour across a face, or [`Across::Nothing`] if another leaf is responsible for
+/// it or no surface lies between.
 fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
     let Some(other) = tree.at(cell.neighbour_corner(NEIGHBOURS[face]), cell.size) else {
         let is_outside = cell.is_free && !cell.center.sample.is_positive();
@@ -178,9 +190,9 @@ fn across(tree: &Octree, cell: &Cell, face: usize) -> Across {
     }
 }
 
-/// Which edges of which faces are touched by a finer leaf: of the four places around an edge only
-/// the two beyond the pair of leaves can be divided.
-fn halved(tree: &Octree, cell: &Cell) -> u32 {
+/// Returns the edges that a finer leaf touches, as bits like those of [`Links`]. Of the four places
+/// around an edge only the two beyond the pair of leaves can be divided.
+fn find_halved_edges(tree: &Octree, cell: &Cell) -> u32 {
     let mut bits = 0;
     for face in 0..6 {
         let (axis, is_up) = axis(face);

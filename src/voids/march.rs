@@ -1,14 +1,15 @@
 //! Marching tetrahedra: the pieces of surface inside one tetrahedron.
 //!
-//! Every piece lies in its own tetrahedron and meets its neighbours' in whole edges, so the surface
-//! is a 2-manifold free of self-intersection by construction. Doi & Koide, IEICE Trans. E74, 1991.
+//! Every piece lies in its own tetrahedron and shares whole edges with its neighbours' pieces. So
+//! the surface is a 2-manifold free of self-intersection by construction (Doi & Koide, IEICE Trans.
+//! E74, 1991).
 
 use super::roots::{VertexKey, corner_key, crossing_key};
 
-/// For each corner an even order of the corners that begins with it.
+/// For each corner, an even permutation of the corners that begins with it.
 const APEX_FIRST: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 1, 3], [3, 0, 2, 1]];
 
-/// For each pair of corners an even order of the corners that begins with it.
+/// For each pair of corners, an even permutation of the corners that begins with it.
 const PAIR_FIRST: [[usize; 4]; 6] = [
     [0, 1, 2, 3],
     [0, 2, 3, 1],
@@ -27,8 +28,8 @@ pub(super) enum Piece {
     Quad([VertexKey; 4]),
 }
 
-/// The piece of surface between the positive and the other corners of a positively oriented
-/// tetrahedron.
+/// Returns the piece of surface that separates the positive corners of a positively oriented
+/// tetrahedron from the others. `None` if all are alike.
 pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece> {
     let cross = |i: usize, j: usize| crossing_key(corners[i], corners[j]);
     match positive.iter().filter(|&&p| p).count() {
@@ -46,7 +47,8 @@ pub(super) fn piece(corners: [u32; 4], positive: [bool; 4]) -> Option<Piece> {
     }
 }
 
-/// The positive part of a tetrahedron's face on the boundary of the octree, as a fan.
+/// Returns the positive part of a tetrahedron's face on the boundary of the octree, as a fan of
+/// triangles.
 pub(super) fn cap(corners: [u32; 3], positive: [bool; 3]) -> Vec<[VertexKey; 3]> {
     let mut ring: Vec<VertexKey> = Vec::with_capacity(4);
     for i in 0..3 {

@@ -1,5 +1,5 @@
-//! The lattice's corners: the function there, pushed off the surface so that no triangle is a
-//! sliver.
+//! The lattice's corners, pushed off the surface so that no triangle is a sliver, with the function
+//! sampled there.
 
 use rayon::prelude::*;
 
@@ -8,32 +8,32 @@ use super::lattice::{Key, Links, SLOTS, Slot, grid, key};
 use super::octree::Octree;
 use super::table::IndexMap;
 
-/// A corner nearer to the surface than this share of its smallest cell is pushed that far from it.
-/// More would endanger the tetrahedra (their least height is about 0.4 cells), less leaves thin
+/// Distance to which a corner too near the surface is pushed, as a share of its smallest cell. More
+/// would endanger the tetrahedra, whose least height is about 0.4 cells; less leaves thin
 /// triangles.
 const PUSH_RATIO: f64 = 0.1;
 
 /// A corner of the lattice.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Node {
-    /// Where the lattice has it.
+    /// Place in the regular lattice.
     raw: Known,
-    /// Where it was pushed.
+    /// Place after pushing.
     pub placed: Known,
-    /// The smallest leaf around it, units.
+    /// Size of the smallest leaf around it, units.
     size: i32,
-    /// How often it was moved.
+    /// Number of times it was moved.
     pub version: u32,
-    /// Whether it must stay on the octree's boundary.
+    /// True if it must stay on the octree's boundary.
     is_fixed: bool,
 }
 
-/// All corners met so far, numbered in the order they were met.
+/// All corners met so far, numbered in the order in which they were met.
 #[derive(Default)]
 pub(super) struct Nodes {
     index: IndexMap,
     nodes: Vec<Node>,
-    /// Whether each lies in the region; apart, so that many fit the cache.
+    /// For each corner, whether it lies in the region; kept apart so that many fit the cache.
     positive: Vec<bool>,
 }
 
@@ -45,7 +45,7 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// The number of the corner in a slot in use.
+    /// Returns the number of the corner in a slot, which must be in use.
     pub fn at(&self, slot: Slot) -> u32 {
         let before = self.used & ((1 << slot) - 1);
         self.numbers[before.count_ones() as usize]
@@ -61,17 +61,18 @@ struct Need {
 }
 
 impl Nodes {
-    /// A corner by its number.
+    /// Returns a corner by its number.
     pub fn node(&self, number: u32) -> &Node {
         &self.nodes[number as usize]
     }
 
-    /// Whether a corner lies in the region.
+    /// Returns whether a corner lies in the region.
     pub fn is_positive(&self, number: u32) -> bool {
         self.positive[number as usize]
     }
 
-    /// Makes ready every corner of the leaves' tetrahedra, and gives their numbers for each leaf.
+    /// Adds or updates every corner of the leaves' tetrahedra, and returns their numbers for each
+    /// leaf.
     pub fn prepare(
         &mut self,
         tree: &Octree,
@@ -80,7 +81,7 @@ impl Nodes {
     ) -> Vec<Numbers> {
         let needs: Vec<(u64, Vec<Need>)> = leaves
             .par_iter()
-            .map(|entry| needs_of(tree, entry))
+            .map(|(leaf, links)| needs_of(tree, *leaf, links))
             .collect();
         let mut fresh: Vec<Need> = Vec::new();
         let mut shrunk: Vec<u32> = Vec::new();
@@ -95,18 +96,18 @@ impl Nodes {
                 numbers: numbered,
             });
         }
-        let made: Vec<Node> = fresh
+        let new_nodes: Vec<Node> = fresh
             .par_iter()
-            .map(|need| make(tree, need, field))
+            .map(|need| make_node(tree, need, field))
             .collect();
         self.positive
-            .extend(made.iter().map(|node| node.raw.sample.is_positive()));
-        self.nodes.extend(made);
-        self.replace(tree, shrunk, field);
+            .extend(new_nodes.iter().map(|node| node.raw.sample.is_positive()));
+        self.nodes.extend(new_nodes);
+        self.place_again(tree, shrunk, field);
         numbers
     }
 
-    /// The number of a corner: of a known one, or the next one.
+    /// Returns the number of a corner: its own if the corner is known, otherwise the next free one.
     fn meet(&mut self, need: &Need, fresh: &mut Vec<Need>, shrunk: &mut Vec<u32>) -> u32 {
         let known = self.nodes.len() as u32;
         let next = known + fresh.len() as u32;
@@ -123,8 +124,8 @@ impl Nodes {
         number
     }
 
-    /// Places corners anew whose smallest cell has shrunk.
-    fn replace(&mut self, tree: &Octree, mut numbers: Vec<u32>, field: &impl Field) {
+    /// Places corners again whose smallest cell has shrunk.
+    fn place_again(&mut self, tree: &Octree, mut numbers: Vec<u32>, field: &impl Field) {
         numbers.sort_unstable();
         numbers.dedup();
         let placed: Vec<Known> = numbers
@@ -144,8 +145,9 @@ impl Nodes {
     }
 }
 
-/// The corners of a leaf's tetrahedra, each once, in the order of their slots.
-fn needs_of(tree: &Octree, &(leaf, links): &(u32, Links)) -> (u64, Vec<Need>) {
+/// Returns the slots in use as a set of bits, and the corners of a leaf's tetrahedra, each once, in
+/// the order of their slots.
+fn needs_of(tree: &Octree, leaf: u32, links: &Links) -> (u64, Vec<Need>) {
     let used = links.used();
     let cell = tree.cell(leaf);
     let slots = (0..SLOTS).filter(|&slot| used >> slot & 1 == 1);
@@ -157,9 +159,9 @@ fn needs_of(tree: &Octree, &(leaf, links): &(u32, Links)) -> (u64, Vec<Need>) {
     (used, slots.map(need).collect())
 }
 
-fn make(tree: &Octree, need: &Need, field: &impl Field) -> Node {
+fn make_node(tree: &Octree, need: &Need, field: &impl Field) -> Node {
     let position = grid(need.key);
-    let raw = sampled(tree, need, field);
+    let raw = sample_corner(tree, need, field);
     let is_fixed = position.iter().any(|&c| c == 0 || c == tree.root_size());
     let node = Node {
         raw,
@@ -174,8 +176,8 @@ fn make(tree: &Octree, need: &Need, field: &impl Field) -> Node {
     }
 }
 
-/// The function at a corner; the leaf's own centre is known.
-fn sampled(tree: &Octree, need: &Need, field: &impl Field) -> Known {
+/// Samples the function at a corner. At the leaf's own centre the sample is known already.
+fn sample_corner(tree: &Octree, need: &Need, field: &impl Field) -> Known {
     let leaf = tree.cell(need.leaf);
     if key(leaf.center_grid()) == need.key {
         return leaf.center;
@@ -187,7 +189,8 @@ fn sampled(tree: &Octree, need: &Need, field: &impl Field) -> Known {
     }
 }
 
-/// Where a corner is pushed: along the gradient, never across the surface.
+/// Pushes a corner along the gradient, away from the surface. It stays in place if the push would
+/// cross the surface or bring it nearer.
 fn place(tree: &Octree, node: &Node, field: &impl Field) -> Known {
     let Known { at, sample } = node.raw;
     let clear_mm = PUSH_RATIO * tree.length_mm(node.size);
@@ -197,7 +200,7 @@ fn place(tree: &Octree, node: &Node, field: &impl Field) -> Known {
     let side = if sample.is_positive() { 1.0 } else { -1.0 };
     let moved = at + sample.gradient * (side * clear_mm - sample.value);
     let there = field.sample(&moved, &[node.raw]);
-    if is_further(&there, &sample) {
+    if is_farther(&there, &sample) {
         Known {
             at: moved,
             sample: there,
@@ -207,6 +210,6 @@ fn place(tree: &Octree, node: &Node, field: &impl Field) -> Known {
     }
 }
 
-fn is_further(there: &Sample, here: &Sample) -> bool {
+fn is_farther(there: &Sample, here: &Sample) -> bool {
     there.is_positive() == here.is_positive() && there.value.abs() > here.value.abs()
 }

@@ -1,21 +1,21 @@
-//! An octree whose leaves differ at most by a factor two across faces and edges.
+//! An octree whose leaves differ in size by a factor of two at most across faces and edges.
 
 use rayon::prelude::*;
 
 use super::field::{Field, Known};
 use crate::geom::{Aabb, Point};
 
-/// A position on the finest grid: half the finest cell is one unit.
+/// A position on the finest grid. One unit is half the finest cell.
 pub(super) type Grid = [i32; 3];
 
-/// The finest cell's size in units; even, so that centres fall on the grid.
+/// Size of the finest cell in units; even, so that centres fall on the grid.
 pub(super) const FINEST_UNITS: i32 = 2;
 
-/// The largest root in units that a packed grid position can name (21 bits an axis).
+/// Largest root, in units, that a packed grid position can name (21 bits an axis).
 const ROOT_UNITS_MAX: i32 = 1 << 20;
 
-/// A cell is sure to be free of the surface only beyond this share of its circumradius: its lattice
-/// points may be pushed off the surface, which must not depend on the last bit.
+/// Share of a cell's circumradius beyond which the cell is certainly free of the surface. Its
+/// lattice points may be pushed off the surface, which must not depend on the last bit.
 const FREE_RATIO: f64 = 1.0 + 1e-9;
 
 /// Half a cube's diagonal over its side.
@@ -46,33 +46,33 @@ pub(super) const NEIGHBOURS: [Grid; 18] = [
 /// A cube of the tree.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Cell {
-    /// The corner with the least coordinates.
+    /// Corner with the least coordinates.
     pub corner: Grid,
-    /// The side, units.
+    /// Side, units.
     pub size: i32,
-    /// Whether the surface is sure not to enter it.
+    /// True if the surface certainly does not enter the cell.
     pub is_free: bool,
-    /// The function at its centre.
+    /// Sample of the function at the centre.
     pub center: Known,
 }
 
 impl Cell {
-    /// The grid position of the centre.
+    /// Returns the grid position of the centre.
     pub fn center_grid(&self) -> Grid {
         self.corner.map(|c| c + self.size / 2)
     }
 
-    /// The corner of the neighbour of the same size in a direction.
+    /// Returns the corner of the neighbour of the same size in a direction.
     pub fn neighbour_corner(&self, direction: Grid) -> Grid {
         [0, 1, 2].map(|i| self.corner[i] + direction[i] * self.size)
     }
 }
 
-/// The tree, and where it lies.
+/// An octree with its place in space.
 #[derive(Debug, Clone)]
 pub(super) struct Octree {
     cells: Vec<Cell>,
-    /// For each cell the first of its eight children, or 0 for a leaf; apart, so that a descent
+    /// For each cell the first of its eight children, or 0 for a leaf; kept apart so that a descent
     /// stays in the cache.
     children: Vec<u32>,
     origin: Point,
@@ -80,8 +80,8 @@ pub(super) struct Octree {
 }
 
 impl Octree {
-    /// One cell that holds `aabb`, for a finest cell of `finest_mm`; `None` if that takes more
-    /// cells across than a grid position can count.
+    /// Returns an octree of one cell that holds `aabb`, for a finest cell of `finest_mm`. `None` if
+    /// a grid position cannot count that many cells across.
     pub fn new(aabb: &Aabb, finest_mm: f64, field: &impl Field) -> Option<Self> {
         let unit_mm = finest_mm / f64::from(FINEST_UNITS);
         let needed = aabb.size().max() / unit_mm;
@@ -114,32 +114,33 @@ impl Octree {
         })
     }
 
-    /// All cells, parents before children; leaves and inner ones.
+    /// Returns all cells, inner ones and leaves, parents before children.
     pub fn cells(&self) -> &[Cell] {
         &self.cells
     }
 
-    /// The cell of this number.
+    /// Returns the cell of this number.
     pub fn cell(&self, index: u32) -> &Cell {
         &self.cells[index as usize]
     }
 
-    /// The side of the whole, units.
+    /// Returns the side of the root, units.
     pub fn root_size(&self) -> i32 {
         self.cells[0].size
     }
 
-    /// A length of so many units, mm.
+    /// Returns a length given in units, mm.
     pub fn length_mm(&self, units: i32) -> f64 {
         f64::from(units) * self.unit_mm
     }
 
-    /// The place of a grid position.
+    /// Returns the point at a grid position.
     pub fn point(&self, grid: Grid) -> Point {
         self.origin + crate::geom::Vector::from(grid.map(f64::from)) * self.unit_mm
     }
 
-    /// The cell of this size at this corner, or the leaf that holds it; `None` outside the root.
+    /// Returns the cell of this size at this corner, or the leaf that holds it. `None` outside the
+    /// root.
     pub fn at(&self, corner: Grid, size: i32) -> Option<u32> {
         let root = self.root_size();
         if corner.iter().any(|&c| c < 0 || c >= root) {
@@ -157,41 +158,41 @@ impl Octree {
         }
     }
 
-    /// Whether a cell has no children.
+    /// Returns whether a cell has no children.
     pub fn is_leaf(&self, index: u32) -> bool {
         self.children[index as usize] == 0
     }
 
-    /// Whether the place of the cell's neighbour of the same size is divided.
+    /// Returns whether the cell of this size at this corner is divided.
     pub fn is_divided(&self, corner: Grid, size: i32) -> bool {
         self.at(corner, size)
             .is_some_and(|index| !self.is_leaf(index))
     }
 
-    /// Divides until no cell that may hold the surface is too coarse, and balances. Gives the new
-    /// leaves.
+    /// Divides cells until none that may hold the surface is too coarse, and balances the tree.
+    /// Returns the new leaves.
     pub fn grow(&mut self, field: &impl Field) -> Vec<u32> {
-        let mut fresh = vec![0];
-        let mut made = Vec::new();
-        while !fresh.is_empty() {
-            let coarse: Vec<u32> = fresh
+        let mut latest = vec![0];
+        let mut created = Vec::new();
+        while !latest.is_empty() {
+            let coarse: Vec<u32> = latest
                 .into_iter()
                 .filter(|&i| self.is_too_coarse(i, field))
                 .collect();
-            fresh = self.split(&coarse, field);
-            made.extend_from_slice(&fresh);
+            latest = self.split(&coarse, field);
+            created.extend_from_slice(&latest);
         }
-        let balanced = self.balance(made.clone(), field);
-        made.extend(balanced);
-        self.leaves_of(made)
+        let balanced = self.balance(created.clone(), field);
+        created.extend(balanced);
+        self.leaves_of(created)
     }
 
-    /// Divides these leaves and whatever must follow for balance. Gives the new leaves.
+    /// Divides these leaves, and others as balance requires. Returns the new leaves.
     pub fn refine(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
-        let mut made = self.split(leaves, field);
-        let balanced = self.balance(made.clone(), field);
-        made.extend(balanced);
-        self.leaves_of(made)
+        let mut created = self.split(leaves, field);
+        let balanced = self.balance(created.clone(), field);
+        created.extend(balanced);
+        self.leaves_of(created)
     }
 
     fn leaves_of(&self, cells: Vec<u32>) -> Vec<u32> {
@@ -206,24 +207,25 @@ impl Octree {
     }
 
     /// Divides leaves that are more than twice as large as a neighbour across a face or an edge.
-    fn balance(&mut self, mut fresh: Vec<u32>, field: &impl Field) -> Vec<u32> {
-        let mut made = Vec::new();
-        while !fresh.is_empty() {
-            let mut large: Vec<u32> = fresh
+    /// Returns the new cells.
+    fn balance(&mut self, mut latest: Vec<u32>, field: &impl Field) -> Vec<u32> {
+        let mut created = Vec::new();
+        while !latest.is_empty() {
+            let mut large: Vec<u32> = latest
                 .par_iter()
                 .flat_map_iter(|&i| self.too_large_beside(i))
                 .collect();
             large.sort_unstable();
             large.dedup();
-            fresh = self.split(&large, field);
+            latest = self.split(&large, field);
             // A divided leaf's children may still be too large for the neighbour that asked.
-            made.extend_from_slice(&fresh);
-            fresh = self.widened(&fresh);
+            created.extend_from_slice(&latest);
+            latest = self.widened(&latest);
         }
-        made
+        created
     }
 
-    /// These cells and the leaves around them.
+    /// Returns these cells' leaves and the leaves around them, in ascending order.
     pub fn widened(&self, cells: &[u32]) -> Vec<u32> {
         let around = |&i: &u32| {
             let cell = *self.cell(i);
@@ -239,7 +241,7 @@ impl Octree {
         all
     }
 
-    /// The leaves that touch a cell from the side of `direction`.
+    /// Returns the leaves that touch a cell on the side of `direction`.
     fn touching(&self, cell: &Cell, direction: Grid) -> Vec<u32> {
         let mut stack: Vec<u32> = self
             .at(cell.neighbour_corner(direction), cell.size)
@@ -257,6 +259,7 @@ impl Octree {
         found
     }
 
+    /// Returns the neighbours that are more than twice as large as a leaf.
     fn too_large_beside(&self, index: u32) -> impl Iterator<Item = u32> + '_ {
         let cell = *self.cell(index);
         let neighbours = NEIGHBOURS.iter().filter(move |_| self.is_leaf(index));
@@ -265,7 +268,7 @@ impl Octree {
             .filter(move |&other| self.cell(other).size > 2 * cell.size)
     }
 
-    /// Divides leaves into eight each and samples the centres. Gives the children.
+    /// Divides leaves into eight each and samples the centres. Returns the children.
     fn split(&mut self, leaves: &[u32], field: &impl Field) -> Vec<u32> {
         let first = self.cells.len() as u32;
         let children: Vec<Cell> = leaves
@@ -301,7 +304,7 @@ impl Octree {
     }
 }
 
-/// Whether two closed cubes have a point in common.
+/// Returns whether two closed cubes have a point in common.
 fn touches(a: &Cell, b: &Cell) -> bool {
     (0..3).all(|i| a.corner[i] <= b.corner[i] + b.size && b.corner[i] <= a.corner[i] + a.size)
 }

@@ -3,26 +3,31 @@
 use super::field::{Field, Known, Sample};
 use crate::geom::{Bvh, Frame, Matrix, Point, Quadric};
 
-/// sign(q) times the lower bound of the distance to q = 0 that the second-order Taylor series
-/// gives.
+/// Share of itself by which the gradient may change within a cell. At 0.5, two sheets or a small
+/// ellipsoid cannot hide between the lattice's corners.
+const TURN_RATIO: f64 = 0.5;
+
+/// A quadric as a signed lower bound of the distance to its surface q = 0, positive if q is.
 ///
-/// |q(x + v) − q(x)| ≤ |∇q| |v| + ‖H‖ |v|²/2, so no zero is nearer than 2|q| / (|∇q| + √(|∇q|² + 2‖H‖|q|)); near
-/// the surface this is the distance itself, and it is finite at a cone's apex.
+/// From the second-order Taylor series, |q(x + v) − q(x)| ≤ |∇q| |v| + ‖H‖ |v|²/2. So no zero is
+/// nearer than 2|q| / (|∇q| + √(|∇q|² + 2‖H‖|q|)). Near the surface this is the distance itself,
+/// and it is finite at a cone's apex.
 pub(super) struct QuadricField<'a> {
     quadric: &'a Quadric,
     frame: &'a Frame,
-    /// The spectral norm of the second derivatives.
+    /// Spectral norm of the second derivatives.
     curvature: f64,
-    /// The body in which the surface must be drawn within tolerance.
+    /// Body in which the surface must be drawn within tolerance.
     body: &'a Bvh,
-    /// The largest cell that may hold the surface, mm.
+    /// Largest cell that may hold the surface, mm.
     coarse_mm: f64,
-    /// The largest cell where the surface turns within a cell, mm.
+    /// Largest cell in which the surface may turn much, mm.
     singular_mm: f64,
 }
 
 impl<'a> QuadricField<'a> {
-    /// The function of a quadric given in `frame`, to be drawn in `body`.
+    /// Returns the function of a quadric given in `frame`, to be drawn in `body`, for cells of at
+    /// most `coarse_mm`, or `singular_mm` near singular points.
     pub fn new(
         quadric: &'a Quadric,
         frame: &'a Frame,
@@ -41,7 +46,7 @@ impl<'a> QuadricField<'a> {
     }
 }
 
-/// The second derivatives.
+/// Returns the second derivatives.
 fn hessian(&Quadric([_, _, _, _, xy, yz, xz, xx, yy, zz]): &Quadric) -> Matrix {
     Matrix::new(2.0 * xx, xy, xz, xy, 2.0 * yy, yz, xz, yz, 2.0 * zz)
 }
@@ -86,17 +91,13 @@ impl Field for QuadricField<'_> {
     }
 }
 
-/// A surface turns too much within a cell when its gradient may change by more than this share of
-/// itself: at 0.5 two sheets or a small ellipsoid cannot hide between the lattice's corners.
-const TURN_RATIO: f64 = 0.5;
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geom::Vector;
 
     #[test]
-    fn the_value_never_exceeds_the_distance_to_a_ball_and_meets_it_at_the_surface() {
+    fn the_value_is_at_most_the_distance_to_a_ball_and_equals_it_near_the_surface() {
         let ball = Quadric([-25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let body = Bvh::new(Vec::new());
         let frame = Frame::with_axis(Point::new(1.0, 2.0, 3.0), &Vector::new(1.0, 1.0, 0.3));

@@ -1,31 +1,34 @@
-//! The part of a box in which a quadric is positive, as a closed surface.
+//! Draws the part of a box in which a quadric is positive, as a closed surface.
 
-use super::VoidError;
 use super::decimate::{Rules, Stray};
+use super::error::VoidError;
 use super::extract::Extractor;
 use super::field::{Field, Known, Resolution};
 use super::quadric_field::QuadricField;
-use super::simplify::simplified;
+use super::simplify::simplify;
 use crate::geom::{Aabb, Bvh, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
 
-/// The coarsest cells, mm: larger ones save nothing, as the quadrics' radii are of the model's
-/// size.
+/// Coarsest cells, mm. Larger ones save nothing, as the quadrics' radii are of the model's size.
 const COARSE_MM: f64 = 4.0;
 
-/// How often coarse cells may be halved; the finest follow a radius of 0.4 mm to 0.01 mm.
+/// Number of times a coarse cell may be halved. The finest cells follow a radius of 0.4 mm within
+/// 0.01 mm.
 const HALVINGS: i32 = 5;
 
-/// The largest cell near a singular point, mm: what hides in it is too thin to print or to clean.
+/// Largest cell near a singular point, mm. A detail that hides in it is too thin to print or to
+/// clean.
 const SINGULAR_MM: f64 = 0.5;
 
-/// How far the region reaches beyond the box, mm, so that its own faces stay clear of what is in
-/// the box.
+/// Margin of the region around the box, mm, so that its own faces stay clear of the box's contents.
 const MARGIN_MM: f64 = 1.0;
 
-/// How far the drawn triangles' sides may stray, and their simplification from them, as shares of
-/// the tolerance: half of it together, as a triangle's middle strays 4/3 as far as its sides.
+/// Largest stray of the drawn triangles' sides from the quadric, as a share of the tolerance. With
+/// the simplification it makes half the tolerance, as a triangle's middle strays 4/3 as far as its
+/// sides.
 const DRAW_RATIO: f64 = 0.25;
+
+/// Largest stray of the simplified triangles from the drawn ones, as a share of the tolerance.
 const SIMPLIFY_RATIO: f64 = 0.1;
 
 /// Half a cube's diagonal over its side.
@@ -37,12 +40,12 @@ pub(super) enum Region {
     Nothing,
     /// All of it.
     Everything,
-    /// Some of it; the body reaches beyond the box.
+    /// Some of it. The body reaches beyond the box.
     Part(Box<Csg>),
 }
 
-/// The part of `body`'s box in which the quadric, given in `frame`, is positive: in the body within
-/// half of `tolerance_mm`, elsewhere as is convenient.
+/// Draws the part of `body`'s box in which the quadric, given in `frame`, is positive. Inside the
+/// body it is true within half of `tolerance_mm`; elsewhere it need not be.
 pub(super) fn positive_region(
     quadric: &Quadric,
     frame: &Frame,
@@ -74,7 +77,7 @@ pub(super) fn positive_region(
         outside_mm: stray_mm,
         inside_mm: stray_mm,
     };
-    let simple = simplified(
+    let simple = simplify(
         mesh,
         Rules {
             stray,
@@ -96,6 +99,6 @@ fn draw(field: &QuadricField, aabb: &Aabb, tolerance_mm: f64) -> Result<TriMesh,
         finest_mm: resolution.finest_mm,
     })?;
     let leaves = extractor.leaves();
-    extractor.settle(leaves);
+    extractor.refine(leaves);
     Ok(extractor.mesh()?)
 }

@@ -1,4 +1,4 @@
-//! Where the surface crosses the lattice's edges: the surface's vertices.
+//! The surface's vertices: the points in which the surface crosses the lattice's edges.
 
 use rayon::prelude::*;
 
@@ -6,42 +6,43 @@ use super::field::{Field, Known};
 use super::nodes::Nodes;
 use super::table::IndexMap;
 
-/// A crossing is found when the function is this near to zero, mm: a hundredth of the finest wish
-/// for a wall.
+/// Value of the function at which a crossing counts as found, mm: a hundredth of the accuracy
+/// promised for a wall.
 const ROOT_TOLERANCE_MM: f64 = 1e-4;
 
-/// Steps after which the best crossing so far is taken: at a kink of the function the secant halves
-/// the edge.
+/// Steps after which the best crossing so far is taken. At a kink of the function the secant only
+/// halves the edge.
 const STEPS_MAX: usize = 24;
 
-/// The crossing stays this share of the edge away from its ends, so that no triangle collapses.
+/// Least distance of the crossing from the edge's ends, as a share of the edge, so that no triangle
+/// collapses.
 const END_RATIO: f64 = 1e-3;
 
-/// The name of a surface vertex: its edge's two corners, or twice the same corner of the lattice.
+/// The name of a surface vertex: its edge's two corners, or the same corner of the lattice twice.
 pub(super) type VertexKey = u64;
 
-/// The name of the crossing between two corners.
+/// Returns the name of the crossing between two corners.
 pub(super) fn crossing_key(a: u32, b: u32) -> VertexKey {
     (u64::from(a.min(b)) << 32) | u64::from(a.max(b))
 }
 
-/// The name of a corner of the lattice used as a vertex.
+/// Returns the name of a corner of the lattice that serves as a vertex.
 pub(super) fn corner_key(a: u32) -> VertexKey {
     (u64::from(a) << 32) | u64::from(a)
 }
 
-/// Whether a name is a crossing's.
+/// Returns whether a name is that of a crossing.
 pub(super) fn is_crossing(key: VertexKey) -> bool {
     let (a, b) = ends(key);
     a != b
 }
 
-/// The two corners in a name.
+/// Returns the two corners in a name.
 fn ends(key: VertexKey) -> (u32, u32) {
     ((key >> 32) as u32, key as u32)
 }
 
-/// A crossing, and how often its corners had moved when it was found.
+/// A crossing, with the sum of its corners' versions when it was found.
 struct Root {
     key: VertexKey,
     found: Known,
@@ -56,7 +57,7 @@ pub(super) struct Roots {
 }
 
 impl Roots {
-    /// The place of a vertex, and the function there; `None` if it was not made ready.
+    /// Returns the place of a vertex and the function there; `None` if it was never prepared.
     pub fn vertex<'a>(&'a self, nodes: &'a Nodes, key: VertexKey) -> Option<&'a Known> {
         let (a, b) = ends(key);
         if a == b {
@@ -65,7 +66,7 @@ impl Roots {
         self.index.get(&key).map(|&i| &self.roots[i as usize].found)
     }
 
-    /// Finds anew the crossings of edges whose corners have moved.
+    /// Finds the crossings again on edges whose corners have moved.
     pub fn refresh(&mut self, nodes: &Nodes, field: &impl Field) {
         let stale = |root: &&Root| root.version != version(nodes, root.key);
         let keys: Vec<VertexKey> = self
@@ -77,7 +78,7 @@ impl Roots {
         self.prepare(nodes, keys.into_iter(), field);
     }
 
-    /// Finds the crossings of these edges that are new or whose corners have moved.
+    /// Finds those crossings that are new or whose corners have moved.
     pub fn prepare(
         &mut self,
         nodes: &Nodes,
@@ -100,7 +101,7 @@ impl Roots {
         }
         let found: Vec<Root> = wanted
             .par_iter()
-            .map(|&(_, key)| find(nodes, key, field))
+            .map(|&(_, key)| find_root(nodes, key, field))
             .collect();
         for ((number, _), root) in wanted.into_iter().zip(found) {
             match self.roots.get_mut(number as usize) {
@@ -116,9 +117,9 @@ fn version(nodes: &Nodes, key: VertexKey) -> u32 {
     nodes.node(a).version + nodes.node(b).version
 }
 
-fn find(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
+fn find_root(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
     let (a, b) = ends(key);
-    let found = crossing(&nodes.node(a).placed, &nodes.node(b).placed, field);
+    let found = find_crossing(&nodes.node(a).placed, &nodes.node(b).placed, field);
     Root {
         key,
         found,
@@ -126,9 +127,9 @@ fn find(nodes: &Nodes, key: VertexKey, field: &impl Field) -> Root {
     }
 }
 
-/// The zero of the function on the segment between two points of different sign, by the Illinois
-/// method (Dowell & Jarratt, BIT 11, 1971).
-fn crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
+/// Returns the zero of the function on the segment between two points of different sign, by the
+/// Illinois method (Dowell & Jarratt, BIT 11, 1971).
+fn find_crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
     let mut bracket = Bracket {
         low: (0.0, a.sample.value),
         high: (1.0, b.sample.value),
@@ -157,8 +158,8 @@ fn crossing(a: &Known, b: &Known, field: &impl Field) -> Known {
     found
 }
 
-/// Two points (parameter, value) of different sign; `kept` counts how often the same end was
-/// replaced: below 0 the low one, above 0 the high one.
+/// Two points (parameter, value) of different sign. `kept` counts how often in a row the same end
+/// was replaced: below 0 the low one, above 0 the high one.
 struct Bracket {
     low: (f64, f64),
     high: (f64, f64),
@@ -175,7 +176,7 @@ impl Bracket {
         }
     }
 
-    /// Replaces one end; an end kept for the second time in a row counts half.
+    /// Replaces one end. An end kept for the second time in a row counts half.
     fn shrink(&mut self, t: f64, value: f64, is_low: bool) {
         if is_low {
             self.low = (t, value);

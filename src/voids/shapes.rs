@@ -1,20 +1,20 @@
-//! Bodies with known offsets, for the tests of this room.
+//! Bodies with known offset surfaces, for the tests of this room.
 
 use crate::geom::Point;
 use crate::mesh::{TriMesh, primitives};
 use crate::repair::weld;
 
-/// The box from `min` to `max`.
+/// Returns the box from `min` to `max`.
 pub fn block(min: [f64; 3], max: [f64; 3]) -> TriMesh {
     primitives::cuboid(&min.into(), &max.into())
 }
 
-/// A ball of 5·4^`depth` triangles.
+/// Returns a ball of 5·4^`depth` triangles.
 pub fn ball(center: Point, radius: f64, depth: u32) -> TriMesh {
     primitives::ball(&center, radius, depth - 1)
 }
 
-/// The mesh of these triangles with equal corners joined.
+/// Returns the mesh of these triangles with equal corners joined.
 pub fn welded(triangles: impl Iterator<Item = [Point; 3]>) -> TriMesh {
     let vertices: Vec<Point> = triangles.flatten().collect();
     let triangles = (0..vertices.len() as u32 / 3)
@@ -23,8 +23,8 @@ pub fn welded(triangles: impl Iterator<Item = [Point; 3]>) -> TriMesh {
     weld(&TriMesh::new(vertices, triangles).unwrap())
 }
 
-/// The prism over a counter-clockwise polygon, star-shaped about its first corner, from z = 0 to
-/// `height`.
+/// Returns the prism from z = 0 to `height` over a counter-clockwise polygon that is star-shaped
+/// about its first corner.
 pub fn prism(polygon: &[[f64; 2]], height: f64) -> TriMesh {
     let n = polygon.len();
     let at = |i: usize, z: f64| Point::new(polygon[i % n][0], polygon[i % n][1], z);
@@ -40,8 +40,8 @@ pub fn prism(polygon: &[[f64; 2]], height: f64) -> TriMesh {
     welded(triangles.into_iter())
 }
 
-/// The body of revolution about z of an outline (radius, z) that starts and ends on the axis,
-/// upward.
+/// Returns the body of revolution about z of an outline (radius, z) that runs upward and starts and
+/// ends on the axis.
 pub fn revolved(outline: &[[f64; 2]], sides: usize) -> TriMesh {
     let at = |[r, z]: [f64; 2], k: usize| {
         let angle = (k % sides) as f64 * std::f64::consts::TAU / sides as f64;

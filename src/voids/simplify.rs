@@ -1,26 +1,27 @@
-//! Fewer triangles, and none that meet or that a judge refuses: where that fails the old ones stay.
+//! Reduces triangles, and leaves the old ones wherever the new ones would meet or break a rule.
 
-use super::crossing::crossing_among;
 use rayon::prelude::*;
 
+use super::crossing::find_crossings_among;
 use super::decimate::{Decimation, Rules};
 use crate::mesh::{MeshError, TriMesh};
 
-/// How often what failed is locked and the rest done again, before everything is left as it was.
+/// Number of times the failures are locked and the rest is tried again, before the mesh is left as
+/// it was.
 const ROUNDS: usize = 4;
 
 /// Rings of neighbours locked around a triangle that failed.
 const LOCKED_RINGS: usize = 2;
 
-/// The mesh with fewer triangles by these rules, free of self-intersection; the mesh itself if that
-/// cannot be had.
-pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
+/// Returns the mesh with fewer triangles by these rules, free of self-intersection. Returns the
+/// mesh itself if triangles still fail after the last round.
+pub(super) fn simplify(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshError> {
     let mut locked = vec![false; mesh.vertices().len()];
     let mut decimation = Decimation::new(&mesh, rules);
     let mut passed = Passed::default();
     for _ in 0..ROUNDS {
-        let (simple, names) = compacted(&mesh, decimation.run(&locked))?;
-        let failed = passed.failed(&simple, &names, rules);
+        let (simple, names) = compact(&mesh, decimation.run(&locked))?;
+        let failed = passed.find_failures(&simple, &names, rules);
         if failed.is_empty() {
             return Ok(simple);
         }
@@ -33,22 +34,22 @@ pub(super) fn simplified(mesh: TriMesh, rules: Rules) -> Result<TriMesh, MeshErr
     Ok(mesh)
 }
 
-/// The triangles that have met none and were not forbidden, by the old numbers of their corners,
-/// ascending.
+/// The triangles that meet no other and are allowed, by the old numbers of their corners, in
+/// ascending order.
 #[derive(Default)]
 struct Passed(Vec<[u32; 3]>);
 
 impl Passed {
-    /// The triangles that meet others or that the rules forbid; only those that have not passed
-    /// before are looked at, and whatever they meet.
-    fn failed(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
+    /// Returns the triangles that meet others or that the rules forbid. Only triangles that have
+    /// not passed before are tested, with all that they meet.
+    fn find_failures(&mut self, mesh: &TriMesh, names: &[u32], rules: Rules) -> Vec<u32> {
         let named = |t: &[u32; 3]| t.map(|v| names[v as usize]);
         let is_new: Vec<bool> = mesh
             .triangles()
             .par_iter()
             .map(|t| self.0.binary_search(&named(t)).is_err())
             .collect();
-        let mut failed = crossing_among(mesh, &is_new);
+        let mut failed = find_crossings_among(mesh, &is_new);
         let all = (0..mesh.triangles().len() as u32).into_par_iter();
         failed.par_extend(
             all.filter(|&i| is_new[i as usize] && !(rules.allows)(&mesh.corners(i as usize))),
@@ -82,9 +83,9 @@ fn lock(mesh: &TriMesh, seeds: impl Iterator<Item = u32>, locked: &mut [bool]) {
     }
 }
 
-/// The mesh of these triangles without the vertices that none names, and those vertices' old
-/// numbers.
-fn compacted(mesh: &TriMesh, triangles: Vec<[u32; 3]>) -> Result<(TriMesh, Vec<u32>), MeshError> {
+/// Returns the mesh of these triangles without unused vertices, and the old number of each vertex
+/// that is left.
+fn compact(mesh: &TriMesh, triangles: Vec<[u32; 3]>) -> Result<(TriMesh, Vec<u32>), MeshError> {
     let mut number = vec![u32::MAX; mesh.vertices().len()];
     let mut names = Vec::new();
     let mut numbered = |v: u32| {

@@ -1,14 +1,13 @@
-//! A hash table from packed names to indices; looked up only, never walked, so its order cannot
-//! matter.
+//! A hash table from packed names to indices. It is only looked up, never iterated, so its order
+//! cannot matter.
 
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// From packed names to indices.
+/// A map from packed names to indices.
 pub(super) type IndexMap = HashMap<u64, u32, BuildHasherDefault<MixHasher>>;
 
-/// A quick mixer of one 64-bit word (the finalizer of SplitMix64: Steele, Lea & Flood, OOPSLA
-/// 2014).
+/// A fast mixer of one 64-bit word (the finalizer of SplitMix64: Steele, Lea & Flood, OOPSLA 2014).
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MixHasher(u64);
 

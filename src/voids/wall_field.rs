@@ -1,36 +1,36 @@
-//! The region that may be emptied as a function: inside, farther from the surface than the wall,
-//! outside the keeps.
+//! The region that may be emptied, as a function: positive inside the model, deeper than the wall
+//! and outside the keeps.
 
 use super::field::{Field, Known, Sample};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, NO_HINT, Point, Vector};
 use crate::shell::Keep;
 
+/// Share of the sum of two empty balls' radii below which the balls certainly overlap. Balls on
+/// both sides of a surface may touch, and rounding must not join them.
+const OVERLAP_RATIO: f64 = 1.0 - 1e-6;
+
 /// min(d − iso, distance to every keep − its radius), with d the distance to the model's surface,
 /// positive inside.
 ///
-/// 1-Lipschitz. The side is told by winding numbers, so it is right for meshes that overlap
-/// themselves too.
+/// 1-Lipschitz. Winding numbers tell inside from outside, so the sign is also right for meshes that
+/// overlap themselves.
 pub(super) struct WallField<'a> {
-    /// The model's triangles.
+    /// Triangles of the model.
     pub surface: &'a Bvh,
-    /// What stays solid besides the wall.
+    /// Regions besides the wall that stay solid.
     pub keeps: &'a [Keep],
-    /// The distance at which the surface is drawn, mm: the wall and a little.
+    /// Distance at which the surface is drawn, mm: the wall and a little.
     pub iso_mm: f64,
-    /// How much larger the keeps are drawn, mm.
+    /// Extra radius of the keeps as drawn, mm.
     pub keep_margin_mm: f64,
-    /// The largest cell that may hold the surface, mm.
+    /// Largest cell that may hold the surface, mm.
     pub coarse_mm: f64,
 }
 
-/// Two empty balls overlap for certain below this share of the sum of their radii: balls on both
-/// sides of a surface may touch, and rounding must not join them.
-const OVERLAP_RATIO: f64 = 1.0 - 1e-6;
-
 impl WallField<'_> {
-    /// Whether `p`, at distance `clearance_mm` from the surface, is inside: as the nearby points
-    /// whose empty balls overlap its own, or by a ray.
+    /// Returns whether `p`, at distance `clearance_mm` from the surface, is inside. A nearby point
+    /// whose empty ball overlaps that of `p` is on the same side; without one, a ray decides.
     fn is_inside(&self, p: &Point, clearance_mm: f64, nearby: &[Known]) -> bool {
         let reach = |k: &Known| (k.sample.clearance_mm + clearance_mm) * OVERLAP_RATIO;
         let overlaps = |k: &&Known| (k.at - p).norm() < reach(k);
@@ -40,7 +40,7 @@ impl WallField<'_> {
         }
     }
 
-    /// The value and gradient that the keeps alone would give.
+    /// Returns the value and gradient that the keeps alone would give; `None` without keeps.
     fn keep_value(&self, p: &Point) -> Option<(f64, Vector)> {
         let value = |keep: &Keep| {
             let offset = p - closest_on_segment(p, &keep.from, &keep.to);

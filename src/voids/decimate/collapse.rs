@@ -1,55 +1,55 @@
-//! Merging a vertex into a neighbour, if what was there stays near what comes.
+//! Merges a vertex into a neighbour if the old surface stays near the new one.
 
 use super::patch::{NIL, Patch, area_vector, last, next};
-use super::{Rules, Stray};
+use super::rules::{Rules, Stray};
 use crate::geom::triangle::closest_on_triangle;
 use crate::geom::{Point, Vector};
 
-/// The edges merged in each pass are at most this long, mm: short ones first, so that slivers go
-/// before good triangles are stretched over them.
+/// Longest edge merged in each pass, mm. Short edges come first, so that slivers vanish before good
+/// triangles are stretched over them.
 const PASS_LENGTHS_MM: [f64; 6] = [0.05, 0.15, 0.4, 1.0, 3.0, f64::INFINITY];
 
-/// Neighbours tried for each vertex and pass, nearest first: more gain little.
+/// Neighbours tried for each vertex and pass, nearest first. More gain little.
 const TRIES: usize = 4;
 
-/// A new triangle may turn from the one it replaces by at most this much (cosine).
+/// Cosine of the largest turn of a new triangle from the one it replaces.
 const TURN_COSINE: f64 = 0.5;
 
-/// A new triangle's height over its longest side is at least this, unless it was worse before.
-/// Thinner triangles collapse when the file's `f32` rounds them.
+/// Least height of a new triangle over its longest side, unless it was worse before. Thinner
+/// triangles collapse when the file's `f32` rounds them.
 const SHAPE_RATIO: f64 = 0.05;
 
-/// A new triangle that goes less than this beyond the vertex it replaces counts as inside, mm:
-/// twice the error of the drawn vertices. Above, triangles that the judge refuses pass unseen and
-/// the work is done again around them; below, he is asked about every flat place.
+/// Height of a new triangle beyond the vertex it replaces, below which it counts as inside, mm:
+/// twice the error of the drawn vertices. With more, triangles that the rules forbid pass unseen
+/// and must be done again later; with less, the rules are asked about every flat place.
 const FLAT_MM: f64 = 2e-4;
 
-/// Vertices that the triangles around one vertex may stand for: the time for a merge grows with
-/// them.
+/// Most removed vertices that the triangles around one vertex may stand for. The time for a merge
+/// grows with them.
 const POINTS_MAX: usize = 160;
 
-/// Working memory, kept from merge to merge.
+/// Working memory, reused from merge to merge.
 #[derive(Default)]
 struct Scratch {
     fan: Vec<u32>,
     others: Vec<u32>,
     ring: Vec<u32>,
     points: Vec<u32>,
-    fresh: Vec<Fresh>,
-    owners: Vec<usize>,
+    new_triangles: Vec<NewTriangle>,
+    nearest: Vec<usize>,
 }
 
 /// A triangle as it would be after the merge.
-struct Fresh {
+struct NewTriangle {
     triangle: u32,
     corners: [Point; 3],
     normal: Vector,
-    /// How far it lies outside the vertex that goes, mm; negative inside.
+    /// Height above the vertex that vanishes, mm; negative inside the body.
     outside_mm: f64,
 }
 
-impl Fresh {
-    /// Whether it lies inside what was there: a judge who allowed the surface so far allows
+impl NewTriangle {
+    /// Returns whether it lies inside the old surface. Rules that allowed the old surface allow
     /// everything inside it.
     fn is_inside(&self) -> bool {
         self.outside_mm <= FLAT_MM
@@ -57,7 +57,7 @@ impl Fresh {
 }
 
 impl Patch {
-    /// Merges vertices, shortest edges first, as long as the tolerance allows.
+    /// Merges vertices, shortest edges first, as long as the rules allow.
     pub fn decimate(&mut self, rules: Rules) {
         let mut scratch = Scratch::default();
         for length_mm in PASS_LENGTHS_MM {
@@ -70,7 +70,7 @@ impl Patch {
         }
     }
 
-    /// Merges a vertex into the first of its nearest neighbours that will do.
+    /// Merges a vertex into the first of its nearest neighbours for which the rules hold.
     fn remove(&mut self, v: u32, length_mm: f64, rules: Rules, scratch: &mut Scratch) {
         if !self.fan(v, &mut scratch.fan) {
             return;
@@ -99,12 +99,12 @@ impl Patch {
         }
         for &(_, edge) in near.iter().take(TRIES) {
             if self.is_link_simple(edge, scratch)
-                && self.make_fresh(edge, scratch)
-                && self.settle_points(rules.stray, scratch)
+                && self.make_triangles(edge, scratch)
+                && self.assign_points(rules.stray, scratch)
                 && scratch
-                    .fresh
+                    .new_triangles
                     .iter()
-                    .all(|fresh| fresh.is_inside() || (rules.allows)(&fresh.corners))
+                    .all(|new| new.is_inside() || (rules.allows)(&new.corners))
             {
                 self.merge(edge, scratch);
                 return;
@@ -112,7 +112,7 @@ impl Patch {
         }
     }
 
-    /// The vertex and everything its triangles stand for.
+    /// Collects the vertex and every removed vertex that its triangles stand for.
     fn collect_points(&self, v: u32, scratch: &mut Scratch) {
         scratch.points.clear();
         scratch.points.push(v);
@@ -121,9 +121,10 @@ impl Patch {
         }
     }
 
-    /// Whether the edge's ends have just the two neighbours across it in common, so that the
-    /// surface stays a manifold (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving edge
-    /// contraction", 1999).
+    /// Returns whether the edge's ends have only the two neighbours across it in common.
+    ///
+    /// The surface then stays a manifold (Dey, Edelsbrunner, Guha & Nekhayev, "Topology preserving
+    /// edge contraction", 1999).
     fn is_link_simple(&self, edge: u32, scratch: &mut Scratch) -> bool {
         let twin = self.twin[edge as usize];
         let across = [
@@ -151,13 +152,17 @@ impl Patch {
             && across.iter().all(|v| others.contains(v))
     }
 
-    /// The triangles around the start of `edge` with that vertex moved to its end; false if one
-    /// turns or is thin.
-    fn make_fresh(&self, edge: u32, scratch: &mut Scratch) -> bool {
-        let gone = [edge / 3, self.twin[edge as usize] / 3];
+    /// Makes the triangles around the start of `edge` with that vertex moved to its end. Returns
+    /// false if one turns too far or is thin.
+    fn make_triangles(&self, edge: u32, scratch: &mut Scratch) -> bool {
+        let vanishing = [edge / 3, self.twin[edge as usize] / 3];
         let target = self.points[self.end(edge) as usize];
-        scratch.fresh.clear();
-        for &leaving in scratch.fan.iter().filter(|&&e| !gone.contains(&(e / 3))) {
+        scratch.new_triangles.clear();
+        for &leaving in scratch
+            .fan
+            .iter()
+            .filter(|&&e| !vanishing.contains(&(e / 3)))
+        {
             let rest = [next(leaving), last(leaving)]
                 .map(|e| self.points[self.start[e as usize] as usize]);
             let old = [
@@ -177,7 +182,7 @@ impl Patch {
             }
             let normal = after / length;
             let outside_mm = normal.dot(&(target - old[0]));
-            scratch.fresh.push(Fresh {
+            scratch.new_triangles.push(NewTriangle {
                 triangle: leaving / 3,
                 corners,
                 normal,
@@ -187,12 +192,13 @@ impl Patch {
         true
     }
 
-    /// Finds for every point the new triangle nearest to it; false if one is too far.
-    fn settle_points(&self, stray: Stray, scratch: &mut Scratch) -> bool {
-        scratch.owners.clear();
+    /// Assigns every point to the new triangle nearest to it. Returns false if a point is too far
+    /// away.
+    fn assign_points(&self, stray: Stray, scratch: &mut Scratch) -> bool {
+        scratch.nearest.clear();
         for &point in &scratch.points {
-            match owner(&self.points[point as usize], &scratch.fresh, stray) {
-                Some(owner) => scratch.owners.push(owner),
+            match nearest_triangle(&self.points[point as usize], &scratch.new_triangles, stray) {
+                Some(index) => scratch.nearest.push(index),
                 None => return false,
             }
         }
@@ -215,13 +221,13 @@ impl Patch {
             .ring
             .iter()
             .for_each(|&beside| self.tried[beside as usize] = -1.0);
-        for (&point, &owner) in scratch.points.iter().zip(&scratch.owners) {
-            self.give(scratch.fresh[owner].triangle, point);
+        for (&point, &nearest) in scratch.points.iter().zip(&scratch.nearest) {
+            self.give(scratch.new_triangles[nearest].triangle, point);
         }
     }
 
-    /// Removes the triangle of `edge` (v → u, then a): what lay beyond a → v now borders what lay
-    /// beyond u → a. Gives the half-edge from u to a.
+    /// Removes the triangle of `edge` (v → u, then a), so that the triangle beyond a → v borders
+    /// the one beyond u → a. Returns the half-edge from u to a.
     fn close(&mut self, edge: u32) -> u32 {
         let (beyond_ua, beyond_av) = (
             self.twin[next(edge) as usize],
@@ -234,8 +240,8 @@ impl Patch {
         beyond_av
     }
 
-    /// Removes the triangle of `twin` (u → v, then b): what lay beyond v → b now borders what lay
-    /// beyond b → u.
+    /// Removes the triangle of `twin` (u → v, then b), so that the triangle beyond v → b borders
+    /// the one beyond b → u.
     fn close_back(&mut self, twin: u32) {
         let (beyond_vb, beyond_bu) = (
             self.twin[next(twin) as usize],
@@ -256,11 +262,11 @@ impl Patch {
     }
 }
 
-/// The new triangle nearest to an old vertex, if the surface there strays little enough: a vertex
-/// above the triangle means that the surface now runs inside the body.
-fn owner(p: &Point, fresh: &[Fresh], stray: Stray) -> Option<usize> {
+/// Returns the new triangle nearest to an old vertex, or `None` if the surface strays too far from
+/// it. A vertex above the triangle means that the surface now runs inside the body.
+fn nearest_triangle(p: &Point, new_triangles: &[NewTriangle], stray: Stray) -> Option<usize> {
     let mut best = (f64::INFINITY, 0, Vector::zeros());
-    for (i, candidate) in fresh.iter().enumerate() {
+    for (i, candidate) in new_triangles.iter().enumerate() {
         let offset = p - closest_on_triangle(p, &candidate.corners).point;
         let squared = offset.norm_squared();
         if squared < best.0 {
@@ -268,7 +274,7 @@ fn owner(p: &Point, fresh: &[Fresh], stray: Stray) -> Option<usize> {
         }
     }
     let (squared, i, offset) = best;
-    let is_inside = fresh.get(i)?.normal.dot(&offset) >= 0.0;
+    let is_inside = new_triangles.get(i)?.normal.dot(&offset) >= 0.0;
     let limit_mm = if is_inside {
         stray.inside_mm
     } else {

@@ -1,43 +1,45 @@
-//! A piece of a mesh as half-edges, in which vertices can be merged.
+//! A part of a mesh as half-edges, in which vertices can be merged.
 
-use super::{Parts, State};
+use super::parts::{Parts, State};
 use crate::geom::{Point, Vector};
 
-/// "No half-edge, no point, no vertex."
+/// The index that means "no half-edge, no point, no vertex".
 pub(super) const NIL: u32 = u32::MAX;
 
-/// Triangle t has the half-edges 3t, 3t + 1 and 3t + 2, counter-clockwise.
+/// A part of a mesh. Triangle t has the half-edges 3t, 3t + 1 and 3t + 2, counter-clockwise.
 pub(super) struct Patch {
-    /// The mesh's number of each vertex.
+    /// Number of each vertex in the mesh.
     names: Vec<u32>,
-    /// Where each vertex lies.
+    /// Place of each vertex.
     pub points: Vec<Point>,
-    /// The vertex at which each half-edge starts.
+    /// Vertex at which each half-edge starts.
     pub start: Vec<u32>,
-    /// The opposite half-edge, or [`NIL`] on the patch's border.
+    /// Opposite half-edge, or [`NIL`] on the patch's border.
     pub twin: Vec<u32>,
     /// Some half-edge that starts at each vertex.
     pub leaving: Vec<u32>,
-    /// Whether a vertex must stay.
+    /// For each vertex, whether it must stay.
     pub is_locked: Vec<bool>,
-    /// Whether a vertex's triangles fall apart into several fans, as they may at the patch's
+    /// For each vertex, whether its triangles form several fans, as they may at the patch's
     /// corners.
     pub is_pinched: Vec<bool>,
-    /// The length up to which a vertex's edges were tried in vain since something beside it
-    /// changed, squared, mm².
+    /// For each vertex, the squared length up to which its edges were tried without success since a
+    /// neighbour changed, mm².
     pub tried: Vec<f64>,
-    /// Whether a triangle is still there.
+    /// For each triangle, whether it is still there.
     pub is_alive: Vec<bool>,
-    /// For each triangle the first of the removed vertices that it stands for.
+    /// For each triangle, the first of the removed vertices that it stands for.
     pub first_point: Vec<u32>,
-    /// For each removed vertex the next one of the same triangle.
+    /// For each removed vertex, the next one of the same triangle.
     pub next_point: Vec<u32>,
 }
 
+/// Returns the next half-edge of the same triangle.
 pub(super) fn next(edge: u32) -> u32 {
     if edge % 3 == 2 { edge - 2 } else { edge + 1 }
 }
 
+/// Returns the previous half-edge of the same triangle.
 pub(super) fn last(edge: u32) -> u32 {
     if edge.is_multiple_of(3) {
         edge + 2
@@ -46,14 +48,14 @@ pub(super) fn last(edge: u32) -> u32 {
     }
 }
 
-/// Twice the area vector of a triangle.
+/// Returns twice the area vector of a triangle.
 pub(super) fn area_vector([a, b, c]: &[Point; 3]) -> Vector {
     (b - a).cross(&(c - a))
 }
 
 impl Patch {
-    /// The patch of the triangles `slab`; vertices on its border and those that `is_locked` names
-    /// must stay.
+    /// Returns the patch of the triangles `slab`. Vertices on its border must stay, and so must
+    /// those for which `is_locked` holds.
     pub fn new(
         state: &State,
         vertices: &[Point],
@@ -66,7 +68,7 @@ impl Patch {
                 .zip(slab)
                 .flat_map(|(i, &t)| state.parts.points_of(t).iter().map(move |&p| (i, p)))
         };
-        let (names, numbers) = numbered(
+        let (names, numbers) = number_names(
             vertices.len(),
             corners().chain(removed().map(|(_, name)| name)),
         );
@@ -102,7 +104,7 @@ impl Patch {
         patch
     }
 
-    /// Finds the vertices that more triangles name than one fan holds.
+    /// Marks the vertices that have more triangles than one fan holds.
     fn find_pinched(&mut self) {
         let mut named = vec![0usize; self.points.len()];
         self.start.iter().for_each(|&v| named[v as usize] += 1);
@@ -110,24 +112,24 @@ impl Patch {
         for v in 0..self.points.len() as u32 {
             if self.leaving[v as usize] != NIL {
                 let is_closed = self.fan(v, &mut fan);
-                let held = if is_closed {
+                let in_fan = if is_closed {
                     fan.len()
                 } else {
                     self.open_fan_size(v)
                 };
-                self.is_pinched[v as usize] = held != named[v as usize];
+                self.is_pinched[v as usize] = in_fan != named[v as usize];
             }
         }
     }
 
-    /// How many triangles are in the open fan of a vertex: one less than its neighbours.
+    /// Returns the number of triangles in the open fan of a vertex: one less than its neighbours.
     fn open_fan_size(&self, v: u32) -> usize {
         let mut found = Vec::new();
         self.neighbours(v, &mut found);
         found.len() - 1
     }
 
-    /// The triangles left, in the mesh's own numbers.
+    /// Returns the triangles that are left, in the mesh's own numbers.
     pub fn into_parts(self) -> Parts {
         let name = |v: u32| self.names[v as usize];
         let mut parts = Parts::default();
@@ -144,7 +146,7 @@ impl Patch {
         self.first_point[triangle as usize] = point;
     }
 
-    /// The removed vertices that a triangle stands for.
+    /// Returns the removed vertices that a triangle stands for.
     pub fn points_of(&self, triangle: u32) -> impl Iterator<Item = u32> + '_ {
         let some = |point: u32| (point != NIL).then_some(point);
         std::iter::successors(some(self.first_point[triangle as usize]), move |&point| {
@@ -152,13 +154,13 @@ impl Patch {
         })
     }
 
-    /// The vertex at which a half-edge ends.
+    /// Returns the vertex at which a half-edge ends.
     pub fn end(&self, edge: u32) -> u32 {
         self.start[next(edge) as usize]
     }
 
-    /// The half-edges that leave a vertex, clockwise, into `fan`; false if the vertex is on the
-    /// border.
+    /// Writes the half-edges that leave a vertex, clockwise, into `fan`. Returns false if the
+    /// vertex is on the border.
     pub fn fan(&self, v: u32, fan: &mut Vec<u32>) -> bool {
         fan.clear();
         let first = self.leaving[v as usize];
@@ -176,7 +178,7 @@ impl Patch {
         }
     }
 
-    /// The neighbours of a vertex, on the border too, into `found`.
+    /// Writes the neighbours of a vertex, also of one on the border, into `found`.
     pub fn neighbours(&self, v: u32, found: &mut Vec<u32>) {
         let is_closed = self.fan(v, found);
         let first = found[0];
@@ -196,8 +198,9 @@ impl Patch {
     }
 }
 
-/// The names in use among `count`, ascending, and the place of each among them.
-fn numbered(count: usize, used: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<u32>) {
+/// Returns the names in use among `count`, in ascending order, and the index of each name among
+/// them.
+fn number_names(count: usize, used: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<u32>) {
     let mut numbers = vec![NIL; count];
     used.for_each(|name| numbers[name as usize] = 0);
     let mut names = Vec::new();
@@ -211,7 +214,7 @@ fn numbered(count: usize, used: impl Iterator<Item = u32>) -> (Vec<u32>, Vec<u32
     (names, numbers)
 }
 
-/// For each half-edge the one that runs the other way.
+/// Returns for each half-edge the one that runs the other way.
 fn twins(start: &[u32]) -> Vec<u32> {
     let end = |edge: u32| start[next(edge) as usize];
     let key = |edge: u32| {
