@@ -1,7 +1,7 @@
 //! The wall about one vertex: a ball, and the stretch of a column in it.
 
 use super::footprint::Footprint;
-use super::piece::{OnRow, Piece, RowForm, Shape};
+use super::on_row::OnRow;
 use crate::geom::{Point, Vector};
 
 /// The points within `radius` of `center`.
@@ -12,38 +12,37 @@ pub(super) struct Ball {
 }
 
 impl Ball {
-    /// The ball about `center`.
+    /// Returns the ball about `center`.
     pub fn new(center: Point, radius: f64) -> Self {
         Self { center, radius }
     }
 
-    /// The whole ball as a piece.
-    pub fn into_piece(self, margin_mm: f64) -> Piece {
+    /// Returns offsets from the centre whose hull's shadow holds the ball's shadow.
+    pub fn square(&self) -> [Vector; 4] {
         let r = self.radius;
-        let square = [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| Vector::new(x, y, 0.0));
-        self.into_piece_over(&square, margin_mm)
+        [(r, r), (-r, r), (-r, -r), (r, -r)].map(|(x, y)| Vector::new(x, y, 0.0))
     }
 
-    /// A piece that holds the part of the ball within the hull of the centre moved by `offsets`.
-    pub fn into_piece_over(self, offsets: &[Vector], margin_mm: f64) -> Piece {
+    /// Returns the shadow of the hull of the centre moved by `offsets`, widened by `margin_mm`.
+    pub fn footprint(&self, offsets: &[Vector], margin_mm: f64) -> Footprint {
         let hull: Vec<Point> = offsets.iter().map(|offset| self.center + offset).collect();
-        let z_min_mm = self.center.z - self.radius;
-        Piece::new(
-            Footprint::of_points(&hull, margin_mm),
-            z_min_mm,
-            Shape::Ball(self),
-        )
+        Footprint::of_points(&hull, margin_mm)
     }
 
-    /// The ball cut by the row at `y_mm`.
-    pub fn on_row(&self, y_mm: f64) -> RowForm {
+    /// Returns the height of the lowest point, mm.
+    pub fn z_min_mm(&self) -> f64 {
+        self.center.z - self.radius
+    }
+
+    /// Returns the ball cut by the row at `y_mm`.
+    pub fn on_row(&self, y_mm: f64) -> BallRow {
         let dy = y_mm - self.center.y;
         let squared_reach = self.radius * self.radius - dy * dy;
-        RowForm::Ball(BallRow {
+        BallRow {
             x: self.center.x,
             z: self.center.z,
             squared_reach,
-        })
+        }
     }
 }
 
@@ -67,10 +66,11 @@ impl OnRow for BallRow {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shell::piece::{Piece, RowForm};
 
     #[test]
-    fn a_column_off_the_centre_meets_a_ball_in_the_chord_of_pythagoras_and_beside_it_not_at_all() {
-        let piece = Ball::new(Point::new(1.0, 2.0, 3.0), 5.0).into_piece(0.0);
+    fn a_column_meets_a_ball_in_the_chord_of_pythagoras_and_misses_it_outside() {
+        let piece = Piece::of_ball(Ball::new(Point::new(1.0, 2.0, 3.0), 5.0), 0.0);
         assert_eq!((piece.y_range_mm(), piece.z_min_mm()), ([-3.0, 7.0], -2.0));
         let Some((x_range, RowForm::Ball(row))) = piece.on_row(2.0) else {
             panic!("a ball")

@@ -1,10 +1,10 @@
-//! Which things touch which block of rows.
+//! Sorts items into blocks of rows.
 
 use std::ops::Range;
 
-use super::Ruler;
+use super::ruler::Ruler;
 
-/// For each block of `rows_per_block` rows the things whose y-range reaches into it, in the things'
+/// For each block of `rows_per_block` rows, the items whose y-range reaches into it, in the items'
 /// own order.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bins {
@@ -13,7 +13,7 @@ pub struct Bins {
 }
 
 impl Bins {
-    /// Bins things by their y-ranges, mm; ranges that meet no row are in no bin.
+    /// Bins items by their y-ranges, mm. A range that meets no row is in no bin.
     pub fn of_ranges<I>(ranges: I, rows: &Ruler, rows_per_block: usize) -> Self
     where
         I: Iterator<Item = [f64; 2]> + Clone,
@@ -27,22 +27,22 @@ impl Bins {
         (1..starts.len()).for_each(|i| starts[i] += starts[i - 1]);
         let mut ends = starts.clone();
         let mut members = vec![0; ends[ends.len() - 1]];
-        for (thing, range) in ranges.enumerate() {
+        for (item, range) in ranges.enumerate() {
             for block in blocks_of(range) {
-                members[ends[block]] = thing as u32;
+                members[ends[block]] = item as u32;
                 ends[block] += 1;
             }
         }
         Self { starts, members }
     }
 
-    /// The things that reach into block `block`, ascending.
+    /// Returns the items that reach into block `block`, in ascending order.
     pub fn of(&self, block: usize) -> &[u32] {
         &self.members[self.starts[block]..self.starts[block + 1]]
     }
 }
 
-/// The blocks that hold these rows.
+/// Returns the blocks that hold these rows.
 fn blocks_of(rows: Range<usize>, rows_per_block: usize) -> Range<usize> {
     if rows.is_empty() {
         0..0
@@ -56,7 +56,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_thing_is_in_every_block_it_reaches_into_and_in_no_other() {
+    fn an_item_is_in_every_block_it_reaches_into_and_in_no_other() {
         let rows = Ruler::covering([0.0, 10.0], 1.0, 0.5);
         let ranges = [
             [0.0, 10.0],

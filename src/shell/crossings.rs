@@ -1,20 +1,20 @@
-//! Where the columns of one row cross the surface, and the stretches of a column inside the solid.
+//! The crossings of one row of columns with the surface, and the stretches of a column inside the
+//! solid.
 
-use super::Ruler;
+use super::ruler::Ruler;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 
 /// A column's crossing of the surface.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Crossing {
-    /// The height of the crossing, mm.
+    /// Height of the crossing, mm.
     pub z_mm: f64,
-    /// By how much the winding number grows on the way up: +1 into the solid, −1 out of it.
+    /// Change of the winding number on the way up: +1 into the solid, −1 out of it.
     pub winding_step: i32,
 }
 
-/// The crossings of all columns of one row, each column's ascending in z; made to be used again row
-/// after row.
+/// The crossings of all columns of one row, each column's in ascending z. Reused from row to row.
 #[derive(Debug, Clone, Default)]
 pub struct RowCrossings {
     found: Vec<(u32, Crossing)>,
@@ -24,27 +24,50 @@ pub struct RowCrossings {
 
 impl RowCrossings {
     /// Finds the crossings of the columns over `xs` in the row at `y_mm` with `triangles` of a
-    /// closed mesh, which must hold every triangle that reaches the row.
+    /// closed mesh. They must include every triangle that reaches the row.
     ///
-    /// In every column the winding steps add up to zero, whatever the rounding: an edge's place on
-    /// the row is computed from its ends in the order of their indices, so that the two triangles
-    /// beside it get the same bits, and triangles share out the columns between their edges as
-    /// half-open stretches.
+    /// In every column the winding steps add up to zero, whatever the rounding. An edge's place on
+    /// the row is computed from its ends in the order of their indices, so both triangles beside it
+    /// get the same bits. Triangles share out the columns between their edges as half-open
+    /// stretches.
     pub fn find(&mut self, mesh: &TriMesh, triangles: &[u32], y_mm: f64, xs: &Ruler) {
         self.found.clear();
         for &triangle in triangles {
-            cross(
-                mesh,
-                mesh.triangles()[triangle as usize],
-                y_mm,
-                xs,
-                &mut self.found,
-            );
+            self.cross(mesh, triangle, y_mm, xs);
         }
         self.sort(xs.len());
     }
 
-    /// The crossings of column `index`, ascending in z.
+    /// Adds the crossings of one triangle with the columns of a row.
+    ///
+    /// Of the two edges of a triangle that meet a row, one goes up in y and one down. A triangle seen
+    /// from its outside from above has the downward edge to the left. A column that rises through it
+    /// leaves the solid.
+    fn cross(&mut self, mesh: &TriMesh, triangle: u32, y: f64, xs: &Ruler) {
+        let triangle = mesh.triangles()[triangle as usize];
+        let (mut up, mut down) = (None, None);
+        for (from, to) in [(0, 1), (1, 2), (2, 0)] {
+            let (from, to) = (triangle[from], triangle[to]);
+            let is_above = |vertex: u32| mesh.vertices()[vertex as usize].y > y;
+            match (is_above(from), is_above(to)) {
+                (false, true) => up = Some(edge_on_row(mesh, from, to, y)),
+                (true, false) => down = Some(edge_on_row(mesh, to, from, y)),
+                _ => {}
+            }
+        }
+        let (Some(up), Some(down)) = (up, down) else {
+            return;
+        };
+        let (first, last) = (xs.index_at_or_after(down.x), xs.index_at_or_after(up.x));
+        let winding_step = if first < last { -1 } else { 1 };
+        for column in first.min(last)..first.max(last) {
+            let z_mm = between(down, up, xs.at(column));
+            self.found
+                .push((column as u32, Crossing { z_mm, winding_step }));
+        }
+    }
+
+    /// Returns the crossings of column `index`, in ascending z.
     pub fn of(&self, index: usize) -> &[Crossing] {
         &self.sorted[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
@@ -75,42 +98,15 @@ impl RowCrossings {
     }
 }
 
-/// Where an edge meets a row.
+/// The point in which an edge meets a row.
 #[derive(Clone, Copy)]
 struct OnRow {
     x: f64,
     z: f64,
 }
 
-/// Adds the crossings of one triangle with the columns of a row.
-///
-/// Of the two edges of a triangle that meet a row one goes up in y and one down. A triangle seen
-/// from its outside from above has the downward edge to the left; a column that rises through it
-/// leaves the solid.
-fn cross(mesh: &TriMesh, triangle: [u32; 3], y: f64, xs: &Ruler, found: &mut Vec<(u32, Crossing)>) {
-    let (mut up, mut down) = (None, None);
-    for (from, to) in [(0, 1), (1, 2), (2, 0)] {
-        let (from, to) = (triangle[from], triangle[to]);
-        let is_above = |vertex: u32| mesh.vertices()[vertex as usize].y > y;
-        match (is_above(from), is_above(to)) {
-            (false, true) => up = Some(edge_on_row(mesh, from, to, y)),
-            (true, false) => down = Some(edge_on_row(mesh, to, from, y)),
-            _ => {}
-        }
-    }
-    let (Some(up), Some(down)) = (up, down) else {
-        return;
-    };
-    let (first, last) = (xs.index_at_or_after(down.x), xs.index_at_or_after(up.x));
-    let winding_step = if first < last { -1 } else { 1 };
-    for column in first.min(last)..first.max(last) {
-        let z_mm = between(down, up, xs.at(column));
-        found.push((column as u32, Crossing { z_mm, winding_step }));
-    }
-}
-
-/// Where the edge between two vertices on either side of a row meets it; the same bits for either
-/// order.
+/// Returns the point in which the edge between two vertices on either side of a row meets it; the
+/// same bits for either order.
 fn edge_on_row(mesh: &TriMesh, a: u32, b: u32, y: f64) -> OnRow {
     let corner = |vertex: u32| mesh.vertices()[vertex as usize];
     let (p, q): (Point, Point) = (corner(a.min(b)), corner(a.max(b)));
@@ -121,14 +117,14 @@ fn edge_on_row(mesh: &TriMesh, a: u32, b: u32, y: f64) -> OnRow {
     }
 }
 
-/// The height at `x` on the segment from `a` to `b`, never outside the heights of its ends.
+/// Returns the height at `x` on the segment from `a` to `b`, never outside the heights of its ends.
 fn between(a: OnRow, b: OnRow, x: f64) -> f64 {
     let ratio = ((x - a.x) / (b.x - a.x)).clamp(0.0, 1.0);
     a.z + (b.z - a.z) * ratio
 }
 
-/// Calls `visit` with the bottom and top, mm, of each stretch of positive length where the winding
-/// number is at least one, ascending.
+/// Calls `visit` with the bottom and top, mm, of each stretch of positive length with a winding
+/// number of at least one, in ascending order.
 pub fn inside_stretches(crossings: &[Crossing], mut visit: impl FnMut([f64; 2])) {
     let (mut winding, mut bottom) = (0, 0.0);
     for crossing in crossings {
@@ -175,7 +171,7 @@ mod tests {
     }
 
     #[test]
-    fn crossings_balance_even_where_columns_and_rows_run_through_vertices_and_along_edges() {
+    fn crossings_balance_on_columns_and_rows_through_vertices_and_along_edges() {
         let solid = fixtures::cells(&[[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], 2.0);
         let xs = Ruler::covering([-1.0, 5.0], 0.5, 0.0);
         for row in -2..10 {
@@ -188,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn solids_that_overlap_are_one_and_stretches_inside_out_are_outside() {
+    fn overlapping_solids_are_one_and_inverted_stretches_are_outside() {
         let step = |z_mm, winding_step| Crossing { z_mm, winding_step };
         let overlap = [step(0.0, 1), step(1.0, 1), step(2.0, -1), step(3.0, -1)];
         assert_eq!(stretches(&overlap), [[0.0, 3.0]]);

@@ -3,15 +3,15 @@
 use nalgebra::Unit;
 
 use super::footprint::Footprint;
-use super::piece::{OnRow, Piece, RowForm, Shape};
+use super::on_row::OnRow;
 use crate::geom::{Point, Vector, orthonormal_basis};
 
-/// Axes with a smaller squared horizontal part count as vertical. Below, the centre of the chord
-/// (which is divided by it) would overflow; above, the lean over the height of a model could exceed
-/// rounding.
+/// Squared horizontal part of an axis below which the axis counts as vertical. With less, the
+/// centre of the chord, which is divided by it, would overflow. With more, the lean over the height
+/// of a model could exceed rounding.
 const VERTICAL_LIMIT: f64 = 1e-24;
 
-/// The points within `radius` of a segment whose foot on the segment's line lies on the segment.
+/// The points within `radius` of a segment, between the planes through its ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cylinder {
     from: Point,
@@ -21,7 +21,7 @@ pub(super) struct Cylinder {
 }
 
 impl Cylinder {
-    /// The cylinder from `from` to `to`; None if the two are the same point.
+    /// Returns the cylinder from `from` to `to`; `None` if the two are the same point.
     pub fn new(from: Point, to: Point, radius: f64) -> Option<Self> {
         let (axis, length) = Unit::try_new_and_get(to - from, 0.0)?;
         Some(Self {
@@ -32,35 +32,38 @@ impl Cylinder {
         })
     }
 
-    /// The whole cylinder as a piece.
-    pub fn into_piece(self, margin_mm: f64) -> Piece {
+    /// Returns offsets from the axis whose hull about the segment holds the whole cylinder.
+    pub fn square(&self) -> [Vector; 4] {
         let (u, v) = orthonormal_basis(&self.axis);
-        let square = [u + v, u - v, -u - v, v - u].map(|corner| corner * self.radius);
-        self.into_piece_over(&square, margin_mm)
+        [u + v, u - v, -u - v, v - u].map(|corner| corner * self.radius)
     }
 
-    /// A piece that holds the part of the cylinder within the hull of the segment's ends moved by
-    /// `offsets`.
-    pub fn into_piece_over(self, offsets: &[Vector], margin_mm: f64) -> Piece {
-        let to = self.from + self.axis * self.length;
+    /// Returns the shadow of the hull of the segment's ends moved by `offsets`, widened by
+    /// `margin_mm`.
+    pub fn footprint(&self, offsets: &[Vector], margin_mm: f64) -> Footprint {
+        let to = self.to();
         let hull: Vec<Point> = offsets
             .iter()
             .flat_map(|offset| [self.from + offset, to + offset])
             .collect();
-        let z_min_mm = self.from.z.min(to.z) - self.radius;
-        Piece::new(
-            Footprint::of_points(&hull, margin_mm),
-            z_min_mm,
-            Shape::Cylinder(self),
-        )
+        Footprint::of_points(&hull, margin_mm)
     }
 
-    /// The cylinder cut by the row at `y_mm`.
-    pub fn on_row(&self, y_mm: f64) -> RowForm {
+    /// Returns a lower bound of the heights, mm.
+    pub fn z_min_mm(&self) -> f64 {
+        self.from.z.min(self.to().z) - self.radius
+    }
+
+    fn to(&self) -> Point {
+        self.from + self.axis * self.length
+    }
+
+    /// Returns the cylinder cut by the row at `y_mm`.
+    pub fn on_row(&self, y_mm: f64) -> CylinderRow {
         let axis = self.axis;
         let dy = y_mm - self.from.y;
         let squared_lean = axis.x * axis.x + axis.y * axis.y;
-        RowForm::Cylinder(CylinderRow {
+        CylinderRow {
             x: self.from.x,
             z: self.from.z,
             lean: squared_lean,
@@ -70,12 +73,12 @@ impl Cylinder {
             axis_z: axis.z,
             length: self.length,
             squared_reach: self.radius * self.radius - dy * dy,
-        })
+        }
     }
 }
 
-/// A cylinder cut by a row. With q the horizontal offset of a column from the axis's start and u
-/// the axis:
+/// A cylinder cut by a row. In the fields, q is the horizontal offset of a column from the axis's
+/// start and u the axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CylinderRow {
     x: f64,
@@ -95,8 +98,8 @@ pub struct CylinderRow {
 }
 
 impl CylinderRow {
-    /// The stretch in the endless cylinder, relative to the axis's start: |q × u + z e × u| ≤ r
-    /// solved for z.
+    /// Returns the stretch in the endless cylinder, relative to the axis's start: the solution of
+    /// |q × u + z e × u| ≤ r for z.
     #[inline]
     fn endless(&self, dx: f64, along: f64) -> [f64; 2] {
         if self.lean < VERTICAL_LIMIT {
@@ -118,7 +121,8 @@ impl CylinderRow {
         [middle - half, middle + half]
     }
 
-    /// The stretch between the end planes, relative to the axis's start: 0 ≤ q·u + z u_z ≤ length.
+    /// Returns the stretch between the end planes, relative to the axis's start: 0 ≤ q·u + z u_z ≤
+    /// length.
     #[inline]
     fn between_ends(&self, along: f64) -> [f64; 2] {
         if self.axis_z == 0.0 {
@@ -133,9 +137,9 @@ impl CylinderRow {
     }
 }
 
-/// All of a line.
+/// The stretch that is the whole line.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
-/// Nothing of a line.
+/// The empty stretch.
 const NOWHERE: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
 impl OnRow for CylinderRow {
@@ -153,8 +157,9 @@ impl OnRow for CylinderRow {
 mod tests {
     use super::*;
     use crate::shell::fixtures::Random;
+    use crate::shell::piece::{Piece, RowForm};
 
-    /// Whether a point is in the cylinder, by the definition.
+    /// Returns whether a point is in the cylinder by the definition.
     fn holds(cylinder: &Cylinder, point: &Point) -> bool {
         let from = point - cylinder.from;
         let along = from.dot(&cylinder.axis);
@@ -162,12 +167,12 @@ mod tests {
             && (from - cylinder.axis * along).norm() <= cylinder.radius
     }
 
-    /// How many of random points about the cylinder its columns find in it; each must be so by the
-    /// definition.
+    /// Returns the number of random points about the cylinder that its columns find in it. Asserts
+    /// that the definition agrees for each.
     fn check(axis: &Vector, random: &mut Random) -> usize {
         let from = Point::new(1.0, -2.0, 0.5);
         let cylinder = Cylinder::new(from, from + axis * 3.0, 1.5).unwrap();
-        let piece = cylinder.into_piece(0.0);
+        let piece = Piece::of_cylinder(cylinder, 0.0);
         let is_found = |point: &Point| {
             let Some(([low, high], RowForm::Cylinder(row))) = piece.on_row(point.y) else {
                 return false;
@@ -190,7 +195,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_meet_cylinders_of_any_direction_where_the_definition_says() {
+    fn columns_meet_cylinders_of_any_direction_as_the_definition_says() {
         let mut random = Random::new(1);
         let nearly_up = Vector::new(1e-7, -1e-8, 1.0).normalize();
         let fixed = [
@@ -207,7 +212,7 @@ mod tests {
     }
 
     #[test]
-    fn two_ends_in_one_place_make_no_cylinder() {
+    fn two_equal_ends_make_no_cylinder() {
         assert_eq!(Cylinder::new(Point::origin(), Point::origin(), 1.0), None);
     }
 }

@@ -1,11 +1,11 @@
-//! Solids made for tests, and a small random number generator.
+//! Solids for tests, and a small random number generator.
 
 use std::collections::HashMap;
 
 use crate::geom::{Point, Vector};
 use crate::mesh::{Solid, TriMesh};
 
-/// Numbers that look random and are the same on every machine (splitmix64; Steele, Lea & Flood,
+/// A generator of pseudorandom numbers, the same on every machine (splitmix64; Steele, Lea & Flood,
 /// OOPSLA 2014).
 pub(crate) struct Random(u64);
 
@@ -14,7 +14,7 @@ impl Random {
         Self(seed)
     }
 
-    /// Uniform in [0, 1).
+    /// Returns a number uniform in [0, 1).
     pub(crate) fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -22,7 +22,7 @@ impl Random {
         ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
     }
 
-    /// Uniform on the sphere.
+    /// Returns a unit vector uniform on the sphere.
     pub(crate) fn direction(&mut self) -> Vector {
         loop {
             let v = Vector::from_fn(|_, _| 2.0 * self.unit() - 1.0);
@@ -33,7 +33,8 @@ impl Random {
     }
 }
 
-/// The union of cubes of a lattice of side `size_mm`; cubes must share faces or be apart.
+/// Returns the union of cubes of a lattice of side `size_mm`. Two cubes must share a face or be
+/// apart.
 pub(crate) fn cells(cells: &[[i32; 3]], size_mm: f64) -> Solid {
     let mut vertices = Vec::new();
     let mut indices: HashMap<[i32; 3], u32> = HashMap::new();
@@ -69,8 +70,8 @@ pub(crate) fn cells(cells: &[[i32; 3]], size_mm: f64) -> Solid {
     Solid::new(TriMesh::new(vertices, triangles).unwrap()).unwrap()
 }
 
-/// A sphere of `radius_mm` with its vertices moved outward by `bump(direction)` mm: an icosahedron
-/// whose faces are split into four `levels` times.
+/// Returns a sphere of `radius_mm` with its vertices moved outward by `bump(direction)` mm. It is
+/// an icosahedron whose faces are split into four `levels` times.
 pub(crate) fn bumpy_ball(
     radius_mm: f64,
     levels: usize,

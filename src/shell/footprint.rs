@@ -1,9 +1,9 @@
-//! The shadow of a convex piece on the x-y plane, and the stretch of a row it covers.
+//! The shadow of a convex piece on the x-y plane, and the stretch of a row that it covers.
 
 use crate::geom::Point;
 
-/// Most corners a footprint keeps; a hull with more is replaced by its bounding rectangle (larger,
-/// never smaller).
+/// Largest number of corners of a footprint. A hull with more is replaced by its bounding
+/// rectangle, which is larger, never smaller.
 const MAX_CORNERS: usize = 8;
 
 /// A convex polygon in x and y, widened by a margin.
@@ -16,7 +16,7 @@ pub(super) struct Footprint {
 }
 
 impl Footprint {
-    /// The shadow of the convex hull of `points`, widened by `margin_mm` on all sides.
+    /// Returns the shadow of the convex hull of `points`, widened by `margin_mm` on all sides.
     pub fn of_points(points: &[Point], margin_mm: f64) -> Self {
         let mut hull = convex_hull(points.iter().map(|p| [p.x, p.y]).collect());
         if hull.len() > MAX_CORNERS {
@@ -37,7 +37,7 @@ impl Footprint {
         }
     }
 
-    /// The y-range, mm, with the margin.
+    /// Returns the y-range with the margin, mm.
     pub fn y_range_mm(&self) -> [f64; 2] {
         [
             self.y_range_mm[0] - self.margin_mm,
@@ -45,10 +45,10 @@ impl Footprint {
         ]
     }
 
-    /// The x-range, mm, over the row at `y_mm`, or None if the row misses the footprint.
+    /// Returns the x-range, mm, over the row at `y_mm`, or `None` if the row misses the footprint.
     ///
-    /// With a margin m this is the x-range over the strip y ± m, widened by m: no smaller than the
-    /// widened polygon's.
+    /// With a margin m this is the x-range over the strip y ± m, widened by m. It is no smaller
+    /// than the widened polygon's.
     pub fn on_row(&self, y_mm: f64) -> Option<[f64; 2]> {
         let strip = [y_mm - self.margin_mm, y_mm + self.margin_mm];
         if strip[1] < self.y_range_mm[0] || strip[0] > self.y_range_mm[1] {
@@ -67,7 +67,8 @@ impl Footprint {
     }
 }
 
-/// The x-coordinates of the ends of the part of a segment that lies in the strip of y.
+/// Returns the x-coordinates of the ends of the part of a segment that lies in the strip of y;
+/// `None` if no part does.
 fn edge_on_strip(from: [f64; 2], to: [f64; 2], [below, above]: [f64; 2]) -> Option<[f64; 2]> {
     let (lower, upper) = if from[1] <= to[1] {
         (from, to)
@@ -91,8 +92,8 @@ fn edge_on_strip(from: [f64; 2], to: [f64; 2], [below, above]: [f64; 2]) -> Opti
     Some([start, end])
 }
 
-/// The convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex hulls in two
-/// dimensions", Inf. Process. Lett. 9, 1979).
+/// Returns the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for convex
+/// hulls in two dimensions", Inf. Process. Lett. 9, 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
@@ -106,7 +107,7 @@ fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     hull
 }
 
-/// One chain of the hull over points in sweep order.
+/// Returns one chain of the hull over points in sweep order.
 fn half_hull<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
     let mut chain: Vec<[f64; 2]> = Vec::new();
     for &point in points {
@@ -121,12 +122,12 @@ fn half_hull<'a>(points: impl Iterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
     chain
 }
 
-/// Twice the signed area of the triangle a, b, c: positive if it turns left.
+/// Returns twice the signed area of the triangle a, b, c: positive if it turns left.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The corners of the bounding rectangle.
+/// Returns the corners of the bounding rectangle.
 fn bounding_rectangle(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let fold = |axis: usize, start: f64, f: fn(f64, f64) -> f64| {
         points.iter().map(|p| p[axis]).fold(start, f)

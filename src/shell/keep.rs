@@ -3,19 +3,19 @@
 use crate::geom::Point;
 
 /// A region that stays solid, in model coordinates: the points within `radius_mm` of the segment
-/// from `from` to `to` (a ball when the two ends are the same point).
+/// from `from` to `to`. It is a ball if the two ends are the same point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Keep {
     /// One end of the segment.
     pub from: Point,
     /// The other end.
     pub to: Point,
-    /// The radius about the segment, mm.
+    /// Radius about the segment, mm.
     pub radius_mm: f64,
 }
 
 impl Keep {
-    /// A ball that stays solid.
+    /// Returns a ball that stays solid.
     pub fn ball(center: Point, radius_mm: f64) -> Self {
         Self {
             from: center,
@@ -24,7 +24,7 @@ impl Keep {
         }
     }
 
-    /// How far a point lies outside the region, mm; negative inside.
+    /// Returns the distance of a point from the region, mm; negative inside.
     pub fn distance_mm(&self, point: &Point) -> f64 {
         let (along, offset) = (self.to - self.from, point - self.from);
         let length_squared = along.norm_squared();

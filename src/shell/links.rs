@@ -1,4 +1,4 @@
-//! Which faces meet at an edge and which at a vertex.
+//! The faces that meet at each edge and at each vertex.
 
 use rayon::prelude::*;
 
@@ -7,13 +7,13 @@ use crate::mesh::{Solid, TriMesh};
 /// An edge and the two triangles beside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Edge {
-    /// The ends, in the order in which the first triangle runs along them.
+    /// Ends, in the order in which the first triangle runs along them.
     pub ends: [u32; 2],
     /// The triangle that runs along the edge, then the one that runs against it.
     pub triangles: [u32; 2],
 }
 
-/// Every edge of a solid once, ordered by its lower, then its higher vertex.
+/// Returns every edge of a solid once, ordered by its lower, then its higher vertex.
 pub(super) fn edges(solid: &Solid) -> Vec<Edge> {
     let mut sides: Vec<([u32; 2], [u32; 2], u32)> =
         Vec::with_capacity(3 * solid.mesh().triangles().len());
@@ -32,7 +32,7 @@ pub(super) fn edges(solid: &Solid) -> Vec<Edge> {
         .collect()
 }
 
-/// For each vertex the triangles around it.
+/// For each vertex, the triangles around it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stars {
     starts: Vec<u32>,
@@ -40,7 +40,7 @@ pub(super) struct Stars {
 }
 
 impl Stars {
-    /// The stars of a mesh.
+    /// Returns the stars of a mesh.
     pub fn new(mesh: &TriMesh) -> Self {
         let mut starts = vec![0; mesh.vertices().len() + 1];
         let corners = || {
@@ -60,13 +60,13 @@ impl Stars {
         Self { starts, triangles }
     }
 
-    /// The triangles around vertex `vertex`, ascending.
+    /// Returns the triangles around vertex `vertex`, in ascending order.
     pub fn of(&self, vertex: usize) -> &[u32] {
         &self.triangles[self.starts[vertex] as usize..self.starts[vertex + 1] as usize]
     }
 }
 
-/// The two other corners of a triangle, in the order in which they follow `vertex`.
+/// Returns the two other corners of a triangle, in the order in which they follow `vertex`.
 pub(super) fn others([a, b, c]: [u32; 3], vertex: u32) -> [u32; 2] {
     if a == vertex {
         [b, c]
@@ -77,7 +77,7 @@ pub(super) fn others([a, b, c]: [u32; 3], vertex: u32) -> [u32; 2] {
     }
 }
 
-/// Whether the links (pairs of neighbours) of a vertex's triangles close to one ring.
+/// Returns whether the links (pairs of neighbours) of a vertex's triangles close to one ring.
 pub(super) fn is_one_ring(links: &[[u32; 2]]) -> bool {
     let Some(&[start, mut at]) = links.first() else {
         return false;
@@ -99,7 +99,7 @@ mod tests {
     use crate::shell::fixtures;
 
     #[test]
-    fn a_cube_has_eighteen_edges_each_between_two_triangles_that_run_along_it_in_opposite_senses() {
+    fn a_cube_has_eighteen_edges_each_between_two_triangles_of_opposite_sense() {
         let solid = fixtures::cells(&[[0, 0, 0]], 1.0);
         let edges = edges(&solid);
         assert_eq!(edges.len(), 18);

@@ -1,25 +1,24 @@
-//! Where an edge or a vertex can be the nearest part of the surface: its normal cone.
+//! The part of the wall that only an edge or a vertex covers: its normal cone.
 //!
-//! From a point whose nearest surface point lies on an edge or vertex, no direction along the
-//! surface leads nearer; so the point lies in the polar cone of the surface's directions there.
+//! Take a point whose nearest surface point lies on an edge or vertex. No direction along the
+//! surface leads nearer, so the point lies in the polar cone of the surface's directions there.
 //! Only that part of the edge's cylinder or the vertex's ball is not already in the slabs of the
-//! faces. On a smooth mesh it is a sliver, and empty about convex edges and saddles.
+//! faces. On a smooth mesh it is a sliver, and it is empty about convex edges and saddles.
 
 use crate::geom::Vector;
 
-/// How much a unit vector may leave a half-space and still count as in it: several times
-/// [`PARALLEL`], so that rays lost with a pair of nearly parallel edges are found from their
-/// neighbours. Too large only costs time (a sliver that many radians wider); below the rounding of
-/// a cross product divided by [`PARALLEL`], about 1e-10, rays get lost.
+/// Distance by which a unit vector may leave a half-space and still count as in it. It is several
+/// times [`PARALLEL`], so that rays lost with a pair of nearly parallel edges are found from their
+/// neighbours. Too large only costs time (a sliver that many radians wider). Rays get lost below
+/// the rounding of a cross product divided by [`PARALLEL`], about 1e-10.
 const TOLERANCE: f64 = 4e-6;
-/// Edge directions with a smaller cross product count as parallel.
+/// Length of the cross product of two edge directions below which they count as parallel.
 const PARALLEL: f64 = 1e-6;
-/// Most edges at a vertex for which the cone is worked out (cost: the cube of their number); more
-/// get the whole ball.
+/// Largest number of edges at a vertex for which the cone is computed, as the cost is the cube of
+/// their number. A vertex with more gets the whole ball.
 const MAX_EDGES: usize = 24;
-/// The least cosine between a cone's axis and its rays for which a hull around its part of a ball
-/// is made; a wider cone gets the whole ball. Below, hulls would grow larger than the ball's own
-/// bounds.
+/// Least cosine between a cone's axis and its rays for which a hull around its part of a ball is
+/// made. A wider cone gets the whole ball, as its hull would be larger than the ball's own bounds.
 const MIN_COSINE: f64 = 0.5;
 
 /// The part of an edge's or vertex's neighbourhood that must be covered.
@@ -33,10 +32,10 @@ pub(super) enum Need {
     Whole,
 }
 
-/// What an edge needs, from the outer unit normals of its two faces and the edge's unit direction
-/// along the first.
+/// Returns the part that an edge needs.
 ///
-/// `one_sided`: only from inside the solid.
+/// `normals` are the outer unit normals of its two faces, `along` is the edge's unit direction
+/// along the first. `one_sided`: only the inside of the solid matters.
 pub(super) fn of_edge(normals: [Vector; 2], along: &Vector, one_sided: bool) -> Need {
     let [first, second] = normals;
     let into_second = along.cross(&second);
@@ -58,12 +57,12 @@ pub(super) fn of_edge(normals: [Vector; 2], along: &Vector, one_sided: bool) -> 
     ])
 }
 
-/// What a vertex needs, from the unit directions of its edges.
+/// Returns the part that a vertex needs, from the unit directions of its edges.
 ///
-/// `outward`: the angle-weighted pseudonormal if only the inside matters and the vertex is plain
-/// enough for it to tell inside from outside (Bærentzen & Aanæs, "Signed distance computation using
-/// the angle weighted pseudonormal", IEEE TVCG 11(3), 2005); within a normal cone its sign is the
-/// same all over.
+/// `outward` is the angle-weighted pseudonormal. It is given if only the inside matters and the
+/// vertex is simple enough for the pseudonormal to tell inside from outside. Within a normal cone
+/// its sign is the same everywhere. (Bærentzen & Aanæs, "Signed distance computation using the
+/// angle weighted pseudonormal", IEEE TVCG 11(3), 2005.)
 pub(super) fn of_vertex(edges: &[Vector], outward: Option<&Vector>) -> Need {
     if edges.len() > MAX_EDGES {
         return Need::Whole;
@@ -79,8 +78,8 @@ pub(super) fn of_vertex(edges: &[Vector], outward: Option<&Vector>) -> Need {
     }
 }
 
-/// The extreme rays of { d : d · e ≤ 0 for every edge e }, some of them several times: the
-/// crossings of two boundary planes that keep within the other half-spaces.
+/// Returns the extreme rays of { d : d · e ≤ 0 for every edge e }, some of them several times. They
+/// are the crossings of two boundary planes that stay within the other half-spaces.
 fn polar_rays(edges: &[Vector]) -> Vec<Vector> {
     let mut rays = Vec::new();
     for (i, a) in edges.iter().enumerate() {
@@ -97,8 +96,8 @@ fn polar_rays(edges: &[Vector]) -> Vec<Vector> {
     rays
 }
 
-/// A hull around the part of the unit ball in the cone of these rays: zero, and each ray up to the
-/// plane that touches the ball at the cone's axis.
+/// Returns a hull around the part of the unit ball in the cone of these rays: zero, and each ray up
+/// to the plane that touches the ball at the cone's axis.
 fn hull_of_rays(rays: &[Vector]) -> Need {
     let Some(axis) = rays.iter().sum::<Vector>().try_normalize(MIN_COSINE) else {
         return Need::Whole;
@@ -115,7 +114,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_convex_edge_needs_nothing_and_a_valley_the_wedge_between_its_inner_normals() {
+    fn a_convex_edge_needs_nothing_and_a_valley_a_wedge() {
         let along = Vector::y();
         assert_eq!(
             of_edge([Vector::z(), Vector::x()], &along, true),
@@ -165,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn every_direction_of_a_random_cone_lies_in_the_hull_that_is_made_for_it() {
+    fn every_direction_of_a_random_cone_lies_in_its_hull() {
         let mut random = crate::shell::fixtures::Random::new(7);
         let mut tried = 0;
         while tried < 200 {

@@ -1,19 +1,23 @@
-//! Whether a closed surface overlaps itself, looked for on a lattice of columns.
+//! Searches a closed surface for overlaps with itself, on a lattice of columns.
 
 use rayon::prelude::*;
 
-use super::{Bins, RowCrossings, Ruler};
+use super::bins::Bins;
+use super::crossings::RowCrossings;
+use super::ruler::Ruler;
 use crate::mesh::TriMesh;
 
-/// Columns a side of the lattice that is searched. Fewer miss smaller overlaps; more take longer
-/// than the sweep at a coarse pitch itself.
+/// Columns along a side of the lattice that is searched. Fewer miss smaller overlaps; more take
+/// longer than the sweep at a coarse pitch itself.
 const COLUMNS_A_SIDE: f64 = 160.0;
-/// Stretches of a wrong winding number shorter than this, mm, are rounding where a column grazes
+/// Length, mm, below which a stretch of a wrong winding number is rounding of a column that grazes
 /// the surface.
 const MIN_DEPTH_MM: f64 = 1e-6;
 
-/// Whether some column of a coarse lattice meets points that the surface winds around other than
-/// once or not at all: components that overlap, or parts turned inside out. Overlaps between the
+/// Returns whether some column of a coarse lattice meets points with a winding number other than 0
+/// or 1.
+///
+/// Such points lie in overlapping components or in parts turned inside out. Overlaps between the
 /// columns are not found.
 pub(super) fn overlaps_itself(mesh: &TriMesh) -> bool {
     let bounds = mesh.aabb();
@@ -28,7 +32,7 @@ pub(super) fn overlaps_itself(mesh: &TriMesh) -> bool {
     })
 }
 
-/// The y-range, mm, of each triangle.
+/// Returns the y-range of each triangle, mm.
 pub(super) fn triangle_y_ranges(mesh: &TriMesh) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
     mesh.triangles().iter().map(|corners| {
         let [a, b, c] = corners.map(|vertex| mesh.vertices()[vertex as usize].y);
@@ -36,7 +40,7 @@ pub(super) fn triangle_y_ranges(mesh: &TriMesh) -> impl Iterator<Item = [f64; 2]
     })
 }
 
-/// Whether a column's winding number is neither 0 nor 1 over some height.
+/// Returns whether a column's winding number is neither 0 nor 1 over some height.
 fn winds_wrongly(crossings: &RowCrossings, column: usize) -> bool {
     let mut winding = 0;
     crossings.of(column).windows(2).any(|pair| {

@@ -1,30 +1,30 @@
-//! The convex pieces whose union is the wall: a slab for each face, and what edges and vertices
-//! need beyond.
+//! Builds the convex pieces whose union is the wall: a slab for each face, and the parts that edges
+//! and vertices need beyond.
 
 use rayon::prelude::*;
 
-use super::Keep;
 use super::ball::Ball;
 use super::cylinder::Cylinder;
+use super::keep::Keep;
 use super::links::{self, Edge, Stars};
 use super::normal_cone::{self, Need};
 use super::piece::Piece;
-use super::slab::{Reach, Slab};
+use super::slab::Reach;
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::{Solid, TriMesh};
 
-/// A triangle whose doubled area is less than this times the square of its longest edge has no
-/// normal to trust; its edges and vertices get whole cylinders and balls instead. Below, a normal
-/// is off by more than 1e-16/limit radians; above, the slab of a triangle up to limit · edge high
-/// is missed, which is off by its square.
+/// Doubled area of a triangle, over the square of its longest edge, below which its normal is not
+/// used. Its edges and vertices get whole cylinders and balls instead. With a smaller limit, a
+/// normal is off by more than 1e-16/limit radians. With a larger one, the slab of a triangle up to
+/// limit · edge high is missed, which is off by its square.
 const SLIVER_RATIO: f64 = 1e-8;
-/// By how much the footprints of cylinders and balls are widened, and slabs extended out of the
-/// solid, so that no crack opens between pieces by rounding; a fraction of the wall. All of it is
-/// within the wall anyway: larger costs only time, smaller than [`normal_cone`]'s tolerance (4e-6)
-/// could open cracks.
+/// Margin, as a share of the wall, by which footprints of cylinders and balls are widened and slabs
+/// extended out of the solid. It keeps cracks from opening between pieces by rounding. All of it
+/// lies within the wall, so a larger margin costs only time. One smaller than [`normal_cone`]'s
+/// tolerance (4e-6) could open cracks.
 const MARGIN_RATIO: f64 = 1e-5;
 
-/// What the wall of one solid is built from, in the goal frame.
+/// The data from which the wall of one solid is built, in the goal frame.
 pub(super) struct Builder<'a> {
     mesh: &'a TriMesh,
     normals: Vec<Option<Vector>>,
@@ -33,7 +33,7 @@ pub(super) struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    /// The builder for `mesh`; `one_sided` if the wall need only be right inside the solid.
+    /// Returns the builder for `mesh`; `one_sided` if the wall need only be right inside the solid.
     pub fn new(mesh: &'a TriMesh, wall_mm: f64, one_sided: bool) -> Self {
         let normals = (0..mesh.triangles().len()).into_par_iter();
         let normals = normals
@@ -47,8 +47,8 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Every piece of the wall of `solid`, whose triangles and vertices are those of the builder's
-    /// mesh.
+    /// Returns every piece of the wall of `solid`, whose triangles and vertices are those of the
+    /// builder's mesh.
     pub fn pieces(&self, solid: &Solid) -> Vec<Piece> {
         let stars = Stars::new(self.mesh);
         let edges = links::edges(solid);
@@ -62,21 +62,21 @@ impl<'a> Builder<'a> {
         pieces
     }
 
-    /// The slab behind a face.
+    /// Returns the slab behind a face; `None` for a sliver.
     fn face(&self, triangle: usize) -> Option<Piece> {
         let outward_mm = self.wall_mm * if self.one_sided { MARGIN_RATIO } else { 1.0 };
         let reach = Reach {
             inward_mm: self.wall_mm,
             outward_mm,
         };
-        Some(Slab::piece(
+        Some(Piece::of_face(
             &self.mesh.corners(triangle),
             &self.normals[triangle]?,
             reach,
         ))
     }
 
-    /// The part of an edge's cylinder that is needed.
+    /// Returns the part of an edge's cylinder that is needed.
     fn edge(&self, edge: &Edge) -> Option<Piece> {
         let [from, to] = edge
             .ends
@@ -93,25 +93,31 @@ impl<'a> Builder<'a> {
         };
         match need {
             Need::Nothing => None,
-            Need::Hull(hull) => {
-                Some(cylinder.into_piece_over(&self.scaled(hull), self.margin_mm()))
-            }
-            Need::Whole => Some(cylinder.into_piece(self.margin_mm())),
+            Need::Hull(hull) => Some(Piece::of_cylinder_over(
+                cylinder,
+                &self.scaled(hull),
+                self.margin_mm(),
+            )),
+            Need::Whole => Some(Piece::of_cylinder(cylinder, self.margin_mm())),
         }
     }
 
-    /// The part of a vertex's ball that is needed.
+    /// Returns the part of a vertex's ball that is needed.
     fn vertex(&self, vertex: usize, triangles: &[u32]) -> Option<Piece> {
         let ball = Ball::new(self.mesh.vertices()[vertex], self.wall_mm);
         match self.vertex_need(vertex as u32, triangles) {
             Need::Nothing => None,
-            Need::Hull(hull) => Some(ball.into_piece_over(&self.scaled(hull), self.margin_mm())),
-            Need::Whole => Some(ball.into_piece(self.margin_mm())),
+            Need::Hull(hull) => Some(Piece::of_ball_over(
+                ball,
+                &self.scaled(hull),
+                self.margin_mm(),
+            )),
+            Need::Whole => Some(Piece::of_ball(ball, self.margin_mm())),
         }
     }
 
-    /// Which part of a vertex's ball is needed: all of it beside a triangle without a normal,
-    /// nothing for a vertex of no triangle.
+    /// Returns which part of a vertex's ball is needed: all of it beside a sliver, none for a
+    /// vertex of no triangle.
     fn vertex_need(&self, vertex: u32, triangles: &[u32]) -> Need {
         let links: Vec<[u32; 2]> = triangles
             .iter()
@@ -134,28 +140,29 @@ impl<'a> Builder<'a> {
         normal_cone::of_vertex(&edges, tells_sides.then_some(&pseudonormal))
     }
 
-    /// Vectors for a unit radius, for the wall.
+    /// Returns vectors for a unit radius, scaled to the wall.
     fn scaled(&self, hull: Vec<Vector>) -> Vec<Vector> {
         hull.into_iter().map(|tip| tip * self.wall_mm).collect()
     }
 
-    /// By how much footprints are widened, mm.
+    /// Returns the margin by which footprints are widened, mm.
     fn margin_mm(&self) -> f64 {
         self.wall_mm * MARGIN_RATIO
     }
 }
 
-/// The pieces of a keep-solid region: a ball at each end and the cylinder between.
-pub(super) fn of_keep(keep: &Keep, frame: &Frame) -> impl Iterator<Item = Piece> {
+/// Returns the pieces of a keep-solid region: a ball at each end and the cylinder between.
+pub(super) fn pieces_of_keep(keep: &Keep, frame: &Frame) -> impl Iterator<Item = Piece> {
     let (from, to) = (frame.to_local(&keep.from), frame.to_local(&keep.to));
-    let between = Cylinder::new(from, to, keep.radius_mm).map(|cylinder| cylinder.into_piece(0.0));
-    let ball = |center: Point| Ball::new(center, keep.radius_mm).into_piece(0.0);
+    let between =
+        Cylinder::new(from, to, keep.radius_mm).map(|cylinder| Piece::of_cylinder(cylinder, 0.0));
+    let ball = |center: Point| Piece::of_ball(Ball::new(center, keep.radius_mm), 0.0);
     [Some(ball(from)), between, (from != to).then(|| ball(to))]
         .into_iter()
         .flatten()
 }
 
-/// The outer unit normal of a triangle; None for a sliver.
+/// Returns the outer unit normal of a triangle; `None` for a sliver.
 fn unit_normal(corners: &[Point; 3]) -> Option<Vector> {
     let [ab, bc, ca] = [
         corners[1] - corners[0],

@@ -5,8 +5,8 @@ use std::ops::Range;
 /// Evenly spaced column centres along one axis: centre `i` lies at (first + i + phase) · pitch.
 ///
 /// The lattice is tied to the origin of the goal frame, not to the model, so that two solids in one
-/// frame share their columns. The phase is irrational: a model with rational coordinates then has
-/// no vertex on a column and a symmetric one no face between two columns that are its mirror
+/// frame share their columns. The phase is irrational. So a model with rational coordinates has no
+/// vertex on a column, and a symmetric one has no face between two columns that are its mirror
 /// images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruler {
@@ -17,13 +17,13 @@ pub struct Ruler {
 }
 
 impl Ruler {
-    /// The phase of the lattice in x, a fraction of the pitch: √2 − 1.
+    /// Phase of the lattice in x, as a share of the pitch: √2 − 1.
     pub const PHASE_X: f64 = std::f64::consts::SQRT_2 - 1.0;
-    /// The phase of the lattice in y, a fraction of the pitch: √3 − 1, rationally independent of
-    /// the one in x.
+    /// Phase of the lattice in y, as a share of the pitch: √3 − 1, rationally independent of the
+    /// one in x.
     pub const PHASE_Y: f64 = 0.732_050_807_568_877_2;
 
-    /// The centres within [low, high] mm; none if the interval is empty.
+    /// Returns the centres within [low, high] mm; the ruler is empty if the interval is.
     pub fn covering([low_mm, high_mm]: [f64; 2], pitch_mm: f64, phase: f64) -> Self {
         let first = (low_mm / pitch_mm - phase).ceil();
         let last = (high_mm / pitch_mm - phase).floor();
@@ -36,29 +36,29 @@ impl Ruler {
         }
     }
 
-    /// How many centres there are.
+    /// Returns the number of centres.
     pub fn len(&self) -> usize {
         self.count
     }
 
-    /// Where centre `index` lies, mm.
+    /// Returns the position of centre `index`, mm.
     #[inline]
     pub fn at(&self, index: usize) -> f64 {
         (self.first + index as f64 + self.phase) * self.pitch_mm
     }
 
-    /// The number of centres below `position_mm`: the index of the first one that is not (within
-    /// rounding).
+    /// Returns the number of centres below `position_mm`: the index of the first one that is not
+    /// (within rounding).
     ///
-    /// Depends on nothing but the position and never decreases with it, which is what makes the
-    /// crossings of a closed mesh balance.
+    /// It depends on nothing but the position and never decreases with it. So the crossings of a
+    /// closed mesh balance.
     #[inline]
     pub fn index_at_or_after(&self, position_mm: f64) -> usize {
         let index = (position_mm / self.pitch_mm - self.phase).ceil() - self.first;
         (index.max(0.0) as usize).min(self.count)
     }
 
-    /// The indices of the centres in [low, high) mm.
+    /// Returns the indices of the centres in [low, high) mm.
     #[inline]
     pub fn range(&self, [low_mm, high_mm]: [f64; 2]) -> Range<usize> {
         self.index_at_or_after(low_mm)..self.index_at_or_after(high_mm)

@@ -1,39 +1,37 @@
 //! The slab of wall behind one face: a convex prism, and the stretch of a column in it.
 
-use super::footprint::Footprint;
-use super::piece::{OnRow, Piece, RowForm, Shape};
+use super::on_row::OnRow;
 use crate::geom::{Point, Vector};
 
-/// Most half-spaces that bound a prism from one side: a cap and the three sides.
+/// Largest number of half-spaces that bound a prism from one side: a cap and the three sides.
 const MAX_BOUNDS: usize = 4;
 
-/// Half-spaces whose unit normals have a smaller z-component bound x and y only, which the
-/// footprint does already. Above, slabs would reach further than they should by the threshold times
-/// the height of the model; below, the heights lose digits (a bound's error is the rounding of a
-/// coordinate divided by the component).
+/// Vertical component of a unit normal below which the half-space bounds x and y only, which the
+/// footprint does already. With a larger limit, slabs would reach too far by the limit times the
+/// height of the model. With a smaller one, the heights lose digits: a bound's error is the
+/// rounding of a coordinate divided by the component.
 const VERTICAL_LIMIT: f64 = 1e-9;
 
-/// A prism as bounds on z that are affine in x and y: z ≥ each lower and ≤ each upper bound, given
-/// as the coefficients of (x, y, 1).
+/// A prism as bounds on z that are affine in x and y, given as the coefficients of (x, y, 1). Each
+/// z is ≥ every lower and ≤ every upper bound.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slab {
     lower: [[f64; 3]; MAX_BOUNDS],
     upper: [[f64; 3]; MAX_BOUNDS],
 }
 
-/// How far a slab reaches from its face, mm.
+/// Distances to which a slab reaches from its face, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Reach {
-    /// Into the solid.
+    /// Distance into the solid.
     pub inward_mm: f64,
-    /// Out of it.
+    /// Distance out of it.
     pub outward_mm: f64,
 }
 
 impl Slab {
-    /// The prism over the triangle from `outward_mm` outside to `inward_mm` inside, for its outer
-    /// unit normal.
-    pub fn piece(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Piece {
+    /// Returns the prism over the triangle with this outer unit normal, as far as `reach` says.
+    pub fn new(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Self {
         let mut slab = Self {
             lower: [[0.0, 0.0, f64::NEG_INFINITY]; 4],
             upper: [[0.0, 0.0, f64::INFINITY]; 4],
@@ -49,15 +47,7 @@ impl Slab {
             let side = (corners[to] - corners[from]).cross(normal).normalize();
             slab.bound(&mut used, &side, &corners[from]);
         }
-        let outer = corners.map(|corner| corner + normal * reach.outward_mm);
-        let inner = corners.map(|corner| corner - normal * reach.inward_mm);
-        let hull = [outer, inner].concat();
-        let z_min_mm = hull.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-        Piece::new(
-            Footprint::of_points(&hull, 0.0),
-            z_min_mm,
-            Shape::Slab(slab),
-        )
+        slab
     }
 
     /// Adds the half-space through `point` on the inner side of the outward unit `normal`.
@@ -79,14 +69,21 @@ impl Slab {
         }
     }
 
-    /// The prism cut by the row at `y_mm`.
-    pub fn on_row(&self, y_mm: f64) -> RowForm {
+    /// Returns the prism cut by the row at `y_mm`.
+    pub fn on_row(&self, y_mm: f64) -> SlabRow {
         let on_row = |[x, y, c]: [f64; 3]| [x, y * y_mm + c];
-        RowForm::Slab(SlabRow {
+        SlabRow {
             lower: self.lower.map(on_row),
             upper: self.upper.map(on_row),
-        })
+        }
     }
+}
+
+/// Returns the six corners of the prism over a triangle, the outer ones first.
+pub(super) fn prism_corners(corners: &[Point; 3], normal: &Vector, reach: Reach) -> Vec<Point> {
+    let outer = corners.map(|corner| corner + normal * reach.outward_mm);
+    let inner = corners.map(|corner| corner - normal * reach.inward_mm);
+    [outer, inner].concat()
 }
 
 /// A slab cut by a row: bounds on z that are affine in x, as the coefficients of (x, 1).
@@ -110,14 +107,15 @@ impl OnRow for SlabRow {
 mod tests {
     use super::*;
     use crate::shell::fixtures::Random;
+    use crate::shell::piece::{Piece, RowForm};
 
     const REACH: Reach = Reach {
         inward_mm: 0.8,
         outward_mm: 0.1,
     };
 
-    /// Whether a point is in the prism, by the definition: between the caps and inside all three
-    /// sides.
+    /// Returns whether a point is in the prism by the definition: between the caps and inside all
+    /// three sides.
     fn holds(corners: &[Point; 3], normal: &Vector, point: &Point) -> bool {
         let height = (point - corners[0]).dot(normal);
         let is_left = |from: usize| {
@@ -129,13 +127,13 @@ mod tests {
             && (0..3).all(|side| is_left(side) >= 0.0)
     }
 
-    /// How many of random points about the triangle the columns find in its slab; each must be so
-    /// by the definition.
+    /// Returns the number of random points about the triangle that the columns find in its slab.
+    /// Asserts that the definition agrees for each.
     fn check(corners: &[Point; 3], random: &mut Random) -> usize {
         let normal = (corners[1] - corners[0])
             .cross(&(corners[2] - corners[0]))
             .normalize();
-        let piece = Slab::piece(corners, &normal, REACH);
+        let piece = Piece::of_face(corners, &normal, REACH);
         let is_found = |point: &Point| {
             let Some(([low, high], RowForm::Slab(row))) = piece.on_row(point.y) else {
                 return false;
@@ -154,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn columns_meet_slabs_of_any_direction_where_the_definition_says() {
+    fn columns_meet_slabs_of_any_direction_as_the_definition_says() {
         let mut random = Random::new(4);
         let flat = [
             Point::origin(),

@@ -2,22 +2,25 @@
 
 use rayon::prelude::*;
 
+use super::bins::Bins;
+use super::keep::Keep;
 use super::overlap::{overlaps_itself, triangle_y_ranges};
-use super::pieces::{self, Builder};
-use super::{Bins, Keep, Piece, Ruler};
+use super::piece::Piece;
+use super::pieces::{Builder, pieces_of_keep};
+use super::ruler::Ruler;
 use crate::geom::{Aabb, Frame, Matrix};
 use crate::mesh::{Solid, TriMesh};
 
-/// How far the axes of a frame may be from orthonormal. Above, lengths in the goal frame would be
-/// off by more than rounding; below, frames made by a few multiplications would be refused.
+/// Largest deviation of a frame's axes from orthonormal. With more, lengths in the goal frame would
+/// be off by more than rounding; with less, frames made by a few multiplications would be refused.
 const FRAME_TOLERANCE: f64 = 1e-9;
 
 /// The wall and the keep-solid regions of a solid in a goal frame.
 ///
-/// What may be emptied is { x inside the solid : no nearer to the surface than the wall, and
-/// outside every keep-solid region }. What must stay is held as convex pieces (a prism behind each
-/// face, parts of a cylinder about each edge and of a ball about each vertex), so that a vertical
-/// line meets each in one stretch, in closed form.
+/// The region that may be emptied lies inside the solid, no nearer to the surface than the wall and
+/// outside every keep-solid region. The rest is held as convex pieces: a prism behind each face,
+/// parts of a cylinder about each edge and of a ball about each vertex. A vertical line meets each
+/// piece in one stretch, in closed form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shell {
     surface: TriMesh,
@@ -26,8 +29,9 @@ pub struct Shell {
     overlaps_itself: bool,
 }
 
-/// Why there is no [`Shell`].
+/// An error in the arguments of a [`Shell`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ShellError {
     /// The wall is zero, negative or not a number.
     #[error("the wall is {wall_mm} mm thick; it must be positive and finite")]
@@ -41,7 +45,7 @@ pub enum ShellError {
         "keep-solid region {index} is not a ball or capsule: its ends must be finite and its radius positive"
     )]
     Keep {
-        /// Which region, from 0.
+        /// Index of the region, from 0.
         index: usize,
     },
     /// The frame's axes are not orthonormal.
@@ -50,70 +54,74 @@ pub enum ShellError {
 }
 
 impl Shell {
-    /// The shell of `solid` with a wall of `wall_mm` and the regions `keeps` (model coordinates),
-    /// in `frame`.
+    /// Builds the shell of `solid` with a wall of `wall_mm` and the regions `keeps` (model
+    /// coordinates), in `frame`.
     ///
-    /// Costs some microseconds per triangle. If the solid overlaps itself (looked for on a lattice
-    /// of columns), every triangle has a wall on both sides, also those buried in the solid.
+    /// Costs some microseconds per triangle. If the solid overlaps itself, every triangle gets a
+    /// wall on both sides, also those buried in the solid. Overlaps are searched on a lattice of
+    /// columns.
+    ///
+    /// # Errors [`ShellError`] if the wall or a region is not positive and finite, or if the frame
+    /// is not orthonormal.
     pub fn new(
         solid: &Solid,
         frame: &Frame,
         wall_mm: f64,
         keeps: &[Keep],
     ) -> Result<Self, ShellError> {
-        check(frame, wall_mm, keeps)?;
+        check_arguments(frame, wall_mm, keeps)?;
         let surface = solid.mesh().in_frame(frame);
         let overlaps_itself = overlaps_itself(&surface);
         let mut pieces = Builder::new(&surface, wall_mm, !overlaps_itself).pieces(solid);
-        pieces.extend(keeps.iter().flat_map(|keep| pieces::of_keep(keep, frame)));
+        pieces.extend(keeps.iter().flat_map(|keep| pieces_of_keep(keep, frame)));
         Ok(Self {
             surface,
-            pieces: from_low_to_high(&pieces),
+            pieces: sort_by_height(&pieces),
             wall_mm,
             overlaps_itself,
         })
     }
 
-    /// The surface of the solid in the goal frame.
+    /// Returns the surface of the solid in the goal frame.
     pub fn surface(&self) -> &TriMesh {
         &self.surface
     }
 
-    /// The pieces that must stay, ascending in their lowest points.
+    /// Returns the pieces that must stay, in ascending order of their lowest points.
     pub(crate) fn pieces(&self) -> &[Piece] {
         &self.pieces
     }
 
-    /// The thickness of the wall, mm.
+    /// Returns the thickness of the wall, mm.
     pub fn wall_mm(&self) -> f64 {
         self.wall_mm
     }
 
-    /// Whether the solid was found to overlap itself, so that both sides of every triangle have a
-    /// wall.
+    /// Returns whether the solid was found to overlap itself, so that both sides of every triangle
+    /// have a wall.
     pub fn overlaps_itself(&self) -> bool {
         self.overlaps_itself
     }
 
-    /// A box of the goal frame outside which nothing may be emptied: the bounds less the wall. May
-    /// be empty.
+    /// Returns the box, in the goal frame, outside which nothing may be emptied: the bounds less
+    /// the wall. It may be empty.
     pub fn interior_bounds(&self) -> Aabb {
         self.surface.aabb().inflated(-self.wall_mm)
     }
 
-    /// The pitch in x and y, mm, at which the longer side of the solid, seen from above, has about
-    /// `columns_a_side` columns.
+    /// Returns the pitch in x and y, mm, for about `columns_a_side` columns along the longer side
+    /// of the solid, seen from above.
     pub fn coarse_pitch(&self, columns_a_side: usize) -> [f64; 2] {
         let pitch_mm = self.surface.aabb().size().xy().max() / columns_a_side.max(1) as f64;
         [pitch_mm; 2]
     }
 
-    /// The triangles of the surface that reach into each block of rows.
+    /// Returns the triangles of the surface that reach into each block of rows.
     pub(crate) fn bin_triangles(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
         Bins::of_ranges(triangle_y_ranges(&self.surface), rows, rows_per_block)
     }
 
-    /// The pieces that reach into each block of rows.
+    /// Returns the pieces that reach into each block of rows.
     pub(crate) fn bin_pieces(&self, rows: &Ruler, rows_per_block: usize) -> Bins {
         Bins::of_ranges(
             self.pieces.iter().map(Piece::y_range_mm),
@@ -123,9 +131,9 @@ impl Shell {
     }
 }
 
-/// The pieces ascending in their lowest points, which keeps a column's intervals few while they are
-/// carved.
-fn from_low_to_high(pieces: &[Piece]) -> Vec<Piece> {
+/// Returns the pieces in ascending order of their lowest points. This keeps a column's intervals
+/// few while they are carved.
+fn sort_by_height(pieces: &[Piece]) -> Vec<Piece> {
     let mut order: Vec<(f64, usize)> = pieces
         .par_iter()
         .enumerate()
@@ -135,8 +143,8 @@ fn from_low_to_high(pieces: &[Piece]) -> Vec<Piece> {
     order.par_iter().map(|&(_, index)| pieces[index]).collect()
 }
 
-/// Whether the arguments of a shell make sense.
-fn check(frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<(), ShellError> {
+/// Checks that the frame, the wall and the regions make sense.
+fn check_arguments(frame: &Frame, wall_mm: f64, keeps: &[Keep]) -> Result<(), ShellError> {
     if !(wall_mm > 0.0 && wall_mm.is_finite()) {
         return Err(ShellError::Wall { wall_mm });
     }
@@ -163,7 +171,7 @@ mod tests {
     use crate::shell::fixtures;
 
     #[test]
-    fn a_wall_a_region_or_a_frame_without_meaning_is_refused_by_name() {
+    fn an_impossible_wall_region_or_frame_is_named_in_the_error() {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
         let identity = Frame::identity();
         for wall_mm in [0.0, -1.0, f64::INFINITY] {
