@@ -1,32 +1,34 @@
-//! Columns of a shell: exact in z, one row of columns at a time, blocks of rows in parallel.
+//! Builds the columns of a shell: exact in z, one row of columns at a time, blocks of rows in
+//! parallel.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rayon::prelude::*;
 
-use super::Columns;
+use super::columns::Columns;
 use super::row::{Reaching, Row};
 use crate::base::units::show_mm;
 use crate::base::watch::Watch;
 use crate::shell::{Bins, Ruler, Shell};
 
-/// Rows a thread sweeps at a time. More make the last blocks wait for one thread; fewer list every
-/// piece in more blocks. Has no influence on the result.
+/// Rows that a thread sweeps at a time. With more, the last blocks wait for one thread; with fewer,
+/// every piece is listed in more blocks. The result does not depend on it.
 const ROWS_PER_BLOCK: usize = 8;
-/// Most columns of the whole grid, occupied or not. Each that is occupied that is occupied takes
-/// some 60 bytes while it is built, so ten times more would not fit the memory of a desk machine;
-/// ten times fewer would refuse a printer's own pitch on its whole plate.
+/// Largest number of columns of the whole grid, occupied or not. An occupied column takes some 60
+/// bytes while it is built, so ten times more would not fit the memory of a desktop computer. Ten
+/// times fewer would exclude a printer's own pitch on its whole plate.
 const MAX_GRID_COLUMNS: f64 = 1e8;
 
-/// Why there are no columns.
+/// An error in building columns.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum BuildError {
-    /// A pitch is not positive and finite, or so fine that the columns could not be counted.
+    /// The pitch is not positive and finite, or so fine that the columns could not be counted.
     #[error(
         "columns {} × {} apart are not possible here, where at most {MAX_GRID_COLUMNS:.0e} may stand; remedy: give a larger \
          --pitch or a smaller model",
-        shown(pitch_mm[0]),
-        shown(pitch_mm[1])
+        show_pitch(pitch_mm[0]),
+        show_pitch(pitch_mm[1])
     )]
     Pitch {
         /// The pitch asked for, mm.
@@ -37,8 +39,8 @@ pub enum BuildError {
     Cancelled,
 }
 
-/// A pitch for people, however small.
-fn shown(mm: f64) -> String {
+/// Returns a pitch in words, however small.
+fn show_pitch(mm: f64) -> String {
     if mm < 1e-3 {
         format!("{mm:.1e} mm")
     } else {
@@ -47,12 +49,15 @@ fn shown(mm: f64) -> String {
 }
 
 impl Columns {
-    /// The columns of what `shell` lets be emptied, at the pitch `pitch_mm` in x and y.
+    /// Builds the columns of the region that `shell` lets be emptied, at the pitch `pitch_mm` in x
+    /// and y.
     ///
-    /// The ends of every interval are exact up to rounding (about 1e-12 mm): points inside the
-    /// solid, at least the wall from every triangle and outside every keep-solid region, on the
-    /// vertical line through the column's centre. Columns with nothing to empty are left out. The
-    /// same bits for any number of threads.
+    /// A point may be emptied if it lies inside the solid, no nearer to a triangle than the wall
+    /// and outside every keep-solid region. On the vertical line through a column's centre, the
+    /// ends of every interval are exact up to rounding (about 1e-12 mm). Columns with nothing to
+    /// empty are left out. The result has the same bits for any number of threads.
+    ///
+    /// # Errors [`BuildError`] if the pitch is impossible or the caller stopped the run.
     pub fn of_shell(shell: &Shell, pitch_mm: [f64; 2], watch: &Watch) -> Result<Self, BuildError> {
         let grid = Grid::over(shell, pitch_mm)?;
         let triangles = shell.bin_triangles(&grid.ys, ROWS_PER_BLOCK);
@@ -76,7 +81,7 @@ struct Grid {
 }
 
 impl Grid {
-    /// The grid over the shell's interior.
+    /// Returns the grid over the shell's interior.
     fn over(shell: &Shell, pitch_mm: [f64; 2]) -> Result<Self, BuildError> {
         let bounds = shell.interior_bounds();
         let is_sound = |pitch: f64| pitch > 0.0 && pitch.is_finite();
@@ -90,7 +95,7 @@ impl Grid {
         Ok(Self { pitch_mm, xs, ys })
     }
 
-    /// The blocks, one after the other.
+    /// Joins the blocks in order.
     fn assemble(&self, blocks: Vec<Block>) -> Columns {
         let total = |size: fn(&Block) -> usize| blocks.iter().map(size).sum::<usize>();
         let (occupied, intervals) = (total(|b| b.columns.len()), total(|b| b.intervals.len()));
@@ -124,14 +129,14 @@ struct Block {
     intervals: Vec<[f64; 2]>,
 }
 
-/// A column by its place on the grid, and how many intervals it has.
+/// A column by its place on the grid, with the number of its intervals.
 struct BlockColumn {
     x: u32,
     y: u32,
     intervals: u32,
 }
 
-/// Everything a sweep over the rows reads.
+/// The input of a sweep over the rows.
 struct Sweep<'a> {
     shell: &'a Shell,
     grid: Grid,
@@ -140,7 +145,7 @@ struct Sweep<'a> {
 }
 
 impl Sweep<'_> {
-    /// Every block of rows, in order.
+    /// Sweeps every block of rows and returns them in order.
     fn run(&self, watch: &Watch) -> Result<Vec<Block>, BuildError> {
         watch.advance(0.0);
         let blocks = self.grid.ys.len().div_ceil(ROWS_PER_BLOCK);
@@ -149,7 +154,7 @@ impl Sweep<'_> {
             if watch.is_cancelled() {
                 return Err(BuildError::Cancelled);
             }
-            let swept = self.block(row, block);
+            let swept = self.sweep_block(row, block);
             watch.advance((done.fetch_add(1, Ordering::Relaxed) + 1) as f64 / blocks as f64);
             Ok(swept)
         };
@@ -159,8 +164,8 @@ impl Sweep<'_> {
             .collect()
     }
 
-    /// One block of rows.
-    fn block(&self, row: &mut Row, block: usize) -> Block {
+    /// Sweeps one block of rows.
+    fn sweep_block(&self, row: &mut Row, block: usize) -> Block {
         let reaching = Reaching {
             triangles: self.triangles.of(block),
             pieces: self.pieces.of(block),
@@ -170,11 +175,10 @@ impl Sweep<'_> {
         for y in first..(first + ROWS_PER_BLOCK).min(self.grid.ys.len()) {
             row.carve(self.shell, reaching, self.grid.ys.at(y), &self.grid.xs);
             for (x, intervals) in row.occupied() {
-                let intervals_count = intervals.len() as u32;
                 swept.columns.push(BlockColumn {
                     x: x as u32,
                     y: y as u32,
-                    intervals: intervals_count,
+                    intervals: intervals.len() as u32,
                 });
                 swept.intervals.extend_from_slice(intervals);
             }
@@ -193,7 +197,7 @@ mod tests {
     use crate::shell::fixtures::{self, Random};
     use crate::shell::{Keep, Shell};
 
-    /// A frame turned so that no axis of the model is an axis of the goal.
+    /// Returns a frame turned so that no axis of the model is an axis of the goal.
     fn turned() -> Frame {
         Frame::with_axis(Point::new(1.0, 2.0, 3.0), &Vector::new(0.3, -0.5, 0.8))
     }
@@ -212,8 +216,8 @@ mod tests {
             .volume()
     }
 
-    /// The distance from a point to a triangle, by the definition: to the plane if the foot is
-    /// inside, else to the nearest edge.
+    /// Returns the distance from a point to a triangle by the definition: to the plane if the foot
+    /// is inside, else to the nearest edge.
     fn distance_to_triangle(point: &Point, [a, b, c]: &[Point; 3]) -> f64 {
         let normal = (b - a).cross(&(c - a)).normalize();
         let is_inside =
@@ -229,9 +233,9 @@ mod tests {
         to_edge(a, b).min(to_edge(b, c)).min(to_edge(c, a))
     }
 
-    /// How often the surface winds around a point: the sum of the triangles' solid angles over 4π
-    /// (Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng.
-    /// 30, 1983).
+    /// Returns the winding number of the surface about a point: the sum of the triangles' solid
+    /// angles over 4π (Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans.
+    /// Biomed. Eng. 30, 1983).
     fn winding(point: &Point, mesh: &TriMesh) -> f64 {
         let angle = |corners: [Point; 3]| {
             let [a, b, c] = corners.map(|corner| corner - point);
@@ -242,9 +246,9 @@ mod tests {
         mesh.iter_corners().map(angle).sum::<f64>() / (4.0 * PI)
     }
 
-    /// Checks `samples` points on the columns against the definition: the solid angle and the
-    /// distances to all triangles. Every other one lies at the height of an interval's end. Says
-    /// how many were in the region.
+    /// Checks `samples` points on the columns against the definition, by the solid angle and the
+    /// distances to all triangles. Every other point lies at the height of an interval's end.
+    /// Returns the number of points in the region.
     fn check_by_definition(solid: &Solid, wall_mm: f64, samples: usize) -> usize {
         let frame = turned();
         let shell = shell_of(solid, &frame, wall_mm);
@@ -257,12 +261,12 @@ mod tests {
             let column = ((random.unit() * columns.len() as f64) as usize).min(columns.len() - 1);
             let intervals = columns.intervals_of(column);
             let end = intervals[sample / 4 % intervals.len()][sample / 2 % 2];
-            // Far above the 1e-9 mm within which the point is left out, far below the intervals'
+            // Far above the 1e-9 mm within which the point is skipped, far below the intervals'
             // lengths.
             let beside = end + (random.unit() - 0.5) * 1e-3 * wall_mm;
             let anywhere = bounds.min.z + random.unit() * bounds.size().z;
             let z = if sample % 2 == 0 { beside } else { anywhere };
-            // Every fourth lies on the next column in x, which may have been left out.
+            // Every fourth point lies on the next column in x, which may have been left out.
             let x = columns.centers[column][0] + if sample % 4 == 2 { pitch } else { 0.0 };
             let y = columns.centers[column][1];
             let is_here = |center: &[f64; 2]| (center[0] - x).hypot(center[1] - y) < 1e-9;
@@ -291,10 +295,10 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_emptied_but_for_its_wall() {
+    fn a_box_is_emptied_except_for_its_wall() {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
-        // A stretch of a whole number of pitches holds that many lattice points: no error from the
-        // columns either.
+        // A length of a whole number of pitches holds that many lattice points, so the columns add
+        // no error either.
         assert!((volume(&solid, &Frame::identity(), 1.0, 0.5) - 512.0).abs() < 1e-9);
         let columns = columns_of(&shell_of(&solid, &Frame::identity(), 1.0), 0.5);
         assert!(
@@ -308,8 +312,8 @@ mod tests {
     #[test]
     fn in_a_turned_frame_a_box_is_the_same_box() {
         let solid = fixtures::cells(&[[0, 0, 0]], 10.0);
-        // A column at the rim of the shadow, of about 4 · 8 · 1.3 mm, is wrong by a random part of
-        // a pitch² · 8 mm.
+        // The rim of the shadow is about 4 · 8 · 1.3 mm long. A column at the rim is wrong by a
+        // random part of pitch² · 8 mm.
         let (pitch, rim) = (0.1, 42.0);
         let deviation = f64::sqrt(rim / pitch) * pitch * pitch * 8.0;
         assert!((volume(&solid, &turned(), 1.0, pitch) - 512.0).abs() < deviation);
@@ -334,13 +338,13 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_is_emptied_to_a_ball_smaller_by_the_wall() {
+    fn the_interior_of_a_ball_is_a_ball_smaller_by_the_wall() {
         let (radius, wall) = (10.0, 2.0);
         let solid = fixtures::bumpy_ball(radius, 5, |_| 0.0);
         let exact = 4.0 / 3.0 * PI * (radius - wall) * (radius - wall) * (radius - wall);
         let found = volume(&solid, &turned(), wall, 0.1);
-        // The facets' planes lie within the ball by at most edge²/(6 r), edge ≈ 1.2 r / 2⁵: 0.0024
-        // mm of 8 mm.
+        // The facets' planes lie inside the ball by at most edge²/(6 r), with edge ≈ 1.2 r / 2⁵:
+        // 0.0024 mm of 8 mm.
         let (facets, columns) = (3.0 * 0.0024 / (radius - wall), 1e-4);
         assert!(
             found < exact * (1.0 + columns) && found > exact * (1.0 - facets - columns),
@@ -364,15 +368,15 @@ mod tests {
         for axis in axes {
             let frame = Frame::with_axis(Point::new(0.1, 0.2, 0.3), &axis);
             let found = volume(&solid, &frame, wall, 0.05);
-            // The rim of the shadow (≤ 80 mm) is off by less than half a pitch where it is straight
+            // The rim of the shadow (≤ 80 mm) is off by less than half a pitch if it is straight
             // along the lattice.
             assert!(
                 (found - exact).abs() < 80.0 * 0.025 * 7.0,
                 "{found} instead of {exact} along {axis}"
             );
         }
-        // Across the edge the section is a smooth function of one coordinate but for three corners:
-        // O(pitch²).
+        // Across the edge the section is a smooth function of one coordinate except at three
+        // corners: O(pitch²).
         let across = volume(
             &solid,
             &Frame::with_axis(Point::origin(), &Vector::y()),
@@ -395,7 +399,8 @@ mod tests {
         assert_eq!(columns.intervals_of(under_slot), [[1.0, 4.0]]);
         let under_post = columns.centers.iter().position(|c| c[0] < 4.0).unwrap();
         assert_eq!(columns.intervals_of(under_post), [[1.0, 9.0]]);
-        // Between, over the reflex edge at (5, 5): up to the circle about it.
+        // Between them, over the reflex edge at (5, 5), the column ends at the circle about the
+        // edge.
         let beside = columns
             .centers
             .iter()
@@ -434,7 +439,7 @@ mod tests {
     }
 
     #[test]
-    fn solids_that_overlap_keep_a_wall_on_both_sides_of_every_buried_triangle() {
+    fn overlapping_solids_keep_a_wall_on_both_sides_of_buried_triangles() {
         let mut random = Random::new(9);
         let one = fixtures::bumpy_ball(10.0, 2, |_| random.unit());
         let other = one.mesh().map_vertices(|p| p + Vector::new(9.0, 2.0, 1.0));
@@ -472,7 +477,7 @@ mod tests {
     }
 
     #[test]
-    fn keep_solid_regions_stay_solid_wherever_the_frame_puts_them() {
+    fn keep_solid_regions_stay_solid_in_every_frame() {
         let solid = fixtures::cells(&[[0, 0, 0]], 20.0);
         let (ball, from, to) = (
             Point::new(6.0, 6.0, 6.0),
@@ -492,8 +497,8 @@ mod tests {
             let kept = 18.0f64.powi(3) - columns_of(&shell, 0.1).moments().volume();
             let length = (to - from).norm();
             let exact = 4.0 / 3.0 * PI * (8.0 + 1.5f64.powi(3)) + PI * 2.25 * length;
-            // The rim of the box's shadow as in the test of the box alone (identity: none); the
-            // regions' own by pitch^1.5.
+            // The rim of the box's shadow errs as in the test of the box alone (not in the identity
+            // frame). The regions' own error goes with pitch^1.5.
             let deviation = if frame == Frame::identity() {
                 0.3
             } else {
@@ -507,7 +512,7 @@ mod tests {
     }
 
     #[test]
-    fn the_columns_are_the_same_bits_for_one_thread_and_for_two() {
+    fn one_thread_and_two_give_the_same_bits() {
         let mut random = Random::new(2);
         let solid = fixtures::bumpy_ball(10.0, 3, |_| random.unit());
         let on_threads = |threads| {
@@ -525,7 +530,7 @@ mod tests {
     }
 
     #[test]
-    fn a_pitch_that_makes_no_grid_is_refused_and_a_stopped_run_says_so() {
+    fn an_impossible_pitch_and_a_stopped_run_are_errors() {
         let shell = shell_of(
             &fixtures::cells(&[[0, 0, 0]], 10.0),
             &Frame::identity(),

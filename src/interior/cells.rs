@@ -1,12 +1,12 @@
-//! The moments of cells of which shares are emptied: linear in the shares.
+//! The moments of cells, each emptied by a share: linear in the shares.
 
 use rayon::prelude::*;
 
-use super::{BLOCK, block_sums};
+use super::moments::{BLOCK, block_sums};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// The moments of each cell, as those of its mean point times its share of all.
+/// Moments of cells. Each cell has its mean moments and its share of the whole volume.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Cells {
     /// Moments over weight.
@@ -15,7 +15,7 @@ pub(super) struct Cells {
 }
 
 impl Cells {
-    /// From the moments of cells of positive volume.
+    /// Returns the cells with these moments; each volume must be positive.
     pub fn new(moments: Vec<Moments>) -> Self {
         let volume: f64 = moments.iter().map(Moments::volume).sum();
         let weights: Vec<f64> = moments.iter().map(|cell| cell.volume() / volume).collect();
@@ -27,16 +27,17 @@ impl Cells {
         Self { means, weights }
     }
 
+    /// Returns the share of the whole volume that each cell has.
     pub fn weights(&self) -> &[f64] {
         &self.weights
     }
 
-    /// The moments with these shares emptied.
+    /// Returns the moments with these shares emptied.
     pub fn moments(&self, x: &[f64]) -> Moments {
         block_sums(x.len(), |i| self.means[i] * (x[i] * self.weights[i]))
     }
 
-    /// The derivative of ∫q by each share, over its weight.
+    /// Writes the derivative of ∫q with respect to each share, over the cell's weight.
     pub fn derivative(&self, quadric: &Quadric, out: &mut [f64]) {
         let blocks = out.par_chunks_mut(BLOCK).zip(self.means.par_chunks(BLOCK));
         blocks.for_each(|(out, means)| {

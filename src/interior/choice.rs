@@ -1,41 +1,40 @@
-//! A choice of what to empty that is described by finitely many numbers, as the papers' methods
-//! have it.
+//! The interface of a void that is described by finitely many numbers, as in the papers' methods.
 
-use super::Emptied;
+use super::emptied::Emptied;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A way to describe what is emptied by numbers x between 0 and 1: voxels, the leaves of an octree,
-/// the ends of rays.
+/// A description of a void by numbers x between 0 and 1: voxels, the leaves of an octree, the ends
+/// of rays.
 ///
-/// Every number has a weight, the share of the region it decides about. Derivatives are per weight,
-/// so that a number of a large cell and one of a small cell are measured alike: the derivative of
-/// ∫q by the share of a cell is then the mean of q over it, times the region's volume, whatever the
-/// resolution.
+/// Every number has a weight: the share of the region that it controls. Derivatives are per weight,
+/// so that the numbers of large and small cells have the same scale. The derivative of ∫q by a
+/// cell's share is then the mean of q over the cell, times the region's volume, at any resolution.
 pub trait Choice: Sync {
-    /// How many numbers there are.
+    /// Returns the number of numbers.
     fn count(&self) -> usize {
         self.weights().len()
     }
 
-    /// The share of the region each number decides about; positive.
+    /// Returns the share of the region that each number controls; positive.
     fn weights(&self) -> &[f64];
 
-    /// The numbers with which nothing is emptied.
+    /// Returns the numbers with which nothing is emptied.
     fn nothing(&self) -> Vec<f64>;
 
-    /// The moments of what is emptied, goal frame, mm; exact for the columns the choice was made
-    /// of, and the same bits for any number of threads.
+    /// Returns the moments of the void, goal frame, mm. They are exact for the columns on which the
+    /// choice was built, with the same bits for any number of threads.
     fn moments(&self, x: &[f64]) -> Moments;
 
-    /// The derivative of q's integral over what is emptied by each number, over its weight, mm³
-    /// where q has no unit.
+    /// Writes the derivative of q's integral over the void with respect to each number, over its
+    /// weight; mm³ if q has no unit.
     fn derivative(&self, x: &[f64], quadric: &Quadric, out: &mut [f64]);
 
-    /// What is emptied, on the columns the choice was made of.
+    /// Returns the void, on the columns on which the choice was built.
     fn emptied(&self, x: &[f64]) -> Emptied;
 
-    /// The pairs of numbers that a smoothing may tie together; none where neighbours mean nothing.
+    /// Returns the pairs of numbers that a smoothing term may couple; empty if neighbours have no
+    /// meaning.
     fn neighbours(&self) -> &[[u32; 2]] {
         &[]
     }
@@ -47,7 +46,7 @@ pub(super) mod testing {
     use super::*;
     use crate::interior::Columns;
 
-    /// Columns of 1 mm with one or two intervals of uneven ends.
+    /// Returns columns of 1 mm with one or two intervals of uneven ends.
     pub fn uneven_columns() -> Columns {
         let mut columns = Columns {
             pitch_mm: [1.0, 1.0],
@@ -66,21 +65,21 @@ pub(super) mod testing {
         columns
     }
 
-    /// A quadric without symmetry that cuts the columns.
+    /// Returns a quadric without symmetry that cuts the columns.
     pub fn some_quadric() -> Quadric {
         Quadric([-1.0, 0.3, -0.2, 0.5, 0.1, -0.15, 0.07, 0.12, 0.2, 0.31])
     }
 
-    /// Numbers between 0.1 and 0.9 without order.
+    /// Returns numbers between 0.1 and 0.9 in no order.
     pub fn some_numbers(count: usize) -> Vec<f64> {
         (0..count)
             .map(|i| 0.5 + 0.4 * ((7 * i + 3) as f64).sin())
             .collect()
     }
 
-    /// Holds a choice against its own description as pieces, and its derivative against
+    /// Checks a choice's moments against those of its pieces, and its derivative against
     /// differences.
-    pub fn holds_together(choice: &dyn Choice, columns: &Columns) {
+    pub fn check_choice(choice: &dyn Choice, columns: &Columns) {
         let x = some_numbers(choice.count());
         let (moments, drawn) = (choice.moments(&x), choice.emptied(&x).moments(columns));
         for (got, want) in moments.0.iter().zip(drawn.0) {
@@ -110,8 +109,8 @@ pub(super) mod testing {
                 moved[i] += by;
                 total(&moved)
             };
-            // Moments are at most cubic in a number: the difference is exact to step² and to
-            // rounding over step.
+            // Moments are at most cubic in a number, so the difference is exact up to step² and up
+            // to rounding over step.
             let difference = (moved(step) - moved(-step)) / (2.0 * step);
             assert!(
                 (slope[i] * choice.weights()[i] - difference).abs() < 1e-6,

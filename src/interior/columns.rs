@@ -1,40 +1,40 @@
-//! The region that may be emptied as z-columns in the goal frame: a pitch in x and y, exact
+//! The region that may be emptied, as z-columns in the goal frame: a pitch in x and y, exact
 //! intervals in z.
 
-/// Columns of the goal frame's z direction through the region that may be emptied.
+/// Columns along the goal frame's z direction through the region that may be emptied.
 ///
-/// Column `i` stands over the rectangle of `pitch_mm` centred at `centers[i]`, and may be emptied
-/// in the intervals `intervals[starts[i] .. starts[i + 1]]`, ascending, disjoint, each of positive
-/// length. Columns are ordered by y, then x, so that sums in this order do not depend on how they
-/// were made.
+/// Column `i` stands over the rectangle of `pitch_mm` centred at `centers[i]`. It may be emptied in
+/// the intervals `intervals[starts[i] .. starts[i + 1]]`: ascending, disjoint, each of positive
+/// length. Columns are ordered by y, then x, so that sums in this order do not depend on how the
+/// columns were made.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Columns {
-    /// The sides of a column's cross-section in x and y, mm.
+    /// Sides of a column's cross-section in x and y, mm.
     pub pitch_mm: [f64; 2],
-    /// The centre (x, y) of each column, goal frame, mm.
+    /// Centre (x, y) of each column, goal frame, mm.
     pub centers: Vec<[f64; 2]>,
-    /// Where each column's intervals start; one more entry than columns.
+    /// Index of each column's first interval; one more entry than columns.
     pub starts: Vec<u32>,
-    /// The lower and upper ends of the intervals that may be emptied, goal frame, mm.
+    /// Lower and upper ends of the intervals that may be emptied, goal frame, mm.
     pub intervals: Vec<[f64; 2]>,
 }
 
 impl Columns {
-    /// How many columns there are.
+    /// Returns the number of columns.
     pub fn len(&self) -> usize {
         self.centers.len()
     }
 
-    /// Whether nothing may be emptied.
+    /// Returns whether nothing may be emptied.
     pub fn is_empty(&self) -> bool {
         self.centers.is_empty()
     }
 
-    /// Every `step`-th column of every `step`-th row, each over a cell as large as those it stands
-    /// for.
+    /// Returns every `step`-th column of every `step`-th row, each over a cell as large as those it
+    /// represents.
     ///
-    /// Sums over them are those of a midpoint rule `step` times as coarse: near enough to guide a
-    /// search, at a part of 1/step² of the cost, and no ground for any claim about these columns.
+    /// Sums over them are those of a midpoint rule `step` times as coarse, at about 1/step² of the
+    /// cost. They are near enough to guide a search, but support no claim about these columns.
     pub fn thinned(&self, step: usize) -> Self {
         let Some(&[x0, y0]) = self.centers.first() else {
             return self.clone();
@@ -61,7 +61,7 @@ impl Columns {
         thin
     }
 
-    /// The intervals of column `index`.
+    /// Returns the intervals of column `index`.
     pub fn intervals_of(&self, index: usize) -> &[[f64; 2]] {
         &self.intervals[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
@@ -72,7 +72,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_box_of_whole_cells_keeps_its_moments_when_every_third_column_stands_for_nine() {
+    fn every_third_column_of_a_box_of_whole_cells_gives_its_moments() {
         let mut columns = Columns {
             pitch_mm: [0.5, 0.25],
             starts: vec![0],
@@ -91,7 +91,7 @@ mod tests {
             (6, 12, [1.5, 0.75])
         );
         // The middle column of each block of nine has the block's mean in x and y, and its larger
-        // cell their variance.
+        // cell has their variance.
         let [all, few] = [columns.moments().0, thin.moments().0];
         for (all, few) in all.iter().zip(few) {
             assert!((few / all - 1.0).abs() < 1e-12, "{few} instead of {all}");
@@ -99,7 +99,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_thinned_is_nothing() {
+    fn no_columns_thin_to_no_columns() {
         let none = Columns {
             starts: vec![0],
             ..Columns::default()

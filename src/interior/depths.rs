@@ -1,9 +1,9 @@
-//! Columns that know how deep below the surface they run: what may be emptied, for any wall at
-//! once.
+//! Columns sampled with their depth below the surface: the region that may be emptied, for all
+//! walls at once.
 
 use rayon::prelude::*;
 
-use super::Columns;
+use super::columns::Columns;
 use crate::geom::{Bvh, NO_HINT, Point};
 use crate::mesh::{Solid, TriMesh};
 use crate::shell::{Keep, RowCrossings, Ruler, inside_stretches};
@@ -11,18 +11,18 @@ use crate::shell::{Keep, RowCrossings, Ruler, inside_stretches};
 /// Columns through the whole inside of a solid, in model coordinates, with the distance to the
 /// surface along them.
 ///
-/// A thinner wall only lets more be emptied, so all walls are level sets of one function, the
-/// depth. It is sampled once, and [`Depths::columns`] cuts it at a wall in a millisecond, where a
-/// [`Shell`](crate::shell::Shell) has to be built anew. The price is accuracy: depth is linear
-/// between samples, so an interval's end is off by less than a spacing where the surface bends, and
-/// a roof's ridge is cut off by up to half of one.
+/// A thinner wall lets more be emptied, so all walls are level sets of one function, the depth. It
+/// is sampled once, and [`Depths::columns`] cuts it at a wall in a millisecond; a
+/// [`Shell`](crate::shell::Shell) has to be built again for each wall. The price is accuracy, as
+/// depth is linear between samples. An interval's end is off by less than a spacing where the
+/// surface bends, and a roof's ridge is cut off by up to half of one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Depths {
     pitch_mm: f64,
     centers: Vec<[f64; 2]>,
-    /// Where each column's stretches start, and one more.
+    /// Index of each column's first stretch, and one more.
     starts: Vec<u32>,
-    /// Where each stretch's samples start, and one more.
+    /// Index of each stretch's first sample, and one more.
     stretches: Vec<u32>,
     samples: Vec<Sample>,
 }
@@ -34,13 +34,15 @@ struct Sample {
     depth_mm: f64,
 }
 
-/// One row of columns: its centres, how many stretches each has, and the samples of each stretch.
+/// One row of columns: the centre of each, and the samples of each of its stretches.
 type Row = Vec<([f64; 2], Vec<Vec<Sample>>)>;
 
 impl Depths {
-    /// The depths of a solid, with about so many samples, evenly spaced in all three directions.
+    /// Samples the depths of a solid at about `samples` points, evenly spaced in all three
+    /// directions.
     ///
-    /// Costs about 2 µs a sample, on all threads; the same bits for any number of them.
+    /// Costs about 2 µs a sample, on all threads. The result has the same bits for any number of
+    /// them.
     pub fn of_solid(solid: &Solid, samples: usize) -> Self {
         let mesh = solid.mesh();
         let (bounds, volume_mm3) = (mesh.aabb(), mesh.signed_volume_mm3());
@@ -59,10 +61,10 @@ impl Depths {
                 probe.row(crossings, ys.at(y))
             })
             .collect();
-        Self::assembled(pitch_mm, rows)
+        Self::assemble(pitch_mm, rows)
     }
 
-    fn assembled(pitch_mm: f64, rows: Vec<Row>) -> Self {
+    fn assemble(pitch_mm: f64, rows: Vec<Row>) -> Self {
         let mut depths = Self {
             pitch_mm,
             centers: vec![],
@@ -81,8 +83,8 @@ impl Depths {
         depths
     }
 
-    /// The columns, in model coordinates, of what a wall of `wall_mm` and these regions let be
-    /// emptied.
+    /// Returns the columns, in model coordinates, of the region that a wall of `wall_mm` and
+    /// `keeps` let be emptied.
     pub fn columns(&self, wall_mm: f64, keeps: &[Keep]) -> Columns {
         let mut columns = Columns {
             pitch_mm: [self.pitch_mm; 2],
@@ -109,7 +111,7 @@ impl Depths {
     }
 }
 
-/// What the sampling of a row needs.
+/// The input of the sampling of a row.
 struct Probe<'a> {
     mesh: &'a TriMesh,
     triangles: Vec<u32>,
@@ -135,8 +137,8 @@ impl Probe<'_> {
             .collect()
     }
 
-    /// Evenly spaced samples of a stretch no further apart than the pitch; its ends lie on the
-    /// surface.
+    /// Returns evenly spaced samples of a stretch, no farther apart than the pitch. Its ends lie on
+    /// the surface.
     fn stretch(&self, [x, y]: [f64; 2], [bottom, top]: [f64; 2]) -> Vec<Sample> {
         let steps = ((top - bottom) / self.pitch_mm).ceil().max(1.0) as usize;
         let mut hint = NO_HINT;
@@ -159,15 +161,15 @@ impl Probe<'_> {
     }
 }
 
-/// How much deeper a sample lies than it has to: positive where it may be emptied.
+/// Returns how much deeper a sample lies than it must, mm; positive if it may be emptied.
 fn slack_mm([x, y]: [f64; 2], sample: &Sample, wall_mm: f64, keeps: &[Keep]) -> f64 {
     let point = Point::new(x, y, sample.z_mm);
     let beyond = keeps.iter().map(|keep| keep.distance_mm(&point));
     beyond.fold(sample.depth_mm - wall_mm, f64::min)
 }
 
-/// Adds the intervals in which a function that is linear between the samples is positive; at the
-/// ends it is not.
+/// Adds the intervals in which a function that is linear between the samples is positive. At both
+/// ends it must not be positive.
 fn positive_intervals(
     samples: &[Sample],
     value: impl Fn(&Sample) -> f64,
@@ -202,7 +204,7 @@ mod tests {
         for wall_mm in [0.5, 1.0, 2.5, 4.0] {
             let volume = depths.columns(wall_mm, &[]).moments().volume();
             let exact = (10.0 - 2.0 * wall_mm).powi(3);
-            // The samples are 0.29 mm apart; across z nothing is interpolated over a bend, in x and
+            // The samples are 0.29 mm apart. Along z nothing is interpolated over a bend. In x and
             // y each face is off by at most half a pitch, which the lattice's phase spreads over
             // both.
             let tolerance = 6.0 * 0.15 / (10.0 - 2.0 * wall_mm);
@@ -214,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn at_a_wall_it_has_the_moments_of_the_columns_of_a_shell() {
+    fn depths_cut_at_a_wall_have_the_moments_of_a_shells_columns() {
         let solid = fixtures::bumpy_ball(10.0, 3, |d| 1.5 * (3.0 * d.x).sin() * d.y);
         let keep = Keep::ball(Point::new(0.0, 0.0, -8.0), 3.0);
         let depths = Depths::of_solid(&solid, 60_000);

@@ -1,47 +1,46 @@
-//! What a method empties, piece by piece along each column, so that the answers of different
-//! methods can be compared.
+//! A void as pieces along each column, so that the results of different methods can be compared.
 
-use super::Columns;
-use super::section::crossing_of_column;
+use super::columns::Columns;
+use super::section::{Crossing, crossing_of_column};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A stretch of a column of which a share is emptied.
+/// A stretch of a column, with the share of it that is emptied.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Its lower end, goal frame, mm.
+    /// Lower end, goal frame, mm.
     pub bottom_mm: f64,
-    /// Its upper end, mm.
+    /// Upper end, goal frame, mm.
     pub top_mm: f64,
-    /// The share of it that is emptied, 0 to 1; a method that has rounded knows only 0 and 1.
+    /// Share of it that is emptied, 0 to 1; only 0 or 1 after rounding.
     pub share: f64,
 }
 
-/// What is emptied: on every column disjoint pieces, ascending. Where there is no piece, nothing
-/// is.
+/// A void: on every column disjoint pieces, ascending. Nothing is emptied between them.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Emptied {
-    /// Where each column's pieces start; one more entry than columns.
+    /// Index of each column's first piece; one more entry than columns.
     starts: Vec<u32>,
     pieces: Vec<Piece>,
 }
 
 impl Emptied {
-    /// The part of the columns where q > 0, by cell means as [`super::moments_where_positive`] has
-    /// it; exact.
+    /// Returns the part of the columns with q > 0, by the cell means of
+    /// [`super::moments_where_positive`]; exact.
     pub fn where_positive(columns: &Columns, quadric: &Quadric) -> Self {
         let of_column = |column: usize| {
-            let (changes, outside) = crossing_of_column(columns, quadric, column);
+            let crossing = crossing_of_column(columns, quadric, column);
             let intervals = columns.intervals_of(column).iter();
             intervals
-                .flat_map(move |&interval| stretches(interval, changes, outside))
+                .flat_map(move |&interval| positive_stretches(interval, crossing))
                 .map(whole)
                 .collect()
         };
         Self::of_columns((0..columns.len()).map(of_column))
     }
 
-    /// From the pieces of every column, in any order, each column's disjoint.
+    /// Returns the void with these pieces on every column. A column's pieces must be disjoint;
+    /// their order does not matter.
     pub(super) fn of_columns(columns: impl Iterator<Item = Vec<Piece>>) -> Self {
         let mut emptied = Self {
             starts: vec![0],
@@ -56,12 +55,12 @@ impl Emptied {
         emptied
     }
 
-    /// The pieces of column `index`.
+    /// Returns the pieces of column `index`.
     pub fn pieces_of(&self, index: usize) -> &[Piece] {
         &self.pieces[self.starts[index] as usize..self.starts[index + 1] as usize]
     }
 
-    /// The moments of what is emptied on these columns, goal frame, mm.
+    /// Returns the moments of the void on these columns, goal frame, mm.
     pub fn moments(&self, columns: &Columns) -> Moments {
         let of_column = |column: usize| {
             let add = |sum, piece: &Piece| {
@@ -74,8 +73,8 @@ impl Emptied {
         sum * (columns.pitch_mm[0] * columns.pitch_mm[1])
     }
 
-    /// The volume by which two answers on the same columns differ, ∫|β − β′|, mm³: of two voids it
-    /// is the volume of their symmetric difference.
+    /// Returns the volume ∫|β − β′| by which two voids on the same columns differ, mm³. With shares
+    /// of 0 and 1 it is the volume of their symmetric difference.
     pub fn difference_mm3(&self, other: &Self, columns: &Columns) -> f64 {
         let lengths =
             (0..columns.len()).map(|i| difference_mm(self.pieces_of(i), other.pieces_of(i)));
@@ -83,14 +82,13 @@ impl Emptied {
     }
 }
 
-/// The parts of an interval between two changes, or outside of them.
-fn stretches(
+/// Returns the parts of an interval in which the quadric is positive.
+fn positive_stretches(
     [bottom, top]: [f64; 2],
-    changes: [f64; 2],
-    outside: bool,
+    crossing: Crossing,
 ) -> impl Iterator<Item = [f64; 2]> {
-    let [lo, hi] = changes.map(|z| z.clamp(bottom, top));
-    let parts = if outside {
+    let [lo, hi] = crossing.roots.map(|z| z.clamp(bottom, top));
+    let parts = if crossing.is_positive_outside {
         [[bottom, lo], [hi, top]]
     } else {
         [[lo, hi], [hi, hi]]
@@ -98,7 +96,7 @@ fn stretches(
     parts.into_iter().filter(|[bottom, top]| top > bottom)
 }
 
-/// A piece that is emptied wholly.
+/// Returns a piece that is emptied completely.
 pub(super) fn whole([bottom_mm, top_mm]: [f64; 2]) -> Piece {
     Piece {
         bottom_mm,
@@ -107,7 +105,8 @@ pub(super) fn whole([bottom_mm, top_mm]: [f64; 2]) -> Piece {
     }
 }
 
-/// ∫|β − β′| along one column: between two neighbouring ends of pieces both are constant.
+/// Returns ∫|β − β′| along one column, mm. Both shares are constant between neighbouring ends of
+/// pieces.
 fn difference_mm(one: &[Piece], other: &[Piece]) -> f64 {
     let mut ends: Vec<f64> = one
         .iter()
@@ -122,7 +121,7 @@ fn difference_mm(one: &[Piece], other: &[Piece]) -> f64 {
     ends.windows(2).map(between).sum()
 }
 
-/// The share emptied at a height.
+/// Returns the share emptied at a height.
 fn share_at(pieces: &[Piece], z_mm: f64) -> f64 {
     let next = pieces.partition_point(|piece| piece.bottom_mm <= z_mm);
     let last = pieces[..next].last().filter(|piece| z_mm < piece.top_mm);
@@ -149,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn two_voids_differ_by_what_only_one_of_them_has() {
+    fn two_voids_differ_by_the_parts_that_only_one_of_them_has() {
         let columns = testing::uneven_columns();
         let all = Emptied::where_positive(
             &columns,
@@ -165,7 +164,7 @@ mod tests {
     }
 
     #[test]
-    fn a_share_counts_as_that_much_of_a_difference() {
+    fn a_share_counts_in_proportion_in_a_difference() {
         let half = [Piece {
             bottom_mm: 0.0,
             top_mm: 2.0,

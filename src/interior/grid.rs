@@ -1,16 +1,16 @@
-//! The columns by their places on the grid they stand on, so that an octree's cells find theirs at
+//! The columns by their places on the grid, so that the columns of an octree's cell are found at
 //! once.
 
-use super::Columns;
+use super::columns::Columns;
 use super::leaf::{Leaf, MOST_LEVELS, interleave};
 use crate::mass::Moments;
 
 /// The columns in the order of a space-filling curve over (x, y), with a grid of finest cells
-/// around them: one column wide, and as high as the longer pitch.
+/// around them. A finest cell is one column wide and as high as the longer pitch.
 #[derive(Debug, Clone)]
 pub(super) struct Grid<'a> {
     columns: &'a Columns,
-    /// The codes of the columns' places, ascending, and which column each is.
+    /// Codes of the columns' places in ascending order, with each column's index.
     places: Vec<(u64, u32)>,
     lowest_mm: f64,
     height_mm: f64,
@@ -18,6 +18,7 @@ pub(super) struct Grid<'a> {
 }
 
 impl<'a> Grid<'a> {
+    /// Returns the grid about these columns.
     pub fn of(columns: &'a Columns) -> Self {
         let range = |axis: usize| {
             let ends = (f64::INFINITY, f64::NEG_INFINITY);
@@ -58,28 +59,29 @@ impl<'a> Grid<'a> {
         }
     }
 
+    /// Returns the columns.
     pub fn columns(&self) -> &'a Columns {
         self.columns
     }
 
-    /// The level of cells that are one column wide.
+    /// Returns the level of cells that are one column wide.
     pub fn finest_level(&self) -> u32 {
         self.finest_level
     }
 
-    /// The volume of a cell's box, mm³.
-    pub fn box_of(&self, leaf: &Leaf) -> f64 {
+    /// Returns the volume of a cell's box, mm³.
+    pub fn box_volume_mm3(&self, leaf: &Leaf) -> f64 {
         let width = f64::from(1u32 << leaf.log_width);
         width * width * width * self.columns.pitch_mm[0] * self.columns.pitch_mm[1] * self.height_mm
     }
 
-    /// Visits every stretch of a column that lies in a cell.
+    /// Calls `stretch` with every stretch of a column that lies in a cell.
     pub fn visit(&self, leaf: &Leaf, mut stretch: impl FnMut(usize, [f64; 2])) {
         let [x, y, z] = leaf.corner();
         let low = self.lowest_mm + f64::from(z) * self.height_mm;
         let high = self.lowest_mm + f64::from(z + (1 << leaf.log_width)) * self.height_mm;
-        // The columns under a cell: their codes lack the bits of z, and differ only in those below
-        // its width.
+        // The columns under a cell have codes without the bits of z, which differ only in the bits
+        // below its width.
         let first = interleave([x, y, 0]);
         let from = self.places.partition_point(|(code, _)| *code < first);
         let under = self.places[from..].iter();
@@ -94,14 +96,14 @@ impl<'a> Grid<'a> {
         }
     }
 
-    /// The volume of the region in a cell, mm³.
+    /// Returns the volume of the region in a cell, mm³.
     pub fn volume_in(&self, leaf: &Leaf) -> f64 {
         let mut length = 0.0;
         self.visit(leaf, |_, [bottom, top]| length += top - bottom);
         length * self.columns.pitch_mm[0] * self.columns.pitch_mm[1]
     }
 
-    /// The moments of the region in a cell.
+    /// Returns the moments of the region in a cell.
     pub fn moments_in(&self, leaf: &Leaf) -> Moments {
         let mut sum = Moments::default();
         self.visit(leaf, |column, ends| {

@@ -1,12 +1,12 @@
-//! One pass over the columns: the moments of the part of them a quadric empties, and their
-//! derivative.
+//! Integrates over the columns in one pass: the moments of the part that a quadric empties, and
+//! their derivative.
 
 use std::ops::Range;
 
 use nalgebra::SMatrix;
 use rayon::prelude::*;
 
-use super::Columns;
+use super::columns::Columns;
 use super::pack::{Pack, RowSums};
 use super::section::{Section, cell_variance};
 use crate::geom::Quadric;
@@ -15,12 +15,12 @@ use crate::mass::Moments;
 /// A symmetric 10 × 10 matrix over the monomials of [`Moments`].
 pub type Matrix10 = SMatrix<f64, 10, 10>;
 
-/// Columns summed as one piece of work: below about 200 the threads' bookkeeping shows, above about
-/// 1000 the last pieces of a coarse interior leave cores idle. The pieces, and so the bits of the
-/// sums, are the same for any thread count.
+/// Columns summed as one unit of work. Below about 200 the threads' overhead shows; above about
+/// 1000 the last units of a coarse interior leave cores idle. The units, and so the bits of the
+/// sums, are the same for any number of threads.
 const BLOCK_COLUMNS: usize = 640;
 
-/// The exponents (i, j, k) of x, y, z in each of the ten monomials.
+/// Exponents (i, j, k) of x, y, z in each of the ten monomials.
 const EXPONENTS: [[usize; 3]; 10] = [
     [0, 0, 0],
     [1, 0, 0],
@@ -34,22 +34,25 @@ const EXPONENTS: [[usize; 3]; 10] = [
     [0, 0, 2],
 ];
 
-/// The moments of { q > 0 } over the columns.
+/// Returns the moments of { q > 0 } over the columns.
 ///
 /// Exact in z. In x and y a column stands for its cell: x² and y² enter by their cell means, in the
-/// moments and in q alike, so that the sums are exact for boxes made of whole cells and these
-/// moments are exactly the minimiser's: no other choice of what to empty makes q's integral larger
-/// (THEORY §2). Bitwise the same for any number of threads. Costs about 5 to 10 ns a column.
+/// moments and in q alike. So the sums are exact for boxes made of whole cells, and no other void
+/// on the columns has a larger integral of q (see [`crate::guide::theory`], "The reachable set").
+///
+/// Bitwise the same for any number of threads. Costs about 5 to 10 ns a column.
 pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {
     pass::<false>(columns, quadric).moments(columns.pitch_mm)
 }
 
-/// The moments of { q > 0 } over the columns, and their derivative by q's ten coefficients.
+/// Returns the moments of { q > 0 } over the columns, and their derivative with respect to q's ten
+/// coefficients.
 ///
 /// The derivative is W = Σ m mᵀ / |∂q/∂z| · cell area over the roots inside the intervals:
-/// symmetric and positive semidefinite (THEORY §2). A column that q only touches has no derivative
-/// and adds none. Where the surface stands so upright that whole columns are emptied or kept at
-/// once, the sum over columns has no derivative, and W holds that of the body made of their cells.
+/// symmetric and positive semidefinite (see [`crate::guide::theory`], "Goals"). A column that q
+/// only touches has no derivative and adds none. If the surface is so upright that whole columns
+/// are emptied or kept at once, the sum over columns has no derivative. There W holds the
+/// derivative for the body made of their cells.
 pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments, Matrix10) {
     let sums = pass::<true>(columns, quadric);
     (
@@ -58,7 +61,7 @@ pub fn moments_and_derivative(columns: &Columns, quadric: &Quadric) -> (Moments,
     )
 }
 
-/// Sums every block by itself, then adds the blocks in order.
+/// Sums every block separately, then adds the blocks in order.
 fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
     let blocks = columns.len().div_ceil(BLOCK_COLUMNS);
     let sum = |block: usize| {
@@ -78,7 +81,7 @@ fn pass<const DERIVATIVE: bool>(columns: &Columns, quadric: &Quadric) -> Sums {
     total
 }
 
-/// Sums one block, row by row: columns of equal y share the powers of y and half of q's
+/// Sums one block, row by row. Columns of equal y share the powers of y and half of q's
 /// coefficients.
 fn sum_block<const DERIVATIVE: bool>(
     columns: &Columns,
@@ -109,11 +112,11 @@ fn sum_block<const DERIVATIVE: bool>(
     sums
 }
 
-/// Sums over columns, per unit cell area.
+/// Sums over columns, per unit of cell area.
 struct Sums {
-    /// xⁱ yʲ ∫zᵏ over what is emptied, at `[i][j][k]` for i + j + k ≤ 2.
+    /// xⁱ yʲ ∫zᵏ over the void, at `[i][j][k]` for i + j + k ≤ 2.
     emptied: [[[f64; 3]; 3]; 3],
-    /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4: every entry of m mᵀ is
+    /// xⁱ yʲ Σ zᵏ/|∂q/∂z| over the roots, at `[i][j][k]` for i + j + k ≤ 4. Every entry of m mᵀ is
     /// one of these 35.
     roots: [[[f64; 5]; 5]; 5],
 }
@@ -191,7 +194,7 @@ mod tests {
     use super::*;
     use crate::geom::Point;
 
-    /// A box of whole cells with one interval a column.
+    /// Returns a box of whole cells with one interval for each column.
     fn box_columns(pitch: [f64; 2], cells: [usize; 2], z: [f64; 2]) -> Columns {
         let mut columns = Columns {
             pitch_mm: pitch,
@@ -211,8 +214,8 @@ mod tests {
         columns
     }
 
-    /// A quadric that crosses the box of `box_columns` with one root on some columns, two or none
-    /// on others.
+    /// A quadric that crosses the box of `box_columns` with one root on some columns, and two or
+    /// none on others.
     const CROSSING: Quadric = Quadric([3.0, 0.2, -0.4, 0.5, 0.1, -0.2, 0.15, -0.12, 0.03, -0.3]);
 
     fn assert_close(a: f64, b: f64, tolerance: f64) {
@@ -252,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_quadric_and_its_opposite_empty_makes_the_whole() {
+    fn the_voids_of_a_quadric_and_its_opposite_make_the_whole() {
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let opposite = Quadric(CROSSING.0.map(|c| -c));
         let both = moments_where_positive(&columns, &CROSSING)
@@ -268,9 +271,9 @@ mod tests {
 
     #[test]
     fn the_moments_agree_with_a_sum_over_small_cells() {
-        // 400 slices of 0.0125 mm: a column's error is at most two half slices of 0.25 mm², 1e-3 of
-        // the volume if every error had the same sign; with random signs over 280 columns a
-        // fiftieth of that.
+        // Of 400 slices of 0.0125 mm, a column's error is at most two half slices of 0.25 mm². This
+        // is 1e-3 of the volume if every error had the same sign, and a fiftieth of that with
+        // random signs over 280 columns.
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let exact = moments_where_positive(&columns, &CROSSING);
         let (slices, mut volume, mut first) = (400, 0.0, 0.0);
@@ -290,12 +293,13 @@ mod tests {
     }
 
     #[test]
-    fn the_derivative_is_that_of_finite_differences() {
+    fn the_derivative_agrees_with_finite_differences() {
         let columns = box_columns([0.3, 0.3], [20, 14], [-2.0, 3.0]);
         let (_, derivative) = moments_and_derivative(&columns, &CROSSING);
         for coefficient in 0..10 {
-            // A step of 1e-6 moves roots by about 1e-6 mm: no column changes its number of roots,
-            // and central differences leave an error of 1e-12 relative, below the rounding of 1e-9.
+            // A step of 1e-6 moves roots by about 1e-6 mm, so no column changes its number of
+            // roots. Central differences leave a relative error of 1e-12, below the rounding of
+            // 1e-9.
             let step = 1e-6;
             let (mut more, mut less) = (CROSSING, CROSSING);
             more.0[coefficient] += step;

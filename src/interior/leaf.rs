@@ -1,20 +1,21 @@
-//! A cell of an octree, by its place in the order of a space-filling curve.
+//! A cell of an octree, named by its place on a space-filling curve.
 
-/// Bits a coordinate may have, so that three of them interleaved fit 64.
+/// Largest number of bits of a coordinate, so that three of them interleaved fit 64.
 pub(super) const MOST_LEVELS: u32 = 21;
 
-/// An octree cell: its coordinates in finest cells interleaved (Morton order), and how many finest
-/// cells it is wide. Every descendant's code lies between its own and that of the next cell of its
-/// size.
+/// An octree cell: its coordinates in finest cells, interleaved (Morton order), and its width. The
+/// codes of its descendants lie between its own and that of the next cell of its size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct Leaf {
+    /// Interleaved coordinates of the low corner.
     pub code: u64,
-    /// The logarithm of its width in finest cells.
+    /// Logarithm (base 2) of its width in finest cells.
     pub log_width: u32,
     finest_level: u32,
 }
 
 impl Leaf {
+    /// Returns the cell that holds all others.
     pub fn root(finest_level: u32) -> Self {
         Self {
             code: 0,
@@ -23,12 +24,12 @@ impl Leaf {
         }
     }
 
-    /// 0 at the root, one more with each halving.
+    /// Returns the level: 0 at the root, one more with each halving.
     pub fn level(&self) -> u32 {
         self.finest_level - self.log_width
     }
 
-    /// In the order of their codes; a finest cell has none.
+    /// Returns the eight children in the order of their codes; a finest cell has none.
     pub fn children(&self) -> Vec<Self> {
         let Some(log_width) = self.log_width.checked_sub(1) else {
             return Vec::new();
@@ -42,7 +43,7 @@ impl Leaf {
             .collect()
     }
 
-    /// The cell this one is an eighth of; none of the root.
+    /// Returns the cell of which this one is an eighth; `None` for the root.
     pub fn parent(&self) -> Option<Self> {
         let log_width = self.log_width + 1;
         let code = self.code >> (3 * log_width) << (3 * log_width);
@@ -53,17 +54,17 @@ impl Leaf {
         })
     }
 
-    /// Whether the other's low corner lies in this cell.
+    /// Returns whether the other's low corner lies in this cell.
     pub fn contains(&self, other: &Self) -> bool {
         (other.code ^ self.code) >> (3 * self.log_width) == 0
     }
 
-    /// The low corner in finest cells.
+    /// Returns the low corner in finest cells.
     pub fn corner(&self) -> [u32; 3] {
         [0, 1, 2].map(|axis| compact(self.code >> axis))
     }
 
-    /// The cell of the same width one step along an axis; none outside of the root.
+    /// Returns the cell of the same width one step along an axis; `None` outside the root.
     pub fn beside(&self, axis: usize, forward: bool) -> Option<Self> {
         let mut corner = self.corner();
         let width = 1 << self.log_width;
@@ -80,7 +81,7 @@ impl Leaf {
     }
 }
 
-/// The code of a place in finest cells.
+/// Returns the code of a place in finest cells.
 pub(super) fn interleave(corner: [u32; 3]) -> u64 {
     corner
         .iter()
@@ -89,7 +90,7 @@ pub(super) fn interleave(corner: [u32; 3]) -> u64 {
         .sum()
 }
 
-/// The lowest 21 bits, each followed by two zeros.
+/// Returns the lowest 21 bits, each followed by two zeros.
 fn spread(bits: u32) -> u64 {
     let steps = [
         (32, 0x001f_0000_0000_ffff),
@@ -103,7 +104,7 @@ fn spread(bits: u32) -> u64 {
     })
 }
 
-/// Every third bit.
+/// Returns every third bit.
 fn compact(code: u64) -> u32 {
     let steps = [
         (2, 0x10c3_0c30_c30c_30c3),

@@ -1,29 +1,35 @@
-//! The region that may be emptied, discretised so that any choice of void has exact moments.
-
+//! The region that may be emptied, discretised so that every void in it has exact moments.
 //!
-//! [`Columns`] are what the solver reads. [`Rays`], [`Voxels`] and [`Octree`] describe a void on
-//! them by many numbers, as the papers do, behind one trait, [`Choice`]; [`Emptied`] is what any
-//! method says is emptied.
+//! [`Columns`] are the solver's input. [`Rays`], [`Voxels`] and [`Octree`] describe a void on the
+//! columns by many numbers, as the papers do, behind one trait, [`Choice`]. [`Emptied`] is the void
+//! itself, whatever the method, so that results can be compared.
 
+// The columns, and the ways to make and change them.
 mod build;
-mod cells;
-mod choice;
 mod columns;
 mod depths;
-mod emptied;
-mod grid;
+mod outside;
+mod row;
+mod without;
+
+// Integrals over the columns.
 mod integrate;
-mod leaf;
 mod moments;
+mod pack;
+mod section;
+
+// Voids on the columns.
+mod choice;
+mod emptied;
+
+// Voids described by many numbers.
+mod cells;
+mod grid;
+mod leaf;
 mod octree;
 mod octree_neighbours;
-mod outside;
-mod pack;
 mod rays;
-mod row;
-mod section;
 mod voxels;
-mod without;
 
 pub use build::BuildError;
 pub use choice::Choice;
@@ -34,6 +40,3 @@ pub use integrate::{Matrix10, moments_and_derivative, moments_where_positive};
 pub use octree::{Levels, Octree};
 pub use rays::Rays;
 pub use voxels::Voxels;
-
-use moments::{BLOCK, block_sums};
-use section::mean_on_column;

@@ -1,16 +1,17 @@
-//! The moments of everything that may be emptied.
+//! The moments of all columns.
 
 use rayon::prelude::*;
 
-use super::Columns;
+use super::columns::Columns;
 use crate::mass::Moments;
 
-/// Terms summed one after the other before blocks are added up. The blocks make the result
-/// independent of the thread count; their size is what makes both sums short enough to lose no more
-/// than about 1e-13.
+/// Terms summed one after the other before blocks are added up. With blocks the result does not
+/// depend on the number of threads. Their size keeps both sums short enough to lose no more than
+/// about 1e-13.
 pub(super) const BLOCK: usize = 4096;
 
-/// The sum of `count` terms, in blocks whose order does not depend on the thread count.
+/// Returns the sum of `count` terms, in blocks whose order does not depend on the number of
+/// threads.
 pub(super) fn block_sums(count: usize, term: impl Fn(usize) -> Moments + Sync) -> Moments {
     let sum = |first: usize| {
         let block = first..(first + BLOCK).min(count);
@@ -25,22 +26,22 @@ pub(super) fn block_sums(count: usize, term: impl Fn(usize) -> Moments + Sync) -
 }
 
 impl Columns {
-    /// The moments of the region with every interval emptied, goal frame.
+    /// Returns the moments of the region with every interval emptied, goal frame.
     ///
-    /// Exact in z; in x and y each column stands for the box of its pitch, whose second moments are
-    /// those of its centre plus pitch²/12. So it is exact for boxes along the axes. The same bits
-    /// for any number of threads.
+    /// Exact in z. In x and y each column stands for the box of its pitch, whose second moments are
+    /// those of its centre plus pitch²/12. So the moments are exact for boxes along the axes. They
+    /// have the same bits for any number of threads.
     pub fn moments(&self) -> Moments {
         let of_column = |column: usize| self.moments_of(column, self.intervals_of(column));
         block_sums(self.len(), of_column) * (self.pitch_mm[0] * self.pitch_mm[1])
     }
 
-    /// The moments of a stretch of a column, per unit of its cross-section.
+    /// Returns the moments of a stretch of a column, per unit of its cross-section.
     pub(super) fn moments_between(&self, column: usize, ends_mm: [f64; 2]) -> Moments {
         self.moments_of(column, &[ends_mm])
     }
 
-    /// The moments of stretches of a column, per unit of its cross-section.
+    /// Returns the moments of stretches of a column, per unit of its cross-section.
     fn moments_of(&self, column: usize, stretches: &[[f64; 2]]) -> Moments {
         let [x, y] = self.centers[column];
         let [length, z, zz] = stretches.iter().map(powers_of_z).fold([0.0; 3], add);
@@ -62,7 +63,8 @@ impl Columns {
     }
 }
 
-/// The integrals of 1, z and z² over an interval, about its middle so that nothing cancels.
+/// Returns the integrals of 1, z and z² over an interval, computed about its middle so that nothing
+/// cancels.
 fn powers_of_z(&[bottom, top]: &[f64; 2]) -> [f64; 3] {
     let (length, middle) = (top - bottom, 0.5 * (bottom + top));
     [
@@ -72,7 +74,7 @@ fn powers_of_z(&[bottom, top]: &[f64; 2]) -> [f64; 3] {
     ]
 }
 
-/// The sum of two triples.
+/// Returns the sum of two triples.
 fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
@@ -98,8 +100,8 @@ mod tests {
             columns.intervals.extend([[-1.0, 1.0], [2.0, 5.0]]);
             columns.starts.push(columns.intervals.len() as u32);
         }
-        // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]), each moment a product of one-dimensional
-        // integrals.
+        // The boxes [1, 4] × [0, 3] × ([-1, 1] ∪ [2, 5]); each moment is a product of
+        // one-dimensional integrals.
         let (x, y, z) = (
             [3.0, 7.5, 21.0],
             [3.0, 4.5, 9.0],

@@ -1,11 +1,11 @@
-//! An adaptive octree over the columns: large cells deep inside, small ones at the boundary and
-//! where a void ends.
+//! An adaptive octree over the columns: large cells deep inside, small ones at the boundary and at
+//! a void's surface.
 
 use std::ops::Range;
 
-use super::Columns;
 use super::cells::Cells;
 use super::choice::Choice;
+use super::columns::Columns;
 use super::emptied::{Emptied, Piece};
 use super::grid::Grid;
 use super::leaf::Leaf;
@@ -13,26 +13,26 @@ use super::octree_neighbours;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A leaf with more than this share of its box in the region is not cut by the boundary. Rounding
-/// alone makes it less than 1; below, cut leaves would pass as whole ones.
+/// Share of its box above which a leaf counts as not cut by the boundary. Rounding alone makes it
+/// less than 1; with a smaller ratio, cut leaves would pass as whole ones.
 const WHOLE_RATIO: f64 = 1.0 - 1e-9;
 
-/// How fine an octree is to begin with. Level n has 2ⁿ cells along its longest side.
+/// Levels at which an octree starts. Level n has 2ⁿ cells along the longest side.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Levels {
-    /// The level of leaves deep inside. Below 4 there are too few to begin with, above 7 nothing is
+    /// Level of leaves deep inside. Below 4 there are too few to begin with; above 7 nothing is
     /// saved.
     pub inner: u32,
-    /// The level of leaves that the boundary of the region cuts.
+    /// Level of leaves that the boundary of the region cuts.
     pub boundary: u32,
 }
 
-/// The octree of Bächer, Whiting, Bickel and Sorkine-Hornung, "Spin-It", 2014, §5: a share β of
-/// every leaf is emptied.
+/// The octree of Bächer, Whiting, Bickel and Sorkine-Hornung, "Spin-It", 2014, §5: of every leaf a
+/// share β is emptied.
 ///
-/// A leaf of the finest level is one column wide, so the pitch of the columns decides which level
-/// that is: 2⁹ columns along the longest side make it level 9. A leaf that the boundary cuts holds
-/// the part of the region in it, exactly.
+/// A leaf of the finest level is one column wide, so the pitch of the columns determines that
+/// level: 2⁹ columns along the longest side make it level 9. A leaf that the boundary cuts holds
+/// exactly the part of the region inside it.
 #[derive(Debug, Clone)]
 pub struct Octree<'a> {
     grid: Grid<'a>,
@@ -43,14 +43,14 @@ pub struct Octree<'a> {
 }
 
 impl<'a> Octree<'a> {
-    /// The octree over the columns, refined at the boundary alone.
+    /// Returns the octree over the columns, refined at the boundary alone.
     pub fn of(columns: &'a Columns, levels: Levels) -> Self {
         let grid = Grid::of(columns);
         let mut leaves = Vec::new();
         let mut open = vec![Leaf::root(grid.finest_level())];
         while let Some(leaf) = open.pop() {
             let volume = grid.volume_in(&leaf);
-            let wanted = if volume < WHOLE_RATIO * grid.box_of(&leaf) {
+            let wanted = if volume < WHOLE_RATIO * grid.box_volume_mm3(&leaf) {
                 levels.boundary
             } else {
                 levels.inner
@@ -76,14 +76,15 @@ impl<'a> Octree<'a> {
         }
     }
 
-    /// The level whose leaves are one column wide.
+    /// Returns the level whose leaves are one column wide.
     pub fn finest_level(&self) -> u32 {
         self.grid.finest_level()
     }
 
-    /// The octree with fractional leaves split and siblings that agree on 0 or 1 merged, and the
-    /// shares handed on; none where nothing is left to split. Shares within `tolerance` of 0 or 1
-    /// count as that.
+    /// Splits fractional leaves, merges siblings that agree on 0 or 1, and returns the octree with
+    /// its shares. `None` if no leaf is left to split.
+    ///
+    /// Shares within `tolerance` of 0 or 1 count as 0 or 1.
     pub fn refined(&self, x: &[f64], tolerance: f64) -> Option<(Self, Vec<f64>)> {
         let is_fractional = |share: f64| share > tolerance && share < 1.0 - tolerance;
         let splits =
@@ -100,7 +101,7 @@ impl<'a> Octree<'a> {
         let mut first = 0;
         while first < self.leaves.len() {
             let family = self.family(first);
-            let merged = self.merged(&x[family.clone()], first, tolerance);
+            let merged = self.merge_family(&x[family.clone()], first, tolerance);
             if let Some(parent) = merged {
                 leaves.push(parent);
                 first = family.end;
@@ -125,7 +126,7 @@ impl<'a> Octree<'a> {
         ))
     }
 
-    /// The leaves from `first` on that fill one parent, where `first` is its first one; else only
+    /// Returns the leaves that fill one parent, if `first` is the first of them; otherwise only
     /// that leaf.
     fn family(&self, first: usize) -> Range<usize> {
         let leaf = &self.leaves[first];
@@ -146,8 +147,8 @@ impl<'a> Octree<'a> {
         }
     }
 
-    /// The parent of a family that agrees on 0 or on 1, and its share.
-    fn merged(&self, shares: &[f64], first: usize, tolerance: f64) -> Option<(Leaf, f64)> {
+    /// Returns the parent of a family that agrees on 0 or on 1, with that share.
+    fn merge_family(&self, shares: &[f64], first: usize, tolerance: f64) -> Option<(Leaf, f64)> {
         let leaf = &self.leaves[first];
         let parent = leaf
             .parent()
@@ -206,7 +207,7 @@ mod tests {
         boundary: 2,
     };
 
-    /// A cube of 16 mm in columns of 1 mm.
+    /// Returns a cube of 16 mm in columns of 1 mm.
     fn cube() -> Columns {
         let mut columns = Columns {
             pitch_mm: [1.0, 1.0],
@@ -226,7 +227,7 @@ mod tests {
     #[test]
     fn leaves_have_the_moments_of_their_pieces_and_the_slopes_of_differences() {
         let columns = testing::uneven_columns();
-        testing::holds_together(&Octree::of(&columns, COARSE), &columns);
+        testing::check_choice(&Octree::of(&columns, COARSE), &columns);
     }
 
     #[test]
@@ -246,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn splitting_alone_changes_nothing_that_is_emptied() {
+    fn splitting_alone_does_not_change_the_void() {
         let columns = testing::uneven_columns();
         let octree = Octree::of(&columns, COARSE);
         let x = testing::some_numbers(octree.count());
@@ -270,12 +271,12 @@ mod tests {
             },
         );
         assert_eq!((octree.finest_level(), octree.count()), (4, 64));
-        // Inside, each of three directions has 3 · 16 pairs.
+        // Each of the three directions has 3 · 16 pairs inside.
         assert_eq!(octree.neighbours().len(), 144);
     }
 
     #[test]
-    fn one_fractional_leaf_is_split_to_the_finest_level_and_the_others_merge_back() {
+    fn one_fractional_leaf_is_split_and_the_others_merge_back() {
         let columns = cube();
         let octree = Octree::of(
             &columns,
@@ -289,13 +290,13 @@ mod tests {
         x[3] = 0.4;
         let (finer, shares) = octree.refined(&x, 1e-3).unwrap();
         assert_eq!(finer.count(), 15);
-        // A corner of the split leaf: inside 3 · 4 pairs, and on three of its faces 4 with one
-        // large neighbour each.
+        // The split leaf lies at a corner. It has 3 · 4 pairs inside, and 4 on each of three faces
+        // with one large neighbour. The other leaves have 9.
         assert_eq!(finer.neighbours().len(), 12 + 12 + 9);
         let mut shares: Vec<f64> = shares.iter().map(|_| 0.0).collect();
         shares[0] = 0.5;
         let (again, _) = finer.refined(&shares, 1e-3).unwrap();
-        // The first leaf is split in eight, the eight children are one again.
+        // The first leaf is split into eight, and the eight children are merged again.
         assert_eq!(again.count(), 8 + 7);
         assert!(octree.refined(&[0.0; 8], 1e-3).is_none());
     }

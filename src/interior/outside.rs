@@ -1,36 +1,36 @@
-//! Columns from which what a quadric takes up is taken away.
+//! The columns outside a quadric.
 
-use super::Columns;
+use super::columns::Columns;
 use crate::geom::Quadric;
 
-/// Intervals shorter than this are dropped, mm: rounding where a root meets an interval's end.
+/// Length below which an interval is dropped, mm: rounding at a root that meets an interval's end.
 const SLIVER_MM: f64 = 1e-6;
 
 impl Columns {
-    /// The columns where the quadric is not positive, exact in z; in x and y the quadric has its
-    /// cell mean, as in [`super::moments_where_positive`], so that the two add up to the columns
-    /// themselves.
+    /// Returns the part of the columns in which the quadric is not positive, exact in z. In x and y
+    /// the quadric has its cell mean, as in [`super::moments_where_positive`], so that the two
+    /// parts add up to the columns.
     pub fn outside(&self, quadric: &Quadric) -> Self {
-        let mut left = Self {
+        let mut rest = Self {
             pitch_mm: self.pitch_mm,
             starts: vec![0],
             ..Self::default()
         };
         for (index, &center) in self.centers.iter().enumerate() {
-            let before = left.intervals.len();
+            let before = rest.intervals.len();
             let coefficients = self.along_z(quadric, center);
             for &interval in self.intervals_of(index) {
-                push_not_positive(coefficients, interval, &mut left.intervals);
+                push_not_positive(coefficients, interval, &mut rest.intervals);
             }
-            if left.intervals.len() > before {
-                left.centers.push(center);
-                left.starts.push(left.intervals.len() as u32);
+            if rest.intervals.len() > before {
+                rest.centers.push(center);
+                rest.starts.push(rest.intervals.len() as u32);
             }
         }
-        left
+        rest
     }
 
-    /// The quadric as c₀ + c₁z + c₂z² over the cell of a column.
+    /// Returns the quadric as c₀ + c₁z + c₂z² over the cell of a column.
     fn along_z(&self, quadric: &Quadric, [x, y]: [f64; 2]) -> [f64; 3] {
         let [g, gx, gy, gz, gxy, gyz, gxz, gxx, gyy, gzz] = quadric.0;
         let [xx, yy] = [
@@ -67,8 +67,8 @@ fn push_not_positive(
     }
 }
 
-/// The real roots of c₀ + c₁z + c₂z², ascending, without cancellation; infinite where there are
-/// fewer.
+/// Returns the real roots of c₀ + c₁z + c₂z², ascending, without cancellation. A vanishing leading
+/// term sends one root to infinity.
 fn roots([c0, c1, c2]: [f64; 3]) -> Vec<f64> {
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
     if discriminant <= 0.0 {
@@ -85,7 +85,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_inside_and_what_is_outside_add_up_to_everything() {
+    fn inside_and_outside_add_up_to_everything() {
         let mut columns = Columns {
             pitch_mm: [0.5, 1.0],
             starts: vec![0],
@@ -110,8 +110,8 @@ mod tests {
             let outside = columns.outside(&quadric).moments();
             let both = moments_where_positive(&columns, &quadric) + outside;
             for (sum, whole) in both.0.into_iter().zip(whole.0) {
-                // A crumb below the sliver's length is lost in some of 800 intervals, of 0.5 mm²
-                // each, at most 10 mm out.
+                // Slivers below the limit are lost in some of 800 intervals, of 0.5 mm² each, at
+                // most 10 mm from the origin.
                 assert!(
                     (sum - whole).abs() < 800.0 * 1e-6 * 0.5 * 100.0,
                     "{sum} {whole}"

@@ -1,58 +1,59 @@
-//! Stretches of one row of columns, worked on side by side: each step of the integration is one
-//! plain loop over all of them.
+//! Packs of stretches of one row of columns, integrated side by side: each step of the integration
+//! is one plain loop over the pack.
 //!
-//! The loops have no branches and no sums across stretches but in fixed lanes, so that the compiler
-//! makes vector instructions of them, and the bits are the same whatever those are.
+//! The loops have no branches, and sum across stretches only in fixed lanes. So the compiler can
+//! vectorise them, and the bits do not depend on the vector width.
 
 use super::section::Section;
 
-/// Stretches a pack holds: a row of a hundred columns fills two. Far fewer, and the loops'
-/// beginnings and ends show; far more, and the pack no longer lies in the nearest cache.
+/// Stretches in a pack; a row of a hundred columns fills two. With far fewer, the loops' overhead
+/// shows; with far more, the pack no longer fits the nearest cache.
 const SIZE: usize = 64;
-/// Terms added up side by side: two vectors of two.
+/// Terms added side by side: two vectors of two.
 const LANES: usize = 4;
 
-/// A surface counts as upright in a cell when q changes along the column by less than this part of
-/// what it changes across the cell. Much above 1, exact derivatives are replaced by means; much
-/// below, upright planes are not seen.
+/// Change of q along the column, as a share of its change across the cell, below which the surface
+/// counts as upright in the cell. With a ratio much above 1, exact derivatives are replaced by
+/// means; much below, upright planes are missed.
 const UPRIGHT_RATIO: f64 = 0.5;
 
-/// 1/√3, the place of the two Gauss points as a part of half an interval.
+/// Place of the two Gauss points as a share of half an interval: 1/√3.
 const GAUSS_POINT: f64 = 0.577_350_269_189_625_8;
 
-/// A product is several times as fast as a quotient.
+/// A third; a product is several times as fast as a quotient.
 const THIRD: f64 = 1.0 / 3.0;
 
-/// One number a stretch.
+/// One number for each stretch.
 type Numbers = [f64; SIZE];
 
 /// Sums over the stretches of one row, per unit of a cell's area.
 #[derive(Default)]
 pub(super) struct RowSums {
-    /// ∫1, x∫1, x²∫1, ∫z, x∫z, ∫z² over what is emptied.
+    /// ∫1, x∫1, x²∫1, ∫z, x∫z, ∫z² over the void.
     pub emptied: [f64; 6],
     /// xⁱ Σ zᵏ/|∂q/∂z| over the roots, at `[k][i]` for i + k ≤ 4.
     pub roots: [[f64; 5]; 5],
 }
 
-/// Stretches that may be emptied, of columns of one row, and what is known of each.
+/// Stretches of columns of one row, and the results for each.
 pub(super) struct Pack {
     count: usize,
     x: Numbers,
     bottom: Numbers,
     top: Numbers,
-    /// The z where q changes sign, kept to the stretch: q > 0 between the two, or everywhere but
-    /// between them.
+    /// Heights at which q changes sign, clamp to the stretch: q > 0 between the two, or
+    /// everywhere except between them.
     lower: Numbers,
     upper: Numbers,
-    /// 1/|∂q/∂z| at either; zero where there is none inside.
+    /// 1/|∂q/∂z| at either; zero if it is not inside the stretch.
     lower_weight: Numbers,
     upper_weight: Numbers,
-    /// ∫1, ∫z and ∫z² over what is emptied.
+    /// ∫1, ∫z and ∫z² over the void.
     emptied: [Numbers; 3],
 }
 
 impl Pack {
+    /// Returns an empty pack.
     pub fn new() -> Self {
         let none = [0.0; SIZE];
         Self {
@@ -68,7 +69,7 @@ impl Pack {
         }
     }
 
-    /// One more stretch; the pack must not be full.
+    /// Adds a stretch; the pack must not be full.
     #[inline]
     pub fn push(&mut self, x: f64, [bottom, top]: [f64; 2]) {
         (
@@ -79,25 +80,26 @@ impl Pack {
         self.count += 1;
     }
 
+    /// Returns whether the pack must be emptied before the next stretch.
     #[inline]
     pub fn is_full(&self) -> bool {
         self.count == SIZE
     }
 
-    /// Adds the stretches' part of the sums, and leaves the pack empty.
+    /// Adds the stretches' contribution to the sums, and empties the pack.
     pub fn empty_into<const DERIVATIVE: bool>(&mut self, section: &Section, sums: &mut RowSums) {
         let filled = self.fill_lanes();
         self.cross::<DERIVATIVE>(filled, section);
         self.add_emptied(filled, sums);
         if DERIVATIVE {
-            self.put_walls(filled, section);
+            self.replace_upright_roots(filled, section);
             self.add_roots(filled, sums);
         }
         self.count = 0;
     }
 
-    /// Fills the last lanes with stretches of no length, which add nothing; how many there are
-    /// then.
+    /// Fills the last lanes with stretches of no length, which add nothing. Returns the number of
+    /// stretches after that.
     fn fill_lanes(&mut self) -> usize {
         let filled = self.count.next_multiple_of(LANES).min(SIZE);
         for index in self.count..filled {
@@ -106,10 +108,10 @@ impl Pack {
         filled
     }
 
-    /// Finds the roots of q and the integrals over what it empties.
+    /// Finds the roots of q and the integrals over the void.
     ///
-    /// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one
-    /// root to infinity.
+    /// The quadratic formula is the stable one: nothing cancels, and a vanishing leading term sends
+    /// one root to infinity.
     fn cross<const DERIVATIVE: bool>(&mut self, filled: usize, section: &Section) {
         let Section { c0, c1, c2, .. } = *section;
         let (inverse, empties_outside, is_curved) = (c2.recip(), c2 >= 0.0, c2 != 0.0);
@@ -126,7 +128,7 @@ impl Pack {
             let is_ordered = first < second;
             let lower = either(is_real, either(is_ordered, first, second), bottom);
             let upper = either(is_real, either(is_ordered, second, first), bottom);
-            let (lo, hi) = (clamped(lower, bottom, top), clamped(upper, bottom, top));
+            let (lo, hi) = (clamp(lower, bottom, top), clamp(upper, bottom, top));
             let (inside, whole) = (powers_between(lo, hi), powers_between(bottom, top));
             // Without roots and without curvature q is the same everywhere.
             let is_outside =
@@ -143,10 +145,12 @@ impl Pack {
         }
     }
 
-    /// Where q hardly changes along an interval but does across its cell, the surface stands
-    /// upright in the cell and the column's own roots say nothing of it: there they are replaced by
-    /// its density, as two Gauss points of the interval.
-    fn put_walls(&mut self, filled: usize, section: &Section) {
+    /// Replaces the roots of upright surfaces.
+    ///
+    /// If q hardly changes along an interval but does across its cell, the surface is upright in
+    /// the cell. The column's own roots then say nothing about it. They are replaced by the
+    /// surface's density, as two Gauss points of the interval.
+    fn replace_upright_roots(&mut self, filled: usize, section: &Section) {
         let Section {
             c0,
             c1,
@@ -169,6 +173,7 @@ impl Pack {
         }
     }
 
+    /// Adds the integrals over the void.
     fn add_emptied(&self, filled: usize, sums: &mut RowSums) {
         let x = &self.x[..filled];
         let [one, z, zz] = &self.emptied;
@@ -178,6 +183,7 @@ impl Pack {
         add(&mut sums.emptied, &[s, sx, sxx, sz, sxz, szz]);
     }
 
+    /// Adds the sums over the roots.
     fn add_roots(&mut self, filled: usize, sums: &mut RowSums) {
         let [zero, one, two, three, four] = &mut sums.roots;
         add(zero, &self.next_power::<5>(filled));
@@ -187,8 +193,8 @@ impl Pack {
         add(four, &self.next_power::<1>(filled));
     }
 
-    /// Σ w xⁱ over all roots for i below T, and then multiplies the weights w by z: called again
-    /// and again it gives Σ w xⁱ zᵏ.
+    /// Returns Σ w xⁱ over all roots for i below T, and then multiplies the weights w by z.
+    /// Repeated calls give Σ w xⁱ zᵏ.
     fn next_power<const T: usize>(&mut self, filled: usize) -> [f64; T] {
         let both = &mut self.emptied[0];
         for (i, both) in both.iter_mut().enumerate().take(filled) {
@@ -200,13 +206,13 @@ impl Pack {
     }
 }
 
-/// A choice without a branch.
+/// Returns `yes` or `no` without a branch.
 #[inline]
 fn either(condition: bool, yes: f64, no: f64) -> f64 {
     if condition { yes } else { no }
 }
 
-/// Σ p xⁱ for i below T, in lanes.
+/// Returns Σ p xⁱ for i below T, summed in lanes.
 #[inline]
 fn times_powers<const T: usize>(p: &[f64], x: &[f64]) -> [f64; T] {
     let mut sums = [[0.0; LANES]; T];
@@ -233,13 +239,14 @@ fn add(sums: &mut [f64], terms: &[f64]) {
         .for_each(|(sum, term)| *sum += term);
 }
 
+/// Returns `z` kept to the interval, without a branch.
 #[inline]
-fn clamped(z: f64, low: f64, high: f64) -> f64 {
+fn clamp(z: f64, low: f64, high: f64) -> f64 {
     let above = either(z > low, z, low);
     either(above < high, above, high)
 }
 
-/// ∫1, ∫z and ∫z² from `low` to `high`.
+/// Returns ∫1, ∫z and ∫z² from `low` to `high`.
 #[inline]
 fn powers_between(low: f64, high: f64) -> [f64; 3] {
     let length = high - low;

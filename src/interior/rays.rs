@@ -1,37 +1,40 @@
-//! Rays as Wu, Kramer and Westermann have them: on every stretch of a vertical line one solid
-//! segment, by its two ends.
+//! The rays of Wu, Kramer and Westermann: on every stretch of a vertical line one solid segment, by
+//! its two ends.
 
 use rayon::prelude::*;
 
 use super::choice::Choice;
+use super::columns::Columns;
 use super::emptied::{Emptied, whole};
-use super::{BLOCK, Columns, block_sums, mean_on_column};
+use super::moments::{BLOCK, block_sums};
+use super::section::mean_on_column;
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// A segment shorter than this part of its stretch has vanished: its place no longer matters.
+/// Length of a segment, as a share of its stretch, below which it has vanished and its place no
+/// longer matters.
 const VANISHED_RATIO: f64 = 1e-6;
-/// A segment opens again where q is below minus this, in its own unit; what it may still gain is of
-/// its square.
+/// Depth of q below zero, in its own unit, from which a segment opens again. The gain that is left
+/// is of the order of its square.
 const WORTH_OPENING: f64 = 1e-4;
-/// How far below the top of its stretch a segment opens again at least, so that it has room to grow
-/// upward.
+/// Least distance from the top of its stretch at which a segment opens again, as a share of the
+/// stretch, so that it has room to grow upward.
 const ROOM_RATIO: f64 = 0.01;
 
-/// One stretch of a column that may be emptied, with a solid segment z₀ ≤ z ≤ z₁ in it: the ray-rep
-/// of an interior (Wu, Kramer, Westermann, "Shape interior modeling and mass property optimization
-/// using ray-reps", 2016).
+/// Stretches of columns that may be emptied, each with a solid segment z₀ ≤ z ≤ z₁ in it: the
+/// ray-rep of an interior (Wu, Kramer, Westermann, "Shape interior modeling and mass property
+/// optimization using ray-reps", 2016).
 ///
-/// What is emptied is below z₀ and above z₁. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their eq.
-/// 11, 13, 14) hold by construction: the numbers are t₀ and t₁ between 0 and 1, with
+/// The parts below z₀ and above z₁ are emptied. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their
+/// eq. 11, 13, 14) hold by construction: the numbers are t₀ and t₁ between 0 and 1, with
 ///
 /// ```text
 /// z₀ = z̲ + t₀ (z̄ − z̲),    z₁ = z₀ + t₁ (z̄ − z₀)
 /// ```
 ///
 /// A line that meets the region in several stretches has a segment in each. One segment is enough
-/// for every goal here: the best void is where a quadric is positive, which has two roots on a
-/// line, and is positive outside of them, since every goal likes less of ∫z².
+/// for every goal here: the best void is the region in which a quadric is positive. On a line the
+/// quadric has two roots and is positive outside of them, since every goal prefers a smaller ∫z².
 #[derive(Debug, Clone)]
 pub struct Rays<'a> {
     columns: &'a Columns,
@@ -49,7 +52,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    /// z₀ and z₁.
+    /// Returns z₀ and z₁.
     fn segment(&self, t: &[f64]) -> [f64; 2] {
         let z0 = self.bottom + t[0] * (self.top - self.bottom);
         [z0, z0 + t[1] * (self.top - z0)]
@@ -57,7 +60,7 @@ impl Stretch {
 }
 
 impl<'a> Rays<'a> {
-    /// The rays through the centres of the columns.
+    /// Returns the rays through the centres of the columns.
     pub fn of(columns: &'a Columns) -> Self {
         let of_column = |column: usize| {
             let stretch = move |&[bottom, top]: &[f64; 2]| Stretch {
@@ -83,9 +86,11 @@ impl<'a> Rays<'a> {
         }
     }
 
-    /// The numbers with every segment that has vanished where q is not least on its stretch moved
-    /// there; none where no segment would gain by that. A vanished segment does not feel where
-    /// material is wanted, so that an optimiser needs to be told.
+    /// Returns the numbers with vanished segments moved to the least q on their stretch; `None` if
+    /// no segment would gain by that.
+    ///
+    /// A vanished segment has no derivative that shows where material is needed, so an optimiser
+    /// has to open it explicitly.
     pub fn reopened(&self, x: &[f64], quadric: &Quadric) -> Option<Vec<f64>> {
         let mut moved = x.to_vec();
         for (stretch, t) in self.stretches.iter().zip(moved.chunks_exact_mut(2)) {
@@ -118,7 +123,8 @@ impl<'a> Rays<'a> {
         self.columns.pitch_mm[0] * self.columns.pitch_mm[1]
     }
 
-    /// The derivative of ∫q over what is emptied by t₀ and t₁, over the weight: q at both ends.
+    /// Returns the derivative of ∫q over the void with respect to t₀ and t₁, over the weight: from
+    /// q at both ends.
     fn derivative_of(&self, stretch: &Stretch, t: &[f64], quadric: &Quadric) -> [f64; 2] {
         let [c0, c1, c2] = mean_on_column(self.columns, stretch.column as usize, quadric);
         let [q0, q1] = stretch.segment(t).map(|z| c0 + z * (c1 + z * c2));
@@ -184,16 +190,16 @@ mod tests {
     #[test]
     fn rays_have_the_moments_of_their_pieces_and_the_slopes_of_differences() {
         let columns = testing::uneven_columns();
-        testing::holds_together(&Rays::of(&columns), &columns);
+        testing::check_choice(&Rays::of(&columns), &columns);
     }
 
     #[test]
-    fn a_vanished_segment_opens_again_where_material_is_wanted_and_nowhere_else() {
+    fn a_vanished_segment_opens_again_only_if_material_is_needed_there() {
         let columns = testing::uneven_columns();
         let rays = Rays::of(&columns);
         let wanted = Quadric([-1.0, 0., 0., 0., 0., 0., 0., 0., 0., 1.0]);
-        let all_gone = [1.0, 0.0].repeat(rays.count() / 2);
-        let moved = rays.reopened(&all_gone, &wanted).unwrap();
+        let all_vanished = [1.0, 0.0].repeat(rays.count() / 2);
+        let moved = rays.reopened(&all_vanished, &wanted).unwrap();
         for (stretch, t) in rays.stretches.iter().zip(moved.chunks_exact(2)) {
             let reaches = stretch.bottom < 1.0 && stretch.top > -1.0;
             let z = stretch.segment(t)[0];

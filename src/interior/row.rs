@@ -1,15 +1,15 @@
-//! One row of columns: what is left of the inside once every piece that must stay is taken away.
+//! Carves one row of columns: subtracts every piece that must stay from the inside of the solid.
 
 use std::ops::Range;
 
 use crate::shell::{OnRow, Piece, RowCrossings, RowForm, Ruler, Shell, inside_stretches};
 
-/// Intervals shorter than this fraction of the wall are rounding between a slab and the surface,
-/// and are dropped. Above, thin parts of the region would be lost; below, the count of intervals
-/// would grow by slivers of 1e-14 mm.
+/// Length, as a share of the wall, below which an interval is dropped as rounding between a slab
+/// and the surface. With more, thin parts of the region would be lost; with less, slivers of 1e-14
+/// mm would remain.
 const SLIVER_RATIO: f64 = 1e-6;
 
-/// The intervals of a row's columns while they are carved; made to be used again row after row.
+/// The intervals of a row's columns while they are carved. Reused from row to row.
 #[derive(Debug, Default)]
 pub(super) struct Row {
     crossings: RowCrossings,
@@ -24,11 +24,11 @@ pub(super) struct Reaching<'a> {
 }
 
 impl Row {
-    /// Makes the intervals those of the columns over `xs` at `y_mm`.
+    /// Sets the intervals to those of the columns over `xs` at `y_mm` that may be emptied.
     pub fn carve(&mut self, shell: &Shell, reaching: Reaching, y_mm: f64, xs: &Ruler) {
         self.fill(shell, reaching.triangles, y_mm, xs);
         for &piece in reaching.pieces {
-            self.take_away(&shell.pieces()[piece as usize], y_mm, xs);
+            self.subtract_piece(&shell.pieces()[piece as usize], y_mm, xs);
         }
         let sliver_mm = SLIVER_RATIO * shell.wall_mm();
         for intervals in &mut self.intervals {
@@ -36,13 +36,13 @@ impl Row {
         }
     }
 
-    /// The columns with something left, by index, and their intervals.
+    /// Returns the columns with something left, by index, and their intervals.
     pub fn occupied(&self) -> impl Iterator<Item = (usize, &[[f64; 2]])> {
         let columns = self.intervals.iter().map(Vec::as_slice).enumerate();
         columns.filter(|(_, intervals)| !intervals.is_empty())
     }
 
-    /// Makes the intervals the stretches inside the solid.
+    /// Sets the intervals to the stretches inside the solid.
     fn fill(&mut self, shell: &Shell, triangles: &[u32], y_mm: f64, xs: &Ruler) {
         self.crossings.find(shell.surface(), triangles, y_mm, xs);
         self.intervals.resize_with(xs.len(), Vec::new);
@@ -52,21 +52,21 @@ impl Row {
         }
     }
 
-    /// Takes one piece away from every column it meets.
-    fn take_away(&mut self, piece: &Piece, y_mm: f64, xs: &Ruler) {
+    /// Subtracts one piece from every column that it meets.
+    fn subtract_piece(&mut self, piece: &Piece, y_mm: f64, xs: &Ruler) {
         let Some((x_range_mm, form)) = piece.on_row(y_mm) else {
             return;
         };
         let range = xs.range(x_range_mm);
         match form {
-            RowForm::Slab(slab) => self.take_away_form(range, xs, &slab),
-            RowForm::Cylinder(cylinder) => self.take_away_form(range, xs, &cylinder),
-            RowForm::Ball(ball) => self.take_away_form(range, xs, &ball),
+            RowForm::Slab(slab) => self.subtract_form(range, xs, &slab),
+            RowForm::Cylinder(cylinder) => self.subtract_form(range, xs, &cylinder),
+            RowForm::Ball(ball) => self.subtract_form(range, xs, &ball),
         }
     }
 
-    /// Takes one cut piece away from the columns of a range.
-    fn take_away_form(&mut self, range: Range<usize>, xs: &Ruler, form: &impl OnRow) {
+    /// Subtracts one cut piece from the columns of a range.
+    fn subtract_form(&mut self, range: Range<usize>, xs: &Ruler, form: &impl OnRow) {
         for column in range {
             let intervals = &mut self.intervals[column];
             if !intervals.is_empty() {
@@ -76,8 +76,8 @@ impl Row {
     }
 }
 
-/// Takes the open stretch (bottom, top) out of ascending disjoint intervals; nothing if not bottom
-/// < top.
+/// Subtracts the open stretch (bottom, top) from ascending disjoint intervals. Does nothing unless
+/// bottom < top.
 #[inline]
 pub(super) fn subtract(intervals: &mut Vec<[f64; 2]>, [bottom, top]: [f64; 2]) {
     let mut index = 0;
@@ -129,7 +129,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_left_after_many_stretches_is_what_none_of_them_covers() {
+    fn the_rest_after_many_stretches_is_covered_by_none_of_them() {
         let mut random = Random::new(3);
         for _ in 0..200 {
             let stretches: Vec<[f64; 2]> = (0..20)

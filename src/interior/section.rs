@@ -1,22 +1,23 @@
-//! A quadric over one row of columns: on each of them a quadratic in z.
+//! A quadric over one row of columns: a quadratic in z on each column.
 
-use super::Columns;
+use super::columns::Columns;
 use crate::geom::Quadric;
 
 /// q(x, z) = c₀(x) + c₁(x) z + c₂ z² at one y, by the means over cells in x and y.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Section {
-    /// c₀ by powers of x.
+    /// Coefficients of c₀ by powers of x.
     pub c0: [f64; 3],
-    /// c₁ by powers of x.
+    /// Coefficients of c₁ by powers of x.
     pub c1: [f64; 2],
+    /// The constant c₂.
     pub c2: f64,
-    /// The halves of a cell's sides times ∂q/∂x = a₀ + a₁x + a₂z and ∂q/∂y = b₀ + b₁x + b₂z.
+    /// Half of a cell's sides times ∂q/∂x = a₀ + a₁x + a₂z and ∂q/∂y = b₀ + b₁x + b₂z.
     pub across: [[f64; 3]; 2],
 }
 
 impl Section {
-    /// The quadric over the row at `y`.
+    /// Returns the quadric over the row at `y`.
     pub fn new(quadric: &Quadric, pitch_mm: [f64; 2], y: f64) -> Self {
         let [g, gx, gy, gz, gxy, gyz, gxz, gxx, gyy, gzz] = quadric.0;
         let [var_x, var_y] = pitch_mm.map(cell_variance);
@@ -35,7 +36,7 @@ impl Section {
         }
     }
 
-    /// The quadratic on the column at `x`, by powers of z.
+    /// Returns the quadratic on the column at `x`, by powers of z.
     pub fn at(&self, x: f64) -> [f64; 3] {
         [
             self.c0[0] + x * (self.c0[1] + x * self.c0[2]),
@@ -45,32 +46,43 @@ impl Section {
     }
 }
 
-/// The mean of x² over a cell of width `pitch_mm` centred at zero.
+/// Returns the mean of x² over a cell of width `pitch_mm` centred at zero, mm².
 pub(super) fn cell_variance(pitch_mm: f64) -> f64 {
     pitch_mm * pitch_mm / 12.0
 }
 
-/// q on a column as c₀ + c₁z + c₂z², by its cell's means in x and y.
+/// Returns q on a column as c₀ + c₁z + c₂z², by its cell's means in x and y.
 pub(super) fn mean_on_column(columns: &Columns, column: usize, quadric: &Quadric) -> [f64; 3] {
     let [x, y] = columns.centers[column];
     Section::new(quadric, columns.pitch_mm, y).at(x)
 }
 
-/// Where q changes sign on a column, and whether it is positive outside of the two or between them.
+/// The sign changes of q on a column.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Crossing {
+    /// Roots, ascending; equal if there are none.
+    pub roots: [f64; 2],
+    /// True if q is positive outside of the roots, false if it is between them.
+    pub is_positive_outside: bool,
+}
+
+/// Returns the sign changes of q on a column.
 ///
-/// By the stable quadratic formula: no cancellation, and a vanishing leading term sends one root to
-/// infinity.
-pub(super) fn crossing_of_column(
-    columns: &Columns,
-    quadric: &Quadric,
-    column: usize,
-) -> ([f64; 2], bool) {
+/// The quadratic formula is the stable one: nothing cancels, and a vanishing leading term sends one
+/// root to infinity.
+pub(super) fn crossing_of_column(columns: &Columns, quadric: &Quadric, column: usize) -> Crossing {
     let [c0, c1, c2] = mean_on_column(columns, column, quadric);
     let discriminant = c1 * c1 - 4.0 * c2 * c0;
     if discriminant <= 0.0 {
-        return ([0.0; 2], c2 > 0.0 || (c2 == 0.0 && c0 > 0.0));
+        return Crossing {
+            roots: [0.0; 2],
+            is_positive_outside: c2 > 0.0 || (c2 == 0.0 && c0 > 0.0),
+        };
     }
     let half = -0.5 * (c1 + discriminant.sqrt().copysign(c1));
     let (one, other) = (half / c2, c0 / half);
-    ([one.min(other), one.max(other)], c2 >= 0.0)
+    Crossing {
+        roots: [one.min(other), one.max(other)],
+        is_positive_outside: c2 >= 0.0,
+    }
 }

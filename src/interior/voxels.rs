@@ -1,15 +1,15 @@
-//! Voxels: every column cut into slices, each with the share of it that is emptied.
+//! Voxels: every column cut into slices, each emptied by a share.
 
-use super::Columns;
 use super::cells::Cells;
 use super::choice::Choice;
+use super::columns::Columns;
 use super::emptied::{Emptied, Piece};
 use crate::geom::Quadric;
 use crate::mass::Moments;
 
-/// Cells of one column's cross-section and a given height, the voxel form that Wu, Kramer and
-/// Westermann measure their rays against (their Table 2). At the ends of an interval a voxel is as
-/// high as what is left of it, so that all of them together are the columns, exactly.
+/// Cells of one column's cross-section and a given height: the voxels with which Wu, Kramer and
+/// Westermann compare their rays (their Table 2). The last voxels of an interval are cut at its
+/// ends, so that all voxels together are exactly the columns.
 #[derive(Debug, Clone)]
 pub struct Voxels<'a> {
     columns: &'a Columns,
@@ -26,7 +26,7 @@ struct Slice {
 }
 
 impl<'a> Voxels<'a> {
-    /// The columns cut at all multiples of `height_mm`, which must be positive.
+    /// Returns the columns cut at all multiples of `height_mm`, which must be positive.
     pub fn of(columns: &'a Columns, height_mm: f64) -> Self {
         let of_column = |column: usize| {
             let intervals = columns.intervals_of(column).iter();
@@ -46,7 +46,7 @@ impl<'a> Voxels<'a> {
     }
 }
 
-/// An interval of a column cut at the multiples of a height.
+/// Returns an interval of a column cut at the multiples of a height.
 fn slices(column: usize, [bottom, top]: [f64; 2], height: f64) -> impl Iterator<Item = Slice> {
     let (first, last) = ((bottom / height).floor(), (top / height).ceil());
     (0..(last - first) as usize).filter_map(move |i| {
@@ -99,7 +99,7 @@ mod tests {
     #[test]
     fn voxels_have_the_moments_of_their_pieces_and_the_slopes_of_differences() {
         let columns = testing::uneven_columns();
-        testing::holds_together(&Voxels::of(&columns, 0.7), &columns);
+        testing::check_choice(&Voxels::of(&columns, 0.7), &columns);
     }
 
     #[test]

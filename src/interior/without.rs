@@ -1,24 +1,23 @@
-//! Columns from which a body is taken away: what must stay solid though the wall would let it be
-//! emptied.
+//! The columns without a body that must stay solid although the wall would let it be emptied.
 
-use super::Columns;
+use super::columns::Columns;
 use super::row::subtract;
 use crate::mesh::TriMesh;
 use crate::shell::{RowCrossings, Ruler, inside_stretches};
 
-/// Intervals shorter than this are dropped, mm: rounding where the body's surface meets an
+/// Length below which an interval is dropped, mm: rounding at the body's surface that meets an
 /// interval's end.
 const SLIVER_MM: f64 = 1e-6;
 
 impl Columns {
-    /// The columns less the inside of a closed mesh (goal frame, mm): exact along every column, as
-    /// the columns are.
+    /// Returns the columns less the inside of a closed mesh (goal frame, mm), exact along every
+    /// column.
     ///
-    /// Columns with nothing left are left out. Costs a pass over the columns, and one over the mesh
-    /// for each row it reaches.
+    /// Columns with nothing rest are rest out. Costs a pass over the columns, and one over the mesh
+    /// for each row that it reaches.
     pub fn without(&self, body: &TriMesh) -> Self {
         let mut carver = Carver::new(self, body);
-        let mut left = Self {
+        let mut rest = Self {
             pitch_mm: self.pitch_mm,
             starts: vec![0],
             ..Self::default()
@@ -30,22 +29,22 @@ impl Columns {
             intervals.extend_from_slice(self.intervals_of(column));
             carver.carve(center, &mut intervals);
             if !intervals.is_empty() {
-                left.centers.push(center);
-                left.intervals.extend_from_slice(&intervals);
-                left.starts.push(left.intervals.len() as u32);
+                rest.centers.push(center);
+                rest.intervals.extend_from_slice(&intervals);
+                rest.starts.push(rest.intervals.len() as u32);
             }
         }
-        left
+        rest
     }
 }
 
-/// The body as the columns see it, one row at a time.
+/// The body's crossings with the columns, one row at a time.
 struct Carver<'a> {
     body: &'a TriMesh,
     triangles: Vec<u32>,
     xs: Ruler,
     half_pitch_mm: f64,
-    /// The row that the crossings are of.
+    /// y of the row to which the crossings belong, mm.
     row_mm: f64,
     crossings: RowCrossings,
 }
@@ -63,9 +62,9 @@ impl<'a> Carver<'a> {
         }
     }
 
-    /// Takes the body away from the intervals of one column.
+    /// Subtracts the body from the intervals of one column.
     fn carve(&mut self, [x, y]: [f64; 2], intervals: &mut Vec<[f64; 2]>) {
-        // Half a pitch below a column there is no other, so rounding cannot take its neighbour for
+        // There is no other column within half a pitch, so rounding cannot mistake a neighbour for
         // it.
         let column = self.xs.index_at_or_after(x - self.half_pitch_mm);
         if column >= self.xs.len() || self.xs.at(column) > x + self.half_pitch_mm {
