@@ -2,27 +2,27 @@
 
 use std::f64::consts::PI;
 
-use super::Moments;
+use super::moments::Moments;
 use crate::geom::{Frame, Matrix, Point, Vector};
 
-/// A round bar: a cylinder between two points, with or without a hole along it, its far end flat or
-/// a half ball.
+/// A round bar: a cylinder between two points, with or without a hole along it. Its far end is flat
+/// or a half ball.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundBar {
     /// One end, on the axis.
     pub from: Point,
-    /// The other end, on the axis; of a rounded end its outermost point.
+    /// The other end, on the axis; for a rounded end its outermost point.
     pub to: Point,
-    /// The outer radius, mm; a rounded bar is no shorter.
+    /// Outer radius, mm; a rounded bar is at least as long.
     pub radius_mm: f64,
-    /// The radius of the hole along it, mm; zero for none.
+    /// Radius of the hole along it, mm; zero for none.
     pub hole_mm: f64,
-    /// Whether the end at `to` is a half ball; such a bar has no hole.
+    /// True if the end at `to` is a half ball; such a bar has no hole.
     pub is_round: bool,
 }
 
 impl RoundBar {
-    /// A plain cylinder.
+    /// Returns a plain cylinder.
     pub fn plain(from: Point, to: Point, radius_mm: f64) -> Self {
         Self {
             from,
@@ -33,15 +33,13 @@ impl RoundBar {
         }
     }
 
-    /// From end to end, mm.
+    /// Returns the length from end to end, mm.
     pub fn length_mm(&self) -> f64 {
         (self.to - self.from).norm()
     }
 
-    /// The ten moments of its volume, in the coordinates of its ends; closed forms, exact to
-    /// rounding.
-    ///
-    /// A bar of no length has none.
+    /// Returns the ten moments of the bar's volume, in the coordinates of its ends. Closed forms,
+    /// exact to rounding; zero for a bar of no length.
     pub fn moments(&self) -> Moments {
         let length_mm = self.length_mm();
         if length_mm == 0.0 {
@@ -63,7 +61,7 @@ impl RoundBar {
     }
 }
 
-/// The cylinder about z that stands on z = 0.
+/// Returns the moments of the cylinder about z that stands on z = 0.
 fn cylinder(radius_mm: f64, height_mm: f64) -> Moments {
     let volume = PI * radius_mm * radius_mm * height_mm;
     let across = 0.25 * radius_mm * radius_mm;
@@ -72,7 +70,8 @@ fn cylinder(radius_mm: f64, height_mm: f64) -> Moments {
     middle.translated(&(Vector::z() * (0.5 * height_mm)))
 }
 
-/// The half ball over z = 0: its centre lies 3r/8 above, ∫x² = ∫y² = ∫z² = 2πr⁵/15.
+/// Returns the moments of the half ball over z = 0: its centre lies 3r/8 above, ∫x² = ∫y² = ∫z² =
+/// 2πr⁵/15.
 fn half_ball(radius_mm: f64) -> Moments {
     let volume = 2.0 / 3.0 * PI * radius_mm.powi(3);
     let first = Vector::z() * (volume * 0.375 * radius_mm);
@@ -93,15 +92,15 @@ mod tests {
     fn a_cylinder_has_the_moments_of_a_prism_with_many_sides() {
         let bar = RoundBar::plain(Point::new(0.0, 0.0, 0.0), Point::new(0.0, 0.0, 12.0), 3.0);
         let prism = moments_of_mesh(&primitives::cylinder(3.0, 12.0, 4096));
-        // A prism of n sides falls short by (2π/n)²/6 of its area, 4e-7, and twice that of its
-        // squares across.
+        // A prism of n sides lacks (2π/n)²/6 of its area, 4e-7, and twice that of its second
+        // moments across.
         for (exact, near) in bar.moments().0.into_iter().zip(prism.0) {
             assert!((exact - near).abs() < 1e-6 * prism.0[9], "{exact} {near}");
         }
     }
 
     #[test]
-    fn a_tube_across_has_its_textbook_inertia() {
+    fn a_tube_along_x_has_its_textbook_inertia() {
         let (from, to) = (Point::new(1.0, 2.0, 3.0), Point::new(9.0, 2.0, 3.0));
         let tube = RoundBar {
             hole_mm: 2.0,
@@ -119,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn a_bar_as_long_as_its_radius_with_a_round_end_is_half_a_ball() {
+    fn a_rounded_bar_as_long_as_its_radius_is_half_a_ball() {
         let half = RoundBar {
             is_round: true,
             ..RoundBar::plain(Point::origin(), Point::new(0.0, 0.0, -2.0), 2.0)

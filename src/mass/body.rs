@@ -1,32 +1,32 @@
 //! A rigid body: mass, centre and inertia tensor, and its principal axes.
 
-use super::Moments;
+use super::moments::Moments;
 use crate::geom::{Frame, Matrix, Point, Vector};
 
 /// The mass properties of a rigid body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Body {
-    /// The mass, g.
+    /// Mass, g.
     pub mass_g: f64,
-    /// The centre of mass, mm.
+    /// Centre of mass, mm.
     pub center: Point,
-    /// The inertia tensor about the centre of mass, g·mm².
+    /// Inertia tensor about the centre of mass, g·mm².
     pub inertia_g_mm2: Matrix,
 }
 
 /// Principal moments and axes of a body, moments ascending.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Principal {
-    /// The principal moments I_a ≤ I_b ≤ I_c about the centre of mass, g·mm².
+    /// Principal moments I_a ≤ I_b ≤ I_c about the centre of mass, g·mm².
     pub moments_g_mm2: [f64; 3],
-    /// The matching unit axes as columns.
+    /// Matching unit axes as columns.
     pub axes: Matrix,
 }
 
 impl Body {
-    /// The body that fills a region of these moments with a material of `density_g_mm3`.
+    /// Returns the body that fills a region of these moments with a material of `density_g_mm3`.
     ///
-    /// The tensor is I = tr(S)·1 − S with S the central second moments (Spin-It eq. 4 and after).
+    /// The tensor is I = tr(S)·1 − S with S the central second moments (Spin-It, eq. 4 and after).
     pub fn new(moments: &Moments, density_g_mm3: f64) -> Self {
         let center = moments.centroid();
         let central = moments.translated(&-center.coords).second() * density_g_mm3;
@@ -37,7 +37,7 @@ impl Body {
         }
     }
 
-    /// The principal moments, ascending, and their axes.
+    /// Returns the principal moments, ascending, and their axes.
     pub fn principal(&self) -> Principal {
         let eigen = self.inertia_g_mm2.symmetric_eigen();
         let mut order = [0, 1, 2];
@@ -48,7 +48,7 @@ impl Body {
         }
     }
 
-    /// The same body seen in the coordinates of `frame`.
+    /// Returns the same body in the coordinates of `frame`.
     pub fn in_frame(&self, frame: &Frame) -> Self {
         Self {
             mass_g: self.mass_g,
@@ -57,7 +57,8 @@ impl Body {
         }
     }
 
-    /// How far the centre of mass lies from the line through `origin` along the unit `axis`, mm.
+    /// Returns the distance of the centre of mass from the line through `origin` along the unit
+    /// `axis`, mm.
     pub fn axis_offset_mm(&self, origin: &Point, axis: &Vector) -> f64 {
         (self.center - origin).cross(axis).norm()
     }

@@ -2,24 +2,26 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Moments;
+use super::moments::Moments;
 use crate::geom::{Matrix, Point, Vector};
 
-/// A flat region by its area, centre and spread: all that a thin film of it has of mass properties.
+/// A flat region by its area, centre and second moments. They determine all mass properties of a
+/// thin film on it.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 pub struct FlatFace {
-    /// mm².
+    /// Area, mm².
     pub area_mm2: f64,
-    /// Its centroid, model frame, mm.
+    /// Centroid, model frame, mm.
     pub center_mm: [f64; 3],
     /// ∫ (x − centre)(x − centre)ᵀ over the area, mm⁴.
     pub squares_mm4: [[f64; 3]; 3],
 }
 
 impl FlatFace {
-    /// The face that these triangles cover, each with a sign: −1 where it is taken away. Closed
-    /// form: over a triangle of area A with corners v and their sum s, ∫ x xᵀ = A (Σ v vᵀ + s
-    /// sᵀ)/12.
+    /// Returns the face that these triangles cover. Each has a sign: −1 if it is subtracted.
+    ///
+    /// Closed form: over a triangle of area A with corners v and their sum s, ∫ x xᵀ = A (Σ v vᵀ +
+    /// s sᵀ)/12.
     pub fn of_triangles(triangles: impl IntoIterator<Item = ([Point; 3], f64)>) -> Self {
         let (mut area, mut first, mut second) = (0.0, Vector::zeros(), Matrix::zeros());
         for (corners, sign) in triangles {
@@ -49,8 +51,8 @@ impl FlatFace {
         }
     }
 
-    /// The moments of a film of this thickness on it, model frame: of a sheet, exact but for
-    /// thickness²/12 in its squares across.
+    /// Returns the moments of a film of this thickness on the face, model frame. The film counts as
+    /// a sheet, so thickness²/12 is missing in its second moment across.
     pub fn film(&self, thickness_mm: f64) -> Moments {
         let squares = Matrix::from(self.squares_mm4) * thickness_mm;
         let about_center =
@@ -87,7 +89,7 @@ mod tests {
         };
         let solid = thin([1.0, 2.0], [7.0, 5.0]) - thin([2.0, 3.0], [4.0, 4.0]);
         for (film, solid) in face.film(t).0.into_iter().zip(solid.0) {
-            // The sheet has no thickness: 16 t · t²/12, 1.3e-9 mm⁵, is missing across.
+            // The sheet has no thickness, so 16 t · t²/12 = 1.3e-9 mm⁵ is missing across.
             assert!((film - solid).abs() < 2e-9, "{film} {solid}");
         }
         assert_eq!(FlatFace::of_triangles([]), FlatFace::default());

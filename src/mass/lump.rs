@@ -1,41 +1,42 @@
-//! A stock part as a lump of declared mass: its shape tells how the mass lies about its centre.
+//! A stock part as a lump of declared mass. Its shape gives the distribution of the mass about its
+//! centre.
 
 use std::f64::consts::PI;
 
 use serde::{Deserialize, Serialize};
 
-use super::Moments;
+use super::moments::Moments;
 use crate::geom::{Matrix, Point, Vector};
 
-/// The sizes of a stock part, mm. Its axis is told with its place; a ball needs none.
+/// The shape and sizes of a stock part, mm. Its axis is given with its place; a ball needs none.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case", tag = "kind", deny_unknown_fields)]
 pub enum LumpShape {
     /// A ball.
     Ball {
-        /// Its diameter.
+        /// Diameter, mm.
         diameter_mm: f64,
     },
     /// A round disc, such as a coin.
     Disc {
-        /// Its diameter.
+        /// Diameter, mm.
         diameter_mm: f64,
-        /// Its height along the axis.
+        /// Height along the axis, mm.
         thickness_mm: f64,
     },
     /// A hexagonal prism with a round bore, such as a nut.
     HexNut {
-        /// Between two opposite flats.
+        /// Distance between two opposite flats, mm.
         across_flats_mm: f64,
-        /// The diameter of a plain bore that takes away as much as the thread does.
+        /// Diameter of a plain bore that removes as much material as the thread does, mm.
         bore_mm: f64,
-        /// Its height along the axis.
+        /// Height along the axis, mm.
         thickness_mm: f64,
     },
 }
 
 impl LumpShape {
-    /// Every size, by name; all must be positive.
+    /// Returns every size with its name; all must be positive.
     pub fn sizes_mm(&self) -> Vec<(&'static str, f64)> {
         match *self {
             Self::Ball { diameter_mm } => vec![("diameter_mm", diameter_mm)],
@@ -58,7 +59,7 @@ impl LumpShape {
         }
     }
 
-    /// The radius of the round hole about its axis that it just passes, mm.
+    /// Returns the radius of the smallest round hole about its axis that it passes through, mm.
     pub fn radius_mm(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } | Self::Disc { diameter_mm, .. } => diameter_mm / 2.0,
@@ -68,7 +69,7 @@ impl LumpShape {
         }
     }
 
-    /// Half its extent along the axis, mm.
+    /// Returns half its extent along the axis, mm.
     pub fn half_height_mm(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } => diameter_mm / 2.0,
@@ -78,12 +79,12 @@ impl LumpShape {
         }
     }
 
-    /// Whether it is the same from every side, so that it needs no axis.
+    /// Returns whether it is the same from every side, so that it needs no axis.
     pub fn is_ball(&self) -> bool {
         matches!(self, Self::Ball { .. })
     }
 
-    /// Its volume, mm³.
+    /// Returns its volume, mm³.
     pub fn volume_mm3(&self) -> f64 {
         match *self {
             Self::Ball { diameter_mm } => PI / 6.0 * diameter_mm.powi(3),
@@ -99,8 +100,8 @@ impl LumpShape {
         }
     }
 
-    /// The mean squares of the distance from the middle plane that holds the axis, and from the one
-    /// across it, mm², of a homogeneous body.
+    /// Returns, for a homogeneous body, the mean squared distance from a plane that holds the axis
+    /// and from the middle plane across the axis, mm².
     fn mean_squares_mm2(&self) -> [f64; 2] {
         match *self {
             Self::Ball { diameter_mm } => [diameter_mm * diameter_mm / 20.0; 2],
@@ -123,7 +124,8 @@ impl LumpShape {
     }
 }
 
-/// The area of a bored hexagon, mm², and its second moment about a line through its middle, mm⁴.
+/// Returns the area of a bored hexagon, mm², and its second moment about a line through its middle,
+/// mm⁴.
 fn hexagon(across_flats_mm: f64, bore_mm: f64) -> [f64; 2] {
     let (flats2, bore2) = (across_flats_mm * across_flats_mm, bore_mm * bore_mm);
     let (root3, eighth) = (3f64.sqrt(), PI / 4.0);
@@ -136,20 +138,20 @@ fn hexagon(across_flats_mm: f64, bore_mm: f64) -> [f64; 2] {
 /// A part of declared mass at a declared place.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Lump {
-    /// Its shape.
+    /// Shape.
     pub shape: LumpShape,
-    /// g.
+    /// Mass, g.
     pub mass_g: f64,
-    /// Its centre, model frame, mm.
+    /// Centre, model frame, mm.
     pub center_mm: [f64; 3],
-    /// Its axis, model frame; any length but zero.
+    /// Axis, model frame; any length except zero.
     pub axis: [f64; 3],
 }
 
 impl Lump {
-    /// The moments, model frame, of a body of `density_g_mm3` that has the same mass, centre and
-    /// tensor: what it adds to a print of that density. Exact for homogeneous parts of these
-    /// shapes.
+    /// Returns the moments, model frame, of a body of `density_g_mm3` with the same mass, centre
+    /// and inertia tensor. They are what the lump adds to a print of that density. Exact for
+    /// homogeneous parts of these shapes.
     pub fn moments(&self, density_g_mm3: f64) -> Moments {
         let volume_mm3 = self.mass_g / density_g_mm3;
         let [across, along] = self.shape.mean_squares_mm2();
@@ -159,8 +161,9 @@ impl Lump {
             .translated(&Vector::from(self.center_mm))
     }
 
-    /// Points of its outline that decide whether it has room: the centre of a ball, and a distance
-    /// from there; the rims of the others, and none.
+    /// Returns points of its outline and a radius about them, mm, that decide whether it has room.
+    /// For a ball these are its centre and its radius, for other shapes the points of both rims and
+    /// zero.
     pub fn outline(&self) -> (Vec<Point>, f64) {
         let center = Point::from(self.center_mm);
         if self.shape.is_ball() {
@@ -177,10 +180,10 @@ impl Lump {
     }
 }
 
-/// Points of a rim. A chord between them lies 0.5 % of the radius inside.
+/// Number of points of a rim. A chord between them lies 0.5 % of the radius inside.
 const RIM_POINTS: u32 = 32;
 
-/// Points on both rims of a cylinder of this radius and half height about a unit axis, mm.
+/// Returns points on both rims of a cylinder of this radius and half height about a unit axis, mm.
 pub fn rims(center: &Point, axis: &Vector, [radius_mm, half_height_mm]: [f64; 2]) -> Vec<Point> {
     let (u, v) = crate::geom::orthonormal_basis(axis);
     let on_rim = |i: u32| {
@@ -200,7 +203,7 @@ mod tests {
     use crate::mass::moments_of_mesh;
     use crate::mesh::primitives;
 
-    /// The moments of a lump of 3 g at a place, printed at 1 g/cm³.
+    /// Returns the moments of a lump of 3 g at a place, printed at 1 g/cm³.
     fn moments(shape: LumpShape, axis: Vector) -> Moments {
         Lump {
             shape,
@@ -211,7 +214,7 @@ mod tests {
         .moments(1e-3)
     }
 
-    /// The same of a mesh about the origin with its axis along z.
+    /// Returns the same for a mesh about the origin with its axis along z.
     fn of_mesh(mesh: &crate::mesh::TriMesh, axis: Vector) -> Moments {
         let plain = moments_of_mesh(mesh);
         let frame = Frame::with_axis(Point::new(4.0, -2.0, 7.0), &axis);
@@ -229,7 +232,7 @@ mod tests {
     fn a_ball_and_a_disc_weigh_as_their_meshes_do() {
         let axis = Vector::new(1.0, 2.0, -0.5);
         let ball = moments(LumpShape::Ball { diameter_mm: 5.0 }, axis);
-        // An icosphere of level 5 falls short by 3e-4 in the squares of its radius.
+        // An icosphere of level 5 lacks 3e-4 of its squared radius.
         assert!(close(
             &ball,
             &of_mesh(&primitives::ball(&Point::origin(), 2.5, 5), axis),

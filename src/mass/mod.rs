@@ -1,12 +1,16 @@
-//! Mass properties: the ten moments that add, and the body they describe.
+//! Mass properties: the ten moments of a region, which add, and the rigid body that they describe.
 
-mod bar;
+// The moments, and the body with these moments.
 mod body;
+mod moments;
+
+// The moments of a mesh, of the part of it under water, and of simple bodies in closed form.
+mod bar;
 mod film;
 mod lump;
-mod moments;
 mod of_mesh;
 mod submerged;
+
 #[cfg(test)]
 mod tests;
 

@@ -1,4 +1,4 @@
-//! The ten moments of a region: they add, and every mass property is a function of them.
+//! The ten moments of a region. They add, and every mass property is a function of them.
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
@@ -12,17 +12,17 @@ use crate::geom::{Frame, Matrix, Point, Vector};
 pub struct Moments(pub [f64; 10]);
 
 impl Moments {
-    /// How many moments there are.
+    /// Number of moments.
     pub const COUNT: usize = 10;
 
-    /// The ten monomials at one point: the integrand of the moments.
+    /// Returns the ten monomials at one point: the integrand of the moments.
     #[inline]
     pub fn monomials(x: f64, y: f64, z: f64) -> [f64; 10] {
         [1.0, x, y, z, x * y, y * z, x * z, x * x, y * y, z * z]
     }
 
-    /// From the volume (mm³), the first moments (mm⁴) and the symmetric matrix of second moments
-    /// ∫xᵢxⱼ (mm⁵).
+    /// Builds moments from the volume (mm³), the first moments (mm⁴) and the symmetric matrix of
+    /// second moments ∫xᵢxⱼ (mm⁵).
     pub fn from_parts(volume: f64, first: &Vector, second: &Matrix) -> Self {
         let (f, s) = (first, second);
         Self([
@@ -39,28 +39,28 @@ impl Moments {
         ])
     }
 
-    /// The volume, mm³.
+    /// Returns the volume, mm³.
     pub fn volume(&self) -> f64 {
         self.0[0]
     }
 
-    /// The first moments ∫x, mm⁴.
+    /// Returns the first moments ∫x, mm⁴.
     pub fn first(&self) -> Vector {
         Vector::new(self.0[1], self.0[2], self.0[3])
     }
 
-    /// The symmetric matrix of the second moments ∫xᵢxⱼ, mm⁵.
+    /// Returns the symmetric matrix of the second moments ∫xᵢxⱼ, mm⁵.
     pub fn second(&self) -> Matrix {
         let [_, _, _, _, xy, yz, xz, xx, yy, zz] = self.0;
         Matrix::new(xx, xy, xz, xy, yy, yz, xz, yz, zz)
     }
 
-    /// The centroid; not finite when the volume is zero.
+    /// Returns the centroid, mm; not finite if the volume is zero.
     pub fn centroid(&self) -> Point {
         Point::from(self.first() / self.volume())
     }
 
-    /// The moments of the same region after moving it by `shift`.
+    /// Returns the moments of the region moved by `shift`.
     pub fn translated(&self, shift: &Vector) -> Self {
         let (volume, first, second) = (self.volume(), self.first(), self.second());
         let moved = second
@@ -70,14 +70,14 @@ impl Moments {
         Self::from_parts(volume, &(first + shift * volume), &moved)
     }
 
-    /// The moments of the same region after turning it about the origin by `rotation`
-    /// (any orthogonal matrix; a mirror keeps the volume positive).
+    /// Returns the moments of the region rotated about the origin by `rotation` (any orthogonal
+    /// matrix; a mirror keeps the volume positive).
     pub fn rotated(&self, rotation: &Matrix) -> Self {
         let second = rotation * self.second() * rotation.transpose();
         Self::from_parts(self.volume(), &(rotation * self.first()), &second)
     }
 
-    /// The moments of the same region after scaling every length by `factor` about the origin.
+    /// Returns the moments of the region with every length scaled by `factor` about the origin.
     pub fn scaled(&self, factor: f64) -> Self {
         let (f3, f4, f5) = (factor.powi(3), factor.powi(4), factor.powi(5));
         Self::from_parts(
@@ -87,13 +87,13 @@ impl Moments {
         )
     }
 
-    /// The moments of a region given in model coordinates, seen in the coordinates of `frame`.
+    /// Returns the moments, in the coordinates of `frame`, of a region given in model coordinates.
     pub fn in_frame(&self, frame: &Frame) -> Self {
         self.translated(&-frame.origin.coords)
             .rotated(&frame.axes.transpose())
     }
 
-    /// The moments of a region given in the coordinates of `frame`, seen in model coordinates.
+    /// Returns the moments, in model coordinates, of a region given in the coordinates of `frame`.
     pub fn from_frame(&self, frame: &Frame) -> Self {
         self.rotated(&frame.axes).translated(&frame.origin.coords)
     }

@@ -1,17 +1,17 @@
-//! The exact moments of the region a closed mesh bounds.
+//! The exact moments of the region that a closed mesh bounds.
 
-use super::Moments;
+use super::moments::Moments;
 use crate::geom::{Matrix, Vector};
 use crate::mesh::TriMesh;
 
-/// The moments of the region bounded by `mesh`, by the divergence theorem: exact for a closed,
-/// oriented mesh up to rounding (sums are compensated, so about 1e-15 relative whatever the
-/// triangle count).
+/// Returns the moments of the region bounded by `mesh`, by the divergence theorem.
 ///
-/// Triangles turned inward subtract, so a solid with voids is one mesh with the voids reversed. An
-/// open mesh gives a number without meaning. Each triangle adds the tetrahedron it spans with the
-/// centre of the bounding box: Tonon, "Explicit exact formulas for the 3-D tetrahedron inertia
-/// tensor", J. Math. Stat. 1, 2005.
+/// Exact up to rounding for a closed, oriented mesh. Sums are compensated, so the relative error is
+/// about 1e-15 for any number of triangles. Triangles turned inward subtract, so a solid with voids
+/// is one mesh with the voids reversed. For an open mesh the result has no meaning.
+///
+/// Each triangle adds the tetrahedron that it spans with the centre of the bounding box (Tonon,
+/// "Explicit exact formulas for the 3-D tetrahedron inertia tensor", J. Math. Stat. 1, 2005).
 pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
     if mesh.triangles().is_empty() {
         return Moments::default();
@@ -24,7 +24,7 @@ pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
     sum.total().translated(&center.coords)
 }
 
-/// The sum of the moments of tetrahedra, compensated.
+/// A compensated sum of the moments of tetrahedra.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct MomentSum([NeumaierSum; Moments::COUNT]);
 
@@ -36,13 +36,13 @@ impl MomentSum {
         }
     }
 
-    /// The sum so far.
+    /// Returns the sum so far.
     pub fn total(&self) -> Moments {
         Moments(self.0.map(|sum| sum.total()))
     }
 }
 
-/// The signed moments of the tetrahedron spanned by the origin and three corners.
+/// Returns the signed moments of the tetrahedron spanned by the origin and three corners.
 fn tetrahedron_moments([a, b, c]: [Vector; 3]) -> Moments {
     let determinant = a.dot(&b.cross(&c));
     let sum = a + b + c;

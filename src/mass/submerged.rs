@@ -1,14 +1,14 @@
-//! What of a body lies below a level, and the section there: exact for the mesh.
+//! The part of a body below a level, and the section there: exact for the mesh.
 
-use super::Moments;
+use super::moments::Moments;
 use super::of_mesh::MomentSum;
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
-/// The region that a plane z = constant cuts out of a body: its area moments.
+/// The area moments of the region that a plane z = constant cuts out of a body.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Section {
-    /// The area, mm².
+    /// Area, mm².
     pub area_mm2: f64,
     /// ∫x and ∫y over it, mm³.
     pub first_mm3: [f64; 2],
@@ -19,9 +19,9 @@ pub struct Section {
 /// The part of a body below a level, and its section at that level.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Submerged {
-    /// The moments of the part below.
+    /// Moments of the part below.
     pub below: Moments,
-    /// The section at the level: the waterplane.
+    /// Section at the level: the waterplane.
     pub section: Section,
 }
 
@@ -38,8 +38,8 @@ impl Section {
         self.second_mm4[2] += twice * (a.y * a.y + a.y * b.y + b.y * b.y) / 12.0;
     }
 
-    /// The least and greatest second moments about axes in the plane through the section's
-    /// centroid, mm⁴; zero where there is no section.
+    /// Returns the least and greatest second moments about axes in the plane through the section's
+    /// centroid, mm⁴; zero if the section is empty.
     pub fn principal_mm4(&self) -> [f64; 2] {
         if self.area_mm2 <= 0.0 {
             return [0.0; 2];
@@ -53,10 +53,10 @@ impl Section {
     }
 }
 
-/// The part of the region bounded by a closed mesh that lies at z ≤ `level_mm`, exact up to
-/// rounding.
+/// Returns the part of the region bounded by a closed mesh that lies at z ≤ `level_mm`, and the
+/// section there. Exact up to rounding.
 ///
-/// Each triangle's part below the level spans a cone with a point of the level's plane; the cap
+/// Each triangle's part below the level spans a cone with a point of the level's plane. The cap
 /// lies in that plane and spans none, so it need not be built. The cap's own moments come from its
 /// boundary, the edges at which triangles are clipped.
 pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
@@ -65,7 +65,7 @@ pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
     let mut below = MomentSum::default();
     let mut section = Section::default();
     for corners in mesh.iter_corners() {
-        let clipped = clipped_below(corners.map(|corner| corner - apex));
+        let clipped = clip_to_below(corners.map(|corner| corner - apex));
         let polygon = &clipped.corners[..clipped.count];
         for pair in polygon.windows(2).skip(1) {
             below.add_tetrahedron([polygon[0], pair[0], pair[1]].map(|corner| corner.coords));
@@ -81,7 +81,7 @@ pub fn submerged(mesh: &TriMesh, level_mm: f64) -> Submerged {
 }
 
 impl Section {
-    /// The same region moved by a shift.
+    /// Returns the region moved by a shift.
     fn moved(self, [dx, dy]: [f64; 2]) -> Self {
         let (area, [x, y], [xx, xy, yy]) = (self.area_mm2, self.first_mm3, self.second_mm4);
         Self {
@@ -96,15 +96,16 @@ impl Section {
     }
 }
 
-/// What of a triangle lies at z ≤ 0.
+/// The part of a triangle at z ≤ 0.
 struct Clipped {
     corners: [Point; 4],
     count: usize,
-    /// Where its boundary leaves upward and where it comes back.
+    /// Points in which its boundary leaves upward and comes back.
     crossing: Option<[Point; 2]>,
 }
 
-fn clipped_below(triangle: [Point; 3]) -> Clipped {
+/// Returns the part of a triangle at z ≤ 0.
+fn clip_to_below(triangle: [Point; 3]) -> Clipped {
     let mut clipped = Clipped {
         corners: [Point::origin(); 4],
         count: 0,
@@ -135,8 +136,8 @@ impl Clipped {
     }
 }
 
-/// Where the edge from a corner below to one above meets the level: the same bits for both
-/// triangles at the edge.
+/// Returns the point in which the edge from a corner below to one above meets the level; the same
+/// bits for both triangles at the edge.
 fn level_point(below: &Point, above: &Point) -> Point {
     let share = below.z / (below.z - above.z);
     Point::new(
@@ -153,7 +154,7 @@ mod tests {
     use crate::mesh::primitives::{ball, cuboid};
 
     #[test]
-    fn a_box_under_water_to_a_third_is_a_box_of_a_third() {
+    fn a_box_submerged_to_a_third_is_a_third_of_the_box() {
         let mesh = cuboid(&Point::new(1.0, -2.0, 5.0), &Point::new(4.0, 3.0, 11.0));
         let got = submerged(&mesh, 7.0);
         let want = moments_of_mesh(&cuboid(
@@ -178,14 +179,14 @@ mod tests {
 
     #[test]
     fn a_ball_has_the_cap_and_the_circle_of_the_textbook() {
-        // Depth h of a ball of radius r: V = π h² (3r − h)/3, I of the circle π a⁴/4 with a² = h
+        // A ball of radius r to depth h: V = π h² (3r − h)/3, I of the circle π a⁴/4 with a² = h
         // (2r − h).
         let (r, h) = (10.0_f64, 7.0_f64);
         let got = submerged(&ball(&Point::new(3.0, 4.0, r), r, 6), h);
         let volume = std::f64::consts::PI * h * h * (3.0 * r - h) / 3.0;
         let second = std::f64::consts::PI * (h * (2.0 * r - h)).powi(2) / 4.0;
-        // An icosphere of six halvings is inscribed: 3e-4 of its volume is missing, twice that of a
-        // fourth moment.
+        // An icosphere of six halvings is inscribed: it lacks 3e-4 of its volume, and twice that of
+        // a fourth moment.
         assert!((got.below.volume() / volume - 1.0).abs() < 1e-3);
         assert!(
             got.section
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn below_everything_is_nothing_and_above_everything_is_the_whole() {
+    fn a_level_below_the_body_gives_nothing_and_one_above_it_the_whole() {
         let mesh = cuboid(&Point::origin(), &Point::new(1.0, 2.0, 3.0));
         assert_eq!(submerged(&mesh, -0.5).below.volume(), 0.0);
         for level in [3.0, 4.0] {
@@ -207,7 +208,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cavity_holds_back_no_water_of_its_own() {
+    fn a_cavity_displaces_no_water() {
         let cavity = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(2.0, 2.0, 2.0)).reversed();
         let mesh = cuboid(&Point::origin(), &Point::new(3.0, 3.0, 3.0)).joined(&cavity);
         let got = submerged(&mesh, 1.5);

@@ -9,8 +9,8 @@ use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::mesh::primitives::{ball, cuboid, cylinder, ellipsoid, torus};
 
-/// The largest difference of two sets of moments, each against what a body of this volume could
-/// have at this distance from the origin: V, V·L, V·L².
+/// Returns the largest difference of two sets of moments. Each is relative to the moment that a
+/// body of this volume could have at this distance from the origin: V, V·L, V·L².
 fn difference(a: &Moments, b: &Moments, reach_mm: f64) -> f64 {
     let scale = |i: usize| a.volume().abs() * reach_mm.powi([0, 1, 1, 1, 2, 2, 2, 2, 2, 2][i]);
     (0..Moments::COUNT)
@@ -22,7 +22,7 @@ fn difference(a: &Moments, b: &Moments, reach_mm: f64) -> f64 {
 /// digit.
 const ROUNDING: f64 = 1e-13;
 
-/// How far the farthest vertex is from the origin.
+/// Returns the distance of the farthest vertex from the origin, mm.
 fn reach_mm(mesh: &TriMesh) -> f64 {
     mesh.vertices()
         .iter()
@@ -30,13 +30,13 @@ fn reach_mm(mesh: &TriMesh) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The inertia of a body of unit density about its centre, along the axes of the model.
+/// Returns the inertia of a body of unit density about its centre, along the axes of the model.
 fn inertia(mesh: &TriMesh) -> Matrix {
     Body::new(&moments_of_mesh(mesh), 1.0).inertia_g_mm2
 }
 
-/// By which power of two the error shrinks from one number to the next, when the mesh gets twice as
-/// fine.
+/// Returns the order of convergence: the power of two by which the error shrinks when the mesh gets
+/// twice as fine.
 fn order(coarse: f64, fine: f64, exact: f64) -> f64 {
     ((coarse - exact) / (fine - exact)).log2()
 }
@@ -110,11 +110,11 @@ fn ellipsoids_are_stretched_balls_to_the_last_digits() {
 }
 
 #[test]
-fn cylinders_are_the_prisms_they_are_made_of_and_converge_with_the_square_of_the_edge() {
+fn cylinders_equal_their_prisms_and_converge_with_the_square_of_the_edge() {
     let (r, h) = (2.0_f64, 5.0_f64);
     let meshes = [40, 80].map(|segments| cylinder(r, h, segments));
-    // A regular polygon of n sides: area n r² sin(2π/n)/2, polar second moment A r² (2 +
-    // cos(2π/n))/6.
+    // A regular polygon of n sides has the area n r² sin(2π/n)/2 and the polar second moment A r²
+    // (2 + cos(2π/n))/6.
     for (mesh, n) in meshes.iter().zip([40.0, 80.0]) {
         let step = 2.0 * PI / n;
         let volume = h * n * r * r * step.sin() / 2.0;
@@ -150,7 +150,7 @@ fn principal_moments_come_ascending_with_their_axes() {
         1.0,
     );
     let principal = body.principal();
-    // m (b² + c²)/3 for half sides: the box is longest along its z axis, which has the least
+    // m (b² + c²)/3 for half sides. The box is longest along its z axis, which has the least
     // moment.
     for (found, exact) in principal
         .moments_g_mm2
@@ -182,7 +182,7 @@ fn rotation() -> impl Strategy<Value = Matrix> {
         })
 }
 
-/// A body without any symmetry: an ellipsoid with a box beside it, turned and moved.
+/// A body without symmetry: an ellipsoid with a box beside it, rotated and moved.
 fn body() -> impl Strategy<Value = TriMesh> {
     (vector(3.0), rotation(), vector(20.0)).prop_map(|(sides, turn, shift)| {
         let sides = sides.map(|s| 0.5 + s.abs());
@@ -228,7 +228,7 @@ proptest! {
     }
 
     #[test]
-    fn moments_add_and_what_is_turned_inside_out_subtracts(a in body(), b in body()) {
+    fn moments_add_and_an_inverted_body_subtracts(a in body(), b in body()) {
         let [ma, mb] = [&a, &b].map(moments_of_mesh);
         let reach = reach_mm(&a).max(reach_mm(&b)) * (1.0 + (mb.volume() / ma.volume()).max(1.0));
         prop_assert!(difference(&(ma + mb), &moments_of_mesh(&a.clone().joined(&b)), reach) < ROUNDING);
@@ -237,7 +237,7 @@ proptest! {
     }
 
     #[test]
-    fn a_frame_sees_what_moving_the_mesh_into_it_gives(mesh in body(), origin in vector(10.0), turn in rotation()) {
+    fn moments_in_a_frame_equal_those_of_the_mesh_moved_into_it(mesh in body(), origin in vector(10.0), turn in rotation()) {
         let frame = Frame { origin: Point::from(origin), axes: turn };
         let seen = moments_of_mesh(&mesh).in_frame(&frame);
         let reach = reach_mm(&mesh) + origin.norm();
