@@ -12,10 +12,11 @@ use crate::shell::{Keep, RowCrossings, Ruler, inside_stretches};
 /// surface along them.
 ///
 /// A thinner wall lets more be emptied, so all walls are level sets of one function, the depth. It
-/// is sampled once, and [`Depths::columns`] cuts it at a wall in a millisecond; a
-/// [`Shell`](crate::shell::Shell) has to be built again for each wall. The price is accuracy, as
-/// depth is linear between samples. An interval's end is off by less than a spacing where the
-/// surface bends, and a roof's ridge is cut off by up to half of one.
+/// is sampled once. [`Depths::columns`] cuts it at a wall in a millisecond, where a
+/// [`Shell`](crate::shell::Shell) has to be built again for each wall.
+///
+/// The price is accuracy, as depth is linear between samples. Where the surface bends, an
+/// interval's end is off by less than a spacing. A roof's ridge is cut off by up to half of one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Depths {
     pitch_mm: f64,
@@ -34,8 +35,11 @@ struct Sample {
     depth_mm: f64,
 }
 
-/// One row of columns: the centre of each, and the samples of each of its stretches.
-type Row = Vec<([f64; 2], Vec<Vec<Sample>>)>;
+/// A column with the samples of each of its stretches.
+struct Column {
+    center: [f64; 2],
+    stretches: Vec<Vec<Sample>>,
+}
 
 impl Depths {
     /// Samples the depths of a solid at about `samples` points, evenly spaced in all three
@@ -56,7 +60,7 @@ impl Depths {
         };
         let ys = Ruler::covering([bounds.min.y, bounds.max.y], pitch_mm, Ruler::PHASE_Y);
         let rows = (0..ys.len()).into_par_iter();
-        let rows: Vec<Row> = rows
+        let rows: Vec<Vec<Column>> = rows
             .map_init(RowCrossings::default, |crossings, y| {
                 probe.row(crossings, ys.at(y))
             })
@@ -64,7 +68,7 @@ impl Depths {
         Self::assemble(pitch_mm, rows)
     }
 
-    fn assemble(pitch_mm: f64, rows: Vec<Row>) -> Self {
+    fn assemble(pitch_mm: f64, rows: Vec<Vec<Column>>) -> Self {
         let mut depths = Self {
             pitch_mm,
             centers: vec![],
@@ -72,7 +76,7 @@ impl Depths {
             stretches: vec![0],
             samples: vec![],
         };
-        for (center, stretches) in rows.into_iter().flatten() {
+        for Column { center, stretches } in rows.into_iter().flatten() {
             depths.centers.push(center);
             for samples in stretches {
                 depths.samples.extend(samples);
@@ -121,7 +125,8 @@ struct Probe<'a> {
 }
 
 impl Probe<'_> {
-    fn row(&self, crossings: &mut RowCrossings, y_mm: f64) -> Row {
+    /// Returns the columns of one row that meet the solid.
+    fn row(&self, crossings: &mut RowCrossings, y_mm: f64) -> Vec<Column> {
         crossings.find(self.mesh, &self.triangles, y_mm, &self.xs);
         let column = |index: usize| {
             let center = [self.xs.at(index), y_mm];
@@ -129,11 +134,11 @@ impl Probe<'_> {
             inside_stretches(crossings.of(index), |stretch| {
                 stretches.push(self.stretch(center, stretch))
             });
-            (center, stretches)
+            Column { center, stretches }
         };
         (0..self.xs.len())
             .map(column)
-            .filter(|(_, stretches)| !stretches.is_empty())
+            .filter(|column| !column.stretches.is_empty())
             .collect()
     }
 

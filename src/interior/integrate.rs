@@ -37,8 +37,8 @@ const EXPONENTS: [[usize; 3]; 10] = [
 /// Returns the moments of { q > 0 } over the columns.
 ///
 /// Exact in z. In x and y a column stands for its cell: x² and y² enter by their cell means, in the
-/// moments and in q alike. So the sums are exact for boxes made of whole cells, and no other void
-/// on the columns has a larger integral of q (see [`crate::guide::theory`], "The reachable set").
+/// moments and in q alike. So the sums are exact for boxes made of whole cells. No other void on
+/// the columns has a larger integral of q (see [`crate::guide::theory`], "The reachable set").
 ///
 /// Bitwise the same for any number of threads. Costs about 5 to 10 ns a column.
 pub fn moments_where_positive(columns: &Columns, quadric: &Quadric) -> Moments {

@@ -31,7 +31,7 @@ pub struct Levels {
 /// share β is emptied.
 ///
 /// A leaf of the finest level is one column wide, so the pitch of the columns determines that
-/// level: 2⁹ columns along the longest side make it level 9. A leaf that the boundary cuts holds
+/// level. With 2⁹ columns along the longest side it is level 9. A leaf that the boundary cuts holds
 /// exactly the part of the region inside it.
 #[derive(Debug, Clone)]
 pub struct Octree<'a> {

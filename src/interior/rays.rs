@@ -18,7 +18,7 @@ const VANISHED_RATIO: f64 = 1e-6;
 /// is of the order of its square.
 const WORTH_OPENING: f64 = 1e-4;
 /// Least distance from the top of its stretch at which a segment opens again, as a share of the
-/// stretch, so that it has room to grow upward.
+/// stretch. The segment then has room to grow upward.
 const ROOM_RATIO: f64 = 0.01;
 
 /// Stretches of columns that may be emptied, each with a solid segment z₀ ≤ z ≤ z₁ in it: the
@@ -26,7 +26,7 @@ const ROOM_RATIO: f64 = 0.01;
 /// optimization using ray-reps", 2016).
 ///
 /// The parts below z₀ and above z₁ are emptied. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their
-/// eq. 11, 13, 14) hold by construction: the numbers are t₀ and t₁ between 0 and 1, with
+/// eq. 11, 13, 14) hold by construction. The numbers are t₀ and t₁ between 0 and 1, with
 ///
 /// ```text
 /// z₀ = z̲ + t₀ (z̄ − z̲),    z₁ = z₀ + t₁ (z̄ − z₀)

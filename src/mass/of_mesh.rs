@@ -10,8 +10,8 @@ use crate::mesh::TriMesh;
 /// about 1e-15 for any number of triangles. Triangles turned inward subtract, so a solid with voids
 /// is one mesh with the voids reversed. For an open mesh the result has no meaning.
 ///
-/// Each triangle adds the tetrahedron that it spans with the centre of the bounding box (Tonon,
-/// "Explicit exact formulas for the 3-D tetrahedron inertia tensor", J. Math. Stat. 1, 2005).
+/// Each triangle adds the tetrahedron that it spans with the centre of the bounding box. (Tonon,
+/// "Explicit exact formulas for the 3-D tetrahedron inertia tensor", J. Math. Stat. 1, 2005.)
 pub fn moments_of_mesh(mesh: &TriMesh) -> Moments {
     if mesh.triangles().is_empty() {
         return Moments::default();

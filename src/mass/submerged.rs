@@ -136,8 +136,8 @@ impl Clipped {
     }
 }
 
-/// Returns the point in which the edge from a corner below to one above meets the level; the same
-/// bits for both triangles at the edge.
+/// Returns the point in which the edge from a corner below to one above meets the level. Both
+/// triangles at the edge get the same bits.
 fn level_point(below: &Point, above: &Point) -> Point {
     let share = below.z / (below.z - above.z);
     Point::new(

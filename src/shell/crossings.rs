@@ -27,7 +27,7 @@ impl RowCrossings {
     /// closed mesh. They must include every triangle that reaches the row.
     ///
     /// In every column the winding steps add up to zero, whatever the rounding. An edge's place on
-    /// the row is computed from its ends in the order of their indices, so both triangles beside it
+    /// the row is computed from its ends in the order of their indices. So both triangles beside it
     /// get the same bits. Triangles share out the columns between their edges as half-open
     /// stretches.
     pub fn find(&mut self, mesh: &TriMesh, triangles: &[u32], y_mm: f64, xs: &Ruler) {
@@ -40,9 +40,9 @@ impl RowCrossings {
 
     /// Adds the crossings of one triangle with the columns of a row.
     ///
-    /// Of the two edges of a triangle that meet a row, one goes up in y and one down. A triangle seen
-    /// from its outside from above has the downward edge to the left. A column that rises through it
-    /// leaves the solid.
+    /// Of the two edges of a triangle that meet a row, one goes up in y and one down. A triangle
+    /// seen from its outside from above has the downward edge to the left. A column that rises
+    /// through it leaves the solid.
     fn cross(&mut self, mesh: &TriMesh, triangle: u32, y: f64, xs: &Ruler) {
         let triangle = mesh.triangles()[triangle as usize];
         let (mut up, mut down) = (None, None);

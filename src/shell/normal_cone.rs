@@ -34,8 +34,8 @@ pub(super) enum Need {
 
 /// Returns the part that an edge needs.
 ///
-/// `normals` are the outer unit normals of its two faces, `along` is the edge's unit direction
-/// along the first. `one_sided`: only the inside of the solid matters.
+/// `normals` are the outer unit normals of its two faces, and `along` is the edge's unit direction
+/// along the first. If `one_sided`, only the inside of the solid matters.
 pub(super) fn of_edge(normals: [Vector; 2], along: &Vector, one_sided: bool) -> Need {
     let [first, second] = normals;
     let into_second = along.cross(&second);
@@ -96,8 +96,8 @@ fn polar_rays(edges: &[Vector]) -> Vec<Vector> {
     rays
 }
 
-/// Returns a hull around the part of the unit ball in the cone of these rays: zero, and each ray up
-/// to the plane that touches the ball at the cone's axis.
+/// Returns a hull around the part of the unit ball in the cone of these rays. Its corners are zero
+/// and each ray's point in the plane that touches the ball at the cone's axis.
 fn hull_of_rays(rays: &[Vector]) -> Need {
     let Some(axis) = rays.iter().sum::<Vector>().try_normalize(MIN_COSINE) else {
         return Need::Whole;

@@ -6,7 +6,7 @@ use std::ops::Range;
 ///
 /// The lattice is tied to the origin of the goal frame, not to the model, so that two solids in one
 /// frame share their columns. The phase is irrational. So a model with rational coordinates has no
-/// vertex on a column, and a symmetric one has no face between two columns that are its mirror
+/// vertex on a column. A symmetric model has no face between two columns that are its mirror
 /// images.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ruler {

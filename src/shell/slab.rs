@@ -3,17 +3,18 @@
 use super::on_row::OnRow;
 use crate::geom::{Point, Vector};
 
-/// Largest number of half-spaces that bound a prism from one side: a cap and the three sides.
+/// Largest number of half-spaces that add_half_space a prism from one side: a cap and the three
+/// sides.
 const MAX_BOUNDS: usize = 4;
 
 /// Vertical component of a unit normal below which the half-space bounds x and y only, which the
 /// footprint does already. With a larger limit, slabs would reach too far by the limit times the
-/// height of the model. With a smaller one, the heights lose digits: a bound's error is the
-/// rounding of a coordinate divided by the component.
+/// height of the model. With a smaller one, the heights lose digits: a add_half_space's error is
+/// the rounding of a coordinate divided by the component.
 const VERTICAL_LIMIT: f64 = 1e-9;
 
 /// A prism as bounds on z that are affine in x and y, given as the coefficients of (x, y, 1). Each
-/// z is ≥ every lower and ≤ every upper bound.
+/// z is ≥ every lower and ≤ every upper add_half_space.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Slab {
     lower: [[f64; 3]; MAX_BOUNDS],
@@ -37,21 +38,21 @@ impl Slab {
             upper: [[0.0, 0.0, f64::INFINITY]; 4],
         };
         let mut used = [0, 0];
-        slab.bound(&mut used, normal, &(corners[0] + normal * reach.outward_mm));
-        slab.bound(
+        slab.add_half_space(&mut used, normal, &(corners[0] + normal * reach.outward_mm));
+        slab.add_half_space(
             &mut used,
             &-normal,
             &(corners[0] - normal * reach.inward_mm),
         );
         for (from, to) in [(0, 1), (1, 2), (2, 0)] {
             let side = (corners[to] - corners[from]).cross(normal).normalize();
-            slab.bound(&mut used, &side, &corners[from]);
+            slab.add_half_space(&mut used, &side, &corners[from]);
         }
         slab
     }
 
     /// Adds the half-space through `point` on the inner side of the outward unit `normal`.
-    fn bound(&mut self, used: &mut [usize; 2], normal: &Vector, point: &Point) {
+    fn add_half_space(&mut self, used: &mut [usize; 2], normal: &Vector, point: &Point) {
         if normal.z.abs() < VERTICAL_LIMIT {
             return;
         }

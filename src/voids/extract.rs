@@ -25,14 +25,22 @@ pub(super) struct Extractor<'a, F> {
     nodes: Nodes,
     roots: Roots,
     /// For each cell, the pieces of surface in its tetrahedra.
-    pieces: Vec<Vec<Placed>>,
+    pieces: Vec<Vec<PlacedPiece>>,
 }
 
 /// A piece of surface, and the two leaves in which it lies.
-type Placed = (Piece, [u32; 2]);
+#[derive(Debug, Clone, Copy)]
+struct PlacedPiece {
+    piece: Piece,
+    leaves: [u32; 2],
+}
 
-/// A triangle by the names of its vertices, and its leaves.
-type Named = ([VertexKey; 3], [u32; 2]);
+/// A triangle by the names of its vertices, and the two leaves in which it lies.
+#[derive(Debug, Clone, Copy)]
+struct PlacedTriangle {
+    keys: [VertexKey; 3],
+    leaves: [u32; 2],
+}
 
 impl<'a, F: Field> Extractor<'a, F> {
     /// Starts on the region inside `aabb`, coarse everywhere; `None` if the box is too large for
@@ -81,13 +89,14 @@ impl<'a, F: Field> Extractor<'a, F> {
         allows: impl Fn(&[Point; 3]) -> bool + Sync,
     ) -> Vec<u32> {
         let refused_in = |&leaf: &u32| {
-            let refused = self.triangles_of(leaf).into_iter().filter(|(keys, _)| {
-                let [a, b, c] =
-                    keys.map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
+            let refused = self.triangles_of(leaf).into_iter().filter(|triangle| {
+                let [a, b, c] = triangle
+                    .keys
+                    .map(|key| self.roots.vertex(&self.nodes, key).map(|known| known.at));
                 matches!((a, b, c), (Some(a), Some(b), Some(c)) if !allows(&[a, b, c]))
             });
             refused
-                .flat_map(|(_, leaves)| self.to_divide(leaves))
+                .flat_map(|triangle| self.to_divide(triangle.leaves))
                 .collect::<Vec<u32>>()
         };
         leaves.par_iter().flat_map_iter(refused_in).collect()
@@ -105,11 +114,11 @@ impl<'a, F: Field> Extractor<'a, F> {
     /// Returns the triangles as they are now.
     pub fn mesh(&self) -> Result<TriMesh, MeshError> {
         let leaves = self.leaves();
-        let named: Vec<Named> = leaves
+        let triangles: Vec<PlacedTriangle> = leaves
             .par_iter()
             .flat_map_iter(|&leaf| self.triangles_of(leaf))
             .collect();
-        self.number_vertices(&named)
+        self.number_vertices(&triangles)
     }
 
     /// Returns the leaves to divide if a triangle between these two is not good enough: the larger
@@ -136,7 +145,7 @@ impl<'a, F: Field> Extractor<'a, F> {
             .map(|&leaf| (leaf, Links::new(&self.tree, leaf)))
             .collect();
         let numbers = self.nodes.prepare(&self.tree, &linked, self.field);
-        let marched: Vec<Vec<Placed>> = linked
+        let marched: Vec<Vec<PlacedPiece>> = linked
             .par_iter()
             .zip(&numbers)
             .map(|((leaf, links), numbers)| self.march(*leaf, links, numbers))
@@ -154,7 +163,7 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Returns the pieces of surface in a leaf's tetrahedra.
-    fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<Placed> {
+    fn march(&self, leaf: u32, links: &Links, numbers: &Numbers) -> Vec<PlacedPiece> {
         let mut pieces = Vec::new();
         links.for_each(|tetrahedron| {
             let corners = tetrahedron.slots.map(|slot| numbers.at(slot));
@@ -168,15 +177,14 @@ impl<'a, F: Field> Extractor<'a, F> {
                     leaf
                 },
             ];
-            pieces.extend(piece(corners, positive).map(|piece| (piece, leaves)));
+            pieces.extend(piece(corners, positive).map(|piece| PlacedPiece { piece, leaves }));
             if across == Across::Boundary {
                 let [_, b, c, d] = corners;
                 let faces = cap([b, c, d], [positive[1], positive[2], positive[3]]);
-                pieces.extend(
-                    faces
-                        .into_iter()
-                        .map(|face| (Piece::Triangle(face), leaves)),
-                );
+                pieces.extend(faces.into_iter().map(|face| PlacedPiece {
+                    piece: Piece::Triangle(face),
+                    leaves,
+                }));
             }
         });
         pieces
@@ -184,11 +192,11 @@ impl<'a, F: Field> Extractor<'a, F> {
 
     /// Returns the triangles in a leaf's tetrahedra. Quadrilaterals are cut along the diagonal that
     /// bends less.
-    fn triangles_of(&self, leaf: u32) -> Vec<Named> {
+    fn triangles_of(&self, leaf: u32) -> Vec<PlacedTriangle> {
         let mut triangles = Vec::new();
-        for &(piece, leaves) in &self.pieces[leaf as usize] {
+        for &PlacedPiece { piece, leaves } in &self.pieces[leaf as usize] {
             match piece {
-                Piece::Triangle(t) => triangles.push((t, leaves)),
+                Piece::Triangle(t) => triangles.push(PlacedTriangle { keys: t, leaves }),
                 Piece::Quad([a, b, c, d]) => {
                     let is_first = self.bend(a, c).abs() <= self.bend(b, d).abs();
                     let halves = if is_first {
@@ -196,7 +204,7 @@ impl<'a, F: Field> Extractor<'a, F> {
                     } else {
                         [[a, b, d], [b, c, d]]
                     };
-                    triangles.extend(halves.map(|half| (half, leaves)));
+                    triangles.extend(halves.map(|keys| PlacedTriangle { keys, leaves }));
                 }
             }
         }
@@ -219,13 +227,13 @@ impl<'a, F: Field> Extractor<'a, F> {
             let triangles = self.triangles_of(leaf);
             triangles
                 .into_iter()
-                .flat_map(|named| self.bent_leaves_of(named))
+                .flat_map(|triangle| self.bent_leaves_of(triangle))
                 .collect::<Vec<u32>>()
         };
         leaves.par_iter().flat_map_iter(bent_in).collect()
     }
 
-    fn bent_leaves_of(&self, (keys, leaves): Named) -> Vec<u32> {
+    fn bent_leaves_of(&self, PlacedTriangle { keys, leaves }: PlacedTriangle) -> Vec<u32> {
         let divisible: Vec<u32> = self.to_divide(leaves).collect();
         let Some(size_mm) = divisible
             .first()
@@ -264,7 +272,7 @@ impl<'a, F: Field> Extractor<'a, F> {
     }
 
     /// Builds the mesh; its vertices are numbered in the order in which the triangles name them.
-    fn number_vertices(&self, named: &[Named]) -> Result<TriMesh, MeshError> {
+    fn number_vertices(&self, triangles: &[PlacedTriangle]) -> Result<TriMesh, MeshError> {
         let mut index = IndexMap::default();
         let mut vertices: Vec<Point> = Vec::new();
         let mut number = |key: VertexKey| {
@@ -273,19 +281,19 @@ impl<'a, F: Field> Extractor<'a, F> {
                 vertices.len() as u32 - 1
             })
         };
-        let triangles = named
+        let triangles = triangles
             .iter()
-            .map(|&(keys, _)| keys.map(&mut number))
+            .map(|triangle| triangle.keys.map(&mut number))
             .collect();
         TriMesh::new(vertices, triangles)
     }
 }
 
 /// Returns the crossings that pieces of surface name, each once.
-fn crossings_of(pieces: &[Placed]) -> Vec<VertexKey> {
+fn crossings_of(pieces: &[PlacedPiece]) -> Vec<VertexKey> {
     let mut keys: Vec<VertexKey> = Vec::with_capacity(4 * pieces.len());
-    for (piece, _) in pieces {
-        match piece {
+    for placed in pieces {
+        match &placed.piece {
             Piece::Triangle(t) => keys.extend(t),
             Piece::Quad(q) => keys.extend(q),
         }

@@ -19,29 +19,28 @@ pub(super) struct QuadricField<'a> {
     curvature: f64,
     /// Body in which the surface must be drawn within tolerance.
     body: &'a Bvh,
+    cells: CellSizes,
+}
+
+/// Largest cells of a drawing.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct CellSizes {
     /// Largest cell that may hold the surface, mm.
-    coarse_mm: f64,
+    pub coarse_mm: f64,
     /// Largest cell in which the surface may turn much, mm.
-    singular_mm: f64,
+    pub singular_mm: f64,
 }
 
 impl<'a> QuadricField<'a> {
-    /// Returns the function of a quadric given in `frame`, to be drawn in `body`, for cells of at
-    /// most `coarse_mm`, or `singular_mm` near singular points.
-    pub fn new(
-        quadric: &'a Quadric,
-        frame: &'a Frame,
-        body: &'a Bvh,
-        [coarse_mm, singular_mm]: [f64; 2],
-    ) -> Self {
+    /// Returns the function of a quadric given in `frame`, to be drawn in `body`.
+    pub fn new(quadric: &'a Quadric, frame: &'a Frame, body: &'a Bvh, cells: CellSizes) -> Self {
         let curvature = hessian(quadric).symmetric_eigenvalues().amax();
         Self {
             quadric,
             frame,
             curvature,
             body,
-            coarse_mm,
-            singular_mm,
+            cells,
         }
     }
 }
@@ -82,8 +81,8 @@ impl Field for QuadricField<'_> {
             .gradient(&self.frame.to_local(&center.at))
             .norm();
         let turns = self.curvature * size_mm > TURN_RATIO * slope;
-        size_mm > self.coarse_mm
-            || (turns && size_mm > self.singular_mm && self.matters(&center.at, size_mm))
+        size_mm > self.cells.coarse_mm
+            || (turns && size_mm > self.cells.singular_mm && self.matters(&center.at, size_mm))
     }
 
     fn matters(&self, center: &Point, radius_mm: f64) -> bool {
@@ -98,10 +97,14 @@ mod tests {
 
     #[test]
     fn the_value_is_at_most_the_distance_to_a_ball_and_equals_it_near_the_surface() {
+        let cells = CellSizes {
+            coarse_mm: 1.0,
+            singular_mm: 1.0,
+        };
         let ball = Quadric([-25.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0]);
         let body = Bvh::new(Vec::new());
         let frame = Frame::with_axis(Point::new(1.0, 2.0, 3.0), &Vector::new(1.0, 1.0, 0.3));
-        let field = QuadricField::new(&ball, &frame, &body, [1.0, 1.0]);
+        let field = QuadricField::new(&ball, &frame, &body, cells);
         for i in 0..200 {
             let radius = 0.05 * f64::from(i);
             let value = field

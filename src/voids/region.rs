@@ -4,7 +4,7 @@ use super::decimate::{Rules, Stray};
 use super::error::VoidError;
 use super::extract::Extractor;
 use super::field::{Field, Known, Resolution};
-use super::quadric_field::QuadricField;
+use super::quadric_field::{CellSizes, QuadricField};
 use super::simplify::simplify;
 use crate::geom::{Aabb, Bvh, Frame, Quadric};
 use crate::mesh::{Csg, TriMesh};
@@ -53,8 +53,11 @@ pub(super) fn positive_region(
     tolerance_mm: f64,
 ) -> Result<Region, VoidError> {
     let aabb = body.aabb();
-    let sizes = [COARSE_MM, SINGULAR_MM];
-    let field = QuadricField::new(quadric, frame, body, sizes);
+    let cells = CellSizes {
+        coarse_mm: COARSE_MM,
+        singular_mm: SINGULAR_MM,
+    };
+    let field = QuadricField::new(quadric, frame, body, cells);
     let at = aabb.center();
     let center = Known {
         at,
