@@ -234,8 +234,10 @@ mod tests {
     }
 
     /// Returns the winding number of the surface about a point: the sum of the triangles' solid
-    /// angles over 4π (Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans.
-    /// Biomed. Eng. 30, 1983).
+    /// angles over 4π.
+    ///
+    /// (Van Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng.
+    /// 30, 1983.)
     fn winding(point: &Point, mesh: &TriMesh) -> f64 {
         let angle = |corners: [Point; 3]| {
             let [a, b, c] = corners.map(|corner| corner - point);

@@ -21,12 +21,12 @@ const WORTH_OPENING: f64 = 1e-4;
 /// stretch. The segment then has room to grow upward.
 const ROOM_RATIO: f64 = 0.01;
 
-/// Stretches of columns that may be emptied, each with a solid segment z₀ ≤ z ≤ z₁ in it: the
-/// ray-rep of an interior (Wu, Kramer, Westermann, "Shape interior modeling and mass property
-/// optimization using ray-reps", 2016).
+/// Stretches of columns that may be emptied, each with a solid segment z₀ ≤ z ≤ z₁ in it.
 ///
-/// The parts below z₀ and above z₁ are emptied. The bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their
-/// eq. 11, 13, 14) hold by construction. The numbers are t₀ and t₁ between 0 and 1, with
+/// This is the ray-rep of an interior (Wu, Kramer, Westermann, "Shape interior modeling and mass
+/// property optimization using ray-reps", 2016). The parts below z₀ and above z₁ are emptied. The
+/// bounds z̲ ≤ z₀ ≤ z₁ ≤ z̄ of the stretch (their eq. 11, 13, 14) hold by construction. The numbers
+/// are t₀ and t₁ between 0 and 1, with
 ///
 /// ```text
 /// z₀ = z̲ + t₀ (z̄ − z̲),    z₁ = z₀ + t₁ (z̄ − z₀)

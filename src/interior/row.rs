@@ -108,7 +108,7 @@ mod tests {
     use super::*;
     use crate::shell::fixtures::Random;
 
-    fn left_of(mut intervals: Vec<[f64; 2]>, stretch: [f64; 2]) -> Vec<[f64; 2]> {
+    fn rest_of(mut intervals: Vec<[f64; 2]>, stretch: [f64; 2]) -> Vec<[f64; 2]> {
         subtract(&mut intervals, stretch);
         intervals
     }
@@ -116,16 +116,16 @@ mod tests {
     #[test]
     fn subtracting_trims_splits_and_removes() {
         let two = || vec![[0.0, 2.0], [4.0, 6.0]];
-        assert_eq!(left_of(two(), [1.0, 5.0]), [[0.0, 1.0], [5.0, 6.0]]);
+        assert_eq!(rest_of(two(), [1.0, 5.0]), [[0.0, 1.0], [5.0, 6.0]]);
         assert_eq!(
-            left_of(two(), [0.5, 1.0]),
+            rest_of(two(), [0.5, 1.0]),
             [[0.0, 0.5], [1.0, 2.0], [4.0, 6.0]]
         );
-        assert_eq!(left_of(two(), [-1.0, 4.5]), [[4.5, 6.0]]);
-        assert_eq!(left_of(two(), [-1.0, 9.0]), [[0.0; 2]; 0]);
-        assert_eq!(left_of(two(), [2.0, 4.0]), two());
-        assert_eq!(left_of(two(), [f64::NAN, f64::NAN]), two());
-        assert_eq!(left_of(two(), [5.0, 1.0]), two());
+        assert_eq!(rest_of(two(), [-1.0, 4.5]), [[4.5, 6.0]]);
+        assert_eq!(rest_of(two(), [-1.0, 9.0]), [[0.0; 2]; 0]);
+        assert_eq!(rest_of(two(), [2.0, 4.0]), two());
+        assert_eq!(rest_of(two(), [f64::NAN, f64::NAN]), two());
+        assert_eq!(rest_of(two(), [5.0, 1.0]), two());
     }
 
     #[test]

@@ -4,10 +4,10 @@ use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
 use crate::geom::{Frame, Matrix, Point, Vector};
 
-/// The integrals of (1, x, y, z, xy, yz, xz, x², y², z²) over a region, in mm³ to mm⁵ (Spin-It eq.
-/// 4 without the density).
+/// The integrals of (1, x, y, z, xy, yz, xz, x², y², z²) over a region, in mm³ to mm⁵.
 ///
-/// They add over disjoint regions, so a hollowed body is the solid minus its voids.
+/// These are Spin-It's eq. 4 without the density. They add over disjoint regions, so a hollowed
+/// body is the solid minus its voids.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Moments(pub [f64; 10]);
 

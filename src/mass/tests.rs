@@ -113,8 +113,8 @@ fn ellipsoids_are_stretched_balls_to_the_last_digits() {
 fn cylinders_equal_their_prisms_and_converge_with_the_square_of_the_edge() {
     let (r, h) = (2.0_f64, 5.0_f64);
     let meshes = [40, 80].map(|segments| cylinder(r, h, segments));
-    // A regular polygon of n sides has the area n r² sin(2π/n)/2 and the polar second moment A r²
-    // (2 + cos(2π/n))/6.
+    // Regular polygon of n sides: area n r² sin(2π/n)/2, polar second moment A r² (2 +
+    // cos(2π/n))/6.
     for (mesh, n) in meshes.iter().zip([40.0, 80.0]) {
         let step = 2.0 * PI / n;
         let volume = h * n * r * r * step.sin() / 2.0;

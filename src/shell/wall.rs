@@ -18,9 +18,9 @@ const FRAME_TOLERANCE: f64 = 1e-9;
 /// The wall and the keep-solid regions of a solid in a goal frame.
 ///
 /// The region that may be emptied lies inside the solid, no nearer to the surface than the wall and
-/// outside every keep-solid region. The rest is held as convex pieces: a prism behind each face and
-/// parts of a cylinder about each edge and of a ball about each vertex. A vertical line meets each
-/// piece in one stretch, in closed form.
+/// outside every keep-solid region. The rest is held as convex pieces: prisms behind faces, parts
+/// of cylinders about edges and parts of balls about vertices. A vertical line meets each piece in
+/// one stretch, in closed form.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shell {
     surface: TriMesh,

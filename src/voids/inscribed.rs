@@ -3,11 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
+use super::octree::CIRCUMRADIUS;
 use crate::geom::{Bvh, NO_HINT, Point, Vector};
 use crate::mesh::TriMesh;
-
-/// Half a cube's diagonal over its side.
-const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
 /// Half side of a cell, as a share of the radius, below which the search gives the cell up. A
 /// smaller share costs time with its square, on sheets that are just too thin.

@@ -19,7 +19,7 @@ const ROOT_UNITS_MAX: i32 = 1 << 20;
 const FREE_RATIO: f64 = 1.0 + 1e-9;
 
 /// Half a cube's diagonal over its side.
-const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
+pub(super) const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
 /// The twelve neighbours across edges and six across faces.
 pub(super) const NEIGHBOURS: [Grid; 18] = [

@@ -4,6 +4,7 @@ use super::decimate::{Rules, Stray};
 use super::error::VoidError;
 use super::extract::Extractor;
 use super::field::{Field, Known, Resolution};
+use super::octree::CIRCUMRADIUS;
 use super::quadric_field::{CellSizes, QuadricField};
 use super::simplify::simplify;
 use crate::geom::{Aabb, Bvh, Frame, Quadric};
@@ -30,9 +31,6 @@ const DRAW_RATIO: f64 = 0.25;
 
 /// Largest stray of the simplified triangles from the drawn ones, as a share of the tolerance.
 const SIMPLIFY_RATIO: f64 = 0.1;
-
-/// Half a cube's diagonal over its side.
-const CIRCUMRADIUS: f64 = 0.866_025_403_784_438_6;
 
 /// The part of a box where a quadric is positive.
 pub(super) enum Region {
