@@ -12,9 +12,6 @@ use crate::geom::{Bvh, Point};
 use crate::mesh::{Solid, TriMesh};
 use crate::shell::Keep;
 
-/// Name of this phase in progress reports.
-const PHASE: &str = "cavity";
-
 /// Extra depth at which the surface is drawn, mm, so that chords over inward curves may sag a
 /// little. Less costs triangles along every inward edge; more is itself a deviation.
 const BIAS_MM: f64 = 0.006;
