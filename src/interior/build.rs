@@ -25,8 +25,9 @@ const MAX_GRID_COLUMNS: f64 = 1e8;
 pub enum BuildError {
     /// The pitch is not positive and finite, or so fine that the columns could not be counted.
     #[error(
-        "columns {} × {} apart are not possible here, where at most {MAX_GRID_COLUMNS:.0e} may stand; remedy: give a larger \
-         --pitch or a smaller model",
+        "columns {} × {} apart are not possible here, where at most \
+         {MAX_GRID_COLUMNS:.0e} may stand; \
+         remedy: give a larger --pitch or a smaller model",
         show_pitch(pitch_mm[0]),
         show_pitch(pitch_mm[1])
     )]

@@ -42,7 +42,8 @@ pub enum ShellError {
     /// A keep-solid region has an end that is not finite, or a radius that is not positive and
     /// finite.
     #[error(
-        "keep-solid region {index} is not a ball or capsule: its ends must be finite and its radius positive"
+        "keep-solid region {index} is not a ball or capsule: \
+         its ends must be finite and its radius positive"
     )]
     Keep {
         /// Index of the region, from 0.

@@ -16,7 +16,8 @@ pub enum VoidError {
     },
     /// The wall is too thin for the size of the model.
     #[error(
-        "a model of {size_mm} mm cannot be divided into cells of {finest_mm} mm; take a thicker wall"
+        "a model of {size_mm} mm cannot be divided into cells of {finest_mm} mm; \
+         take a thicker wall"
     )]
     TooFine {
         /// The model's longest side, mm.
@@ -26,7 +27,8 @@ pub enum VoidError {
     },
     /// Every surface that was drawn violates the wall.
     #[error(
-        "no surface leaves a wall of {wall_mm} mm everywhere; repair overlaps of the model or take a thicker wall"
+        "no surface leaves a wall of {wall_mm} mm everywhere; \
+         repair overlaps of the model or take a thicker wall"
     )]
     WallNotKept {
         /// The wall, mm.
