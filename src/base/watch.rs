@@ -85,7 +85,7 @@ impl Phase {
             Self::Load | Self::Waterline | Self::Hardware | Self::Ballast => 0.01,
             Self::Columns | Self::Solve => 0.03,
             Self::Advise => 0.01,
-            Self::Shell => 0.42,
+            Self::Shell => 0.43,
             Self::Voids => 0.05,
             Self::Plan => 0.10,
             Self::Bosses => 0.02,

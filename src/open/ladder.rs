@@ -4,20 +4,12 @@ use super::bosses::{Bossed, add_bosses, pay_for_bosses};
 use super::clean::{clean, without_ends};
 use super::request::request;
 use super::resolve::Resolver;
-use super::way::Way;
+use super::way::{Candidate, Way};
 use crate::base::watch::{Phase, Watch};
 use crate::cut::{CutPlan, PlanRequest, SolidEnd, beyond};
 use crate::error::Error;
 use crate::job::CutMode;
-use crate::run::{CleaningRound, KeptCause, Opened, Placed, Policy, Remark, Rung, Solved, Voids};
-
-/// An opened body that is worth making, and the resolver that corrects it.
-pub struct Candidate<'a> {
-    /// The voids, cuts and pins.
-    pub opened: Opened,
-    /// The resolver as the search left it.
-    pub resolver: Resolver<'a>,
-}
+use crate::run::{CleaningRound, KeptCause, Placed, Policy, Remark, Rung, Solved, Voids};
 
 /// Opens the voids of a solution, on the lowest rung that gives every joint its pins.
 ///

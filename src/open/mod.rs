@@ -16,6 +16,7 @@ mod settle;
 mod way;
 
 pub use defect::defect_ratio;
-pub use ladder::{Candidate, climb};
+pub use ladder::climb;
 pub use plan::plan_once;
 pub use resolve::{Resolver, finish};
+pub use way::Candidate;

@@ -1,11 +1,18 @@
 //! One way to open the voids, gone through to its pins, and its rank among others.
 
 use super::bosses::Bossed;
-use super::ladder::Candidate;
 use super::plan::are_clean;
 use super::resolve::Resolver;
 use crate::cut::PlanRequest;
 use crate::run::{Achieved, CleaningRound, Opened, Policy, Remark, Rung};
+
+/// An opened body that is worth making, and the resolver that corrects it.
+pub struct Candidate<'a> {
+    /// The voids, cuts and pins.
+    pub opened: Opened,
+    /// The resolver as the search left it.
+    pub resolver: Resolver<'a>,
+}
 
 /// The result of a rung.
 #[derive(Clone)]

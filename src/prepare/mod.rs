@@ -1,10 +1,10 @@
 //! The line from a job to a kit: load, place, solve, open, make, judge, kit.
 
 mod advise;
-mod ballast;
 mod faces;
 mod hardware;
 mod judge;
+mod levels;
 mod load;
 mod outcome;
 mod papers;

@@ -15,7 +15,7 @@ const PASSES: usize = 40;
 /// thousandth of a step.
 const ROUNDS: usize = 14;
 /// Columns a side of the search.
-const COLUMNS: usize = super::solve::COARSE_COLUMNS;
+const COLUMNS: usize = super::levels::COARSE_COLUMNS;
 /// Penalty of a waterline at which the object weighs too much or too little, mm: more than the
 /// offset of any model that a printer takes, so that it ranks below all that only lean or capsize.
 const UNTRIMMED_MM: f64 = 1e6;

@@ -1,0 +1,156 @@
+//! Levels: from coarse columns to the printer's own, to the optimal quadric or to the proof that
+//! there is none.
+
+use super::outcome::Impossible;
+use crate::ballast::Load;
+use crate::base::verdict::Verdict;
+use crate::base::watch::{Phase, Watch};
+use crate::error::Error;
+use crate::goal::Objective;
+use crate::hollow::{
+    Certificate, Fill, Pass, Problem, Settings, Solution, TopCourse, bound_over_heights, top_course,
+};
+use crate::interior::Columns;
+use crate::mass::Moments;
+use crate::run::{HeightProof, Placed, Solved};
+use crate::shell::Shell;
+
+/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search
+/// over heights dearer.
+pub const COARSE_COLUMNS: usize = 100;
+/// Columns a side of the middle level, on which an impossible goal is proved.
+const MIDDLE_COLUMNS: usize = 400;
+
+/// The best void, or why no hollowing meets the goal.
+pub type Answer = Verdict<Solved, Impossible>;
+
+/// Solves beside some ballast, coarse to fine: each level starts from the quadric of the one before.
+pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, Error> {
+    let goal = placed.goal();
+    let keeps = &placed.placement.keeps;
+    let shell = Shell::new(placed.solid(), &goal.frame, placed.shop.wall.wall_mm, keeps)?;
+    let pitches = pitches(placed, &shell);
+    // The first of several levels may lack what a finer one has; the last one has the last word.
+    let first_to_refuse = pitches.len().min(2) - 1;
+    let fixed = goal.solid + load.excess().in_frame(&goal.frame);
+    let mut coarser: Option<Solved> = None;
+    for (level, pitch_mm) in pitches.into_iter().enumerate() {
+        watch.enter(Phase::Columns);
+        let columns = Columns::of_shell(&shell, pitch_mm, watch)?;
+        let columns = load.carved(columns, &goal.frame);
+        watch.enter(Phase::Solve);
+        let known = coarser.as_ref().map(|level| &level.solution);
+        let solution = placed.solve(&columns, fixed, known, watch);
+        watch.check()?;
+        if level >= first_to_refuse && !solution.is_usable() {
+            return Ok(Verdict::No(impossible(placed, &solution)));
+        }
+        let load = load.clone();
+        coarser = Some(Solved {
+            height_proof: height_proof(&columns, &solution)
+                .or(coarser.as_ref().and_then(|level| level.height_proof)),
+            course: coarser.map_or_else(
+                || course(placed, &columns, fixed, &solution),
+                |level| level.course,
+            ),
+            load,
+            fixed,
+            columns,
+            solution,
+        });
+    }
+    let solved = coarser.ok_or(Error::Cancelled)?;
+    let solved = prove_over_heights(placed, solved, watch);
+    watch.check()?;
+    Ok(Verdict::Found(solved))
+}
+
+/// Makes the proof for other heights on the finest columns, where that takes a dozen passes only.
+///
+/// If Spin-It's functional weighs the lever there are as many levers as heights: the proof of the
+/// coarser columns stays.
+fn prove_over_heights(placed: &Placed, solved: Solved, watch: &Watch) -> Solved {
+    let objective = solved.solution.objective;
+    let weighs_lever = matches!(objective, Objective::SpinIt { gamma_c, .. } if gamma_c > 0.0);
+    if weighs_lever || placed.fill != Fill::AIR {
+        return solved;
+    }
+    let problem = Problem {
+        goal: placed.goal(),
+        fixed: solved.fixed,
+        columns: &solved.columns,
+    };
+    let settings = Settings::default();
+    let bound = bound_over_heights(&problem, &settings, &solved.solution, &watch.muted());
+    let proof = bound.map(|bound| HeightProof {
+        pitch_mm: solved.columns.pitch_mm[0],
+        value: solved.solution.certificate.value,
+        bound,
+    });
+    Solved {
+        height_proof: proof.or(solved.height_proof),
+        ..solved
+    }
+}
+
+/// Returns the proof for other heights that a solution carries, `None` if it carries none.
+fn height_proof(columns: &Columns, solution: &Solution) -> Option<HeightProof> {
+    let Certificate {
+        value,
+        bound_over_heights,
+        ..
+    } = solution.certificate;
+    bound_over_heights.map(|bound| HeightProof {
+        pitch_mm: columns.pitch_mm[0],
+        value,
+        bound,
+    })
+}
+
+/// Returns the course of the first answer.
+fn course(placed: &Placed, columns: &Columns, fixed: Moments, solution: &Solution) -> TopCourse {
+    let problem = Problem {
+        goal: placed.goal(),
+        fixed,
+        columns,
+    };
+    let is_plain = placed.fill == Fill::AIR && solution.is_usable();
+    let of_top = if is_plain {
+        top_course(&problem, &Settings::default(), solution)
+    } else {
+        TopCourse::default()
+    };
+    let passes: Vec<Pass> = if of_top.passes.is_empty() {
+        solution.course.clone()
+    } else {
+        of_top.passes
+    };
+    TopCourse { passes, ..of_top }
+}
+
+/// Returns the pitches from coarse to fine, mm; the last is the printer's own.
+fn pitches(placed: &Placed, shell: &Shell) -> Vec<[f64; 2]> {
+    let finest_mm = placed.shop.pitch_mm;
+    let is_coarser = |pitch: &[f64; 2]| pitch[0] > 1.5 * finest_mm[0];
+    let coarse = [COARSE_COLUMNS, MIDDLE_COLUMNS].map(|n| shell.coarse_pitch(n));
+    let coarse = coarse.into_iter().filter(is_coarser);
+    coarse.chain([finest_mm]).collect()
+}
+
+/// Returns the answer for a goal that no hollowing meets.
+fn impossible(placed: &Placed, solution: &Solution) -> Impossible {
+    let goal = placed.goal();
+    let warnings = placed.placement.warnings.iter();
+    let hints = solution.status.remedies(goal);
+    Impossible {
+        verdict: "impossible",
+        reason: solution.status.explain(goal),
+        remedies: Vec::new(),
+        hints: hints.iter().map(ToString::to_string).collect(),
+        choice: placed.choice.as_ref().map(ToString::to_string),
+        proof_quadric: solution.status.separator().unwrap_or(solution.quadric).0,
+        origin_mm: goal.frame.origin.into(),
+        axis: goal.frame.axis().into(),
+        warnings: warnings.map(ToString::to_string).collect(),
+    }
+}
