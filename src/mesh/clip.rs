@@ -7,6 +7,7 @@ use manifold_rust::{
     types::{Error, MeshGL64},
 };
 
+use super::tri_mesh::smallest_first;
 use super::{Defects, MeshError, Solid, TriMesh, bodies::bodies, primitives::cuboid};
 use crate::geom::{Plane, Point, orthonormal_basis};
 
@@ -118,7 +119,7 @@ impl Csg {
         let mut triangles: Vec<[u32; 3]> = gl
             .tri_verts
             .chunks_exact(3)
-            .map(|t| least_first([t[0], t[1], t[2]].map(|v| v as u32)))
+            .map(|t| smallest_first([t[0], t[1], t[2]].map(|v| v as u32)))
             .collect();
         triangles.sort_unstable();
         Ok(TriMesh::new(vertices, triangles)?)
@@ -328,17 +329,6 @@ fn check_status(body: Manifold, operation: &'static str) -> Result<Csg, ClipErro
             operation,
             reason: error.to_str(),
         }),
-    }
-}
-
-/// Rotates the triangle so that its smallest index comes first.
-fn least_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
     }
 }
 

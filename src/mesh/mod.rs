@@ -36,4 +36,5 @@ pub use facts::MeshFacts;
 pub use hollowed::Hollowed;
 pub use sampling::{SurfacePoint, area_mm2, spread_points};
 pub use solid::Solid;
+pub(crate) use tri_mesh::smallest_first;
 pub use tri_mesh::{MeshError, TriMesh, scaled};

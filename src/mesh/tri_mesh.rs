@@ -156,3 +156,14 @@ pub(crate) fn signed_volume_mm3([a, b, c]: &[Point; 3], apex: &Point) -> f64 {
     let (a, b, c) = (a - apex, b - apex, c - apex);
     a.dot(&b.cross(&c)) / 6.0
 }
+
+/// Rotates a triangle so that its smallest index comes first; its orientation stays.
+pub(crate) fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
+    if a < b && a < c {
+        [a, b, c]
+    } else if b < c {
+        [b, c, a]
+    } else {
+        [c, a, b]
+    }
+}
