@@ -1,4 +1,10 @@
-//! What every room stands on: quantities with units, digests, words, TOML and the watch of a run.
+//! The ground floor, on which every room stands.
+//!
+//! * [`units`]: lengths with units, and quantities as text for people.
+//! * [`words`]: values that are written as single words.
+//! * [`toml_text`]: TOML with faults that name line, column and the nearest known name.
+//! * [`digest`]: SHA-256 of files.
+//! * [`watch`]: progress and cancellation of a run.
 
 pub mod digest;
 pub mod numbers;

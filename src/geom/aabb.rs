@@ -67,7 +67,7 @@ impl Aabb {
         below.sup(&above).sup(&Vector::zeros()).norm_squared()
     }
 
-    /// Tells if the box contains no point.
+    /// Returns true if the box contains no point.
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x || self.min.y > self.max.y || self.min.z > self.max.z
     }

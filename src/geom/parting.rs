@@ -21,7 +21,7 @@ impl Parting {
         }
     }
 
-    /// Tells if a point lies in all the half-spaces.
+    /// Returns true if a point lies in all the half-spaces.
     pub fn acts_at(&self, at: &Point) -> bool {
         self.within
             .iter()

@@ -28,7 +28,7 @@ impl Plane {
         self.normal.dot(&point.coords) - self.offset_mm
     }
 
-    /// Tells if some of the points lie above the plane and others do not.
+    /// Returns true if some of the points lie above the plane and others do not.
     pub fn passes_through(&self, points: &[Point]) -> bool {
         let mut sides = points.iter().map(|p| self.distance(p) > 0.0);
         sides

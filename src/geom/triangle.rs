@@ -132,8 +132,8 @@ pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     (r + d1 * s - d2 * t).norm_squared()
 }
 
-/// Tells if the segment from `a` to `b` passes through the triangle's plane inside it. Touching
-/// counts, lying in the plane does not.
+/// Returns true if the segment from `a` to `b` passes through the triangle's plane inside it.
+/// Touching counts, lying in the plane does not.
 ///
 /// Decided exactly (Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997).
 fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {

@@ -75,7 +75,7 @@ fn next_ear(flat: &[Coord<f64>], places: &[usize], reflex: &[usize]) -> Option<u
     })
 }
 
-/// Tells if `p` lies in the triangle or on its boundary, but not at a corner.
+/// Returns true if `p` lies in the triangle or on its boundary, but not at a corner.
 fn blocks(p: Coord<f64>, [a, b, c]: [Coord<f64>; 3]) -> bool {
     p != a
         && p != b

@@ -57,20 +57,20 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
     }
 }
 
-/// Tells if the first line is that of a PLY file.
+/// Returns true if the first line is that of a PLY file.
 fn is_ply(bytes: &[u8]) -> bool {
     bytes
         .strip_prefix(b"ply")
         .is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
-/// Tells if the content is text in which some line is a vertex or a face.
+/// Returns true if the content is text in which some line is a vertex or a face.
 fn looks_like_obj(bytes: &[u8]) -> bool {
     let geometry = |line: &[u8]| matches!(line.trim_ascii_start(), [b'v' | b'f', b' ' | b'\t', ..]);
     is_text(bytes) && bytes.split(|&b| b == b'\n' || b == b'\r').any(geometry)
 }
 
-/// Tells if the bytes are free of control codes that text does not use.
+/// Returns true if the bytes are free of control codes that text does not use.
 fn is_text(bytes: &[u8]) -> bool {
     bytes
         .iter()

@@ -68,7 +68,7 @@ fn crossings_after(index: usize, corners: &[Point; 3], bvh: &Bvh) -> usize {
     count
 }
 
-/// Tells if two triangles pass through each other or overlap in one plane.
+/// Returns true if two triangles pass through each other or overlap in one plane.
 pub(crate) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let b_sides = b.map(|p| side(a, &p));
     if b_sides == [0; 3] {
@@ -82,7 +82,7 @@ pub(crate) fn cross(a: &[Point; 3], b: &[Point; 3]) -> bool {
         && (an_edge_passes(b, &b_sides, a) || an_edge_passes(a, &a_sides, b))
 }
 
-/// Tells if some of the sides are strictly positive and others strictly negative.
+/// Returns true if some of the sides are strictly positive and others strictly negative.
 fn are_on_both_sides(sides: &[i8; 3]) -> bool {
     sides.contains(&1) && sides.contains(&-1)
 }
@@ -107,7 +107,8 @@ fn sign(x: f64) -> i8 {
     }
 }
 
-/// Tells if an edge of `edges` whose ends lie strictly on different sides of `face` meets it.
+/// Returns true if an edge of `edges` whose ends lie strictly on different sides of `face` meets
+/// it.
 fn an_edge_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> bool {
     (0..3).any(|i| {
         let j = (i + 1) % 3;
@@ -115,8 +116,8 @@ fn an_edge_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> boo
     })
 }
 
-/// Tells if the line through p and q, not parallel to the face, meets it inside or on an edge, but
-/// not at a corner.
+/// Returns true if the line through p and q, not parallel to the face, meets it inside or on an
+/// edge, but not at a corner.
 fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
     let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side(&[*p, *q, *from], to));
     let at_corner = turns.iter().filter(|&&turn| turn == 0).count() > 1;
@@ -124,7 +125,7 @@ fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
     !at_corner && !beside
 }
 
-/// Tells if two triangles of one plane share an area: no edge of either separates them.
+/// Returns true if two triangles of one plane share an area: no edge of either separates them.
 fn overlap_in_plane(a: &[Point; 3], b: &[Point; 3]) -> bool {
     let normal = (a[1] - a[0]).cross(&(a[2] - a[0]));
     let drop = normal.iamax();
@@ -151,7 +152,7 @@ fn to_counterclockwise([a, b, c]: [Coord<f64>; 3]) -> Option<[Coord<f64>; 3]> {
     }
 }
 
-/// Tells if one of the edges of `a` has all of `b` on its right or on its line.
+/// Returns true if one of the edges of `a` has all of `b` on its right or on its line.
 fn separates(a: &[Coord<f64>; 3], b: &[Coord<f64>; 3]) -> bool {
     (0..3).any(|i| b.iter().all(|&p| orient2d(a[i], a[(i + 1) % 3], p) <= 0.0))
 }

@@ -115,7 +115,7 @@ fn twice_area_mm2([a, b, c]: &[Point; 3]) -> f64 {
     (b - a).cross(&(c - a)).norm()
 }
 
-/// Tells if the triangle has next to no area.
+/// Returns true if the triangle has next to no area.
 fn is_degenerate(corners: &[Point; 3]) -> bool {
     let [a, b, c] = corners;
     let longest = (b - a)

@@ -7,12 +7,14 @@
 //!   `union_find` under them all.
 //! * **Measurements:** [`MeshFacts`], self-intersections ([`Crossings`]), exact distances
 //!   ([`MeshDistance`]), and points spread evenly over a surface ([`spread_points`]).
-//! * **Operations:** booleans, plane cuts and simplification ([`Csg`], in `clip`).
+//! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `cut_planes` keeps cuts off
+//!   vertices and faces.
 //! * **Shapes:** [`primitives`] for tests and tools.
 
 mod bodies;
-mod clip;
 pub(crate) mod crossings;
+mod csg;
+mod cut_planes;
 mod defects;
 mod distance;
 pub(crate) mod edges;
@@ -27,9 +29,9 @@ mod tri_mesh;
 pub(crate) mod union_find;
 
 pub use bodies::{bodies, shells, winding_number};
-pub use clip::{ClipError, Csg};
-pub(crate) use clip::{off_faces, off_vertices};
 pub use crossings::Crossings;
+pub use csg::{ClipError, Csg};
+pub(crate) use cut_planes::{off_faces, off_vertices};
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
 pub use facts::MeshFacts;

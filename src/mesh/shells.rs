@@ -93,7 +93,7 @@ impl Shells {
     }
 }
 
-/// Tells if the two triangles on an edge of this kind belong to one shell.
+/// Returns true if the two triangles on an edge of this kind belong to one shell.
 pub(crate) fn joins(kind: EdgeKind) -> bool {
     matches!(kind, EdgeKind::Paired | EdgeKind::Misoriented)
 }
@@ -108,7 +108,7 @@ fn contains(outer: &Aabb, inner: &Aabb) -> bool {
     outer.union(inner) == *outer
 }
 
-/// Tells if these triangles, taken as one closed surface, wind around `point`.
+/// Returns true if these triangles, taken as one closed surface, wind around `point`.
 ///
 /// They do if the triangles above it, counted +1 if they face up and −1 if they face down, do not
 /// cancel.
@@ -154,8 +154,8 @@ fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     if below > 0.0 { facing } else { 0 }
 }
 
-/// Returns the side of the edge on which the point lies, seen from above and moved by (ε, ε²): +1
-/// left, −1 right, 0 if the edge is vertical.
+/// Returns the side of the edge on which the point lies: +1 left, −1 right, 0 if the edge is
+/// vertical. The point is seen from above and counts as moved by (ε, ε²).
 fn side_of_edge(from: &Point, to: &Point, point: &Point) -> i32 {
     let [a, b, p] = [from, to, point].map(|p| Coord { x: p.x, y: p.y });
     let turn = orient2d(a, b, p);

@@ -35,7 +35,7 @@ pub struct Repairs {
 }
 
 impl Repairs {
-    /// Tells if nothing had to be done.
+    /// Returns true if nothing had to be done.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }

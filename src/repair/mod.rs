@@ -2,8 +2,9 @@
 //!
 //! # The ladder
 //!
-//! [`repair`] climbs these rungs in order. No rung changes the shape, and none keeps a result that
-//! lacks its proof. Each cost is that of the whole mesh.
+//! [`repair`] climbs these rungs in order. None keeps a result that lacks its proof. Only rung 2
+//! moves vertices, on rims that nearly meet. An edge is *bad* unless exactly two triangles share it
+//! in opposite directions.
 //!
 //! 1. **Merge equal vertices** (`weld`). Also drops the triangles that lose a corner. *Cost:* one
 //!    sort of the vertices. *Proof:* no vertex moves, and a second weld changes nothing.
@@ -16,10 +17,9 @@
 //! 5. **Orient neighbours** (`orient`), if two disagree. Flips triangles, the smaller part of each
 //!    shell. *Cost:* linear. *Proof:* only orientations change. A one-sided surface cannot agree
 //!    and stays misoriented.
-//! 6. **Separate touching surfaces** (`unstitch`), if an edge is crowded or a vertex is pinched.
-//!    Doubles such vertices. *Cost:* linear, plus a sort of the triangles around each crowded edge.
-//!    *Proof:* no vertex moves, and the result is kept only if every edge joins exactly two
-//!    triangles that agree.
+//! 6. **Separate touching surfaces** (`unstitch`), if an edge is bad or a vertex is pinched.
+//!    Doubles their vertices. *Cost:* linear, plus a sort of the triangles around each crowded edge.
+//!    *Proof:* no vertex moves, and the result is kept only if no edge is bad afterwards.
 //! 7. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
 //!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which
 //!    shell encloses which.

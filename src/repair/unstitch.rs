@@ -18,8 +18,8 @@ pub(super) enum Wedge {
 /// moves.
 ///
 /// Equally many triangles must run along a crowded edge in each direction. Neighbours that enclose
-/// material stay joined or, if that leaves an edge crowded, those that enclose air (Guéziec et al.,
-/// "Cutting and stitching", IEEE TVCG 7, 2001).
+/// material stay joined. If that leaves an edge crowded, those that enclose air stay joined instead
+/// (Guéziec et al., "Cutting and stitching", IEEE TVCG 7, 2001).
 pub(super) fn unstitch(mesh: &TriMesh) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
     [Wedge::Material, Wedge::Air].into_iter().find_map(|wedge| {

@@ -33,7 +33,7 @@ impl<'a> Probe<'a> {
         self.tangent_bound_from(self.center - closest_on_triangle(&self.center, other).point)
     }
 
-    /// Tells if another triangle is nearer than `limit_mm`.
+    /// Returns true if another triangle is nearer than `limit_mm`.
     pub(super) fn is_within(&self, other: &[Point; 3], limit_mm: f64) -> bool {
         let bound = self.triangle_bound(other);
         if bound >= limit_mm {

@@ -72,7 +72,7 @@ impl Bvh {
         )
     }
 
-    /// Tells if a triangle comes nearer than `limit_mm` to any of the triangles.
+    /// Returns true if a triangle comes nearer than `limit_mm` to any of the triangles.
     pub fn is_triangle_within(&self, corners: &[Point; 3], limit_mm: f64) -> bool {
         let probe = Probe::new(corners);
         let aabb = Aabb::of_points(corners);
@@ -112,7 +112,7 @@ impl Bvh {
         )
     }
 
-    /// Tells if the segment from `a` to `b` passes through a triangle. Decided in double
+    /// Returns true if the segment from `a` to `b` passes through a triangle. Decided in double
     /// precision: for a segment that only touches an edge, either answer may come.
     pub fn is_crossed_by(&self, a: &Point, b: &Point) -> bool {
         let along = b - a;

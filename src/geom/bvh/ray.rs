@@ -28,7 +28,7 @@ pub(super) fn triangle_crossing(a: &Point, along: &Vector, [p, q, r]: &[Point; 3
     (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)).then_some(t)
 }
 
-/// Tells if the ray from `p` along +z may meet the box.
+/// Returns true if the ray from `p` along +z may meet the box.
 pub(super) fn is_above(p: &Point, aabb: &Aabb) -> bool {
     aabb.max.z >= p.z
         && aabb.min.x <= p.x

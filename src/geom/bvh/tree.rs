@@ -36,7 +36,7 @@ impl Bvh {
         self.ids.len()
     }
 
-    /// Tells if there is no triangle.
+    /// Returns true if there is no triangle.
     pub fn is_empty(&self) -> bool {
         self.ids.is_empty()
     }

@@ -11,8 +11,8 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 /// a long name and the first facet.
 const PROBE_BYTES: usize = 4096;
 
-/// Tells if the content begins like an ASCII STL file: the word "solid" in any case, and no zero
-/// byte nearby.
+/// Returns true if the content begins like an ASCII STL file: the word "solid" in any case, and no
+/// zero byte nearby.
 ///
 /// A truncated binary file may begin with the word too, but its numbers contain zero bytes.
 pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
@@ -150,7 +150,7 @@ impl<'a> Reader<'a> {
 /// Longest excerpt of an unexpected word in a message, bytes.
 const MAX_QUOTED_BYTES: usize = 40;
 
-/// Tells if the byte separates words.
+/// Returns true if the byte separates words.
 fn is_blank(byte: u8) -> bool {
     byte.is_ascii_whitespace() || byte == 0x0b
 }

@@ -6,7 +6,7 @@ use super::error::StlError;
 use super::layout::{HEADER_BYTES, PREFIX_BYTES, TRIANGLE_BYTES};
 use crate::geom::Point;
 
-/// Tells if the file is exactly as long as its triangle count requires.
+/// Returns true if the file is exactly as long as its triangle count requires.
 pub(crate) fn is_binary(bytes: &[u8]) -> bool {
     promised_count(bytes)
         .is_some_and(|count| bytes.len() - PREFIX_BYTES == count as usize * TRIANGLE_BYTES)

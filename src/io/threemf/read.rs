@@ -144,7 +144,7 @@ fn check_extensions(root: &Tag) -> Result<(), ThreeMfError> {
     Ok(())
 }
 
-/// Tells if the extension, a namespace or an undeclared prefix, leaves the shape as it is.
+/// Returns true if the extension, a namespace or an undeclared prefix, leaves the shape as it is.
 fn is_harmless(extension: &str) -> bool {
     let name = extension.strip_prefix(CONSORTIUM_PREFIX);
     name.is_some_and(|name| {

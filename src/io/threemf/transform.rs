@@ -46,7 +46,7 @@ impl Transform {
         }
     }
 
-    /// Tells if the map reverses orientation.
+    /// Returns true if the map reverses orientation.
     pub fn mirrors(&self) -> bool {
         self.linear.determinant() < 0.0
     }
