@@ -49,6 +49,7 @@ pub fn counted(count: usize, thing: &str) -> String {
 
 /// The reason that a text or a number is not a length.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LengthError {
     /// No digits.
     #[error(

@@ -5,6 +5,7 @@ use crate::base::toml_text::nearest;
 
 /// The reason that a text is not one of the expected words, or not the expected numbers.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChoiceError {
     /// An unknown word.
     #[error("`{text}` is not a {what}; remedy: {remedy}")]

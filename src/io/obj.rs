@@ -6,6 +6,7 @@ use crate::mesh::TriMesh;
 
 /// The reason that bytes are not an OBJ mesh, with the line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ObjError {
     /// There are no faces.
     #[error(
@@ -148,14 +149,14 @@ impl Geometry {
     fn push_if_geometry(&mut self, line: &str, number: usize) {
         let line = line.split('#').next().unwrap_or_default();
         let words: Vec<&str> = line.split_whitespace().collect();
-        let kept = match words.first() {
+        let needed = match words.first() {
             Some(&"v") => &words[..coordinate_count(words.len() - 1) + 1],
             Some(&"f") => &words[..],
             _ => return,
         };
-        self.vertices += usize::from(kept[0] == "v");
+        self.vertices += usize::from(needed[0] == "v");
         self.lines.push(number);
-        for word in kept {
+        for word in needed {
             self.text.push_str(word);
             self.text.push(' ');
         }
@@ -172,7 +173,7 @@ impl Geometry {
                 vertices += 1;
                 check_vertex(words, text, line)?;
             } else {
-                check_face(words, line, [vertices, self.vertices])?;
+                check_face(words, line, vertices, self.vertices)?;
             }
         }
         Ok(())
@@ -212,7 +213,8 @@ fn check_vertex<'a>(
 fn check_face<'a>(
     corners: impl Iterator<Item = &'a str>,
     line: usize,
-    [before, all]: [usize; 2],
+    before: usize,
+    all: usize,
 ) -> Result<(), ObjError> {
     let mut count = 0;
     for corner in corners {

@@ -7,6 +7,7 @@ use crate::mesh::TriMesh;
 
 /// The reason that bytes are not a PLY mesh, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlyError {
     /// A line of the header cannot be understood.
     #[error(

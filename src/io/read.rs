@@ -10,6 +10,7 @@ use crate::mesh::TriMesh;
 
 /// The reason that a file gives no mesh. The message names the file, its source the place in it.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// There is no such file.
     #[error("{}: there is no such file; check the path", path.display())]
@@ -43,6 +44,7 @@ pub enum ReadError {
 
 /// The reason that the content of a file gives no mesh.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ContentError {
     /// There are no bytes.
     #[error("it is empty (0 bytes); export the model again")]

@@ -13,6 +13,7 @@ use crate::geom::{Plane, Point, orthonormal_basis};
 
 /// The reason that a boolean, a cut or an import failed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ClipError {
     /// The engine refused the mesh, or an operation failed.
     #[error(
@@ -177,6 +178,7 @@ impl Csg {
 
     /// Simplifies the body: no point of its surface moves by more than about `tolerance_mm`.
     /// Returns it unchanged if fewer triangles would make it intersect itself.
+    #[must_use]
     pub fn simplify(&self, tolerance_mm: f64) -> Self {
         let simple = self.coarsened(tolerance_mm);
         let worse = simple.0.status() != Error::NoError
@@ -187,12 +189,14 @@ impl Csg {
 
     /// Simplifies the body for pictures: as [`Self::simplify`], without a check for
     /// self-intersection.
+    #[must_use]
     pub fn coarsened(&self, tolerance_mm: f64) -> Self {
         Self(self.0.simplify(tolerance_mm))
     }
 
     /// Closes the slivers that the rounding of a file would fold. No point of the surface moves
     /// by more than 2e-5 mm.
+    #[must_use]
     pub fn without_slivers(&self) -> Self {
         self.simplify(SLIVER_MM)
     }

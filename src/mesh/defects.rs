@@ -18,6 +18,7 @@ const MIN_VOLUME_RATIO: f64 = 1e-12;
 
 /// One way in which a mesh fails to bound a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum DefectKind {
     /// There are no triangles.
     Empty,
@@ -65,10 +66,10 @@ impl DefectKind {
                 "unite the overlapping bodies in a modelling program (boolean union), then export again"
             }
             Self::MisorientedEdge => {
-                "turn the triangles to agree (recalculate normals); if that fails, the surface has one side only"
+                "make the triangles agree (recalculate normals); if that fails, the surface is one-sided"
             }
             Self::NoVolume => "give the surface a thickness; a flat sheet cannot be printed",
-            Self::InsideOut => "turn all triangles round (flip normals)",
+            Self::InsideOut => "reverse all triangles (flip normals)",
         }
     }
 }
@@ -259,7 +260,7 @@ pub(super) fn middle(mesh: &TriMesh, sides: &[Side]) -> Point {
 fn volume_defects(mesh: &TriMesh) -> [Defect; 2] {
     let least = MIN_VOLUME_RATIO * mesh.aabb().size().norm().powi(3);
     let volume = mesh.signed_volume_mm3();
-    let flaw = |kind, is: bool| Defect {
+    let volume_defect = |kind, is: bool| Defect {
         kind,
         count: usize::from(is),
         places: Vec::new(),
@@ -267,8 +268,8 @@ fn volume_defects(mesh: &TriMesh) -> [Defect; 2] {
     let inside_out = volume < -least;
     let is_sound = volume > least && volume.is_finite();
     [
-        flaw(DefectKind::NoVolume, !is_sound && !inside_out),
-        flaw(DefectKind::InsideOut, inside_out),
+        volume_defect(DefectKind::NoVolume, !is_sound && !inside_out),
+        volume_defect(DefectKind::InsideOut, inside_out),
     ]
 }
 

@@ -53,8 +53,8 @@ pub(crate) enum EdgeKind {
 pub(crate) struct EdgeTable(Vec<Side>);
 
 impl EdgeTable {
-    /// Builds the table of `mesh` in time linear in its triangles: a counting sort by the
-    /// smaller vertex, then a sort of the few sides that share it.
+    /// Builds the table of `mesh` in time linear in its triangles. A counting sort by the
+    /// smaller vertex comes first, then a sort of the few sides that share it.
     pub fn of(mesh: &TriMesh) -> Self {
         let mut ends = bucket_starts(mesh);
         let mut sides = vec![

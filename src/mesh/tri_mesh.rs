@@ -14,6 +14,7 @@ pub struct TriMesh {
 
 /// The reason that vertices and triangles do not make a [`TriMesh`].
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// A triangle names a vertex that does not exist.
     #[error("triangle {triangle} names vertex {vertex}, but there are only {vertices} vertices")]
@@ -94,6 +95,7 @@ impl TriMesh {
     }
 
     /// Returns the mesh with each vertex mapped by `f`.
+    #[must_use]
     pub fn map_vertices(&self, f: impl Fn(&Point) -> Point) -> Self {
         Self {
             vertices: self.vertices.iter().map(f).collect(),
@@ -122,11 +124,13 @@ impl TriMesh {
     }
 
     /// Returns the mesh in `frame`'s own coordinates.
+    #[must_use]
     pub fn in_frame(&self, frame: &Frame) -> Self {
         self.map_vertices(|p| frame.to_local(p))
     }
 
     /// Returns the mesh with the orientation of every triangle reversed.
+    #[must_use]
     pub fn reversed(&self) -> Self {
         let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
         Self {
@@ -136,6 +140,7 @@ impl TriMesh {
     }
 
     /// Returns both meshes as one, with nothing shared; `other`'s vertices follow this mesh's.
+    #[must_use]
     pub fn joined(mut self, other: &Self) -> Self {
         let shift = self.vertices.len() as u32;
         self.vertices.extend_from_slice(&other.vertices);

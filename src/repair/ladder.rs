@@ -89,6 +89,7 @@ impl fmt::Display for Repairs {
 /// See the [room](super) for the rungs and their proofs. No hole is filled. A mesh that is already
 /// sound comes back unchanged. Only the welding of rims moves vertices. Linear in the triangles
 /// except for one sort of the vertices.
+#[must_use]
 pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
     let mut repairs = Repairs::default();
     let mesh = merge_equal_vertices(mesh, &mut repairs);
@@ -276,8 +277,8 @@ mod tests {
 
     #[test]
     fn doubled_and_collapsed_triangles_are_dropped() {
-        let spoilt = with_triangles(&unit_cube(), &[[0, 4, 6], [6, 0, 4], [1, 1, 2], [5, 5, 5]]);
-        let (repaired, repairs) = repair(spoilt);
+        let spoiled = with_triangles(&unit_cube(), &[[0, 4, 6], [6, 0, 4], [1, 1, 2], [5, 5, 5]]);
+        let (repaired, repairs) = repair(spoiled);
         assert_eq!(repaired, unit_cube());
         assert_eq!(
             (repairs.dropped_duplicates, repairs.dropped_degenerate),

@@ -18,7 +18,7 @@
 //!    shell. *Cost:* linear. *Proof:* only orientations change. A one-sided surface cannot agree
 //!    and stays misoriented.
 //! 6. **Separate touching surfaces** (`unstitch`), if an edge is bad or a vertex is pinched.
-//!    Doubles their vertices. *Cost:* linear, plus a sort of the triangles around each crowded edge.
+//!    Doubles their vertices. *Cost:* linear, plus a sort of the triangles at each crowded edge.
 //!    *Proof:* no vertex moves, and the result is kept only if no edge is bad afterwards.
 //! 7. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
 //!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which

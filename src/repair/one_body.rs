@@ -60,6 +60,7 @@ impl fmt::Display for ShellFact {
 
 /// The reason that a solid is not one body.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NotOneBody {
     /// The surface passes through itself: the overlap would count twice.
     #[error(

@@ -10,6 +10,7 @@ use crate::mesh::edges::{EdgeKind, EdgeTable, Side};
 ///
 /// The surface moves by no more than the tolerance. A rim without a counterpart stays open: the
 /// caller judges the result.
+#[must_use]
 pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let mut mesh = weld_open_edges(mesh, tolerance_mm);
     while let Some(divided) = divide_open_edges(&mesh, tolerance_mm) {
@@ -89,8 +90,8 @@ mod tests {
     /// A box without the triangles that lie in a plane across z.
     fn without_face(min: [f64; 3], max: [f64; 3], z: f64) -> TriMesh {
         let mesh = cuboid(&Point::from(min), &Point::from(max));
-        let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].z != z);
-        let triangles = mesh.triangles().iter().filter(stays).copied().collect();
+        let is_kept = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].z != z);
+        let triangles = mesh.triangles().iter().filter(is_kept).copied().collect();
         TriMesh::new(mesh.vertices().to_vec(), triangles).unwrap()
     }
 
@@ -100,10 +101,10 @@ mod tests {
         // The wall between them is double.
         let below = without_face([0.0; 3], [2.0, 1.0, 1.0], 1.0);
         let open_wall = |mesh: TriMesh| {
-            let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);
+            let is_kept = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);
             TriMesh::new(
                 mesh.vertices().to_vec(),
-                mesh.triangles().iter().filter(stays).copied().collect(),
+                mesh.triangles().iter().filter(is_kept).copied().collect(),
             )
             .unwrap()
         };

@@ -26,6 +26,7 @@ const MAX_ROUNDS: usize = 12;
 /// edge moves it by the bend of the surface along 0.02 mm. Returns the mesh unchanged if nothing
 /// folds; a fold that neither mends is left. Examines slivers only, so a sound mesh costs little
 /// more than its search tree.
+#[must_use]
 pub fn unfolded(mesh: &TriMesh) -> TriMesh {
     let mut best = (usize::MAX, mesh.clone());
     let mut mended = mesh.clone();

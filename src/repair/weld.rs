@@ -12,6 +12,7 @@ use crate::mesh::union_find::UnionFind;
 ///
 /// The vertices keep the order of their first appearance and the triangles keep theirs, so a second
 /// weld changes nothing. Costs one sort of the vertices.
+#[must_use]
 pub fn weld(mesh: &TriMesh) -> TriMesh {
     let keys: Vec<[u64; 3]> = mesh.vertices().iter().map(place_key).collect();
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();

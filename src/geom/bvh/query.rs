@@ -411,7 +411,7 @@ mod tests {
             let brute: Vec<u32> = (0..300)
                 .filter(|&t| overlaps(&triangles[t as usize]))
                 .collect();
-            let (mut seen, mut shown) = (Vec::new(), 0);
+            let (mut seen, mut visits) = (Vec::new(), 0);
             bvh.visit_overlapping(&aabb, |t, corners| {
                 assert_eq!(*corners, triangles[t as usize]);
                 seen.push(t);
@@ -420,14 +420,14 @@ mod tests {
             seen.sort_unstable();
             assert_eq!(seen, brute);
             bvh.visit_overlapping(&aabb, |_, _| {
-                shown += 1;
-                if shown < 3 {
+                visits += 1;
+                if visits < 3 {
                     ControlFlow::Continue(())
                 } else {
                     ControlFlow::Break(())
                 }
             });
-            assert_eq!(shown, brute.len().min(3));
+            assert_eq!(visits, brute.len().min(3));
         }
     }
 

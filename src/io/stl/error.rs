@@ -4,6 +4,7 @@ use super::layout::PREFIX_BYTES;
 
 /// The reason that bytes are not an STL mesh, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StlError {
     /// A binary file shorter than its own header.
     #[error(

@@ -2,6 +2,7 @@
 
 /// The bounds on a package, so that a small file cannot take all memory or time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Limit {
     /// Unpacked bytes for each packed byte.
     Unpacked,
@@ -45,6 +46,7 @@ impl Limit {
 
 /// The reason that bytes are not a usable 3MF model, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ThreeMfError {
     /// The archive cannot be unpacked.
     #[error("{part}: {reason}; the file was cut off or damaged: copy or export it again")]
