@@ -53,7 +53,11 @@ pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
 
 /// Defines an enum each of whose values is written as one word.
 macro_rules! choice {
-    ($(#[$about:meta])* $name:ident, $what:literal { $($(#[$doc:meta])* $value:ident = $word:literal,)+ }) => {
+    (
+        $(#[$about:meta])* $name:ident, $what:literal {
+            $($(#[$doc:meta])* $value:ident = $word:literal,)+
+        }
+    ) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
         pub enum $name {

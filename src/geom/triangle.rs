@@ -256,7 +256,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_closest_point_is_in_the_triangle_and_no_grid_point_is_nearer(p in point(), t in triangle()) {
+        fn no_point_of_a_grid_is_nearer_than_the_closest_point(p in point(), t in triangle()) {
             let found = closest_on_triangle(&p, &t);
             let distance = (found.point - p).norm();
             let best = grid(&t, STEPS).iter().map(|g| (g - p).norm()).fold(f64::INFINITY, f64::min);

@@ -116,8 +116,8 @@ fn an_edge_passes(edges: &[Point; 3], sides: &[i8; 3], face: &[Point; 3]) -> boo
     })
 }
 
-/// Returns true if the line through p and q, not parallel to the face, meets it inside or on an
-/// edge, but not at a corner.
+/// Returns true if the line through p and q meets the face inside or on an edge, but not at a
+/// corner. The line must not be parallel to the face.
 fn line_meets(p: &Point, q: &Point, [a, b, c]: &[Point; 3]) -> bool {
     let turns = [(a, b), (b, c), (c, a)].map(|(from, to)| side(&[*p, *q, *from], to));
     let at_corner = turns.iter().filter(|&&turn| turn == 0).count() > 1;
