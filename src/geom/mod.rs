@@ -2,6 +2,7 @@
 //!
 //! * **Shapes:** [`Plane`], [`Parting`] (a plane that acts within half-spaces), [`Aabb`],
 //!   [`Quadric`].
+//! * **In a plane:** [`rings`], the outlines and holes of a section.
 //! * **Placement:** [`Frame`], a right-handed orthonormal frame in the model's frame.
 //! * **Distances:** [`triangle`] in closed form, [`Bvh`] over many triangles.
 

@@ -41,8 +41,8 @@ pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
 
 /// Makes an icosphere, mm: 20·4^`level` triangles (level at most 10) with vertices on the sphere.
 ///
-/// The mesh lies inside the ball, so its volume is too small: by 1.8 % at level 2, by 0.11 % at
-/// level 4. Each level reduces the difference fourfold.
+/// The mesh lies inside the ball, so its volume is too small. The difference is 1.8 % at level 2
+/// and shrinks fourfold with each level.
 pub fn ball(center: &Point, radius_mm: f64, level: u32) -> TriMesh {
     unit_icosphere(level).map_vertices(|p| center + p.coords * radius_mm)
 }
