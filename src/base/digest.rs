@@ -1,8 +1,8 @@
-//! Fingerprints of files: SHA-256 as text.
+//! Digests of files: SHA-256 as text.
 
 use sha2::{Digest, Sha256};
 
-/// SHA-256 (FIPS 180-4) of the pieces one after the other, in lower-case hexadecimal.
+/// Returns the SHA-256 (FIPS 180-4) of the concatenated pieces, in lower-case hexadecimal.
 pub fn sha256_hex(pieces: &[&[u8]]) -> String {
     let mut hash = Sha256::new();
     pieces.iter().for_each(|piece| hash.update(piece));

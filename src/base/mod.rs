@@ -1,4 +1,12 @@
-//! What every room stands on: quantities with units, digests, words, TOML and the watch of a run.
+//! The ground floor, on which every room stands.
+//!
+//! * [`units`]: lengths with units, and quantities as text for people.
+//! * [`numbers`]: rounded numbers and coordinates as text.
+//! * [`words`]: values that are written as single words.
+//! * [`toml_text`]: TOML with faults that name line, column and the nearest known name.
+//! * [`digest`]: SHA-256 of files.
+//! * [`verdict`]: an answer that may be no, with the reason.
+//! * [`watch`]: progress and cancellation of a run.
 
 pub mod digest;
 pub mod numbers;

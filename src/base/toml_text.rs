@@ -1,14 +1,13 @@
-//! TOML text read into plain data; every fault is told with its line, its column and the nearest
-//! known name.
+//! Reads TOML into plain data. Every fault names its line, its column and the nearest known name.
 
 use std::{fmt, ops::Range};
 
 use serde::de::DeserializeOwned;
 
-/// Where in a text file something stands; lines and columns count from 1, columns in characters.
+/// A place in a text file. Lines and columns count from 1, columns in characters.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// The file, as the reader was told to call it.
+    /// The name of the file, as the caller gave it.
     pub file: String,
     /// The line.
     pub line: usize,
@@ -17,7 +16,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// The place of the byte `offset` of `text`; past the end means the end.
+    /// Returns the place of the byte `offset` of `text`; past the end means the end.
     pub fn of_byte(file: &str, text: &str, offset: usize) -> Self {
         let before = text.get(..offset.min(text.len())).unwrap_or(text);
         let line = before.matches('\n').count() + 1;
@@ -36,17 +35,17 @@ impl fmt::Display for Place {
     }
 }
 
-/// A text that is not TOML, or not the TOML that was asked for.
+/// A text that is not TOML, or not the expected TOML.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{place}: {message}")]
 pub struct TextFault {
-    /// Where it went wrong.
+    /// The place of the fault.
     pub place: Place,
-    /// What went wrong, and which known name comes nearest to a misspelt one.
+    /// The fault and, for a misspelt name, the nearest known one.
     pub message: String,
 }
 
-/// The value described by the TOML `text`, which messages call `file`.
+/// Reads a value from the TOML `text`; messages call the text `file`.
 pub fn read<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, TextFault> {
     toml::from_str(text).map_err(|error| TextFault {
         place: Place::of_byte(
@@ -54,13 +53,12 @@ pub fn read<T: DeserializeOwned>(file: &str, text: &str) -> Result<T, TextFault>
             text,
             error.span().map_or(0, |Range { start, .. }| start),
         ),
-        message: explained(error.message()),
+        message: explain(error.message()),
     })
 }
 
-/// The parser's message on one line; for an unknown name, the nearest of the expected ones is
-/// added.
-fn explained(message: &str) -> String {
+/// Puts the parser's message on one line; for an unknown name, adds the nearest expected one.
+fn explain(message: &str) -> String {
     let one_line = message
         .lines()
         .map(str::trim)
@@ -77,31 +75,32 @@ fn explained(message: &str) -> String {
     }
 }
 
-/// Share of a word's letters that may be wrong for a suggestion still to be likely.
+/// Largest share of a word's letters that may be wrong for a likely suggestion.
 ///
-/// Above it unrelated names are suggested; below it two letters swapped in a short id (`pegt`) are
-/// missed.
+/// A larger share suggests unrelated names. A smaller one misses two swapped letters in a short id
+/// (`pegt`).
 const MISSPELT_RATIO: f64 = 0.5;
 
-/// The one of `known` that `word` most likely stands for; none if nothing is near.
+/// Returns the name in `known` that `word` most likely stands for; `None` if no name is near.
 ///
-/// Nearness is the number of letters to insert, delete or change (Levenshtein 1966); a known name
-/// that begins with the word counts as near. The first of equally near names wins.
+/// The distance is the number of letters to insert, delete or change (Levenshtein 1966). A known
+/// name that begins with the word counts as near. The first of equally near names wins.
 pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let word = word.to_lowercase();
     known
         .into_iter()
-        .map(|name| (edits(&word, name), name))
-        .filter(|&(edits, name)| {
+        .map(|name| (edit_distance(&word, name), name))
+        .filter(|&(edit_distance, name)| {
             (!word.is_empty() && name.starts_with(&word))
-                || edits as f64 <= MISSPELT_RATIO * name.chars().count() as f64
+                || edit_distance as f64 <= MISSPELT_RATIO * name.chars().count() as f64
         })
-        .min_by_key(|&(edits, _)| edits)
+        .min_by_key(|&(edit_distance, _)| edit_distance)
         .map(|(_, name)| name)
 }
 
-/// The least number of letters to insert, delete or change that makes `a` into `b`.
-fn edits(a: &str, b: &str) -> usize {
+/// Returns the edit distance: the least number of letters to insert, delete or change to turn `a`
+/// into `b`.
+fn edit_distance(a: &str, b: &str) -> usize {
     let b: Vec<char> = b.chars().collect();
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, from) in a.chars().enumerate() {
@@ -129,10 +128,10 @@ mod tests {
 
     #[test]
     fn edit_distances_are_the_textbook_ones() {
-        assert_eq!(edits("kitten", "sitting"), 3);
-        assert_eq!(edits("", "abc"), 3);
-        assert_eq!(edits("abc", ""), 3);
-        assert_eq!(edits("same", "same"), 0);
+        assert_eq!(edit_distance("kitten", "sitting"), 3);
+        assert_eq!(edit_distance("", "abc"), 3);
+        assert_eq!(edit_distance("abc", ""), 3);
+        assert_eq!(edit_distance("same", "same"), 0);
     }
 
     #[test]

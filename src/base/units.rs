@@ -1,4 +1,4 @@
-//! Lengths, masses and angles: mm, g and radians inside; how a person writes and reads them.
+//! Lengths, masses and angles: mm, g and radians inside; parsing and text for people.
 
 use std::{fmt, str::FromStr};
 
@@ -18,7 +18,7 @@ pub const MM2_PER_CM2: f64 = 100.0;
 /// Cubic millimetres in a cubic centimetre.
 pub const MM3_PER_CM3: f64 = 1000.0;
 
-/// The units a length may be written in, and what each is in mm; `mm` comes first, the default.
+/// The units of length with their values in mm; the default, `mm`, comes first.
 const LENGTH_UNITS: [(&str, f64); 6] = [
     ("mm", 1.0),
     ("cm", 10.0),
@@ -28,17 +28,17 @@ const LENGTH_UNITS: [(&str, f64); 6] = [
     ("µm", 1e-3),
 ];
 
-/// A length as a person writes it: `100mm`, `4in`, `10cm`, `0.1m`, `42um`; without a unit, mm.
-/// Always positive and finite.
+/// A positive, finite length as a person writes it: `100mm`, `4in`, `10cm`, `0.1m`, `42um`; without
+/// a unit, mm.
 ///
-/// In TOML and JSON it is written as a string with its unit and read from a string or from a number
-/// of mm.
+/// In TOML and JSON it is written as a string with its unit. It is read from such a string, or from
+/// a number of mm.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub struct Length {
     mm: f64,
 }
 
-/// Counts one thing or several: `1 pin`, `3 pins`.
+/// Formats a count of things: `1 pin`, `3 pins`.
 pub fn counted(count: usize, thing: &str) -> String {
     if count == 1 {
         format!("1 {thing}")
@@ -47,8 +47,9 @@ pub fn counted(count: usize, thing: &str) -> String {
     }
 }
 
-/// What is wrong with a length.
+/// The reason that a text or a number is not a length.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LengthError {
     /// No digits.
     #[error(
@@ -69,7 +70,7 @@ pub enum LengthError {
 }
 
 impl Length {
-    /// The length of `mm` millimetres; refused unless positive and finite.
+    /// Makes a length of `mm` millimetres. Fails unless it is positive and finite.
     pub fn from_mm(mm: f64) -> Result<Self, LengthError> {
         if mm.is_finite() && mm > 0.0 {
             Ok(Self { mm })
@@ -78,7 +79,7 @@ impl Length {
         }
     }
 
-    /// The length in mm.
+    /// Returns the length in mm.
     pub fn mm(self) -> f64 {
         self.mm
     }
@@ -107,7 +108,7 @@ impl FromStr for Length {
     }
 }
 
-/// What one of the named unit is in mm.
+/// Returns the length of the named unit, mm; `None` if it is unknown.
 fn unit_in_mm(unit: &str) -> Option<f64> {
     LENGTH_UNITS
         .iter()
@@ -115,7 +116,7 @@ fn unit_in_mm(unit: &str) -> Option<f64> {
         .map(|&(_, mm)| mm)
 }
 
-/// The shortest decimal that reads back as the same length, with its unit: `1.016mm`.
+/// Writes the shortest decimal that reads back as the same length, with its unit: `1.016mm`.
 impl fmt::Display for Length {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}mm", self.mm)
@@ -160,50 +161,50 @@ impl serde::de::Visitor<'_> for LengthVisitor {
     }
 }
 
-/// What stands for a number that is not finite, in text for people.
+/// The text shown for a number that is not finite.
 const NO_NUMBER: &str = "—";
 
-/// A length for people: `1.016 mm` below 10 mm, `101.60 mm` from there.
+/// Formats a length for people: `1.016 mm` below 10 mm, `101.60 mm` from there.
 pub fn show_mm(mm: f64) -> String {
-    with_unit(mm, if mm.abs() < 10.0 { 3 } else { 2 }, "mm")
+    format_with_unit(mm, if mm.abs() < 10.0 { 3 } else { 2 }, "mm")
 }
 
-/// A volume for people: `12.35 cm³` from 1 cm³, `12.3 mm³` below.
+/// Formats a volume for people: `12.35 cm³` from 1 cm³, `12.3 mm³` below.
 pub fn show_mm3(mm3: f64) -> String {
     if mm3.abs() < MM3_PER_CM3 {
-        with_unit(mm3, 1, "mm³")
+        format_with_unit(mm3, 1, "mm³")
     } else {
-        with_unit(mm3 / MM3_PER_CM3, 2, "cm³")
+        format_with_unit(mm3 / MM3_PER_CM3, 2, "cm³")
     }
 }
 
-/// A mass for people: `12.35 g`.
+/// Formats a mass for people: `12.35 g`.
 pub fn show_g(g: f64) -> String {
-    with_unit(g, 2, "g")
+    format_with_unit(g, 2, "g")
 }
 
-/// A turning rate for people: `255.6 rpm`.
+/// Formats a rate of rotation for people: `255.6 rpm`.
 pub fn show_rpm(rpm: f64) -> String {
-    with_unit(rpm, 1, "rpm")
+    format_with_unit(rpm, 1, "rpm")
 }
 
-/// An angle given in radians, in degrees for people: `0.050°`.
+/// Formats an angle, given in radians, as degrees for people: `0.050°`.
 pub fn show_deg(radians: f64) -> String {
-    let text = decimals(radians.to_degrees(), 3);
+    let text = format_decimals(radians.to_degrees(), 3);
     if text == NO_NUMBER { text } else { text + "°" }
 }
 
-/// A ratio for people: `0.6485`.
+/// Formats a ratio for people: `0.6485`.
 pub fn show_ratio(ratio: f64) -> String {
-    decimals(ratio, 4)
+    format_decimals(ratio, 4)
 }
 
-/// A ratio for people, in hundredths: `37.1 %`.
+/// Formats a ratio as a percentage for people: `37.1 %`.
 pub fn show_percent(ratio: f64) -> String {
-    with_unit(100.0 * ratio, 1, "%")
+    format_with_unit(100.0 * ratio, 1, "%")
 }
 
-/// A number that may be very small, such as a certificate's gap: `3.1e-9`; `0` for zero.
+/// Formats a number that may be very small, such as a certificate's gap: `3.1e-9`; `0` for zero.
 pub fn show_small(value: f64) -> String {
     match value {
         v if !v.is_finite() => NO_NUMBER.to_owned(),
@@ -212,8 +213,8 @@ pub fn show_small(value: f64) -> String {
     }
 }
 
-fn with_unit(value: f64, places: usize, unit: &str) -> String {
-    let text = decimals(value, places);
+fn format_with_unit(value: f64, places: usize, unit: &str) -> String {
+    let text = format_decimals(value, places);
     if text == NO_NUMBER {
         text
     } else {
@@ -221,8 +222,8 @@ fn with_unit(value: f64, places: usize, unit: &str) -> String {
     }
 }
 
-/// `value` with so many decimals; never `-0.00`, and a dash if it is not finite.
-fn decimals(value: f64, places: usize) -> String {
+/// Formats `value` with `places` decimals; never `-0.00`, and a dash if it is not finite.
+fn format_decimals(value: f64, places: usize) -> String {
     if !value.is_finite() {
         return NO_NUMBER.to_owned();
     }

@@ -1,17 +1,18 @@
-//! Values that are read from and printed as words: the macros that make them, and what is said of
-//! any other word.
+//! Values that are read and printed as words: the macros that define them, and the error for any
+//! other word.
 
 use crate::base::toml_text::nearest;
 
-/// A text that is none of the words, or not the numbers, that were asked for.
+/// The reason that a text is not one of the expected words, or not the expected numbers.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChoiceError {
     /// An unknown word.
     #[error("`{text}` is not a {what}; remedy: {remedy}")]
     Unknown {
-        /// What was asked for.
+        /// The kind of word expected.
         what: &'static str,
-        /// What was given.
+        /// The text given.
         text: String,
         /// The nearest word, or all of them.
         remedy: String,
@@ -25,8 +26,8 @@ pub enum ChoiceError {
 }
 
 impl ChoiceError {
-    /// The fault of a text that is none of the `known` words for a `what`; suggests the nearest of
-    /// them.
+    /// Makes the error of a text that is none of the `known` words for a `what`; suggests the
+    /// nearest word.
     pub fn unknown(what: &'static str, text: &str, known: &[&str]) -> Self {
         let remedy = match nearest(text, known.iter().copied()) {
             Some(word) => format!("did you mean `{word}`?"),
@@ -40,8 +41,8 @@ impl ChoiceError {
     }
 }
 
-/// So many numbers with commas between them, finite or not; none if they are not so many, or not
-/// numbers.
+/// Parses exactly `N` numbers, finite or not, separated by commas; `None` if the text is anything
+/// else.
 pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     let numbers: Vec<f64> = text
         .split(',')
@@ -50,9 +51,13 @@ pub fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
     numbers.try_into().ok()
 }
 
-/// An enum of which each value is one word.
+/// Defines an enum each of whose values is written as one word.
 macro_rules! choice {
-    ($(#[$about:meta])* $name:ident, $what:literal { $($(#[$doc:meta])* $value:ident = $word:literal,)+ }) => {
+    (
+        $(#[$about:meta])* $name:ident, $what:literal {
+            $($(#[$doc:meta])* $value:ident = $word:literal,)+
+        }
+    ) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
         pub enum $name {
@@ -60,12 +65,12 @@ macro_rules! choice {
         }
 
         impl $name {
-            /// Every value's word, in the order of the values.
+                        /// The words of all values, in the order of the values.
             pub const WORDS: &'static [&'static str] = &[$($word),+];
-            /// Every value, in their order.
+                        /// All values, in their order.
             pub const ALL: &'static [Self] = &[$(Self::$value),+];
 
-            /// The word it reads from and prints as.
+                        /// Returns the word for the value.
             pub fn word(self) -> &'static str {
                 match self { $(Self::$value => $word,)+ }
             }
@@ -90,8 +95,8 @@ macro_rules! choice {
     };
 }
 
-/// Text in serde's files, through `FromStr` and `Display`; the type says `#[serde(try_from =
-/// "String", into = "String")]`.
+/// Lets serde read and write a type as text, through `FromStr` and `Display`. The type must say
+/// `#[serde(try_from = "String", into = "String")]`.
 macro_rules! as_text {
     ($($name:ident)+) => { $(
         impl TryFrom<String> for $name {

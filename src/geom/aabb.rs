@@ -2,7 +2,7 @@
 
 use super::{Point, Vector};
 
-/// An axis-aligned box, mm. Empty until it has grown over a point.
+/// An axis-aligned box, mm. Empty until it grows over a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Aabb {
     /// The corner with the least coordinates.
@@ -12,20 +12,20 @@ pub struct Aabb {
 }
 
 impl Aabb {
-    /// The box that holds nothing: growing it over a point gives that point.
+    /// The empty box: grown over a point, it becomes that point.
     pub const EMPTY: Self = Self {
         min: Point::new(f64::INFINITY, f64::INFINITY, f64::INFINITY),
         max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
 
-    /// The least box that holds every point.
+    /// Returns the smallest box that contains every point.
     pub fn of_points<'a>(points: impl IntoIterator<Item = &'a Point>) -> Self {
         points
             .into_iter()
             .fold(Self::EMPTY, |aabb, point| aabb.grown_over(point))
     }
 
-    /// This box, grown just enough to hold `point`.
+    /// Returns this box, grown just enough to contain `point`.
     pub fn grown_over(&self, point: &Point) -> Self {
         Self {
             min: self.min.inf(point),
@@ -33,7 +33,7 @@ impl Aabb {
         }
     }
 
-    /// The least box that holds both.
+    /// Returns the smallest box that contains both.
     pub fn union(&self, other: &Self) -> Self {
         Self {
             min: self.min.inf(&other.min),
@@ -41,7 +41,7 @@ impl Aabb {
         }
     }
 
-    /// This box with every face moved outward by `margin_mm` (inward if negative).
+    /// Returns this box with every face moved outward by `margin_mm` (inward if negative).
     pub fn inflated(&self, margin_mm: f64) -> Self {
         let margin = Vector::repeat(margin_mm);
         Self {
@@ -50,24 +50,24 @@ impl Aabb {
         }
     }
 
-    /// The edge lengths along x, y and z, mm.
+    /// Returns the edge lengths along x, y and z, mm.
     pub fn size(&self) -> Vector {
         self.max - self.min
     }
 
-    /// The centre of the box.
+    /// Returns the centre of the box.
     pub fn center(&self) -> Point {
         nalgebra::center(&self.min, &self.max)
     }
 
-    /// The squared distance from `point` to the box, mm²; zero inside.
+    /// Returns the squared distance from `point` to the box, mm²; zero inside.
     pub fn distance_squared(&self, point: &Point) -> f64 {
         let below = self.min - point;
         let above = point - self.max;
         below.sup(&above).sup(&Vector::zeros()).norm_squared()
     }
 
-    /// Whether the box holds no point.
+    /// Returns true if the box contains no point.
     pub fn is_empty(&self) -> bool {
         self.min.x > self.max.x || self.min.y > self.max.y || self.min.z > self.max.z
     }

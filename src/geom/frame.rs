@@ -2,10 +2,10 @@
 
 use super::{Matrix, Point, Vector, plane::orthonormal_basis};
 
-/// A rigid placement: where a local frame's origin and axes lie in the model frame.
+/// A rigid placement: a local frame's origin and axes in the model frame.
 ///
-/// The goal frame has its origin at the contact point (top), the spin point (yo-yo) or on the
-/// support plane (stand), and its z axis along the spin axis or up.
+/// The goal frame has its origin at the contact point (top), at the spin point (yo-yo) or on the
+/// support plane (stand). Its z axis points along the spin axis or up.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Frame {
     /// The local origin, in model coordinates, mm.
@@ -15,7 +15,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The model frame itself.
+    /// Returns the model frame itself.
     pub fn identity() -> Self {
         Self {
             origin: Point::origin(),
@@ -23,7 +23,7 @@ impl Frame {
         }
     }
 
-    /// The frame at `origin` whose z axis is `axis` (any length but zero).
+    /// Makes the frame at `origin` whose z axis is `axis` (any length but zero).
     pub fn with_axis(origin: Point, axis: &Vector) -> Self {
         let z = axis.normalize();
         let (x, y) = orthonormal_basis(&z);
@@ -33,27 +33,27 @@ impl Frame {
         }
     }
 
-    /// The z axis in model coordinates, a unit vector.
+    /// Returns the z axis in model coordinates, a unit vector.
     pub fn axis(&self) -> Vector {
         self.axes.column(2).into()
     }
 
-    /// Model coordinates of a point given in this frame.
+    /// Converts a point from this frame to model coordinates.
     pub fn to_model(&self, local: &Point) -> Point {
         self.origin + self.axes * local.coords
     }
 
-    /// This frame's coordinates of a point given in model coordinates.
+    /// Converts a point from model coordinates to this frame.
     pub fn to_local(&self, model: &Point) -> Point {
         Point::from(self.axes.tr_mul(&(model - self.origin)))
     }
 
-    /// This frame's components of a direction given in model coordinates.
+    /// Converts a direction from model coordinates to this frame.
     pub fn direction_to_local(&self, model: &Vector) -> Vector {
         self.axes.tr_mul(model)
     }
 
-    /// Model components of a direction given in this frame.
+    /// Converts a direction from this frame to model coordinates.
     pub fn direction_to_model(&self, local: &Vector) -> Vector {
         self.axes * local
     }

@@ -1,4 +1,10 @@
-//! Points, frames, planes and boxes: the geometry that knows nothing of meshes.
+//! Geometry that knows nothing of meshes. Lengths are in mm.
+//!
+//! * **Shapes:** [`Plane`], [`Parting`] (a plane that acts within half-spaces), [`Aabb`],
+//!   [`Quadric`].
+//! * **In a plane:** [`rings`], the outlines and holes of a section.
+//! * **Placement:** [`Frame`], a right-handed orthonormal frame in the model's frame.
+//! * **Distances:** [`triangle`] in closed form, [`Bvh`] over many triangles.
 
 mod aabb;
 mod bvh;

@@ -1,19 +1,19 @@
-//! A plane that parts bodies, within half-spaces.
+//! A plane that divides bodies within half-spaces.
 
 use super::{Plane, Point};
 
-/// A plane, and the half-spaces within which alone it parts bodies.
+/// A plane that divides bodies only within some half-spaces.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Parting {
     /// The plane.
     pub plane: Plane,
-    /// The planes that bound the half-spaces, each with whether the half-space lies above it; none
-    /// where the plane parts everything.
+    /// The planes that bound the half-spaces, each with true if the half-space lies above it.
+    /// Empty if the plane divides everything.
     pub within: Vec<(Plane, bool)>,
 }
 
 impl Parting {
-    /// A plane that parts everything.
+    /// Makes a plane that divides everything.
     pub fn everywhere(plane: Plane) -> Self {
         Self {
             plane,
@@ -21,7 +21,7 @@ impl Parting {
         }
     }
 
-    /// Whether a point lies in all the half-spaces.
+    /// Returns true if a point lies in all the half-spaces.
     pub fn acts_at(&self, at: &Point) -> bool {
         self.within
             .iter()

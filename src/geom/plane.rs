@@ -2,8 +2,8 @@
 
 use super::{Point, Vector};
 
-/// The plane { x : normal·x = offset_mm }, with a unit normal; its positive side is where normal·x
-/// is larger.
+/// The plane { x : normal·x = offset_mm }, with a unit normal. On its positive side normal·x is
+/// larger.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Plane {
     /// The unit normal.
@@ -13,7 +13,7 @@ pub struct Plane {
 }
 
 impl Plane {
-    /// The plane through `point` with the direction of `normal` (any length but zero).
+    /// Makes the plane through `point` perpendicular to `normal` (any length but zero).
     pub fn through(point: &Point, normal: &Vector) -> Self {
         let normal = normal.normalize();
         Self {
@@ -22,12 +22,13 @@ impl Plane {
         }
     }
 
-    /// The signed distance of `point`, mm: positive on the side the normal points to.
+    /// Returns the signed distance of `point`, mm: positive on the side to which the normal
+    /// points.
     pub fn distance(&self, point: &Point) -> f64 {
         self.normal.dot(&point.coords) - self.offset_mm
     }
 
-    /// Whether some of the points lie above the plane and others do not.
+    /// Returns true if some of the points lie above the plane and others do not.
     pub fn passes_through(&self, points: &[Point]) -> bool {
         let mut sides = points.iter().map(|p| self.distance(p) > 0.0);
         sides
@@ -35,21 +36,21 @@ impl Plane {
             .is_some_and(|first| sides.any(|side| side != first))
     }
 
-    /// The point of the plane nearest to the origin.
+    /// Returns the point of the plane nearest to the origin.
     pub fn foot(&self) -> Point {
         Point::from(self.normal * self.offset_mm)
     }
 
-    /// Two unit vectors that span the plane and make (u, v, normal) right-handed.
+    /// Returns two unit vectors that span the plane and make (u, v, normal) right-handed.
     pub fn basis(&self) -> (Vector, Vector) {
         orthonormal_basis(&self.normal)
     }
 }
 
-/// Two unit vectors (u, v) such that (u, v, n) is right-handed and orthonormal, for a unit `n`.
+/// Returns unit vectors (u, v) such that (u, v, n) is right-handed and orthonormal, for a unit `n`.
 ///
-/// u is made from the coordinate axis least parallel to n, so the choice is stable for nearby
-/// normals except where two components tie.
+/// u is made from the coordinate axis least parallel to n. The choice is stable for nearby normals
+/// except where two components tie.
 pub fn orthonormal_basis(n: &Vector) -> (Vector, Vector) {
     let axis = Vector::ith(n.iamin(), 1.0);
     let u = (axis - n * n.dot(&axis)).normalize();

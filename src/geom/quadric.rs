@@ -1,16 +1,18 @@
-//! A quadric given by its ten coefficients over the monomials of the moments.
+//! A quadric, given by its ten coefficients over the monomials of the moments.
 
 use super::{Point, Vector};
 
-/// q(x) = g · (1, x, y, z, xy, yz, xz, x², y², z²); the optimal void is where q > 0 (THEORY: the
-/// reachable set is convex, and its corners are quadrics).
+/// The function q(x) = g · (1, x, y, z, xy, yz, xz, x², y², z²).
+///
+/// The optimal void is where q > 0: the reachable set of moments is convex, and its corners are
+/// quadrics ([`crate::guide::theory`]).
 ///
 /// Coordinates are those of the goal frame, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Quadric(pub [f64; 10]);
 
 impl Quadric {
-    /// The value at a point of the goal frame.
+    /// Returns the value at a point of the goal frame.
     pub fn value(&self, p: &Point) -> f64 {
         let [c, x, y, z, xy, yz, xz, xx, yy, zz] = self.0;
         c + p.x * (x + xx * p.x + xy * p.y + xz * p.z)
@@ -18,7 +20,7 @@ impl Quadric {
             + p.z * (z + zz * p.z)
     }
 
-    /// The gradient at a point of the goal frame.
+    /// Returns the gradient at a point of the goal frame.
     pub fn gradient(&self, p: &Point) -> Vector {
         let [_, x, y, z, xy, yz, xz, xx, yy, zz] = self.0;
         Vector::new(

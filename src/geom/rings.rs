@@ -1,7 +1,7 @@
 //! Rings of points in a plane: the outlines of a section, counter-clockwise, and its holes.
 
-/// Returns the two ends of the shortest way from an outer ring to a hole, between the corners of
-/// either and the sides of the other; `None` without holes.
+/// Returns the two ends of the shortest segment from an outer ring to a hole; `None` without holes.
+/// Each end is a corner of one or the nearest point on a side of the other.
 pub fn thinnest(rings: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     let (outer, holes): (Vec<_>, Vec<_>) = rings.iter().partition(|ring| is_outer(ring));
     let pairs = outer
@@ -13,7 +13,7 @@ pub fn thinnest(rings: &[Vec<[f64; 2]>]) -> Option<[[f64; 2]; 2]> {
     gaps.min_by(|a, b| length(a).total_cmp(&length(b)))
 }
 
-/// Whether a ring runs counter-clockwise, as the outlines of material do.
+/// Returns true if a ring runs counter-clockwise, as the outlines of material do.
 fn is_outer(ring: &[[f64; 2]]) -> bool {
     sides(ring)
         .map(|([ax, ay], [bx, by])| ax * by - ay * bx)
@@ -27,7 +27,7 @@ fn sides(ring: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
         .map(|(a, b)| (*a, *b))
 }
 
-/// The corner of one ring that is nearest to a side of another, and its foot there.
+/// Returns the corner of one ring that is nearest to a side of another, and its foot there.
 fn nearest(corners: &[[f64; 2]], ring: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     let gaps = corners
         .iter()
@@ -35,7 +35,7 @@ fn nearest(corners: &[[f64; 2]], ring: &[[f64; 2]]) -> Option<[[f64; 2]; 2]> {
     gaps.min_by(|a, b| length(a).total_cmp(&length(b)))
 }
 
-/// The point of a side that is nearest to a point.
+/// Returns the point of a side that is nearest to a point.
 fn foot([x, y]: [f64; 2], (a, b): ([f64; 2], [f64; 2])) -> [f64; 2] {
     let along = [b[0] - a[0], b[1] - a[1]];
     let squared = along[0] * along[0] + along[1] * along[1];

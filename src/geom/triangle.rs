@@ -13,17 +13,17 @@ pub enum Feature {
     Vertex(u8),
 }
 
-/// The point of a triangle closest to a query, and where on the triangle it lies.
+/// The point of a triangle closest to a query, with the part of the triangle on which it lies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TrianglePoint {
     /// The closest point.
     pub point: Point,
-    /// Where it lies.
+    /// The part of the triangle on which it lies.
     pub feature: Feature,
 }
 
-/// The point of the triangle nearest to `p`, by its Voronoi regions; a triangle without area counts
-/// as its edges.
+/// Returns the point of the triangle nearest to `p`, by its Voronoi regions. A triangle without
+/// area counts as its edges.
 ///
 /// Accurate to a few roundings of the coordinates. Ericson, *Real-Time Collision Detection*, 2005,
 /// §5.1.5.
@@ -81,7 +81,7 @@ fn at_edge(point: Point, i: u8) -> TrianglePoint {
     }
 }
 
-/// The nearest point of the three edges: the answer for a triangle that has no area.
+/// Returns the nearest point of the three edges: the answer for a triangle without area.
 fn closest_on_edges(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
     let candidate = |i: usize| {
         at_edge(
@@ -101,7 +101,7 @@ fn closest_on_edges(p: &Point, corners: &[Point; 3]) -> TrianglePoint {
         })
 }
 
-/// The point of the segment from `a` to `b` nearest to `p`.
+/// Returns the point of the segment from `a` to `b` nearest to `p`.
 #[inline]
 pub fn closest_on_segment(p: &Point, a: &Point, b: &Point) -> Point {
     let ab = b - a;
@@ -112,7 +112,7 @@ pub fn closest_on_segment(p: &Point, a: &Point, b: &Point) -> Point {
     a + ab * (ab.dot(&(p - a)) / length_squared).clamp(0.0, 1.0)
 }
 
-/// The squared distance between two segments, mm². Ericson 2005, §5.1.9.
+/// Returns the squared distance between two segments, mm². Ericson 2005, §5.1.9.
 pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     let (d1, d2, r) = (p[1] - p[0], q[1] - q[0], p[0] - q[0]);
     let (a, e) = (d1.norm_squared(), d2.norm_squared());
@@ -132,9 +132,10 @@ pub fn segment_segment_distance_squared(p: [&Point; 2], q: [&Point; 2]) -> f64 {
     (r + d1 * s - d2 * t).norm_squared()
 }
 
-/// Whether the segment from `a` to `b` passes through the triangle's plane inside it; touching
-/// counts, lying in the plane does not. Decided exactly (Shewchuk, "Adaptive Precision
-/// Floating-Point Arithmetic", DCG 18, 1997).
+/// Returns true if the segment from `a` to `b` passes through the triangle's plane inside it.
+/// Touching counts, lying in the plane does not.
+///
+/// Decided exactly (Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997).
 fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
     let [u, v, w] = corners;
     let (from, to) = (side(u, v, w, a), side(u, v, w, b));
@@ -145,7 +146,7 @@ fn segment_pierces(a: &Point, b: &Point, corners: &[Point; 3]) -> bool {
     turns.iter().all(|&turn| turn >= 0) || turns.iter().all(|&turn| turn <= 0)
 }
 
-/// On which side of the plane through `a`, `b` and `c` the point `d` lies: −1, 0 or 1.
+/// Returns the side of the plane through `a`, `b` and `c` on which `d` lies: −1, 0 or 1.
 fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     let [a, b, c, d] = [a, b, c, d].map(|p| robust::Coord3D {
         x: p.x,
@@ -156,8 +157,8 @@ fn side(a: &Point, b: &Point, c: &Point, d: &Point) -> i32 {
     i32::from(volume > 0.0) - i32::from(volume < 0.0)
 }
 
-/// The squared distance between the segment from `a` to `b` and the triangle, mm²; zero where they
-/// meet.
+/// Returns the squared distance between the segment from `a` to `b` and the triangle, mm²; zero if
+/// they meet.
 pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point; 3]) -> f64 {
     if segment_pierces(a, b, corners) {
         return 0.0;
@@ -170,10 +171,10 @@ pub fn segment_triangle_distance_squared(a: &Point, b: &Point, corners: &[Point;
         .fold(to_face(a).min(to_face(b)), f64::min)
 }
 
-/// The squared distance between two triangles, mm²; zero where they meet.
+/// Returns the squared distance between two triangles, mm²; zero if they meet.
 ///
-/// Exact up to rounding: the least of the nine edge pairs and the six corner–face pairs, unless an
-/// edge of one passes through the other.
+/// Exact up to rounding: zero if an edge of one passes through the other. Otherwise the least
+/// distance of the nine edge pairs and the six corner–face pairs.
 pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
     let edges = |k: usize| (k, (k + 1) % 3);
     if (0..3)
@@ -185,7 +186,7 @@ pub fn triangle_triangle_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64
     disjoint_triangles_distance_squared(s, t)
 }
 
-/// The squared distance between two triangles that are known not to meet, mm².
+/// Returns the squared distance between two triangles that are known not to meet, mm².
 pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f64 {
     let edges = |k: usize| (k, (k + 1) % 3);
     let mut best = f64::INFINITY;
@@ -202,11 +203,11 @@ pub fn disjoint_triangles_distance_squared(s: &[Point; 3], t: &[Point; 3]) -> f6
     best
 }
 
-/// The least distance from any corner of `convex` to a convex set, bounded from below, mm.
+/// Returns a lower bound of the distance from a triangle to a convex set, mm.
 ///
-/// The distance to a convex set is a convex function, so its tangent plane at `from` (value
-/// `distance_mm`, unit gradient `gradient`) lies below it everywhere; over a triangle the plane is
-/// least at a corner.
+/// The distance to a convex set is a convex function. So its tangent plane at `from` (value
+/// `distance_mm`, unit gradient `gradient`) lies below it everywhere. Over the triangle, the
+/// tangent plane is lowest at a corner.
 #[inline]
 pub fn tangent_bound(
     from: &Point,
@@ -231,7 +232,7 @@ mod tests {
         prop::array::uniform3(point())
     }
 
-    /// Points of a triangle on a barycentric grid of `n` steps.
+    /// Returns points of a triangle on a barycentric grid of `n` steps.
     fn grid(t: &[Point; 3], n: usize) -> Vec<Point> {
         let mut points = Vec::new();
         for i in 0..=n {
@@ -245,7 +246,7 @@ mod tests {
 
     const STEPS: usize = 24;
 
-    /// The grid's points are at most this far from any point of the triangle.
+    /// Returns the largest distance of a point of the triangle from the grid.
     fn spacing(t: &[Point; 3]) -> f64 {
         let longest = (0..3)
             .map(|i| (t[(i + 1) % 3] - t[i]).norm())
@@ -255,7 +256,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_closest_point_is_in_the_triangle_and_no_grid_point_is_nearer(p in point(), t in triangle()) {
+        fn no_point_of_a_grid_is_nearer_than_the_closest_point(p in point(), t in triangle()) {
             let found = closest_on_triangle(&p, &t);
             let distance = (found.point - p).norm();
             let best = grid(&t, STEPS).iter().map(|g| (g - p).norm()).fold(f64::INFINITY, f64::min);
@@ -337,8 +338,8 @@ mod tests {
         };
         let s = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0)];
         let apart = [at(3.0, 0.0), at(4.0, 0.1), at(3.0, 1.3)];
-        // The nearest corners are two units of u apart; the sides between them lean by less than a
-        // fifth.
+        // The nearest corners are two units of u apart. The sides between them lean by less
+        // than a fifth.
         let expected = (at(3.0, 0.0) - at(1.0, 0.0)).norm();
         let found = triangle_triangle_distance_squared(&s, &apart).sqrt();
         assert!(

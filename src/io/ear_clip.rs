@@ -1,29 +1,28 @@
-//! Polygons cut into triangles.
+//! Triangulation of polygons by ear clipping.
 
 use robust::{Coord, orient2d};
 
 use crate::geom::{Plane, Point, Vector};
 
-/// The triangles of a polygon given by its corners' indices, n − 2 of them, turned as the polygon
-/// is.
+/// Cuts a polygon of n corners, given by their indices, into n − 2 triangles of the same
+/// orientation.
 ///
-/// Ears are cut off in the polygon's own plane (Meisters, "Polygons have ears", Amer. Math. Monthly
-/// 82, 1975), so that concave polygons come out right. Every corner stays a corner, those on a
-/// straight side too, because the neighbouring faces may use them. A polygon that crosses itself or
-/// has no area gives a fan of what is left. Linear for convex polygons, quadratic for most; cubic
-/// for the worst.
+/// Clips ears in the polygon's own plane (Meisters, "Polygons have ears", Amer. Math. Monthly 82,
+/// 1975), so concave polygons come out right. Every corner stays a corner, even on a straight side:
+/// the neighbouring faces may use it. If the polygon crosses itself or has no area, what is left at
+/// some point becomes a fan. Linear time for convex polygons, quadratic for most, cubic at worst.
 pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
     let mut ring = face.to_vec();
     let mut triangles = Vec::with_capacity(face.len().saturating_sub(2));
     if ring.len() > 3 {
-        let flat = flattened(vertices, face);
-        let mut dents = dents(&flat);
+        let flat = flatten(vertices, face);
+        let mut reflex = reflex_corners(&flat);
         let mut places: Vec<usize> = (0..face.len()).collect();
-        while let Some(ear) = next_ear(&flat, &places, &dents) {
+        while let Some(ear) = next_ear(&flat, &places, &reflex) {
             let [before, at, after] = around(places.len(), ear).map(|i| face[places[i]]);
             triangles.push([before, at, after]);
             let cut = places.remove(ear);
-            dents.retain(|&dent| dent != cut);
+            reflex.retain(|&corner| corner != cut);
         }
         ring = places.iter().map(|&i| face[i]).collect();
     }
@@ -31,8 +30,8 @@ pub(super) fn ear_clip(vertices: &[Point], face: &[u32]) -> Vec<[u32; 3]> {
     triangles
 }
 
-/// The corners seen against the polygon's normal (Newell's, a sum over all sides).
-fn flattened(vertices: &[Point], face: &[u32]) -> Vec<Coord<f64>> {
+/// Projects the corners along the polygon's normal (Newell's: a sum over all sides).
+fn flatten(vertices: &[Point], face: &[u32]) -> Vec<Coord<f64>> {
     let corner = |i: usize| vertices[face[i % face.len()] as usize];
     let first = corner(0);
     let normal: Vector = (0..face.len())
@@ -54,29 +53,29 @@ fn around(n: usize, i: usize) -> [usize; 3] {
     [(i + n - 1) % n, i, (i + 1) % n]
 }
 
-/// The corners that do not bulge outward: only they can lie in an ear, and cutting ears makes no
-/// new ones.
-fn dents(flat: &[Coord<f64>]) -> Vec<usize> {
-    let bulges = |i: usize| {
+/// Returns the corners that are not convex. Only they can lie in an ear, and clipping makes no new
+/// ones.
+fn reflex_corners(flat: &[Coord<f64>]) -> Vec<usize> {
+    let is_convex = |i: usize| {
         let [a, b, c] = around(flat.len(), i).map(|i| flat[i]);
         orient2d(a, b, c) > 0.0
     };
-    (0..flat.len()).filter(|&i| !bulges(i)).collect()
+    (0..flat.len()).filter(|&i| !is_convex(i)).collect()
 }
 
-/// The first corner of a ring of more than three that can be cut off.
-fn next_ear(flat: &[Coord<f64>], places: &[usize], dents: &[usize]) -> Option<usize> {
+/// Returns the first ear of a ring of more than three corners; `None` if there is none.
+fn next_ear(flat: &[Coord<f64>], places: &[usize], reflex: &[usize]) -> Option<usize> {
     let n = places.len();
     if n <= 3 {
         return None;
     }
     (0..n).find(|&i| {
         let [a, b, c] = around(n, i).map(|i| flat[places[i]]);
-        orient2d(a, b, c) > 0.0 && !dents.iter().any(|&dent| blocks(flat[dent], [a, b, c]))
+        orient2d(a, b, c) > 0.0 && !reflex.iter().any(|&corner| blocks(flat[corner], [a, b, c]))
     })
 }
 
-/// Whether a corner lies in the triangle or on its rim, other than at its corners.
+/// Returns true if `p` lies in the triangle or on its boundary, but not at a corner.
 fn blocks(p: Coord<f64>, [a, b, c]: [Coord<f64>; 3]) -> bool {
     p != a
         && p != b
@@ -97,7 +96,7 @@ mod tests {
             .collect()
     }
 
-    /// The areas of the triangles, seen from above.
+    /// The signed areas of the triangles, seen from above.
     fn areas(vertices: &[Point], triangles: &[[u32; 3]]) -> Vec<f64> {
         let area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|v| vertices[v as usize]);

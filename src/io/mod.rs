@@ -1,5 +1,8 @@
-//! Files in and out: models are read whatever their name says, parts are written as binary STL and
-//! 3MF.
+//! File formats: reads models as STL, OBJ, PLY or 3MF, and writes parts as binary STL or 3MF.
+//!
+//! * `read` reads a file in any of the formats; `sniff` recognises the format from the content.
+//! * [`stl`], `obj`, `ply` and [`threemf`] hold one format each.
+//! * `ear_clip` cuts the polygons of OBJ and PLY into triangles.
 
 mod ear_clip;
 mod obj;

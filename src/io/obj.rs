@@ -1,18 +1,19 @@
-//! Wavefront OBJ: the vertices and faces of all objects, polygons cut into triangles.
+//! Reads Wavefront OBJ: the vertices and faces of all objects, with polygons cut into triangles.
 
 use super::ear_clip::ear_clip;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 
-/// Why bytes are not an OBJ mesh, and on which line.
+/// The reason that bytes are not an OBJ mesh, with the line.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ObjError {
     /// There are no faces.
     #[error(
         "there are no faces in it ({vertices} vertices); export the model again with its faces"
     )]
     NoFaces {
-        /// How many vertices there are.
+        /// Number of vertices in the file.
         vertices: usize,
     },
     /// A vertex that is not three numbers.
@@ -20,7 +21,7 @@ pub enum ObjError {
     Vertex {
         /// The line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
     /// A vertex coordinate is NaN or infinite.
@@ -36,7 +37,7 @@ pub enum ObjError {
     Face {
         /// The line, from 1.
         line: usize,
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
     /// A face names a vertex that does not exist.
@@ -48,23 +49,22 @@ pub enum ObjError {
         line: usize,
         /// The index as it stands there.
         index: i64,
-        /// How many vertices there are (before the line, for a negative index).
+        /// Number of vertices in the file; for a negative index, those before the line.
         vertices: usize,
     },
     /// The parser refuses the file for another reason.
     #[error("{reason}; export the model again")]
     Refused {
-        /// What the parser says.
+        /// The message of the parser.
         reason: String,
     },
 }
 
-/// The triangles of all objects and groups of an OBJ file.
+/// Returns the triangles of all objects and groups of an OBJ file, with finite coordinates.
 ///
-/// Faces in every form (a, a/b, a//c, a/b/c, negative indices); polygons are cut by [`ear_clip`],
-/// concave ones too; lines continued with `\` and names in any encoding are understood; normals,
-/// texture coordinates, colours and materials are ignored. Vertices no face uses are left out.
-/// Every coordinate is finite.
+/// Reads faces in every form (a, a/b, a//c, a/b/c, negative indices), lines continued with `\`, and
+/// names in any encoding. Polygons, concave ones too, are cut by [`ear_clip`]. Ignores normals,
+/// texture coordinates, colours and materials. Leaves out vertices that no face uses.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
     let geometry = Geometry::of(&String::from_utf8_lossy(bytes));
     geometry.check()?;
@@ -76,7 +76,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
         reason: error.to_string(),
     })?;
     let whole = models.iter().fold(TriMesh::default(), |whole, model| {
-        whole.joined(&triangulated(&model.mesh))
+        whole.joined(&triangulate(&model.mesh))
     });
     if whole.triangles().is_empty() {
         return Err(ObjError::NoFaces {
@@ -86,8 +86,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, ObjError> {
     Ok(whole)
 }
 
-/// The triangles of one parsed object.
-fn triangulated(mesh: &tobj::Mesh) -> TriMesh {
+/// Cuts the faces of one parsed object into triangles.
+fn triangulate(mesh: &tobj::Mesh) -> TriMesh {
     let vertices: Vec<Point> = mesh
         .positions
         .chunks_exact(3)
@@ -110,10 +110,10 @@ fn triangulated(mesh: &tobj::Mesh) -> TriMesh {
     TriMesh::from_parts(vertices, triangles)
 }
 
-/// The vertex and face lines of a file, one a line, without comments, colours and continuations.
+/// The vertex and face lines of a file, without comments, colours and line continuations.
 struct Geometry {
     text: String,
-    /// The line of the file on which each line of the text begins, from 1.
+    /// For each line of `text`, the line of the file on which it begins, from 1.
     lines: Vec<usize>,
     vertices: usize,
 }
@@ -140,31 +140,31 @@ impl Geometry {
                         .map_or("", |(next, _)| next.trim_end_matches('\r')),
                 );
             }
-            geometry.take(&line, number);
+            geometry.push_if_geometry(&line, number);
         }
         geometry
     }
 
-    /// Keeps the line if it is a vertex or a face.
-    fn take(&mut self, line: &str, number: usize) {
+    /// Appends the line if it is a vertex or a face.
+    fn push_if_geometry(&mut self, line: &str, number: usize) {
         let line = line.split('#').next().unwrap_or_default();
         let words: Vec<&str> = line.split_whitespace().collect();
-        let kept = match words.first() {
-            Some(&"v") => &words[..kept_numbers(words.len() - 1) + 1],
+        let needed = match words.first() {
+            Some(&"v") => &words[..coordinate_count(words.len() - 1) + 1],
             Some(&"f") => &words[..],
             _ => return,
         };
-        self.vertices += usize::from(kept[0] == "v");
+        self.vertices += usize::from(needed[0] == "v");
         self.lines.push(number);
-        for word in kept {
+        for word in needed {
             self.text.push_str(word);
             self.text.push(' ');
         }
         self.text.push('\n');
     }
 
-    /// The first line that cannot be used, which the parser would refuse without naming it (or
-    /// accept).
+    /// Reports the first unusable line. The parser would accept it, or refuse it without naming
+    /// it.
     fn check(&self) -> Result<(), ObjError> {
         let mut vertices = 0;
         for (text, &line) in self.text.lines().zip(&self.lines) {
@@ -173,21 +173,21 @@ impl Geometry {
                 vertices += 1;
                 check_vertex(words, text, line)?;
             } else {
-                check_face(words, line, [vertices, self.vertices])?;
+                check_face(words, line, vertices, self.vertices)?;
             }
         }
         Ok(())
     }
 }
 
-/// How files of this kind part their lines: old ones by carriage returns alone.
+/// Returns the line separator of the file: a carriage return in old files that have no line feed.
 fn line_break(file: &str) -> char {
     if file.contains('\n') { '\n' } else { '\r' }
 }
 
-/// How many of the numbers of a vertex describe its place: three, or four with a weight; what
-/// follows is colour.
-fn kept_numbers(count: usize) -> usize {
+/// Returns how many of a vertex's numbers are coordinates: three, or four with a weight. Further
+/// numbers are its colour.
+fn coordinate_count(count: usize) -> usize {
     if count > 4 { 3 } else { count }
 }
 
@@ -203,23 +203,24 @@ fn check_vertex<'a>(
         Some([_, _, _] | [_, _, _, _]) => Err(ObjError::NotFinite { line }),
         _ => Err(ObjError::Vertex {
             line,
-            found: quoted(text),
+            found: excerpt(text),
         }),
     }
 }
 
-/// Checks that a face has three corners or more that name vertices, of which there are so many
-/// before this line and in the whole file.
+/// Checks that a face has at least three corners and that each names a vertex. `before` counts the
+/// vertices up to this line, `all` those of the whole file.
 fn check_face<'a>(
     corners: impl Iterator<Item = &'a str>,
     line: usize,
-    [before, all]: [usize; 2],
+    before: usize,
+    all: usize,
 ) -> Result<(), ObjError> {
     let mut count = 0;
     for corner in corners {
         let index = corner_index(corner).ok_or_else(|| ObjError::Face {
             line,
-            found: quoted(corner),
+            found: excerpt(corner),
         })?;
         let vertices = if index < 0 { before } else { all };
         if index == 0 || index.unsigned_abs() > vertices as u64 {
@@ -241,7 +242,7 @@ fn check_face<'a>(
     }
 }
 
-/// The vertex index of a face corner, when all its parts are indices.
+/// Returns the vertex index of a face corner; `None` unless all its parts are indices.
 fn corner_index(corner: &str) -> Option<i64> {
     let mut parts = corner.split('/');
     let index = parts.next()?.parse().ok()?;
@@ -250,9 +251,9 @@ fn corner_index(corner: &str) -> Option<i64> {
     (others.len() <= 2 && others.iter().all(sound)).then_some(index)
 }
 
-/// How much of a faulty line is shown.
+/// Longest excerpt of a faulty line in a message, characters.
 const MAX_QUOTED_CHARS: usize = 60;
 
-fn quoted(text: &str) -> String {
+fn excerpt(text: &str) -> String {
     text.trim_end().chars().take(MAX_QUOTED_CHARS).collect()
 }

@@ -1,11 +1,13 @@
-//! PLY, the Stanford triangle format: text and both binary kinds, polygons cut into triangles.
+//! Reads PLY, the Stanford triangle format: text and both binary forms, with polygons cut into
+//! triangles.
 
 use super::ear_clip::ear_clip;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 
-/// Why bytes are not a PLY mesh, and where.
+/// The reason that bytes are not a PLY mesh, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlyError {
     /// A line of the header cannot be understood.
     #[error(
@@ -14,33 +16,33 @@ pub enum PlyError {
     Header {
         /// The line, from 1.
         line: usize,
-        /// What should stand there.
+        /// The text expected there.
         expected: &'static str,
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
-    /// The file ends before its elements do, or promises more than it can hold.
+    /// The file ends before its last element.
     #[error(
         "the file ends in {element} {index} of the {count} it promises; it was cut off: copy or export it again"
     )]
     Cut {
-        /// Which element.
+        /// Name of the element.
         element: String,
-        /// Which of them, from 0.
+        /// Index among the elements of that name, from 0.
         index: usize,
-        /// How many there should be.
+        /// Number of them that the header promises.
         count: usize,
     },
-    /// A value that is no finite number, or no index or count where one must be.
+    /// A value is not a finite number, or not the index or count that it must be.
     #[error("{element} {index}: {found} cannot be its {property}; export the model again")]
     Value {
-        /// Which element.
+        /// Name of the element.
         element: String,
-        /// Which of them, from 0.
+        /// Index among the elements of that name, from 0.
         index: usize,
         /// The property.
         property: String,
-        /// What stands there.
+        /// The text found there.
         found: String,
     },
     /// There are no faces.
@@ -48,12 +50,12 @@ pub enum PlyError {
         "there are no faces in it ({vertices} vertices); export the model again with its faces"
     )]
     NoFaces {
-        /// How many vertices there are.
+        /// Number of vertices in the file.
         vertices: usize,
     },
 }
 
-/// How the numbers are written.
+/// The encoding of the numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Form {
     Text,
@@ -74,7 +76,7 @@ enum Kind {
     F64,
 }
 
-/// The names of the types, old and new.
+/// The names of the number types, old and new.
 const KINDS: [(&str, Kind); 16] = [
     ("char", Kind::I8),
     ("int8", Kind::I8),
@@ -93,7 +95,7 @@ const KINDS: [(&str, Kind); 16] = [
     ("double", Kind::F64),
     ("float64", Kind::F64),
 ];
-/// What the corners of faces are called.
+/// The names of the property that lists a face's corners.
 const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// A property of an element: a number, or a list of them if it has a type for its length.
@@ -104,7 +106,7 @@ struct Property {
     length: Option<Kind>,
 }
 
-/// So many things that have the same properties.
+/// A group of items with the same properties, as the header declares it.
 #[derive(Debug, Clone)]
 struct Element {
     name: String,
@@ -112,10 +114,10 @@ struct Element {
     properties: Vec<Property>,
 }
 
-/// The triangles of a PLY file.
+/// Returns the triangles of a PLY file: at least one, with finite coordinates.
 ///
-/// Faces of any number of corners are cut by [`ear_clip`]; all other elements and properties are
-/// passed over. Every coordinate is finite, and there is at least one triangle.
+/// Faces with any number of corners are cut by [`ear_clip`]. All other elements and properties are
+/// skipped.
 pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
     let (form, elements, body) = header(bytes)?;
     let mut body = Body { rest: body, form };
@@ -124,7 +126,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<TriMesh, PlyError> {
         match element.name.as_str() {
             "vertex" => vertices = read_vertices(&mut body, element)?,
             "face" => faces = read_faces(&mut body, element)?,
-            _ => body.items(element, |_, _| Ok(()))?,
+            _ => body.for_each_item(element, |_, _| Ok(()))?,
         }
     }
     let mut triangles = Vec::with_capacity(faces.len());
@@ -149,7 +151,7 @@ fn read_vertices(body: &mut Body, element: &Element) -> Result<Vec<Point>, PlyEr
     };
     let axes = ["x", "y", "z"].map(axis);
     let mut vertices = Vec::new();
-    body.items(element, |index, values| {
+    body.for_each_item(element, |index, values| {
         let mut numbers = [f64::NAN; 3];
         for (number, axis) in numbers.iter_mut().zip(axes) {
             *number = axis
@@ -167,7 +169,7 @@ fn read_vertices(body: &mut Body, element: &Element) -> Result<Vec<Point>, PlyEr
     Ok(vertices)
 }
 
-/// The corners of each face.
+/// Returns the corners of each face.
 fn read_faces(body: &mut Body, element: &Element) -> Result<Vec<Vec<u32>>, PlyError> {
     let is_corners = |property: &Property| {
         CORNERS.contains(&property.name.as_str()) && property.length.is_some()
@@ -176,7 +178,7 @@ fn read_faces(body: &mut Body, element: &Element) -> Result<Vec<Vec<u32>>, PlyEr
         return Ok(Vec::new());
     };
     let mut faces = Vec::new();
-    body.items(element, |index, values| {
+    body.for_each_item(element, |index, values| {
         let whole = |x: &f64| {
             (x.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(x)).then_some(*x as u32)
         };
@@ -189,7 +191,7 @@ fn read_faces(body: &mut Body, element: &Element) -> Result<Vec<Vec<u32>>, PlyEr
     Ok(faces)
 }
 
-/// Refuses a face of less than three corners, or of one that is no vertex.
+/// Refuses a face with fewer than three corners, or with a corner that is not a vertex.
 fn check_face(face: &[u32], index: usize, vertices: usize) -> Result<(), PlyError> {
     if face.len() >= 3 && face.iter().all(|&corner| (corner as usize) < vertices) {
         return Ok(());
@@ -212,7 +214,7 @@ fn fault(element: &Element, index: usize, property: &str, found: String) -> PlyE
     }
 }
 
-/// The form, the elements, and the bytes after the header.
+/// Reads the header; returns the encoding, the elements, and the bytes after the header.
 fn header(bytes: &[u8]) -> Result<(Form, Vec<Element>, &[u8]), PlyError> {
     let (mut form, mut elements) = (None, Vec::<Element>::new());
     let (mut rest, mut line) = (bytes, 0);
@@ -300,15 +302,15 @@ fn property(words: &[&str]) -> Option<Property> {
     }
 }
 
-/// The numbers that are still to be read.
+/// The part of the file after the header that is still to be read.
 struct Body<'a> {
     rest: &'a [u8],
     form: Form,
 }
 
 impl Body<'_> {
-    /// Calls `take` with the values of every item of an element, a list for each property.
-    fn items(
+    /// Calls `take` with the index of each item and its values, one list for each property.
+    fn for_each_item(
         &mut self,
         element: &Element,
         mut take: impl FnMut(usize, &[Vec<f64>]) -> Result<(), PlyError>,
@@ -346,7 +348,7 @@ impl Body<'_> {
         Ok(())
     }
 
-    /// The next number; not a number where a word is none; none at the end.
+    /// Reads the next number; NaN if a word is not a number, `None` at the end.
     fn number(&mut self, kind: Kind) -> Option<f64> {
         if self.form == Form::Text {
             let text = self.rest.trim_ascii_start();
@@ -371,7 +373,7 @@ impl Body<'_> {
         })
     }
 
-    /// The next bytes, the least first.
+    /// Reads the next `N` bytes and returns them in little-endian order.
     fn bytes<const N: usize>(&mut self) -> Option<[u8; N]> {
         let (bytes, rest) = self.rest.split_first_chunk::<N>()?;
         self.rest = rest;
@@ -388,7 +390,7 @@ mod tests {
     use super::*;
     use crate::mesh::Solid;
 
-    /// A block of one by two by three with quads, and properties that are passed over.
+    /// A block of one by two by three with quads, and with properties to be skipped.
     const HEADER: &str = "element vertex 8\nproperty float x\nproperty float y\nproperty float z\nproperty uchar red\n\
         element face 6\nproperty list uchar int vertex_indices\nelement edge 1\nproperty short a\nend_header\n";
     const PLACES: [[f32; 3]; 8] = [
@@ -545,8 +547,8 @@ mod tests {
         for whole in [text().into_bytes(), binary(false), binary(true)] {
             for end in 0..whole.len() {
                 if let Ok(mesh) = decode(&whole[..end]) {
-                    // Only the end of the last number, of an element that is passed over, may be
-                    // missing.
+                    // Only the end of the last number, which belongs to a
+                    // skipped element, may be missing.
                     assert_eq!(mesh.triangles().len(), 12, "cut at {end}");
                 }
             }

@@ -1,4 +1,4 @@
-//! Reading a model from a file, in the format its content shows.
+//! Reads a model from a file in any format; the content decides which.
 
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
@@ -8,8 +8,9 @@ use super::threemf::{self, ThreeMfError};
 use super::{ObjError, PlyError, StlError, obj, ply, stl};
 use crate::mesh::TriMesh;
 
-/// Why a file does not give a mesh. The message names the file, its source the place in it.
+/// The reason that a file gives no mesh. The message names the file, its source the place in it.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ReadError {
     /// There is no such file.
     #[error("{}: there is no such file; check the path", path.display())]
@@ -28,7 +29,7 @@ pub enum ReadError {
     Unreadable {
         /// The path asked for.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The content is not a model that can be used.
@@ -36,13 +37,14 @@ pub enum ReadError {
     Content {
         /// The path asked for.
         path: PathBuf,
-        /// What is wrong, and where.
+        /// The fault and its place.
         source: ContentError,
     },
 }
 
-/// Why the content of a file does not give a mesh.
+/// The reason that the content of a file gives no mesh.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ContentError {
     /// There are no bytes.
     #[error("it is empty (0 bytes); export the model again")]
@@ -50,7 +52,7 @@ pub enum ContentError {
     /// The content is of another kind.
     #[error("it is {looks_like}, not STL, OBJ, PLY or 3MF; export the model as one of them")]
     Foreign {
-        /// What the content looks like.
+        /// The kind of file that the content looks like.
         looks_like: &'static str,
     },
     /// The content is STL, with a fault.
@@ -67,12 +69,12 @@ pub enum ContentError {
     ThreeMf(#[from] Box<ThreeMfError>),
 }
 
-/// The triangles of the STL (binary or ASCII), OBJ, PLY or 3MF file at `path`.
+/// Reads the STL (binary or ASCII), OBJ, PLY or 3MF file at `path` and returns its triangles.
 ///
-/// The format is told from the content, not from the name. Coordinates are taken as they stand,
-/// without unit, but for 3MF, which has one: they are in mm. Every coordinate of the result is
-/// finite and there is at least one triangle. The triangles of an STL file come back as a soup,
-/// three vertices each: see [`crate::repair::weld`] and [`crate::repair::repair`].
+/// The content decides the format, not the name. 3MF files have a unit: their coordinates come back
+/// in mm. Those of all other formats have none and come back as written. Every coordinate is finite
+/// and there is at least one triangle. An STL file gives a soup, three vertices for each triangle:
+/// see [`crate::repair::weld`] and [`crate::repair::repair`].
 pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
     let bytes = read_bytes(path)?;
     decode_model(&bytes).map_err(|source| ReadError::Content {
@@ -81,7 +83,9 @@ pub fn read_model(path: &Path) -> Result<TriMesh, ReadError> {
     })
 }
 
-/// The bytes of the model file at `path`; what is no readable file is told as such.
+/// Reads the bytes of the model file at `path`.
+///
+/// Errors tell a missing file, a directory and an unreadable file apart.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     let owned = || path.to_path_buf();
     if path.is_dir() {
@@ -96,7 +100,7 @@ pub fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
     })
 }
 
-/// The triangles in the bytes of an STL, OBJ, PLY or 3MF file; see [`read_model`].
+/// Returns the triangles in the bytes of an STL, OBJ, PLY or 3MF file; see [`read_model`].
 pub fn decode_model(bytes: &[u8]) -> Result<TriMesh, ContentError> {
     match sniff(bytes) {
         Format::Empty => Err(ContentError::Empty),

@@ -1,8 +1,8 @@
-//! Which format the bytes of a file are in, told from the content alone.
+//! Recognises the format of a file from its content alone.
 
 use super::stl::{is_ascii_stl, is_binary_stl};
 
-/// What the content of a file looks like.
+/// The format that the content of a file looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Format {
     /// No bytes at all.
@@ -19,7 +19,7 @@ pub(super) enum Format {
     Foreign(&'static str),
 }
 
-/// First bytes of formats people take for STL or OBJ, and what to call them.
+/// First bytes of formats that people mistake for STL or OBJ, with a name for each.
 const SIGNATURES: [(&[u8], &str); 7] = [
     (b"glTF", "a binary glTF file"),
     (b"ISO-10303", "a STEP file"),
@@ -33,7 +33,7 @@ const SIGNATURES: [(&[u8], &str); 7] = [
 /// The first bytes of a ZIP archive.
 const ZIP: &[u8] = b"PK\x03\x04";
 
-/// The format of these bytes.
+/// Returns the format of these bytes.
 pub(super) fn sniff(bytes: &[u8]) -> Format {
     if bytes.is_empty() {
         Format::Empty
@@ -57,20 +57,20 @@ pub(super) fn sniff(bytes: &[u8]) -> Format {
     }
 }
 
-/// Whether the first line is that of a PLY file.
+/// Returns true if the first line is that of a PLY file.
 fn is_ply(bytes: &[u8]) -> bool {
     bytes
         .strip_prefix(b"ply")
         .is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
-/// Whether some line is a vertex or a face, and the content is text.
+/// Returns true if the content is text in which some line is a vertex or a face.
 fn looks_like_obj(bytes: &[u8]) -> bool {
     let geometry = |line: &[u8]| matches!(line.trim_ascii_start(), [b'v' | b'f', b' ' | b'\t', ..]);
     is_text(bytes) && bytes.split(|&b| b == b'\n' || b == b'\r').any(geometry)
 }
 
-/// Whether the bytes hold none of the control codes that text does not use.
+/// Returns true if the bytes are free of control codes that text does not use.
 fn is_text(bytes: &[u8]) -> bool {
     bytes
         .iter()

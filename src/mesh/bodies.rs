@@ -1,12 +1,12 @@
-//! The connected shells of a closed mesh, and the bodies they bound.
+//! Splits a closed mesh into its connected shells and into the bodies that they bound.
 
 use super::{TriMesh, union_find::UnionFind};
 use crate::geom::Point;
 
-/// The connected shells of `mesh`, in the order of their first triangles; vertices and triangles
-/// keep their order. Vertices that no triangle names are dropped.
+/// Returns the connected shells of `mesh`, in the order of their first triangles.
 ///
-/// Two shells that touch in a vertex without sharing its index are two shells.
+/// Vertices and triangles keep their order. Vertices that no triangle names are dropped. Two shells
+/// that touch in a vertex without sharing its index are two shells.
 pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
     let shell_of = shell_of_vertices(mesh);
     let mut shells = Vec::new();
@@ -22,16 +22,17 @@ pub fn shells(mesh: &TriMesh) -> Vec<TriMesh> {
     }
     let mut new_index = vec![u32::MAX; mesh.vertices().len()];
     for triangles in parts {
-        shells.push(compacted(mesh, triangles, &mut new_index));
+        shells.push(extract(mesh, triangles, &mut new_index));
     }
     shells
 }
 
-/// The bodies a closed, oriented mesh bounds: each outward shell together with the inward shells
-/// (cavities) directly inside it, ordered as the outward shells are. An inward shell in no body is
-/// dropped.
+/// Returns the bodies that a closed, oriented mesh bounds, in the order of their outward shells.
 ///
-/// Costs the triangle count once for each pair of an inward and an outward shell.
+/// A body is an outward shell together with the inward shells (cavities) directly inside it. An
+/// inward shell in no body is dropped.
+///
+/// The cost is linear in the triangles for each pair of an inward and an outward shell.
 pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
     let (outward, inward): (Vec<_>, Vec<_>) = shells(mesh)
         .into_iter()
@@ -49,9 +50,11 @@ pub fn bodies(mesh: &TriMesh) -> Vec<TriMesh> {
     bodies
 }
 
-/// How often a closed mesh winds around `point`: 1 inside an outward shell, 0 outside, to rounding
-/// for a point off the surface (van Oosterom and Strackee, "The solid angle of a plane triangle",
-/// IEEE TBME 30, 1983).
+/// Returns the winding number of a closed mesh around `point`: 1 inside an outward shell, 0
+/// outside.
+///
+/// Accurate to rounding for a point off the surface (van Oosterom and Strackee, "The solid angle of
+/// a plane triangle", IEEE TBME 30, 1983).
 pub fn winding_number(mesh: &TriMesh, point: &Point) -> f64 {
     let solid_angle: f64 = mesh
         .iter_corners()
@@ -60,7 +63,7 @@ pub fn winding_number(mesh: &TriMesh, point: &Point) -> f64 {
     solid_angle / (2.0 * std::f64::consts::PI)
 }
 
-/// Half the signed solid angle of a triangle seen from `point`.
+/// Returns half the signed solid angle of a triangle seen from `point`.
 fn half_solid_angle(corners: [Point; 3], point: &Point) -> f64 {
     let [a, b, c] = corners.map(|corner| corner - point);
     let (la, lb, lc) = (a.norm(), b.norm(), c.norm());
@@ -68,7 +71,7 @@ fn half_solid_angle(corners: [Point; 3], point: &Point) -> f64 {
     determinant.atan2(la * lb * lc + a.dot(&b) * lc + b.dot(&c) * la + c.dot(&a) * lb)
 }
 
-/// For each vertex the least vertex of its shell.
+/// Returns, for each vertex, the smallest vertex index of its shell.
 fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
     let count = mesh.vertices().len();
     let mut sets = UnionFind::new(count);
@@ -79,9 +82,10 @@ fn shell_of_vertices(mesh: &TriMesh) -> Vec<u32> {
     (0..count as u32).map(|v| sets.root(v)).collect()
 }
 
-/// The mesh of some of `mesh`'s triangles with only the vertices they name. `new_index` is scratch
-/// space, `u32::MAX` for every vertex not yet met.
-fn compacted(mesh: &TriMesh, mut triangles: Vec<[u32; 3]>, new_index: &mut [u32]) -> TriMesh {
+/// Returns some of `mesh`'s triangles as a mesh with only the vertices they name.
+///
+/// `new_index` is scratch space, `u32::MAX` for every vertex not yet met.
+fn extract(mesh: &TriMesh, mut triangles: Vec<[u32; 3]>, new_index: &mut [u32]) -> TriMesh {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();
     used.dedup();

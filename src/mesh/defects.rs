@@ -1,4 +1,4 @@
-//! What keeps a mesh from bounding a solid: every defect by kind, with count, first places and
+//! The defects that keep a mesh from bounding a solid: each kind with its count, first places and
 //! remedy.
 
 use std::fmt;
@@ -8,24 +8,25 @@ use super::edges::{EdgeKind, EdgeTable, Side};
 use super::union_find::UnionFind;
 use crate::geom::Point;
 
-/// How many places a defect names; more would not be looked up by anyone.
-const NAMED_PLACES: usize = 3;
+/// Largest number of places that a defect lists; nobody would look up more.
+const MAX_PLACES: usize = 3;
 
-/// A solid fills at least this part of the cube over its diagonal. Below 1e-12 a flat sheet, whose
-/// volume is rounding error only, would pass; above 1e-9 a sound sheet of 0.001 mm at 100 mm would
+/// Least volume of a solid, as a share of the cube over its diagonal. Below 1e-12 a flat sheet,
+/// whose volume is rounding error, would pass. Above 1e-9 a sound sheet of 0.001 mm at 100 mm would
 /// be refused.
 const MIN_VOLUME_RATIO: f64 = 1e-12;
 
 /// One way in which a mesh fails to bound a solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
 pub enum DefectKind {
     /// There are no triangles.
     Empty,
     /// A coordinate is NaN or infinite.
     NotFinite,
-    /// A triangle names one vertex twice.
+    /// A triangle repeats a vertex.
     RepeatedCorner,
-    /// A hole: a connected rim of edges that belong to one triangle only.
+    /// A hole: connected edges that belong to one triangle only.
     Hole,
     /// An edge that belongs to three or more triangles.
     CrowdedEdge,
@@ -38,7 +39,7 @@ pub enum DefectKind {
 }
 
 impl DefectKind {
-    /// What is wrong, in words that a count can follow.
+    /// Describes the defect in words that a count can follow.
     fn description(self) -> &'static str {
         match self {
             Self::Empty => "there are no triangles",
@@ -52,7 +53,7 @@ impl DefectKind {
         }
     }
 
-    /// What a person can do about it.
+    /// Returns the remedy, as a request to the user.
     pub fn remedy(self) -> &'static str {
         match self {
             Self::Empty => "export the model again with its faces",
@@ -65,20 +66,20 @@ impl DefectKind {
                 "unite the overlapping bodies in a modelling program (boolean union), then export again"
             }
             Self::MisorientedEdge => {
-                "turn the triangles to agree (recalculate normals); if that fails, the surface has one side only"
+                "make the triangles agree (recalculate normals); if that fails, the surface is one-sided"
             }
             Self::NoVolume => "give the surface a thickness; a flat sheet cannot be printed",
-            Self::InsideOut => "turn all triangles round (flip normals)",
+            Self::InsideOut => "reverse all triangles (flip normals)",
         }
     }
 }
 
-/// A kind of defect, how often it occurs and where first.
+/// A kind of defect with its count and its first places.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Defect {
     /// The kind.
     pub kind: DefectKind,
-    /// How often it occurs.
+    /// Number of occurrences.
     pub count: usize,
     /// The first places, at most three, in the mesh's own coordinates.
     pub places: Vec<Point>,
@@ -92,7 +93,13 @@ impl fmt::Display for Defect {
         }
         for (i, p) in self.places.iter().enumerate() {
             let lead = if i == 0 { ", first at" } else { " and" };
-            write!(f, "{lead} ({}, {}, {})", shown(p.x), shown(p.y), shown(p.z))?;
+            write!(
+                f,
+                "{lead} ({}, {}, {})",
+                format_coordinate(p.x),
+                format_coordinate(p.y),
+                format_coordinate(p.z)
+            )?;
         }
         let frame = if self.places.is_empty() {
             ""
@@ -103,8 +110,8 @@ impl fmt::Display for Defect {
     }
 }
 
-/// A coordinate with as many digits as help to find the place, in models of any size.
-fn shown(x: f64) -> String {
+/// Formats a coordinate with enough digits to find the place in models of any size.
+fn format_coordinate(x: f64) -> String {
     if x == 0.0 || x.abs() >= 1.0 {
         format!("{x:.2}")
     } else {
@@ -117,13 +124,13 @@ fn shown(x: f64) -> String {
 pub struct Defects(Vec<Defect>);
 
 impl Defects {
-    /// Everything that keeps `mesh` from bounding a solid; nothing when it does.
+    /// Finds all defects of `mesh`; `None` if it bounds a solid.
     pub fn of(mesh: &TriMesh) -> Option<Self> {
-        let mut found = vec![empty(mesh), not_finite(mesh)];
+        let mut found = vec![no_triangles(mesh), not_finite(mesh)];
         if found.iter().all(|defect| defect.count == 0) {
             let table = EdgeTable::of(mesh);
             found.extend([repeated_corners(mesh), holes(mesh, &table)]);
-            found.extend([crowded(mesh, &table), misoriented(mesh, &table)]);
+            found.extend([crowded_edges(mesh, &table), misoriented_edges(mesh, &table)]);
             if found.iter().all(|defect| defect.count == 0) {
                 found.extend(volume_defects(mesh));
             }
@@ -136,12 +143,12 @@ impl Defects {
         }
     }
 
-    /// The defects, one for each kind that occurs.
+    /// Returns the defects, one for each kind that occurs.
     pub fn list(&self) -> &[Defect] {
         &self.0
     }
 
-    /// How often `kind` occurs.
+    /// Returns the number of occurrences of `kind`.
     pub fn count(&self, kind: DefectKind) -> usize {
         self.0
             .iter()
@@ -162,13 +169,13 @@ impl fmt::Display for Defects {
     }
 }
 
-/// A defect from the places of all its occurrences.
+/// Makes a defect from the places of all its occurrences.
 fn defect(kind: DefectKind, places: impl Iterator<Item = Point>) -> Defect {
     let mut named = Vec::new();
     let mut count = 0;
     for place in places {
         count += 1;
-        if named.len() < NAMED_PLACES {
+        if named.len() < MAX_PLACES {
             named.push(place);
         }
     }
@@ -179,7 +186,7 @@ fn defect(kind: DefectKind, places: impl Iterator<Item = Point>) -> Defect {
     }
 }
 
-fn empty(mesh: &TriMesh) -> Defect {
+fn no_triangles(mesh: &TriMesh) -> Defect {
     Defect {
         kind: DefectKind::Empty,
         count: usize::from(mesh.triangles().is_empty()),
@@ -209,7 +216,8 @@ fn holes(mesh: &TriMesh, table: &EdgeTable) -> Defect {
     defect(DefectKind::Hole, hole_places(mesh, table).into_iter())
 }
 
-/// The middle of the first open edge of each hole. Open edges that share a vertex are one hole.
+/// Returns the middle of the first open edge of each hole. Open edges that share a vertex are one
+/// hole.
 pub(super) fn hole_places(mesh: &TriMesh, table: &EdgeTable) -> Vec<Point> {
     let rims: Vec<&[Side]> = table.of_kind(EdgeKind::Open).collect();
     if rims.is_empty() {
@@ -227,7 +235,7 @@ pub(super) fn hole_places(mesh: &TriMesh, table: &EdgeTable) -> Vec<Point> {
         .collect()
 }
 
-fn crowded(mesh: &TriMesh, table: &EdgeTable) -> Defect {
+fn crowded_edges(mesh: &TriMesh, table: &EdgeTable) -> Defect {
     defect(
         DefectKind::CrowdedEdge,
         table
@@ -236,14 +244,14 @@ fn crowded(mesh: &TriMesh, table: &EdgeTable) -> Defect {
     )
 }
 
-fn misoriented(mesh: &TriMesh, table: &EdgeTable) -> Defect {
+fn misoriented_edges(mesh: &TriMesh, table: &EdgeTable) -> Defect {
     let places = table
         .of_kind(EdgeKind::Misoriented)
         .map(|sides| middle(mesh, sides));
     defect(DefectKind::MisorientedEdge, places)
 }
 
-/// The middle of the edge these sides lie on.
+/// Returns the middle of the edge on which these sides lie.
 pub(super) fn middle(mesh: &TriMesh, sides: &[Side]) -> Point {
     let [a, b] = [sides[0].low, sides[0].high].map(|v| mesh.vertices()[v as usize]);
     nalgebra::center(&a, &b)
@@ -252,7 +260,7 @@ pub(super) fn middle(mesh: &TriMesh, sides: &[Side]) -> Point {
 fn volume_defects(mesh: &TriMesh) -> [Defect; 2] {
     let least = MIN_VOLUME_RATIO * mesh.aabb().size().norm().powi(3);
     let volume = mesh.signed_volume_mm3();
-    let flaw = |kind, is: bool| Defect {
+    let volume_defect = |kind, is: bool| Defect {
         kind,
         count: usize::from(is),
         places: Vec::new(),
@@ -260,8 +268,8 @@ fn volume_defects(mesh: &TriMesh) -> [Defect; 2] {
     let inside_out = volume < -least;
     let is_sound = volume > least && volume.is_finite();
     [
-        flaw(DefectKind::NoVolume, !is_sound && !inside_out),
-        flaw(DefectKind::InsideOut, inside_out),
+        volume_defect(DefectKind::NoVolume, !is_sound && !inside_out),
+        volume_defect(DefectKind::InsideOut, inside_out),
     ]
 }
 

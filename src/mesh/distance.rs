@@ -1,4 +1,4 @@
-//! Exact distances to a mesh: of a point, with its side, and between two meshes.
+//! Exact distances: from a point to a mesh, signed, and between two meshes.
 
 use std::collections::HashMap;
 
@@ -8,15 +8,14 @@ use super::TriMesh;
 use crate::geom::triangle::Feature;
 use crate::geom::{Bvh, Nearest, Point, Vector};
 
-/// Triangles measured with one common bound: fewer lose the bound too often, more share the work
-/// worse.
+/// Number of triangles measured with one common bound. Fewer lose the bound too often, more balance
+/// the load worse.
 const CHUNK: usize = 256;
 
-/// Every how many vertices one is measured to find the first bound of the distance between two
-/// meshes.
+/// Stride of the vertices that are measured for the first bound of the distance between two meshes.
 const VERTEX_STRIDE: usize = 16;
 
-/// A mesh made ready for distance queries.
+/// A mesh prepared for distance queries.
 ///
 /// Building costs O(n log n); a query about O(log n).
 #[derive(Debug, Clone)]
@@ -36,17 +35,17 @@ impl MeshDistance {
         }
     }
 
-    /// The tree over the triangles.
+    /// Returns the tree over the triangles.
     pub fn bvh(&self) -> &Bvh {
         &self.bvh
     }
 
-    /// The distance from `p` to the surface, mm: positive inside, negative outside; −∞ for an empty
-    /// mesh.
+    /// Returns the distance from `p` to the surface, mm: positive inside, negative outside; −∞
+    /// for an empty mesh.
     ///
-    /// Exact up to rounding. The side is that of the angle-weighted pseudonormal (Bærentzen &
-    /// Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 11,
-    /// 2005), right for closed meshes free of self-intersection; where a mesh overlaps itself ask
+    /// Exact up to rounding. The sign is that of the angle-weighted pseudonormal (Bærentzen &
+    /// Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG
+    /// 11, 2005). It is right for closed meshes free of self-intersection; for others use
     /// [`Bvh::winding`].
     pub fn signed(&self, p: &Point) -> f64 {
         let Some(nearest) = self.bvh.closest(p, f64::INFINITY, &[]) else {
@@ -56,10 +55,11 @@ impl MeshDistance {
         nearest.distance_squared.sqrt() * if outward > 0.0 { -1.0 } else { 1.0 }
     }
 
-    /// The exact least distance between any triangle of this mesh and any of `other`, mm; 0 where
-    /// they meet.
+    /// Returns the least distance between this surface and that of `other`, mm; 0 if they meet.
+    /// Exact up to rounding.
     ///
-    /// Infinite if either is empty. Runs on all threads; the result does not depend on how many.
+    /// Infinite if either is empty. Runs on all threads; the result does not depend on their
+    /// number.
     pub fn min_distance_to(&self, other: &TriMesh) -> f64 {
         let to_vertex = |p: &Point| {
             self.bvh
@@ -97,7 +97,7 @@ impl MeshDistance {
     }
 }
 
-/// The outward directions by which sides are told: of faces, edges and vertices; not normalised.
+/// The outward pseudonormals of faces, edges and vertices; not normalised.
 #[derive(Debug, Clone)]
 struct Pseudonormals {
     faces: Vec<Vector>,
@@ -119,7 +119,7 @@ impl Pseudonormals {
     }
 }
 
-/// The unit normal; zero for a triangle without area.
+/// Returns the unit normal; zero for a triangle without area.
 fn unit_normal([a, b, c]: &[Point; 3]) -> Vector {
     (b - a)
         .cross(&(c - a))
@@ -127,7 +127,7 @@ fn unit_normal([a, b, c]: &[Point; 3]) -> Vector {
         .unwrap_or_else(Vector::zeros)
 }
 
-/// For each triangle's edges the sum of the normals on both sides.
+/// Returns, for each edge of each triangle, the sum of the normals on both sides.
 fn edge_normals(mesh: &TriMesh, faces: &[Vector]) -> Vec<[Vector; 3]> {
     let key = |t: &[u32; 3], i: usize| {
         let (a, b) = (t[i], t[(i + 1) % 3]);
@@ -144,7 +144,7 @@ fn edge_normals(mesh: &TriMesh, faces: &[Vector]) -> Vec<[Vector; 3]> {
         .collect()
 }
 
-/// For each vertex the sum of the normals around it, weighted by the angles there.
+/// Returns, for each vertex, the sum of the normals around it, weighted by their angles.
 fn vertex_normals(mesh: &TriMesh, faces: &[Vector]) -> Vec<Vector> {
     let mut sums = vec![Vector::zeros(); mesh.vertices().len()];
     for ((t, corners), normal) in mesh.triangles().iter().zip(mesh.iter_corners()).zip(faces) {
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
     use crate::geom::triangle::triangle_triangle_distance_squared;
 
-    /// A box from `min` to `max`, its six faces cut along a diagonal.
+    /// A box from `min` to `max`, with each face cut along a diagonal.
     fn block(min: [f64; 3], max: [f64; 3]) -> TriMesh {
         let pick = |bits: usize, axis: usize| {
             if bits >> axis & 1 == 1 {

@@ -1,39 +1,39 @@
-//! The edges of a mesh, each with the triangle sides that lie on it.
+//! The edges of a mesh, each with the sides of triangles that lie on it.
 
 use super::TriMesh;
 
-/// One side of a triangle, filed under the undirected edge it lies on.
+/// One side of a triangle, with the undirected edge on which it lies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Side {
     /// The smaller vertex index of the edge.
     pub low: u32,
-    /// The larger vertex index of the edge (equal to `low` when a triangle repeats a corner).
+    /// The larger vertex index of the edge (equal to `low` if a triangle repeats a corner).
     pub high: u32,
-    /// Which side: 3 · triangle + corner the side starts from.
+    /// Identifier of the side: 3 · triangle + the corner where it starts.
     pub id: u32,
-    /// Whether the triangle runs from `low` to `high`.
+    /// True if the triangle runs from `low` to `high`.
     pub forward: bool,
 }
 
 impl Side {
-    /// The triangle this is a side of.
+    /// Returns the triangle to which the side belongs.
     pub fn triangle(&self) -> usize {
         (self.id / 3) as usize
     }
 
-    /// The corner ids (3 · triangle + corner) at the `low` and the `high` end.
+    /// Returns the corner ids (3 · triangle + corner) at the `low` and the `high` end.
     pub fn corners(&self) -> [u32; 2] {
         let (from, to) = (self.id, next_corner(self.id));
         if self.forward { [from, to] } else { [to, from] }
     }
 }
 
-/// The corner after corner `id` in its triangle.
+/// Returns the corner after corner `id` in its triangle.
 fn next_corner(id: u32) -> u32 {
     if id % 3 == 2 { id - 2 } else { id + 1 }
 }
 
-/// What the sides on one edge say about it.
+/// The kinds of edges, by the sides that lie on them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum EdgeKind {
     /// Two triangles that run along it in opposite directions.
@@ -53,8 +53,8 @@ pub(crate) enum EdgeKind {
 pub(crate) struct EdgeTable(Vec<Side>);
 
 impl EdgeTable {
-    /// The table of `mesh`, in time linear in its triangles: a counting sort by the smaller vertex,
-    /// then a sort of the few sides that share it.
+    /// Builds the table of `mesh` in time linear in its triangles. A counting sort by the
+    /// smaller vertex comes first, then a sort of the few sides that share it.
     pub fn of(mesh: &TriMesh) -> Self {
         let mut ends = bucket_starts(mesh);
         let mut sides = vec![
@@ -79,17 +79,18 @@ impl EdgeTable {
         Self(sides)
     }
 
-    /// The sides edge by edge, in the order of (low, high).
+    /// Returns the sides edge by edge, in the order of (low, high).
     pub fn edges(&self) -> impl Iterator<Item = &[Side]> {
         self.0.chunk_by(|a, b| a.low == b.low && a.high == b.high)
     }
 
-    /// The edges of one kind.
+    /// Returns the edges of one kind.
     pub fn of_kind(&self, kind: EdgeKind) -> impl Iterator<Item = &[Side]> {
         self.edges().filter(move |sides| edge_kind(sides) == kind)
     }
 
-    /// How many edges are not shared by exactly two opposed triangles.
+    /// Counts the edges that are not shared by exactly two triangles that run in opposite
+    /// directions.
     pub fn bad_count(&self) -> usize {
         self.edges()
             .filter(|sides| edge_kind(sides) != EdgeKind::Paired)
@@ -97,7 +98,7 @@ impl EdgeTable {
     }
 }
 
-/// What these sides of one edge say about it.
+/// Returns the kind of the edge on which exactly these sides lie.
 pub(crate) fn edge_kind(sides: &[Side]) -> EdgeKind {
     match sides {
         [side, ..] if side.low == side.high => EdgeKind::Collapsed,
@@ -108,7 +109,7 @@ pub(crate) fn edge_kind(sides: &[Side]) -> EdgeKind {
     }
 }
 
-/// Where the sides filed under each vertex begin.
+/// Returns, for each vertex, the index where the sides with this `low` begin.
 fn bucket_starts(mesh: &TriMesh) -> Vec<u32> {
     let mut counts = vec![0u32; mesh.vertices().len()];
     for side in all_sides(mesh) {
@@ -121,7 +122,7 @@ fn bucket_starts(mesh: &TriMesh) -> Vec<u32> {
     counts
 }
 
-/// Every side of every triangle, in order.
+/// Returns every side of every triangle, in order.
 fn all_sides(mesh: &TriMesh) -> impl Iterator<Item = Side> + '_ {
     mesh.triangles()
         .iter()

@@ -1,23 +1,23 @@
-//! Fans: the triangles around a vertex, and the pinch vertices that join more than one fan.
+//! Fans, the connected triangles around a vertex, and pinch vertices, in which several fans meet.
 
 use super::TriMesh;
 use super::edges::{EdgeKind, EdgeTable, Side, edge_kind};
 use super::union_find::UnionFind;
 
-/// Which fan each triangle corner belongs to.
+/// The fan of each triangle corner.
 #[derive(Debug, Clone)]
 pub(crate) struct Fans {
     /// The fan of corner 3 · triangle + corner.
     of_corner: Vec<u32>,
-    /// How many fans there are.
+    /// Number of fans.
     count: usize,
 }
 
 impl Fans {
-    /// The fans of `mesh`: corners are in one fan when their triangles meet along a shared edge at
+    /// Finds the fans of `mesh`. Two corners are in one fan if their triangles share an edge at
     /// the vertex.
     ///
-    /// Where three or more triangles meet at an edge, all of them count as neighbours.
+    /// All triangles at an edge of three or more count as neighbours.
     pub fn of(mesh: &TriMesh, table: &EdgeTable) -> Self {
         let sound = table
             .edges()
@@ -28,7 +28,7 @@ impl Fans {
         )
     }
 
-    /// The fans of `mesh` when only these pairs of sides count as joined.
+    /// Finds the fans of `mesh` if only these pairs of sides count as joined.
     pub fn of_pairs(mesh: &TriMesh, pairs: impl Iterator<Item = [Side; 2]>) -> Self {
         let mut sets = UnionFind::new(mesh.triangles().len() * 3);
         for [a, b] in pairs {
@@ -40,12 +40,12 @@ impl Fans {
         Self { of_corner, count }
     }
 
-    /// How many fans there are: the vertex count of the mesh once its pinches are split.
+    /// Returns the number of fans: the vertex count of the mesh once its pinches are split.
     pub fn count(&self) -> usize {
         self.count
     }
 
-    /// The vertices at which more than one fan meets, ascending.
+    /// Returns the vertices in which more than one fan meets, ascending.
     pub fn pinches(&self, mesh: &TriMesh) -> Vec<u32> {
         let mut first_fan = vec![u32::MAX; mesh.vertices().len()];
         let mut pinched = Vec::new();
@@ -62,8 +62,8 @@ impl Fans {
         pinched
     }
 
-    /// The same triangles with one vertex for each fan: every pinch vertex is doubled in place, and
-    /// vertices no triangle uses are gone.
+    /// Splits every pinch vertex into one vertex for each fan, at the same place. Drops the
+    /// vertices that no triangle uses.
     pub fn split(&self, mesh: &TriMesh) -> TriMesh {
         let mut vertices = vec![Default::default(); self.count];
         for (&v, &fan) in mesh.triangles().iter().flatten().zip(&self.of_corner) {

@@ -1,8 +1,20 @@
 //! Triangle meshes, and the solids that are proved closed, oriented and 2-manifold.
+//!
+//! * **Types, from weak to strong:** [`TriMesh`] (indices in range), [`Solid`] (bounds a volume),
+//!   [`Hollowed`] (a solid with voids in it). [`Defects`] lists everything that keeps a mesh from
+//!   being a solid.
+//! * **Topology:** `edges`, `fans` around a vertex, connected `shells`, [`bodies()`], and
+//!   `union_find` under them all.
+//! * **Measurements:** [`MeshFacts`], self-intersections ([`Crossings`]), exact distances
+//!   ([`MeshDistance`]), and points spread evenly over a surface ([`spread_points`]).
+//! * **Operations:** booleans, plane cuts and simplification ([`Csg`]); `cut_planes` keeps cuts off
+//!   vertices and faces.
+//! * **Shapes:** [`primitives`] for tests and tools.
 
 mod bodies;
-mod clip;
 pub(crate) mod crossings;
+mod csg;
+mod cut_planes;
 mod defects;
 mod distance;
 pub(crate) mod edges;
@@ -17,13 +29,14 @@ mod tri_mesh;
 pub(crate) mod union_find;
 
 pub use bodies::{bodies, shells, winding_number};
-pub use clip::{ClipError, Csg};
-pub(crate) use clip::{off_faces, off_vertices};
 pub use crossings::Crossings;
+pub use csg::{ClipError, Csg};
+pub(crate) use cut_planes::{off_faces, off_vertices};
 pub use defects::{Defect, DefectKind, Defects};
 pub use distance::MeshDistance;
 pub use facts::MeshFacts;
 pub use hollowed::Hollowed;
 pub use sampling::{SurfacePoint, area_mm2, spread_points};
 pub use solid::Solid;
+pub(crate) use tri_mesh::smallest_first;
 pub use tri_mesh::{MeshError, TriMesh, scaled};

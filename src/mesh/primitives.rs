@@ -6,15 +6,15 @@ use std::f64::consts::TAU;
 use super::TriMesh;
 use crate::geom::{Point, Vector};
 
-/// Fewest segments of a round: two would enclose nothing.
+/// Least number of segments of a circle: two would enclose nothing.
 const MIN_SEGMENTS: u32 = 3;
 
-/// The finest [`ball`]: 20·4¹⁰ is 21 million triangles; one level more would not fit the memory of
-/// a desk machine.
+/// Level of the finest [`ball`]: 20·4¹⁰ is 21 million triangles. One level more would not fit the
+/// memory of a desktop computer.
 const MAX_LEVEL: u32 = 10;
 
-/// The box between two opposite corners, mm: 8 vertices, 12 triangles. `min` must lie below `max`
-/// in every coordinate.
+/// Makes the box between two opposite corners, mm: 8 vertices, 12 triangles. `min` must be less
+/// than `max` in every coordinate.
 pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
     let pick = |bit: usize, low: f64, high: f64| if bit == 0 { low } else { high };
     let corner = |i: usize| {
@@ -39,21 +39,23 @@ pub fn cuboid(min: &Point, max: &Point) -> TriMesh {
     TriMesh::from_parts((0..8).map(corner).collect(), triangles)
 }
 
-/// An icosphere: 20·4^`level` triangles (level at most 10) whose vertices lie on the sphere, mm.
+/// Makes an icosphere, mm: 20·4^`level` triangles (level at most 10) with vertices on the sphere.
 ///
-/// The mesh lies inside the ball; its volume falls short by a ratio that shrinks fourfold with each
-/// level (1.8 % at level 2, 0.11 % at level 4).
+/// The mesh lies inside the ball, so its volume is too small. The difference is 1.8 % at level 2
+/// and shrinks fourfold with each level.
 pub fn ball(center: &Point, radius_mm: f64, level: u32) -> TriMesh {
     unit_icosphere(level).map_vertices(|p| center + p.coords * radius_mm)
 }
 
-/// The ellipsoid with these semi-axes along x, y and z, mm: the [`ball`] of `level`, stretched.
+/// Makes the ellipsoid with these semi-axes along x, y and z, mm: the [`ball`] of `level`, scaled.
 pub fn ellipsoid(center: &Point, semi_axes_mm: &Vector, level: u32) -> TriMesh {
     unit_icosphere(level).map_vertices(|p| center + p.coords.component_mul(semi_axes_mm))
 }
 
-/// An upright prism over a regular polygon inscribed in the circle, mm: axis z, base on z = 0, at
-/// least three segments. Its volume is that of the cylinder times sin(2π/n)/(2π/n).
+/// Makes an upright prism over a regular polygon inscribed in the circle, mm.
+///
+/// Its axis is z, its base lies on z = 0, and it has at least three segments. Its volume is that of
+/// the cylinder times sin(2π/n)/(2π/n).
 pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
     let n = segments.max(MIN_SEGMENTS);
     let rim = |z: f64| (0..n).map(move |i| on_circle(radius_mm, i, n, z));
@@ -72,8 +74,10 @@ pub fn cylinder(radius_mm: f64, height_mm: f64, segments: u32) -> TriMesh {
     TriMesh::from_parts(vertices, triangles.collect())
 }
 
-/// A ring torus about the z axis, centred on the origin, mm: `tube_mm` < `ring_mm`; `ring_segments`
-/// around the axis and `tube_segments` around the tube, at least three of each.
+/// Makes a ring torus about the z axis, centred on the origin, mm.
+///
+/// `tube_mm` must be less than `ring_mm`. It has `ring_segments` around the axis and
+/// `tube_segments` around the tube, at least three of each.
 pub fn torus(ring_mm: f64, tube_mm: f64, ring_segments: u32, tube_segments: u32) -> TriMesh {
     let (n, m) = (
         ring_segments.max(MIN_SEGMENTS),
@@ -92,19 +96,19 @@ pub fn torus(ring_mm: f64, tube_mm: f64, ring_segments: u32, tube_segments: u32)
     TriMesh::from_parts(vertices.collect(), triangles.collect())
 }
 
-/// Point `i` of `n` on the circle of this radius about the z axis.
+/// Returns point `i` of `n` on the circle of this radius about the z axis.
 fn on_circle(radius_mm: f64, i: u32, n: u32, z: f64) -> Point {
     let (sin, cos) = (TAU * f64::from(i) / f64::from(n)).sin_cos();
     Point::new(radius_mm * cos, radius_mm * sin, z)
 }
 
-/// The icosahedron split `level` times, every vertex on the unit sphere.
+/// Splits the icosahedron `level` times, with every vertex on the unit sphere.
 fn unit_icosphere(level: u32) -> TriMesh {
     (0..level.min(MAX_LEVEL)).fold(icosahedron(), |mesh, _| split_in_four(&mesh))
 }
 
-/// The faces of the icosahedron whose vertices [`icosahedron`] lists, seen from outside
-/// counterclockwise.
+/// The faces of the icosahedron whose vertices [`icosahedron`] lists, counterclockwise seen from
+/// outside.
 #[rustfmt::skip]
 const ICOSAHEDRON: [[u32; 3]; 20] = [
     [0, 8, 1], [0, 1, 10], [0, 5, 4], [0, 4, 8], [0, 10, 5],
@@ -113,7 +117,7 @@ const ICOSAHEDRON: [[u32; 3]; 20] = [
     [3, 11, 7], [4, 9, 8], [5, 10, 11], [6, 8, 9], [7, 11, 10],
 ];
 
-/// The regular icosahedron in the unit sphere.
+/// Makes the regular icosahedron in the unit sphere.
 fn icosahedron() -> TriMesh {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let vertices = (0..12).map(|i| {
@@ -128,7 +132,7 @@ fn sign(bit: usize) -> f64 {
     if bit == 0 { -1.0 } else { 1.0 }
 }
 
-/// Every triangle split at the middles of its sides, the middles pushed out to the unit sphere.
+/// Splits every triangle at the middles of its sides and projects the middles onto the unit sphere.
 fn split_in_four(mesh: &TriMesh) -> TriMesh {
     let mut vertices = mesh.vertices().to_vec();
     let mut middles: HashMap<(u32, u32), u32> = HashMap::new();

@@ -5,15 +5,17 @@ use crate::geom::{Point, Vector};
 /// A point of a surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SurfacePoint {
-    /// Where it lies.
+    /// Its place, mm.
     pub at: Point,
-    /// The triangle it lies in.
+    /// Index of the triangle that contains it.
     pub triangle: usize,
 }
 
-/// So many points of the triangles, one for each equal share of their area, in the order of the
-/// triangles: a share of the area is found by counting to about √(p(1 − p)/count), and better where
-/// it hangs together.
+/// Spreads `count` points over the triangles, one for each equal share of their area, in the order
+/// of the triangles.
+///
+/// Counting points estimates a share p of the area to about √(p(1 − p)/count), and better if the
+/// share is connected.
 ///
 /// Systematic sampling along the running sum of the areas; within a triangle the points follow the
 /// R₂ sequence (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). The
@@ -37,15 +39,15 @@ pub fn spread_points(triangles: &[[Point; 3]], count: usize) -> Vec<SurfacePoint
     points
 }
 
-/// The area of a triangle, mm².
+/// Returns the area of a triangle, mm².
 pub fn area_mm2([a, b, c]: &[Point; 3]) -> f64 {
     (b - a).cross(&(c - a)).norm() / 2.0
 }
 
-/// Point `index` of the sequence, folded into the triangle.
+/// Returns point `index` of the sequence, folded into the triangle.
 fn inside([a, b, c]: &[Point; 3], index: usize) -> Point {
-    /// The reciprocals of the plastic number and of its square, whose multiples fill a square most
-    /// evenly.
+    /// The reciprocals of the plastic number and of its square. Their multiples fill a square
+    /// most evenly.
     const STEPS: [f64; 2] = [0.754_877_666_246_692_8, 0.569_840_290_998_053_2];
     let [u, v] = STEPS.map(|step| (0.5 + step * index as f64).fract());
     let (u, v) = if u + v > 1.0 {

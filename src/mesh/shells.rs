@@ -1,4 +1,4 @@
-//! Shells: the connected pieces of a surface, their volumes, and which lies inside which.
+//! Shells: the connected pieces of a surface, with their volumes and their nesting.
 
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
@@ -18,8 +18,8 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
-    /// The shells of `mesh`: triangles that share an edge are in one shell, those that meet only at
-    /// a vertex or at an edge of three or more triangles are not.
+    /// Finds the shells of `mesh`. Triangles that share an edge are in one shell. Those that
+    /// meet only at a vertex, or at an edge of three or more triangles, are not.
     pub fn of(mesh: &TriMesh, table: &EdgeTable) -> Self {
         let mut sets = UnionFind::new(mesh.triangles().len());
         for sides in table.edges().filter(|sides| joins(edge_kind(sides))) {
@@ -36,22 +36,22 @@ impl Shells {
         }
     }
 
-    /// How many shells there are.
+    /// Returns the number of shells.
     pub fn count(&self) -> usize {
         self.members.len()
     }
 
-    /// The shell that triangle `index` belongs to.
+    /// Returns the shell of triangle `index`.
     pub fn shell_of(&self, index: usize) -> usize {
         self.of_triangle[index] as usize
     }
 
-    /// The triangles of each shell, ascending.
+    /// Returns the triangles of each shell, ascending.
     pub fn members(&self) -> &[Vec<u32>] {
         &self.members
     }
 
-    /// The signed volume of each shell about its own first corner, mm³.
+    /// Returns the signed volume of each shell, computed about its own first corner, mm³.
     pub fn volumes_mm3(&self, mesh: &TriMesh) -> Vec<f64> {
         let volume = |triangles: &Vec<u32>| {
             let [apex, ..] = mesh.corners(triangles[0] as usize);
@@ -63,8 +63,8 @@ impl Shells {
         self.members.iter().map(volume).collect()
     }
 
-    /// For each shell the shells that enclose it, ascending. The shells must be closed and must not
-    /// cross.
+    /// Returns, for each shell, the shells that enclose it, ascending. The shells must be
+    /// closed and must not cross.
     pub fn enclosing(&self, mesh: &TriMesh) -> Vec<Vec<usize>> {
         let boxes: Vec<Aabb> = self
             .members
@@ -73,7 +73,7 @@ impl Shells {
             .collect();
         let encloses = |outer: usize, inner: usize| {
             outer != inner
-                && holds(&boxes[outer], &boxes[inner])
+                && contains(&boxes[outer], &boxes[inner])
                 && winds_around(
                     mesh,
                     &self.members[outer],
@@ -93,26 +93,28 @@ impl Shells {
     }
 }
 
-/// Whether the two triangles on an edge of this kind belong to one shell.
+/// Returns true if the two triangles on an edge of this kind belong to one shell.
 pub(crate) fn joins(kind: EdgeKind) -> bool {
     matches!(kind, EdgeKind::Paired | EdgeKind::Misoriented)
 }
 
-/// The box about these triangles.
+/// Returns the bounding box of these triangles.
 pub(crate) fn shell_box(mesh: &TriMesh, triangles: &[u32]) -> Aabb {
     let corners = triangles.iter().flat_map(|&t| mesh.corners(t as usize));
     corners.fold(Aabb::EMPTY, |aabb, corner| aabb.grown_over(&corner))
 }
 
-fn holds(outer: &Aabb, inner: &Aabb) -> bool {
+fn contains(outer: &Aabb, inner: &Aabb) -> bool {
     outer.union(inner) == *outer
 }
 
-/// Whether these triangles, taken as one closed surface, wind around `point`: the triangles above
-/// it, counted +1 when they face up and −1 when they face down, do not cancel.
+/// Returns true if these triangles, taken as one closed surface, wind around `point`.
 ///
-/// Exact (Shewchuk's predicates); a point straight below an edge or a vertex counts as moved by (ε,
-/// ε²), so each crossing is counted once.
+/// They do if the triangles above it, counted +1 if they face up and −1 if they face down, do not
+/// cancel.
+///
+/// Exact (Shewchuk's predicates). A point straight below an edge or a vertex counts as moved by (ε,
+/// ε²), so each crossing counts once.
 fn winds_around(mesh: &TriMesh, triangles: &[u32], point: &Point) -> bool {
     triangles
         .iter()
@@ -121,7 +123,7 @@ fn winds_around(mesh: &TriMesh, triangles: &[u32], point: &Point) -> bool {
         != 0
 }
 
-/// +1 or −1 when the triangle lies above the point and faces up or down, else 0.
+/// Returns +1 or −1 if the triangle lies above the point and faces up or down, else 0.
 fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     let [a, b, c] = corners;
     let spans = |x: fn(&Point) -> f64| {
@@ -152,8 +154,8 @@ fn crossing_above(corners: &[Point; 3], point: &Point) -> i32 {
     if below > 0.0 { facing } else { 0 }
 }
 
-/// +1 when the point, seen from above and moved by (ε, ε²), lies left of the edge, −1 when right, 0
-/// when the edge is vertical.
+/// Returns the side of the edge on which the point lies: +1 left, −1 right, 0 if the edge is
+/// vertical. The point is seen from above and counts as moved by (ε, ε²).
 fn side_of_edge(from: &Point, to: &Point, point: &Point) -> i32 {
     let [a, b, p] = [from, to, point].map(|p| Coord { x: p.x, y: p.y });
     let turn = orient2d(a, b, p);

@@ -1,18 +1,19 @@
-//! Sets that merge: who belongs together.
+//! Disjoint sets that merge (union–find).
 
-/// Disjoint sets of the numbers 0 to n − 1 (Tarjan, "Efficiency of a good but not linear set union
-/// algorithm", J. ACM 22, 1975; path halving). The smallest member stands for its set, so the
-/// answer does not depend on the order of the merges.
+/// Disjoint sets of the numbers 0 to n − 1, with path halving (Tarjan, "Efficiency of a good but
+/// not linear set union algorithm", J. ACM 22, 1975).
+///
+/// The smallest member represents its set, so results do not depend on the order of the merges.
 #[derive(Debug, Clone)]
 pub(crate) struct UnionFind(Vec<u32>);
 
 impl UnionFind {
-    /// Every number alone in its set.
+    /// Makes `count` sets of one number each.
     pub fn new(count: usize) -> Self {
         Self((0..count as u32).collect())
     }
 
-    /// The smallest member of the set that holds `item`.
+    /// Returns the smallest member of the set that contains `item`.
     pub fn root(&mut self, mut item: u32) -> u32 {
         while self.0[item as usize] != item {
             let above = self.0[item as usize];
@@ -22,15 +23,15 @@ impl UnionFind {
         item
     }
 
-    /// Merges the sets of `a` and `b`; whether they were apart.
+    /// Merges the sets of `a` and `b`; returns `false` if they were one set before.
     pub fn merge(&mut self, a: u32, b: u32) -> bool {
         let (a, b) = (self.root(a), self.root(b));
         self.0[a.max(b) as usize] = a.min(b);
         a != b
     }
 
-    /// For every number the rank of its set, sets counted from 0 in the order of their smallest
-    /// member; and how many sets there are.
+    /// Returns the rank of every number's set, and the number of sets. Sets are ranked from 0
+    /// in the order of their smallest members.
     pub fn labels(mut self) -> (Vec<u32>, usize) {
         let mut labels = vec![0; self.0.len()];
         let mut sets = 0;

@@ -1,48 +1,47 @@
-//! Repairs that cannot change the shape: weld, drop what has no area, orient, split pinches.
+//! The rungs of [`repair`] in their order, with the count of what each did.
 
 use std::collections::HashSet;
 use std::fmt;
 
-use super::orient::{agreeing, outward};
-use super::unstitch::unstitched;
-use super::weld::{weld, weld_open_edges, without_unused_vertices};
-use crate::mesh::TriMesh;
+use super::orient::{face_outward, orient_neighbours};
+use super::unstitch::unstitch;
+use super::weld::{drop_unused_vertices, weld, weld_open_edges};
 use crate::mesh::edges::{EdgeKind, EdgeTable, edge_kind};
 use crate::mesh::fans::Fans;
+use crate::mesh::{TriMesh, smallest_first};
 
-/// How far apart, relative to the diagonal of the bounding box, two rims may be to be welded. Below
-/// about 1e-7 the last digit of a file in single precision keeps seams open; above 1e-5 (1 µm on a
-/// 100 mm model) details a printer can show would be drawn together.
+/// Largest distance between rims to be welded, as a share of the diagonal of the bounding box.
+/// Below about 1e-7 the last digit of a file in single precision keeps seams open. Above 1e-5 (1 µm
+/// on a 100 mm model) details that a printer can show would be merged.
 const WELD_TOLERANCE_RATIO: f64 = 1e-6;
 
-/// What [`repair`] did to a mesh.
+/// Counts of the changes that [`repair`] made to a mesh.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Repairs {
-    /// Vertices that lay exactly where another lies, and were merged with it.
+    /// Vertices merged with another at exactly the same place.
     pub merged_vertices: usize,
-    /// Vertices on open edges that lay within a millionth of the model's diagonal of another, and
-    /// were merged with it.
+    /// Vertices on open edges merged with another within a millionth of the model's diagonal.
     pub merged_near_vertices: usize,
-    /// Triangles that repeated a corner, and were dropped.
+    /// Dropped triangles that repeated a corner.
     pub dropped_degenerate: usize,
-    /// Triangles that repeated another, and were dropped.
+    /// Dropped triangles that repeated another triangle.
     pub dropped_duplicates: usize,
-    /// Triangles turned to face the way their neighbours and the solid do.
+    /// Triangles flipped to agree with their neighbours or to face outward.
     pub flipped_triangles: usize,
-    /// Vertices added because a vertex or an edge joined surfaces that only touch there.
+    /// Vertices added to separate surfaces that only touch in a vertex or an edge.
     pub split_vertices: usize,
-    /// Vertices that no triangle used, and were dropped.
+    /// Dropped vertices that no triangle used.
     pub dropped_vertices: usize,
 }
 
 impl Repairs {
-    /// Whether nothing had to be done.
+    /// Returns true if nothing had to be done.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// What a person should know of: without the merging of equal vertices, which every STL file
-    /// needs, and the dropping of unused ones, which no one sees.
+    /// Returns the counts that a user should know. Leaves out the merging of equal vertices,
+    /// which every STL file needs, and the dropping of unused ones, which nobody sees.
     pub fn notable(self) -> Self {
         Self {
             merged_vertices: 0,
@@ -72,57 +71,48 @@ impl fmt::Display for Repairs {
             ),
             (self.dropped_vertices, "unused vertices dropped"),
         ];
-        let said: Vec<String> = done
+        let descriptions: Vec<String> = done
             .iter()
             .filter(|(count, _)| *count > 0)
-            .map(|(count, what)| format!("{what}: {count}"))
+            .map(|(count, description)| format!("{description}: {count}"))
             .collect();
-        if said.is_empty() {
+        if descriptions.is_empty() {
             f.write_str("nothing")
         } else {
-            f.write_str(&said.join(", "))
+            f.write_str(&descriptions.join(", "))
         }
     }
 }
 
-/// The mesh with the repairs that keep its shape, and what they were.
+/// Climbs the ladder of repairs that keep the shape; returns the mesh and the count of each repair.
 ///
-/// Exactly equal vertices are welded; rims a millionth of the diagonal apart are welded if that
-/// closes the mesh; triangles that repeat a corner or another triangle are dropped; neighbours are
-/// turned to agree and, when the mesh is closed, outer shells to face outward and cavities inward;
-/// a vertex or an edge that joins surfaces which only touch there is doubled; unused vertices go.
-/// No hole is filled. A mesh that is already sound comes back as it was. Coordinates never change
-/// but for the welding of rims. Linear in the triangles but for one sort.
+/// See the [room](super) for the rungs and their proofs. No hole is filled. A mesh that is already
+/// sound comes back unchanged. Only the welding of rims moves vertices. Linear in the triangles
+/// except for one sort of the vertices.
+#[must_use]
 pub fn repair(mesh: TriMesh) -> (TriMesh, Repairs) {
     let mut repairs = Repairs::default();
-    let mesh = merged(mesh, &mut repairs);
-    let mesh = closed_along_seams(mesh, &mut repairs);
-    let mesh = without_duplicates(mesh, &mut repairs);
-    let mesh = without_unused(mesh, &mut repairs);
-    let given = mesh.clone();
-    let mesh = if has_kind(&mesh, EdgeKind::Misoriented) {
-        agreeing(mesh)
-    } else {
-        mesh
-    };
-    let mesh = apart(mesh, &mut repairs);
-    let mesh = if EdgeTable::of(&mesh).bad_count() == 0 {
-        outward(mesh)
-    } else {
-        mesh
-    };
-    repairs.flipped_triangles = turned(&given, &mesh);
+    let mesh = merge_equal_vertices(mesh, &mut repairs);
+    let mesh = close_seams(mesh, &mut repairs);
+    let mesh = drop_duplicates(mesh, &mut repairs);
+    let mesh = drop_unused(mesh, &mut repairs);
+    let before = mesh.clone();
+    let mesh = orient_if_misoriented(mesh);
+    let mesh = separate_touching_surfaces(mesh, &mut repairs);
+    let mesh = face_outward_if_closed(mesh);
+    repairs.flipped_triangles = count_flipped(&before, &mesh);
     (mesh, repairs)
 }
 
-fn merged(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+/// Merges vertices at the same place, and drops the triangles that lose a corner.
+fn merge_equal_vertices(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let welded = weld(&mesh);
     repairs.merged_vertices = mesh.vertices().len() - welded.vertices().len();
-    without_degenerate(welded, repairs)
+    drop_degenerate(welded, repairs)
 }
 
 /// Drops the triangles that repeat a corner: they have no area and their sides cancel.
-fn without_degenerate(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+fn drop_degenerate(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let sound = |&[a, b, c]: &[u32; 3]| a != b && b != c && c != a;
     let triangles: Vec<[u32; 3]> = mesh.triangles().iter().copied().filter(sound).collect();
     repairs.dropped_degenerate += mesh.triangles().len() - triangles.len();
@@ -134,27 +124,27 @@ fn has_kind(mesh: &TriMesh, kind: EdgeKind) -> bool {
 }
 
 /// Welds rims that nearly meet, if that leaves no edge open and none crowded.
-fn closed_along_seams(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+fn close_seams(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let tolerance_mm = WELD_TOLERANCE_RATIO * mesh.aabb().size().norm();
     if !tolerance_mm.is_finite() || tolerance_mm <= 0.0 || !has_kind(&mesh, EdgeKind::Open) {
         return mesh;
     }
-    let mut tried = *repairs;
+    let mut trial = *repairs;
     let welded = weld_open_edges(&mesh, tolerance_mm);
-    tried.merged_near_vertices = mesh.vertices().len() - welded.vertices().len();
-    let welded = without_degenerate(welded, &mut tried);
+    trial.merged_near_vertices = mesh.vertices().len() - welded.vertices().len();
+    let welded = drop_degenerate(welded, &mut trial);
     let has_two_sides =
         |sides: &[_]| matches!(edge_kind(sides), EdgeKind::Paired | EdgeKind::Misoriented);
     if EdgeTable::of(&welded).edges().all(has_two_sides) {
-        *repairs = tried;
+        *repairs = trial;
         return welded;
     }
     mesh
 }
 
-/// Drops triangles that repeat another one's corners in the same turn, if that leaves fewer bad
-/// edges.
-fn without_duplicates(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+/// Drops triangles that repeat another one's corners in the same order, if fewer edges are bad
+/// then.
+fn drop_duplicates(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let bad = EdgeTable::of(&mesh).bad_count();
     if bad == 0 {
         return mesh;
@@ -171,32 +161,31 @@ fn without_duplicates(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     candidate
 }
 
-/// The same turn of corners, begun at the smallest.
-fn smallest_first([a, b, c]: [u32; 3]) -> [u32; 3] {
-    if a < b && a < c {
-        [a, b, c]
-    } else if b < c {
-        [b, c, a]
-    } else {
-        [c, a, b]
-    }
-}
-
-fn without_unused(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+/// Drops the vertices that no triangle uses.
+fn drop_unused(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let before = mesh.vertices().len();
-    let mesh = without_unused_vertices(mesh);
+    let mesh = drop_unused_vertices(mesh);
     repairs.dropped_vertices = before - mesh.vertices().len();
     mesh
 }
 
-/// Doubles the vertices and edges at which surfaces only touch, if that leaves every edge with two
-/// triangles.
-fn apart(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
+/// Makes neighbours agree, if some do not.
+fn orient_if_misoriented(mesh: TriMesh) -> TriMesh {
+    if has_kind(&mesh, EdgeKind::Misoriented) {
+        orient_neighbours(mesh)
+    } else {
+        mesh
+    }
+}
+
+/// Doubles the vertices and edges in which surfaces only touch, if every edge has two triangles
+/// then.
+fn separate_touching_surfaces(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     let table = EdgeTable::of(&mesh);
     if table.bad_count() == 0 && Fans::of(&mesh, &table).pinches(&mesh).is_empty() {
         return mesh;
     }
-    match unstitched(&mesh) {
+    match unstitch(&mesh) {
         Some(split) => {
             repairs.split_vertices = split.vertices().len() - mesh.vertices().len();
             split
@@ -205,12 +194,22 @@ fn apart(mesh: TriMesh, repairs: &mut Repairs) -> TriMesh {
     }
 }
 
-/// How many triangles run the other way than given: corners may have new numbers, but keep their
-/// places, and turning a triangle swaps its last two.
-fn turned(given: &TriMesh, mesh: &TriMesh) -> usize {
+/// Turns whole shells to face outward, cavities inward, if every edge joins two triangles.
+fn face_outward_if_closed(mesh: TriMesh) -> TriMesh {
+    if EdgeTable::of(&mesh).bad_count() == 0 {
+        face_outward(mesh)
+    } else {
+        mesh
+    }
+}
+
+/// Counts the triangles that have the opposite orientation in the two meshes.
+///
+/// Corners may have new numbers but keep their places, and a flip swaps the last two corners.
+fn count_flipped(before: &TriMesh, after: &TriMesh) -> usize {
     let last = |mesh: &TriMesh, t: usize| mesh.corners(t)[2];
-    (0..mesh.triangles().len())
-        .filter(|&t| last(given, t) != last(mesh, t))
+    (0..after.triangles().len())
+        .filter(|&t| last(before, t) != last(after, t))
         .count()
 }
 
@@ -225,7 +224,7 @@ mod tests {
         cuboid(&Point::origin(), &Point::new(1.0, 1.0, 1.0))
     }
 
-    /// Three own corners for every triangle, moved by `shift(triangle)`.
+    /// Gives every triangle three corners of its own, moved by `shift(triangle)`.
     fn soup(mesh: &TriMesh, shift: impl Fn(usize) -> Vector) -> TriMesh {
         let vertices = mesh
             .iter_corners()
@@ -248,39 +247,39 @@ mod tests {
             torus(3.0, 1.0, 20, 10),
             unit_cube().joined(&ball(&Point::new(9.0, 0.0, 0.0), 1.0, 1)),
         ] {
-            let (mended, repairs) = repair(mesh.clone());
-            assert_eq!((mended, repairs), (mesh, Repairs::default()));
+            let (repaired, repairs) = repair(mesh.clone());
+            assert_eq!((repaired, repairs), (mesh, Repairs::default()));
         }
     }
 
     #[test]
     fn a_soup_turned_inside_out_becomes_a_solid() {
         let torus = torus(3.0, 1.0, 20, 10);
-        let (mended, repairs) = repair(soup(&torus.reversed(), |_| Vector::zeros()));
+        let (repaired, repairs) = repair(soup(&torus.reversed(), |_| Vector::zeros()));
         assert_eq!(
             (repairs.merged_vertices, repairs.flipped_triangles),
             (1200 - 200, 400)
         );
-        let volume = Solid::new(mended).unwrap().mesh().signed_volume_mm3();
+        let volume = Solid::new(repaired).unwrap().mesh().signed_volume_mm3();
         assert!((volume - torus.signed_volume_mm3()).abs() < 1e-12);
     }
 
     #[test]
     fn seams_a_millionth_apart_are_closed_and_wider_ones_stay_open() {
         let jitter = |size: f64| move |t: usize| Vector::repeat(size * (t % 3) as f64);
-        let (mended, repairs) = repair(soup(&unit_cube(), jitter(1e-7)));
-        assert!(Solid::new(mended).is_ok() && repairs.merged_near_vertices > 0);
+        let (repaired, repairs) = repair(soup(&unit_cube(), jitter(1e-7)));
+        assert!(Solid::new(repaired).is_ok() && repairs.merged_near_vertices > 0);
         let torn = soup(&unit_cube(), jitter(1e-5));
-        let (mended, repairs) = repair(torn);
-        assert!(Solid::new(mended).is_err());
+        let (repaired, repairs) = repair(torn);
+        assert!(Solid::new(repaired).is_err());
         assert_eq!(repairs.merged_near_vertices, 0, "{repairs}");
     }
 
     #[test]
     fn doubled_and_collapsed_triangles_are_dropped() {
-        let spoilt = with_triangles(&unit_cube(), &[[0, 4, 6], [6, 0, 4], [1, 1, 2], [5, 5, 5]]);
-        let (mended, repairs) = repair(spoilt);
-        assert_eq!(mended, unit_cube());
+        let spoiled = with_triangles(&unit_cube(), &[[0, 4, 6], [6, 0, 4], [1, 1, 2], [5, 5, 5]]);
+        let (repaired, repairs) = repair(spoiled);
+        assert_eq!(repaired, unit_cube());
         assert_eq!(
             (repairs.dropped_duplicates, repairs.dropped_degenerate),
             (2, 2)
@@ -298,16 +297,16 @@ mod tests {
             unit_cube().triangles()[1..].to_vec(),
         )
         .unwrap();
-        let (mended, repairs) = repair(open.clone());
-        assert_eq!((mended, repairs.is_empty()), (open, true));
+        let (repaired, repairs) = repair(open.clone());
+        assert_eq!((repaired, repairs.is_empty()), (open, true));
     }
 
     #[test]
     fn boxes_that_touch_at_a_corner_come_apart_there() {
         let other = unit_cube().map_vertices(|p| p + Vector::repeat(1.0));
-        let (mended, repairs) = repair(unit_cube().joined(&other));
+        let (repaired, repairs) = repair(unit_cube().joined(&other));
         assert_eq!((repairs.merged_vertices, repairs.split_vertices), (1, 1));
-        assert_eq!(Defects::of(&mended), None);
+        assert_eq!(Defects::of(&repaired), None);
     }
 
     #[test]
@@ -319,8 +318,8 @@ mod tests {
             .iter()
             .map(|t| t.map(|v| v + 1))
             .collect();
-        let (mended, repairs) = repair(TriMesh::new(vertices, triangles).unwrap());
-        assert_eq!((mended, repairs.dropped_vertices), (unit_cube(), 1));
+        let (repaired, repairs) = repair(TriMesh::new(vertices, triangles).unwrap());
+        assert_eq!((repaired, repairs.dropped_vertices), (unit_cube(), 1));
         assert!(repairs.notable().is_empty());
     }
 

@@ -1,4 +1,37 @@
-//! Repair: the rungs that turn a mesh as it was read into one that can be proved solid.
+//! Repair: the ladder from a mesh as it was read to one that can be proved solid.
+//!
+//! # The ladder
+//!
+//! [`repair`] climbs these rungs in order. None keeps a result that lacks its proof. Only rung 2
+//! moves vertices, on rims that nearly meet. An edge is *bad* unless exactly two triangles share it
+//! in opposite directions.
+//!
+//! 1. **Merge equal vertices** (`weld`). Also drops the triangles that lose a corner. *Cost:* one
+//!    sort of the vertices. *Proof:* no vertex moves, and a second weld changes nothing.
+//! 2. **Close seams** (`weld`), if an edge is open. Merges vertices on open edges within a
+//!    millionth of the diagonal. *Cost:* linear, with a hash grid. *Proof:* kept only if no edge is
+//!    open or crowded afterwards.
+//! 3. **Drop duplicates** (`ladder`), if an edge is bad. Drops triangles that repeat another one.
+//!    *Cost:* linear, with a hash set. *Proof:* kept only if fewer edges are bad afterwards.
+//! 4. **Drop unused vertices** (`weld`). *Cost:* linear. *Proof:* no triangle changes.
+//! 5. **Orient neighbours** (`orient`), if two disagree. Flips triangles, the smaller part of each
+//!    shell. *Cost:* linear. *Proof:* only orientations change. A one-sided surface cannot agree
+//!    and stays misoriented.
+//! 6. **Separate touching surfaces** (`unstitch`), if an edge is bad or a vertex is pinched.
+//!    Doubles their vertices. *Cost:* linear, plus a sort of the triangles at each crowded edge.
+//!    *Proof:* no vertex moves, and the result is kept only if no edge is bad afterwards.
+//! 7. **Face outward** (`orient`), if the mesh is closed. Flips whole shells. *Cost:* linear, plus
+//!    a pass over the triangles for each pair of shells. *Proof:* exact predicates decide which
+//!    shell encloses which.
+//!
+//! At the top stands [`Solid::new`](crate::mesh::Solid::new), which proves the result or lists all
+//! remaining [`Defects`](crate::mesh::Defects). No rung fills a hole.
+//!
+//! # Beside the ladder
+//!
+//! * [`one_body`] checks that a solid is a single body, as every kit requires.
+//! * `sew` joins parts along their rims, within a tolerance that its caller judges.
+//! * [`unfolded`] mends the slivers that the rounding of a written file would fold.
 
 mod ladder;
 mod one_body;

@@ -1,5 +1,5 @@
-//! Whether a solid is one body: what a kit can be made of. Inner surfaces, loose bodies and
-//! overlaps are named.
+//! The check that a solid is one body, which every kit needs. Refusals name inner surfaces, loose
+//! bodies and overlaps.
 
 use std::fmt;
 
@@ -8,19 +8,19 @@ use crate::mesh::edges::EdgeTable;
 use crate::mesh::shells::{Shells, shell_box};
 use crate::mesh::{Crossings, Solid, TriMesh};
 
-/// How many shells are named; a scan with more crumbs than that is cleaned as a whole.
-const NAMED_SHELLS: usize = 12;
+/// Largest number of shells listed. A scan with more fragments needs cleaning as a whole.
+const MAX_LISTED_SHELLS: usize = 12;
 
-/// What a shell is to the body that holds it or stands beside it.
+/// The role of a shell among the others.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShellRole {
-    /// Faces outward and lies in no other: a body.
+    /// Faces outward and lies in no other shell: a body.
     Body,
     /// Faces inward: the wall of a cavity.
     Cavity,
     /// Faces outward and lies in a cavity: a loose body.
     Island,
-    /// Faces outward and lies in the material of another, which would count twice.
+    /// Faces outward and lies in the material of another body, which would count twice.
     Doubled,
 }
 
@@ -38,7 +38,7 @@ impl fmt::Display for ShellRole {
 /// One connected surface of a solid that has several.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ShellFact {
-    /// What it is.
+    /// Its role.
     pub role: ShellRole,
     /// The volume it encloses, mm³.
     pub volume_mm3: f64,
@@ -58,10 +58,11 @@ impl fmt::Display for ShellFact {
     }
 }
 
-/// Why a solid is not one body.
+/// The reason that a solid is not one body.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum NotOneBody {
-    /// The surface passes through itself: what lies in the overlap would count twice.
+    /// The surface passes through itself: the overlap would count twice.
     #[error(
         "{} pairs of its triangles pass through each other or lie on each other{}; remedy: unite the overlapping bodies \
          in a modelling program (boolean union), or mend the surface there, then export again",
@@ -69,7 +70,7 @@ pub enum NotOneBody {
     )]
     Crosses(Crossings),
     /// There are several shells.
-    #[error("{}", listed(.0))]
+    #[error("{}", describe_shells(.0))]
     SeveralShells(Vec<ShellFact>),
 }
 
@@ -79,10 +80,13 @@ fn first_at(crossings: &Crossings) -> String {
     })
 }
 
-/// The shells and, once for each kind, the remedy.
-fn listed(shells: &[ShellFact]) -> String {
-    let named = shells.iter().take(NAMED_SHELLS).map(ToString::to_string);
-    let more = shells.len().saturating_sub(NAMED_SHELLS);
+/// Lists the shells and, once for each kind, the remedy.
+fn describe_shells(shells: &[ShellFact]) -> String {
+    let named = shells
+        .iter()
+        .take(MAX_LISTED_SHELLS)
+        .map(ToString::to_string);
+    let more = shells.len().saturating_sub(MAX_LISTED_SHELLS);
     let more = (more > 0).then(|| format!("{more} more"));
     let named: Vec<String> = named.chain(more).collect();
     format!(
@@ -106,9 +110,10 @@ fn remedies(shells: &[ShellFact]) -> Vec<&'static str> {
     within.into_iter().chain(beside).collect()
 }
 
-/// Whether a solid is one body: a single shell that does not pass through itself. A kit's voids,
-/// cuts and moments rest on it. Costs as much as [`Crossings::of`], and for several shells a pass
-/// over the triangles for each pair.
+/// Checks that a solid is one body: a single shell that does not pass through itself.
+///
+/// A kit's voids, cuts and moments depend on it. Costs as much as [`Crossings::of`], plus a pass
+/// over the triangles for each pair of shells.
 pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
     let mesh = solid.mesh();
     let crossings = Crossings::of(mesh);
@@ -123,7 +128,7 @@ pub fn one_body(solid: &Solid) -> Result<(), NotOneBody> {
     }
 }
 
-/// What each shell is, the largest first.
+/// Returns the facts of each shell, the largest first.
 fn facts(mesh: &TriMesh, shells: &Shells) -> Vec<ShellFact> {
     let (volumes, enclosing) = (shells.volumes_mm3(mesh), shells.enclosing(mesh));
     let mut facts: Vec<ShellFact> = (0..shells.count())
@@ -162,12 +167,12 @@ mod tests {
         )
     }
 
-    fn refused(mesh: TriMesh) -> NotOneBody {
+    fn refusal(mesh: TriMesh) -> NotOneBody {
         one_body(&Solid::new(mesh).unwrap()).unwrap_err()
     }
 
     fn roles(mesh: TriMesh) -> Vec<ShellRole> {
-        match refused(mesh) {
+        match refusal(mesh) {
             NotOneBody::SeveralShells(shells) => shells.iter().map(|shell| shell.role).collect(),
             crosses => panic!("{crosses}"),
         }
@@ -181,7 +186,7 @@ mod tests {
     }
 
     #[test]
-    fn each_shell_is_told_by_what_holds_it() {
+    fn each_shell_gets_its_role_from_the_shells_around_it() {
         use ShellRole::*;
         let onion = cube(4.0).joined(&cube(3.0).reversed()).joined(&cube(2.0));
         assert_eq!(roles(onion), [Body, Cavity, Island]);
@@ -191,43 +196,43 @@ mod tests {
     }
 
     #[test]
-    fn the_words_hold_place_volume_and_remedy_of_each_shell() {
+    fn the_message_names_place_volume_and_remedy_of_each_shell() {
         let hole = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(3.0, 3.0, 3.0)).reversed();
-        let said = refused(cube(4.0).joined(&hole)).to_string();
+        let message = refusal(cube(4.0).joined(&hole)).to_string();
         assert!(
-            said.contains("a cavity of 8.000 mm³ about (2.00, 2.00, 2.00) mm"),
-            "{said}"
+            message.contains("a cavity of 8.000 mm³ about (2.00, 2.00, 2.00) mm"),
+            "{message}"
         );
         assert!(
-            said.contains("remove the inner surfaces") && !said.contains("separate"),
-            "{said}"
+            message.contains("remove the inner surfaces") && !message.contains("separate"),
+            "{message}"
         );
     }
 
     #[test]
-    fn a_hundred_crumbs_are_counted_not_listed() {
-        let crumb =
+    fn a_hundred_fragments_are_counted_not_listed() {
+        let fragment =
             |i: i32| cube(0.1).map_vertices(|p| p + crate::geom::Vector::x() * f64::from(i));
-        let said = refused(
+        let message = refusal(
             (0..100)
-                .map(crumb)
+                .map(fragment)
                 .reduce(|all, next| all.joined(&next))
                 .unwrap(),
         )
         .to_string();
         assert!(
-            said.contains("it has 100 surfaces") && said.contains("88 more"),
-            "{said}"
+            message.contains("it has 100 surfaces") && message.contains("88 more"),
+            "{message}"
         );
     }
 
     #[test]
     fn bodies_that_overlap_are_to_be_united() {
         let other = cuboid(&Point::new(1.0, 1.0, 1.0), &Point::new(9.0, 9.0, 9.0));
-        let said = refused(cube(4.0).joined(&other)).to_string();
+        let message = refusal(cube(4.0).joined(&other)).to_string();
         assert!(
-            said.contains("pass through each other") && said.contains("boolean union"),
-            "{said}"
+            message.contains("pass through each other") && message.contains("boolean union"),
+            "{message}"
         );
     }
 }

@@ -1,71 +1,74 @@
-//! Orientation: neighbours agree, solids face outward, cavities inward.
+//! Orientation: makes neighbours agree, solids face outward and cavities inward.
 
 use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeTable, Side, edge_kind};
 use crate::mesh::shells::{Shells, joins};
 
-/// Turns triangles until neighbours across an edge agree, shell by shell, the larger part of a
-/// shell giving the direction (the first triangle where the parts are equal).
+/// Flips triangles until neighbours across an edge agree, shell by shell.
 ///
-/// A surface with one side only, like a Möbius strip, keeps edges where its triangles do not agree.
-pub(super) fn agreeing(mesh: TriMesh) -> TriMesh {
+/// The larger part of a shell gives the direction; of equal parts, that of the first triangle.
+///
+/// A one-sided surface, such as a Möbius strip, keeps some edges at which its triangles disagree.
+pub(super) fn orient_neighbours(mesh: TriMesh) -> TriMesh {
     let table = EdgeTable::of(&mesh);
-    let turned = relative_turns(&mesh, &table);
+    let flipped = relative_flips(&mesh, &table);
     let shells = Shells::of(&mesh, &table);
     let flip_of_shell: Vec<bool> = shells
         .members()
         .iter()
         .map(|triangles| {
-            2 * triangles.iter().filter(|&&t| turned[t as usize]).count() > triangles.len()
+            2 * triangles.iter().filter(|&&t| flipped[t as usize]).count() > triangles.len()
         })
         .collect();
-    flipped_where(mesh, |t| turned[t] != flip_of_shell[shells.shell_of(t)])
+    flip_where(mesh, |t| flipped[t] != flip_of_shell[shells.shell_of(t)])
 }
 
-/// For each triangle whether it must be turned to agree with the first triangle of its shell.
-fn relative_turns(mesh: &TriMesh, table: &EdgeTable) -> Vec<bool> {
+/// Returns, for each triangle, true if a flip makes it agree with the first triangle of its shell.
+fn relative_flips(mesh: &TriMesh, table: &EdgeTable) -> Vec<bool> {
     let neighbours = neighbours(mesh, table);
-    let mut turned: Vec<Option<bool>> = vec![None; mesh.triangles().len()];
+    let mut flipped: Vec<Option<bool>> = vec![None; mesh.triangles().len()];
     let mut front = Vec::new();
-    for first in 0..turned.len() {
-        if turned[first].is_some() {
+    for first in 0..flipped.len() {
+        if flipped[first].is_some() {
             continue;
         }
-        turned[first] = Some(false);
+        flipped[first] = Some(false);
         front.push(first);
         while let Some(triangle) = front.pop() {
             for &(other, agrees) in neighbours[triangle].iter().flatten() {
-                if turned[other].is_none() {
-                    turned[other] = turned[triangle].map(|turn| turn == agrees);
+                if flipped[other].is_none() {
+                    flipped[other] = flipped[triangle].map(|turn| turn == agrees);
                     front.push(other);
                 }
             }
         }
     }
-    turned.into_iter().map(|turn| turn == Some(true)).collect()
+    flipped.into_iter().map(|turn| turn == Some(true)).collect()
 }
 
-/// For each side of each triangle the triangle across it, and whether the two agree.
+/// Returns, for each side of each triangle, the triangle across it and true if the two agree.
 fn neighbours(mesh: &TriMesh, table: &EdgeTable) -> Vec<[Option<(usize, bool)>; 3]> {
     let mut across = vec![[None; 3]; mesh.triangles().len()];
-    let mut note = |side: &Side, other: &Side| {
+    let mut link = |side: &Side, other: &Side| {
         across[side.triangle()][side.id as usize % 3] =
             Some((other.triangle(), side.forward != other.forward));
     };
     for sides in table.edges().filter(|sides| joins(edge_kind(sides))) {
-        note(&sides[0], &sides[1]);
-        note(&sides[1], &sides[0]);
+        link(&sides[0], &sides[1]);
+        link(&sides[1], &sides[0]);
     }
     across
 }
 
-/// Turns whole shells of a closed mesh so that it bounds a solid: an outermost shell faces outward,
-/// and everything inside a shell that is turned is turned with it, so a cavity that faces the other
-/// way than its wall stays a cavity. A shell in a cavity is a solid again and faces outward.
-pub(super) fn outward(mesh: TriMesh) -> TriMesh {
+/// Flips whole shells of a closed mesh so that it bounds a solid.
+///
+/// An outermost shell faces outward. Everything inside a shell that is flipped is flipped with it,
+/// so a cavity that faces the other way than its wall stays a cavity. A shell in a cavity is a
+/// solid again and faces outward.
+pub(super) fn face_outward(mesh: TriMesh) -> TriMesh {
     let shells = Shells::of(&mesh, &EdgeTable::of(&mesh));
     let flips = shell_flips(&shells.volumes_mm3(&mesh), &enclosing(&shells, &mesh));
-    flipped_where(mesh, |t| flips[shells.shell_of(t)])
+    flip_where(mesh, |t| flips[shells.shell_of(t)])
 }
 
 fn enclosing(shells: &Shells, mesh: &TriMesh) -> Vec<Vec<usize>> {
@@ -76,7 +79,8 @@ fn enclosing(shells: &Shells, mesh: &TriMesh) -> Vec<Vec<usize>> {
     }
 }
 
-/// Which shells to turn, from their signed volumes and the shells that enclose each.
+/// Returns, for each shell, true if it must be flipped, given the signed volumes and the enclosing
+/// shells.
 fn shell_flips(volumes: &[f64], enclosing: &[Vec<usize>]) -> Vec<bool> {
     let mut from_outside: Vec<usize> = (0..volumes.len()).collect();
     from_outside.sort_by_key(|&shell| (enclosing[shell].len(), shell));
@@ -97,7 +101,7 @@ fn shell_flips(volumes: &[f64], enclosing: &[Vec<usize>]) -> Vec<bool> {
     flips
 }
 
-fn flipped_where(mesh: TriMesh, flip: impl Fn(usize) -> bool) -> TriMesh {
+fn flip_where(mesh: TriMesh, flip: impl Fn(usize) -> bool) -> TriMesh {
     let turn = |(t, &[a, b, c]): (usize, &[u32; 3])| if flip(t) { [a, c, b] } else { [a, b, c] };
     let triangles = mesh.triangles().iter().enumerate().map(turn).collect();
     TriMesh::from_parts(mesh.into_vertices(), triangles)
@@ -120,7 +124,7 @@ mod tests {
     fn a_few_turned_triangles_are_turned_back() {
         let sound = ball(&Point::origin(), 1.0, 2);
         assert_eq!(
-            agreeing(flipped_where(sound.clone(), |t| t % 5 == 0)),
+            orient_neighbours(flip_where(sound.clone(), |t| t % 5 == 0)),
             sound
         );
     }
@@ -138,8 +142,8 @@ mod tests {
             [4, 5, 1],
             [5, 0, 1],
         ];
-        let mended = agreeing(TriMesh::new(points, strip).unwrap());
-        let misoriented = EdgeTable::of(&mended)
+        let oriented = orient_neighbours(TriMesh::new(points, strip).unwrap());
+        let misoriented = EdgeTable::of(&oriented)
             .of_kind(crate::mesh::edges::EdgeKind::Misoriented)
             .count();
         assert_eq!(misoriented, 1);
@@ -148,19 +152,19 @@ mod tests {
     #[test]
     fn cavities_stay_cavities_and_islands_in_them_are_solids() {
         let onion = cube(4.0).joined(&cube(3.0).reversed()).joined(&cube(2.0));
-        assert_eq!(outward(onion.clone()), onion);
-        assert_eq!(outward(onion.reversed()), onion);
+        assert_eq!(face_outward(onion.clone()), onion);
+        assert_eq!(face_outward(onion.reversed()), onion);
         let island_turned = cube(4.0)
             .joined(&cube(3.0).reversed())
             .joined(&cube(2.0).reversed());
-        assert_eq!(outward(island_turned), onion);
+        assert_eq!(face_outward(island_turned), onion);
     }
 
     #[test]
     fn two_solids_side_by_side_both_face_outward() {
         let apart = ball(&Point::new(9.0, 0.0, 0.0), 1.0, 0);
         assert_eq!(
-            outward(cube(1.0).joined(&apart.reversed())),
+            face_outward(cube(1.0).joined(&apart.reversed())),
             cube(1.0).joined(&apart)
         );
     }

@@ -1,28 +1,27 @@
-//! Sewing: pieces that lie rim to rim become one surface, even where one rim has a corner that the
-//! other lacks.
+//! Sewing: joins pieces that lie rim to rim, even if one rim has a corner that the other lacks.
 
 use super::weld::weld_open_edges;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable, Side};
 
-/// The same triangles with rims that lie on each other joined: corners on rims within
-/// `tolerance_mm` of each other become one, and an edge of a rim that passes within `tolerance_mm`
-/// of corners of a rim is divided at them.
+/// Joins rims that lie on each other. Corners on rims within `tolerance_mm` of each other become
+/// one. An edge of a rim that passes within `tolerance_mm` of corners of a rim is divided at them.
 ///
-/// The surface moves by no more than the tolerance. What has no counterpart stays open: the caller
-/// judges the result.
+/// The surface moves by no more than the tolerance. A rim without a counterpart stays open: the
+/// caller judges the result.
+#[must_use]
 pub(crate) fn sewn(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let mut mesh = weld_open_edges(mesh, tolerance_mm);
-    while let Some(divided) = divided(&mesh, tolerance_mm) {
+    while let Some(divided) = divide_open_edges(&mesh, tolerance_mm) {
         mesh = divided;
     }
     mesh
 }
 
-/// The mesh with open edges divided at the corners of rims that lie on them, one edge of a triangle
-/// at a time; none where there is nothing to divide.
-fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
+/// Divides open edges at the corners of rims that lie on them, one edge of a triangle at a time.
+/// `None` if there is nothing to divide.
+fn divide_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
     let open: Vec<Side> = table
         .of_kind(EdgeKind::Open)
@@ -34,8 +33,8 @@ fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
     let mut triangles = mesh.triangles().to_vec();
     let mut is_done = vec![false; triangles.len()];
     for side in &open {
-        let [from, to, apex] = turned_to(mesh, side);
-        let between = between(mesh, &rim, [from, to], tolerance_mm);
+        let [from, to, apex] = corners_from(mesh, side);
+        let between = corners_between(mesh, &rim, [from, to], tolerance_mm);
         if between.is_empty() || std::mem::replace(&mut is_done[side.triangle()], true) {
             continue;
         }
@@ -52,14 +51,19 @@ fn divided(mesh: &TriMesh, tolerance_mm: f64) -> Option<TriMesh> {
     is_divided.then(|| TriMesh::from_parts(mesh.vertices().to_vec(), triangles))
 }
 
-/// The corners of the side's triangle, those of the side first.
-fn turned_to(mesh: &TriMesh, side: &Side) -> [u32; 3] {
+/// Returns the corners of the side's triangle, those of the side first.
+fn corners_from(mesh: &TriMesh, side: &Side) -> [u32; 3] {
     let corners = mesh.triangles()[side.triangle()];
     [0, 1, 2].map(|step| corners[(side.id as usize + step) % 3])
 }
 
-/// The rim's corners that lie on an edge but not at its ends, in the order in which it passes them.
-fn between(mesh: &TriMesh, rim: &[u32], [from, to]: [u32; 2], tolerance_mm: f64) -> Vec<u32> {
+/// Returns the rim's corners that lie on an edge but not at its ends, in their order along it.
+fn corners_between(
+    mesh: &TriMesh,
+    rim: &[u32],
+    [from, to]: [u32; 2],
+    tolerance_mm: f64,
+) -> Vec<u32> {
     let place = |v: u32| mesh.vertices()[v as usize];
     let (start, along) = (place(from), place(to) - place(from));
     let share = |p: &Point| (p - start).dot(&along) / along.norm_squared();
@@ -86,21 +90,21 @@ mod tests {
     /// A box without the triangles that lie in a plane across z.
     fn without_face(min: [f64; 3], max: [f64; 3], z: f64) -> TriMesh {
         let mesh = cuboid(&Point::from(min), &Point::from(max));
-        let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].z != z);
-        let triangles = mesh.triangles().iter().filter(stays).copied().collect();
+        let is_kept = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].z != z);
+        let triangles = mesh.triangles().iter().filter(is_kept).copied().collect();
         TriMesh::new(mesh.vertices().to_vec(), triangles).unwrap()
     }
 
     #[test]
     fn a_box_sewn_of_one_below_and_two_above_is_a_solid_of_their_volume() {
-        // The rims of the upper two have corners in the middle of the lower one's edges; the wall
-        // between them is double.
+        // The rims of the upper two have corners in the middle of the lower one's edges.
+        // The wall between them is double.
         let below = without_face([0.0; 3], [2.0, 1.0, 1.0], 1.0);
         let open_wall = |mesh: TriMesh| {
-            let stays = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);
+            let is_kept = |t: &&[u32; 3]| t.iter().any(|&v| mesh.vertices()[v as usize].x != 1.0);
             TriMesh::new(
                 mesh.vertices().to_vec(),
-                mesh.triangles().iter().filter(stays).copied().collect(),
+                mesh.triangles().iter().filter(is_kept).copied().collect(),
             )
             .unwrap()
         };

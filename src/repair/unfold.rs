@@ -1,4 +1,4 @@
-//! Slivers that the rounding of a file folds, turned or closed until none is.
+//! Unfolding: flips or collapses the slivers that the rounding of a written file would fold.
 
 use std::ops::ControlFlow;
 
@@ -8,33 +8,35 @@ use crate::geom::{Aabb, Bvh, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::mesh::crossings::cross;
 
-/// Only triangles lower than this, and their neighbours, are looked at, mm: rounding to single
-/// precision moves a corner at 300 mm by 1.5e-5 mm, and folds what is a few times lower than it is
-/// moved; far more takes time to look at for nothing.
-const THIN_MM: f64 = 1e-3;
-/// A sliver's short side may be closed up to this length, mm: beyond, a detail that a printer shows
-/// could go.
-const CLOSED_MM: f64 = 0.02;
-/// Rounds of looking and mending. Each mends all folds that do not touch, and a mended fold rarely
-/// makes another.
-const ROUNDS: usize = 12;
+/// Height of a triangle below which it and its neighbours are examined, mm. Rounding to single
+/// precision moves a corner at 300 mm by 1.5e-5 mm, and folds triangles a few times lower than
+/// that. A far larger height only costs time.
+const SLIVER_HEIGHT_MM: f64 = 1e-3;
+/// Longest side of a sliver that may be collapsed, mm. A longer one could be a detail that a
+/// printer shows.
+const MAX_COLLAPSE_MM: f64 = 0.02;
+/// Largest number of rounds. Each mends all folds that do not touch, and a mended fold rarely makes
+/// another.
+const MAX_ROUNDS: usize = 12;
 
-/// The surface with the sides of those slivers turned, or closed where they are short, that the
-/// rounding of a file's coordinates to single precision would fold into a neighbour.
+/// Mends the slivers that would fold into a neighbour when a file's coordinates round to single
+/// precision.
 ///
-/// A turned side of a triangle of height h moves the surface by h at most, a closed one by the bend
-/// of the surface along 0.02 mm. The mesh itself where nothing is folded; what cannot be mended so
-/// is left. Looks at slivers only, so that a sound mesh costs little more than its tree.
+/// An edge flip at a triangle of height h moves the surface by h at most. The collapse of a short
+/// edge moves it by the bend of the surface along 0.02 mm. Returns the mesh unchanged if nothing
+/// folds; a fold that neither mends is left. Examines slivers only, so a sound mesh costs little
+/// more than its search tree.
+#[must_use]
 pub fn unfolded(mesh: &TriMesh) -> TriMesh {
     let mut best = (usize::MAX, mesh.clone());
     let mut mended = mesh.clone();
-    for _ in 0..ROUNDS {
-        let found = folds(&as_written(&mended));
+    for _ in 0..MAX_ROUNDS {
+        let found = find_folds(&round_to_single(&mended));
         if found.len() < best.0 {
             best = (found.len(), mended.clone());
         }
         let Some(next) = (!found.is_empty())
-            .then(|| mended_at(&mended, &found))
+            .then(|| mend_folds(&mended, &found))
             .flatten()
         else {
             break;
@@ -44,16 +46,16 @@ pub fn unfolded(mesh: &TriMesh) -> TriMesh {
     best.1
 }
 
-/// The mesh as a file of single precision gives it back.
-fn as_written(mesh: &TriMesh) -> TriMesh {
+/// Rounds the mesh as a file in single precision does.
+fn round_to_single(mesh: &TriMesh) -> TriMesh {
     mesh.map_vertices(|p| p.map(|x| f64::from(x as f32)))
 }
 
-/// The pairs of triangles, the lower index first, that cross and of which one is thin or has a
-/// corner of a thin one; ascending.
-fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
-    let asked = at_slivers(mesh);
-    if asked.is_empty() {
+/// Returns the crossing pairs of triangles in which one is thin or has a corner of a thin one. The
+/// lower index comes first in each pair; pairs are ascending.
+fn find_folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
+    let candidates = triangles_near_slivers(mesh);
+    if candidates.is_empty() {
         return Vec::new();
     }
     let bvh = Bvh::new(mesh.iter_corners());
@@ -68,18 +70,18 @@ fn folds(mesh: &TriMesh) -> Vec<[u32; 2]> {
         });
         pairs
     };
-    let mut pairs: Vec<[u32; 2]> = asked.par_iter().flat_map_iter(crossed_by).collect();
+    let mut pairs: Vec<[u32; 2]> = candidates.par_iter().flat_map_iter(crossed_by).collect();
     pairs.sort_unstable();
     pairs.dedup();
     pairs
 }
 
-/// The triangles with a corner of a thin one: when a sliver turns over, it is its neighbours that
-/// pass through each other.
-fn at_slivers(mesh: &TriMesh) -> Vec<u32> {
+/// Returns the triangles that share a corner with a thin one. When a sliver turns over, its
+/// neighbours pass through each other.
+fn triangles_near_slivers(mesh: &TriMesh) -> Vec<u32> {
     let mut is_thin = vec![false; mesh.vertices().len()];
     for (triangle, corners) in mesh.triangles().iter().zip(mesh.iter_corners()) {
-        if height(&corners) < THIN_MM {
+        if height(&corners) < SLIVER_HEIGHT_MM {
             triangle.iter().for_each(|&v| is_thin[v as usize] = true);
         }
     }
@@ -90,8 +92,8 @@ fn at_slivers(mesh: &TriMesh) -> Vec<u32> {
         .collect()
 }
 
-/// The mesh with the thinnest triangle at each fold mended, or nothing where none can be.
-fn mended_at(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
+/// Mends the thinnest triangle at each fold; `None` if no fold can be mended.
+fn mend_folds(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
     let mut patch = Patch {
         vertices: mesh.vertices().to_vec(),
         triangles: mesh.triangles().to_vec(),
@@ -109,16 +111,16 @@ fn mended_at(mesh: &TriMesh, folds: &[[u32; 2]]) -> Option<TriMesh> {
         .filter(|_| is_mended)
 }
 
-/// A surface under repair. Triangles that went have two corners in one.
+/// A surface under repair. A removed triangle repeats a corner.
 struct Patch {
     vertices: Vec<Point>,
     triangles: Vec<[u32; 3]>,
-    /// Vertices at which something was changed in this round.
+    /// Vertices at triangles that changed in this round.
     touched: Vec<u32>,
 }
 
 impl Patch {
-    /// Mends the fold of two triangles at the thinnest of them and their neighbours.
+    /// Mends the fold of two triangles at the thinnest possible of them and their neighbours.
     fn mend(&mut self, pair: &[u32; 2]) {
         let corners: Vec<u32> = pair
             .iter()
@@ -127,17 +129,17 @@ impl Patch {
         if corners.iter().any(|v| self.touched.contains(v)) {
             return;
         }
-        let near = |t: &[u32; 3]| t.iter().filter(|v| corners.contains(v)).count() >= 2;
+        let touches = |t: &[u32; 3]| t.iter().filter(|v| corners.contains(v)).count() >= 2;
         let mut at: Vec<usize> = (0..self.triangles.len())
-            .filter(|&t| near(&self.triangles[t]))
+            .filter(|&t| touches(&self.triangles[t]))
             .collect();
         at.sort_by(|&s, &t| self.height(s).total_cmp(&self.height(t)));
         for t in at
             .into_iter()
-            .filter(|&t| self.height(t) < THIN_MM)
+            .filter(|&t| self.height(t) < SLIVER_HEIGHT_MM)
             .collect::<Vec<_>>()
         {
-            if self.turn(t) || self.close(t) {
+            if self.flip_edge(t) || self.collapse_edge(t) {
                 return;
             }
         }
@@ -151,30 +153,31 @@ impl Patch {
         height(&self.corners(self.triangles[t]))
     }
 
-    /// Turns the longest side of a triangle, so that it joins the opposite corners; whether that
-    /// made both triangles at it higher than it was, none of them turned over.
-    fn turn(&mut self, t: usize) -> bool {
+    /// Flips the longest edge of a triangle, so that it joins the opposite corners. Returns
+    /// false, with nothing changed, unless both new triangles are higher than the old one and
+    /// neither turns over.
+    fn flip_edge(&mut self, t: usize) -> bool {
         let [a, b, c] = longest_first(self.triangles[t], &self.corners(self.triangles[t]));
-        let Some((u, d)) = self.across(b, a) else {
+        let Some((u, d)) = self.triangle_across(b, a) else {
             return false;
         };
-        let turned = [[a, d, c], [d, b, c]];
+        let flipped = [[a, d, c], [d, b, c]];
         let facing = normal(&self.corners(self.triangles[u]));
         let low = self.height(t);
         let is_better = |&new: &[u32; 3]| {
             let corners = self.corners(new);
             height(&corners) > low && normal(&corners).dot(&facing) > 0.0
         };
-        if self.is_joined(c, d) || !turned.iter().all(is_better) {
+        if self.has_edge(c, d) || !flipped.iter().all(is_better) {
             return false;
         }
-        [self.triangles[t], self.triangles[u]] = turned;
+        [self.triangles[t], self.triangles[u]] = flipped;
         self.touched.extend([a, b, c, d]);
         true
     }
 
-    /// The triangle with the side from `from` to `to`, and its third corner.
-    fn across(&self, from: u32, to: u32) -> Option<(usize, u32)> {
+    /// Returns the triangle with the side from `from` to `to`, and its third corner.
+    fn triangle_across(&self, from: u32, to: u32) -> Option<(usize, u32)> {
         self.triangles.iter().enumerate().find_map(|(t, corners)| {
             (0..3).find_map(|k| {
                 let is_it = corners[k] == from && corners[(k + 1) % 3] == to;
@@ -183,21 +186,21 @@ impl Patch {
         })
     }
 
-    fn is_joined(&self, a: u32, b: u32) -> bool {
-        self.across(a, b).is_some() || self.across(b, a).is_some()
+    fn has_edge(&self, a: u32, b: u32) -> bool {
+        self.triangle_across(a, b).is_some() || self.triangle_across(b, a).is_some()
     }
 
-    /// Draws the ends of the triangle's shortest side together; whether it is short, the surface
-    /// stays a surface and no other triangle turns over.
-    fn close(&mut self, t: usize) -> bool {
+    /// Collapses the triangle's shortest edge. Returns false, with nothing changed, unless it
+    /// is short, the surface stays a manifold and no other triangle turns over.
+    fn collapse_edge(&mut self, t: usize) -> bool {
         let [a, b, c] = shortest_first(self.triangles[t], &self.corners(self.triangles[t]));
         let length = (self.vertices[a as usize] - self.vertices[b as usize]).norm();
-        let Some((_, d)) = self.across(b, a) else {
+        let Some((_, d)) = self.triangle_across(b, a) else {
             return false;
         };
-        if length > CLOSED_MM
-            || self.common(a, b) != sorted([c, d])
-            || !(self.moves(a, b) || self.moves(b, a))
+        if length > MAX_COLLAPSE_MM
+            || self.common_neighbours(a, b) != sort([c, d])
+            || !(self.merge_into(a, b) || self.merge_into(b, a))
         {
             return false;
         }
@@ -205,8 +208,8 @@ impl Patch {
         true
     }
 
-    /// The vertices joined to both, ascending.
-    fn common(&self, a: u32, b: u32) -> Vec<u32> {
+    /// Returns the vertices joined to both, ascending.
+    fn common_neighbours(&self, a: u32, b: u32) -> Vec<u32> {
         let ring = |v: u32| -> Vec<u32> {
             self.triangles
                 .iter()
@@ -223,12 +226,13 @@ impl Patch {
         both
     }
 
-    /// Moves the vertex `from` into `to` unless that turns a triangle over; whether it did.
-    fn moves(&mut self, from: u32, to: u32) -> bool {
+    /// Moves the vertex `from` into `to`. Returns false, with nothing changed, if that would
+    /// turn a triangle over.
+    fn merge_into(&mut self, from: u32, to: u32) -> bool {
         let moved = |t: [u32; 3]| t.map(|v| if v == from { to } else { v });
         let keeps_side = |t: &&[u32; 3]| {
             let (before, after) = (self.corners(**t), self.corners(moved(**t)));
-            height(&before) < THIN_MM || normal(&before).dot(&normal(&after)) > 0.0
+            height(&before) < SLIVER_HEIGHT_MM || normal(&before).dot(&normal(&after)) > 0.0
         };
         if !self
             .triangles
@@ -243,22 +247,22 @@ impl Patch {
     }
 }
 
-fn sorted<const N: usize>(mut items: [u32; N]) -> Vec<u32> {
+fn sort<const N: usize>(mut items: [u32; N]) -> Vec<u32> {
     items.sort_unstable();
     items.to_vec()
 }
 
-/// Twice the area along the normal, mm².
+/// Returns the normal, as long as twice the area, mm².
 fn normal([a, b, c]: &[Point; 3]) -> Vector {
     (b - a).cross(&(c - a))
 }
 
-/// The lengths of the sides, each from its corner to the next, mm.
+/// Returns the lengths of the sides, each from its corner to the next, mm.
 fn sides(corners: &[Point; 3]) -> [f64; 3] {
     std::array::from_fn(|k| (corners[(k + 1) % 3] - corners[k]).norm())
 }
 
-/// The height over the longest side, mm.
+/// Returns the height over the longest side, mm.
 fn height(corners: &[Point; 3]) -> f64 {
     let longest = sides(corners).into_iter().fold(0.0, f64::max);
     if longest > 0.0 {
@@ -268,25 +272,25 @@ fn height(corners: &[Point; 3]) -> f64 {
     }
 }
 
-/// The triangle's corners, beginning with the ends of its longest side.
+/// Rotates the triangle's corners to begin with the ends of its longest side.
 fn longest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
     let lengths = sides(corners);
-    turned_to(
+    rotate_to(
         triangle,
         (0..3).max_by(|&i, &j| lengths[i].total_cmp(&lengths[j])),
     )
 }
 
-/// The triangle's corners, beginning with the ends of its shortest side.
+/// Rotates the triangle's corners to begin with the ends of its shortest side.
 fn shortest_first(triangle: [u32; 3], corners: &[Point; 3]) -> [u32; 3] {
     let lengths = sides(corners);
-    turned_to(
+    rotate_to(
         triangle,
         (0..3).min_by(|&i, &j| lengths[i].total_cmp(&lengths[j])),
     )
 }
 
-fn turned_to(mut triangle: [u32; 3], first: Option<usize>) -> [u32; 3] {
+fn rotate_to(mut triangle: [u32; 3], first: Option<usize>) -> [u32; 3] {
     triangle.rotate_left(first.unwrap_or(0));
     triangle
 }
@@ -296,8 +300,8 @@ mod tests {
     use super::*;
     use crate::mesh::Solid;
 
-    /// A skew tetrahedron far from the origin, whose coordinates are no multiples of a file's
-    /// steps.
+    /// A skew tetrahedron far from the origin, whose coordinates are not exact in single
+    /// precision.
     const CORNERS: [[f64; 3]; 4] = [
         [71.3, 88.7, 59.1],
         [92.9, 97.3, 63.7],
@@ -305,8 +309,8 @@ mod tests {
         [83.7, 99.1, 91.9],
     ];
 
-    /// The tetrahedron with more vertices on its side from 0 to 1, at these shares of it, each
-    /// pushed off it by `aside_mm` toward the middle of the faces there.
+    /// The tetrahedron with additional vertices on its edge from 0 to 1, at these shares of it.
+    /// Each is moved off the edge by `aside_mm` toward the middle of the faces there.
     fn tetrahedron(shares: &[f64], aside_mm: f64) -> Vec<Point> {
         let mut vertices = CORNERS.map(Point::from).to_vec();
         let middle = nalgebra::center(&vertices[2], &vertices[3]);
@@ -318,8 +322,8 @@ mod tests {
         vertices
     }
 
-    /// Face 0 1 2 ends at the vertex beside the side and a cap lies between it and face 1 0 3.
-    fn capped(share: f64) -> TriMesh {
+    /// Face 0 1 2 ends at the vertex beside the edge, and a cap lies between it and face 1 0 3.
+    fn tetrahedron_with_cap(share: f64) -> TriMesh {
         let triangles = vec![
             [0, 4, 2],
             [4, 1, 2],
@@ -331,8 +335,8 @@ mod tests {
         outward(tetrahedron(&[share], 1e-7), triangles)
     }
 
-    /// Both faces at the side have two vertices in common there that are 1e-6 mm apart.
-    fn needled(share: f64) -> TriMesh {
+    /// Both faces at the edge have two vertices in common there that are 1e-6 mm apart.
+    fn tetrahedron_with_needle(share: f64) -> TriMesh {
         let triangles = vec![
             [0, 4, 2],
             [4, 5, 2],
@@ -355,21 +359,21 @@ mod tests {
         }
     }
 
-    /// Of many places of the extra vertices, how many are folded when written, and how many are
-    /// still when unfolded.
-    fn folded(surface: impl Fn(f64) -> TriMesh) -> [usize; 2] {
+    /// Counts, among many places of the extra vertices, the folded surfaces before and after
+    /// unfolding.
+    fn count_folded(surface: impl Fn(f64) -> TriMesh) -> [usize; 2] {
         let meshes: Vec<TriMesh> = (1..200).map(|i| surface(f64::from(i) / 203.0)).collect();
         let count = |meshes: &[TriMesh]| {
             meshes
                 .iter()
-                .filter(|m| !folds(&as_written(m)).is_empty())
+                .filter(|m| !find_folds(&round_to_single(m)).is_empty())
                 .count()
         };
         let mended: Vec<TriMesh> = meshes.iter().map(unfolded).collect();
         for (mesh, mended) in meshes.iter().zip(&mended) {
             let volume = mesh.signed_volume_mm3();
-            // A side of 25 mm moved by at most the height of a sliver, 1e-6 mm, over an area of 400
-            // mm².
+            // An edge of 25 mm moves by at most the height of a sliver, 1e-6 mm, over
+            // an area of 400 mm².
             assert!(
                 (mended.signed_volume_mm3() - volume).abs() < 1e-3,
                 "{volume}"
@@ -380,14 +384,14 @@ mod tests {
     }
 
     #[test]
-    fn caps_that_rounding_folds_are_turned_away() {
-        let [before, after] = folded(capped);
+    fn caps_that_rounding_folds_are_flipped() {
+        let [before, after] = count_folded(tetrahedron_with_cap);
         assert!(before > 20 && after == 0, "{before}, {after}");
     }
 
     #[test]
-    fn needles_that_rounding_folds_are_closed() {
-        let [before, after] = folded(needled);
+    fn needles_that_rounding_folds_are_collapsed() {
+        let [before, after] = count_folded(tetrahedron_with_needle);
         assert!(before > 5 && after == 0, "{before}, {after}");
     }
 

@@ -1,11 +1,11 @@
-//! Edges at which four or more triangles meet, taken apart into edges of two.
+//! Unstitching: separates edges at which four or more triangles meet into edges of two.
 
 use crate::geom::Vector;
 use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeTable, Side};
 use crate::mesh::fans::Fans;
 
-/// What two neighbouring triangles around a crowded edge have between them.
+/// The space between two neighbouring triangles around a crowded edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Wedge {
     /// Material: the bodies that touch along the edge come apart.
@@ -14,16 +14,18 @@ pub(super) enum Wedge {
     Air,
 }
 
-/// The mesh with the vertices doubled so that each edge joins two triangles, where that is
-/// possible: as many triangles must run along a crowded edge one way as the other. Neighbours are
-/// kept that enclose material between them, or, if that leaves an edge crowded, air (Guéziec et
-/// al., "Cutting and stitching", IEEE TVCG 7, 2001). No place changes.
-pub(super) fn unstitched(mesh: &TriMesh) -> Option<TriMesh> {
+/// Doubles vertices so that each edge joins two triangles; `None` if that is impossible. No vertex
+/// moves.
+///
+/// Equally many triangles must run along a crowded edge in each direction. Neighbours that enclose
+/// material stay joined. If that leaves an edge crowded, those that enclose air stay joined instead
+/// (Guéziec et al., "Cutting and stitching", IEEE TVCG 7, 2001).
+pub(super) fn unstitch(mesh: &TriMesh) -> Option<TriMesh> {
     let table = EdgeTable::of(mesh);
     [Wedge::Material, Wedge::Air].into_iter().find_map(|wedge| {
         let pairs: Option<Vec<[Side; 2]>> = table
             .edges()
-            .map(|sides| paired(mesh, sides, wedge))
+            .map(|sides| pair_sides(mesh, sides, wedge))
             .collect::<Option<Vec<_>>>()
             .map(|p| p.concat());
         let split = Fans::of_pairs(mesh, pairs?.into_iter()).split(mesh);
@@ -31,19 +33,19 @@ pub(super) fn unstitched(mesh: &TriMesh) -> Option<TriMesh> {
     })
 }
 
-/// The sides of one edge in pairs that run opposite ways, or nothing when they cannot be paired.
-fn paired(mesh: &TriMesh, sides: &[Side], wedge: Wedge) -> Option<Vec<[Side; 2]>> {
+/// Pairs the sides of one edge that run in opposite directions; `None` if they cannot be paired.
+fn pair_sides(mesh: &TriMesh, sides: &[Side], wedge: Wedge) -> Option<Vec<[Side; 2]>> {
     let forward = sides.iter().filter(|side| side.forward).count();
     match sides {
         _ if 2 * forward != sides.len() || sides[0].low == sides[0].high => None,
         [a, b] => Some(vec![[*a, *b]]),
-        _ => Some(matched(&around(mesh, sides), wedge)),
+        _ => Some(match_brackets(&sort_around(mesh, sides), wedge)),
     }
 }
 
-/// Pairs sides as brackets match, going round: seen along the edge, material lies after a triangle
-/// that runs backward and before one that runs forward.
-fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
+/// Pairs sides around the edge as brackets match. Seen along the edge, material lies after a
+/// triangle that runs backward and before one that runs forward.
+fn match_brackets(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
     let opens = |side: &Side| side.forward == (wedge == Wedge::Air);
     let mut pairs: Vec<[Side; 2]> = Vec::with_capacity(ring.len() / 2);
     let mut open: Vec<Side> = Vec::new();
@@ -57,9 +59,9 @@ fn matched(ring: &[Side], wedge: Wedge) -> Vec<[Side; 2]> {
     pairs
 }
 
-/// The sides in the order of their triangles around the edge, counterclockwise seen against its
-/// direction.
-fn around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
+/// Sorts the sides by the angle of their triangles around the edge, counterclockwise seen against
+/// its direction.
+fn sort_around(mesh: &TriMesh, sides: &[Side]) -> Vec<Side> {
     let place = |v: u32| mesh.vertices()[v as usize];
     let low = place(sides[0].low);
     let along = (place(sides[0].high) - low)
@@ -102,12 +104,12 @@ mod tests {
             ),
             (14, 1)
         );
-        let apart = unstitched(&touching).unwrap();
+        let apart = unstitch(&touching).unwrap();
         assert_eq!(apart.vertices().len(), 16);
         assert_eq!(Solid::new(apart).unwrap().mesh().signed_volume_mm3(), 2.0);
     }
 
-    /// The surface of unit cubes at these places, welded.
+    /// Returns the welded surface of unit cubes at these places.
     fn surface_of_cubes(cubes: &[[i8; 3]]) -> TriMesh {
         let mut all = TriMesh::default();
         for &[x, y, z] in cubes {
@@ -131,8 +133,9 @@ mod tests {
 
     #[test]
     fn bodies_bridged_at_both_ends_of_the_edge_they_share_are_joined_along_it() {
-        // A storey with two cubes that share an upright edge, between two full storeys: parted
-        // around the material, the surface would still be one around both ends of the edge.
+        // A storey with two cubes that share an upright edge, between two full storeys.
+        // Separated around the material, the surfaces would still meet at both ends of the
+        // edge.
         let mut cubes = vec![[0, 0, 1], [1, 1, 1]];
         cubes.extend(
             [[0, 0], [0, 1], [1, 0], [1, 1]]
@@ -141,7 +144,7 @@ mod tests {
         );
         let mesh = surface_of_cubes(&cubes);
         assert_eq!(EdgeTable::of(&mesh).bad_count(), 1);
-        let apart = unstitched(&mesh).unwrap();
+        let apart = unstitch(&mesh).unwrap();
         assert!((Solid::new(apart).unwrap().mesh().signed_volume_mm3() - 10.0).abs() < 1e-12);
     }
 
@@ -151,7 +154,7 @@ mod tests {
         let mut triangles = cube.triangles().to_vec();
         triangles.push([0, 1, 7]);
         assert_eq!(
-            unstitched(&TriMesh::new(cube.vertices().to_vec(), triangles).unwrap()),
+            unstitch(&TriMesh::new(cube.vertices().to_vec(), triangles).unwrap()),
             None
         );
     }

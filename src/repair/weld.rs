@@ -1,4 +1,4 @@
-//! Welding: corners at one place become one vertex.
+//! Welding: merges vertices at the same or nearly the same place.
 
 use std::collections::HashMap;
 
@@ -7,11 +7,12 @@ use crate::mesh::TriMesh;
 use crate::mesh::edges::{EdgeKind, EdgeTable};
 use crate::mesh::union_find::UnionFind;
 
-/// The same triangles with one vertex for each place: vertices whose three coordinates are equal
-/// numbers become one (−0.0 and 0.0 are equal; NaN equals its own bits).
+/// Merges the vertices whose coordinates are equal numbers (−0.0 equals 0.0; NaN equals its own
+/// bits).
 ///
-/// The vertices keep the order of their first appearance and the triangles theirs, so welding twice
-/// changes nothing more. Costs one sort of the vertices.
+/// The vertices keep the order of their first appearance and the triangles keep theirs, so a second
+/// weld changes nothing. Costs one sort of the vertices.
+#[must_use]
 pub fn weld(mesh: &TriMesh) -> TriMesh {
     let keys: Vec<[u64; 3]> = mesh.vertices().iter().map(place_key).collect();
     let mut order: Vec<u32> = (0..keys.len() as u32).collect();
@@ -20,18 +21,18 @@ pub fn weld(mesh: &TriMesh) -> TriMesh {
     for twins in order.chunk_by(|&a, &b| keys[a as usize] == keys[b as usize]) {
         twins.iter().for_each(|&v| same_as[v as usize] = twins[0]);
     }
-    renumbered(mesh, &same_as)
+    merge_vertices(mesh, &same_as)
 }
 
-/// Equal for places that are equal: the bits of the coordinates, with −0.0 turned into 0.0.
+/// Returns a key that is equal for equal places: the bits of the coordinates, with 0.0 for −0.0.
 fn place_key(p: &Point) -> [u64; 3] {
     [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits())
 }
 
-/// The same triangles with every vertex on an open edge drawn to the first one within
-/// `tolerance_mm` of it; vertices inside a surface stay apart however near they are.
+/// Merges every vertex on an open edge with the first one within `tolerance_mm` of it. Vertices
+/// inside a surface stay separate however near they are.
 ///
-/// Chains of near vertices become one vertex, so the caller judges the result.
+/// A chain of near vertices becomes one vertex, so the caller judges the result.
 pub(super) fn weld_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let mut sets = UnionFind::new(mesh.vertices().len());
     let mut cells: HashMap<[i64; 3], Vec<u32>> = HashMap::new();
@@ -52,10 +53,10 @@ pub(super) fn weld_open_edges(mesh: &TriMesh, tolerance_mm: f64) -> TriMesh {
     let same_as: Vec<u32> = (0..mesh.vertices().len() as u32)
         .map(|v| sets.root(v))
         .collect();
-    renumbered(mesh, &same_as)
+    merge_vertices(mesh, &same_as)
 }
 
-/// The cell and the 26 around it.
+/// Returns the cell and the 26 around it.
 fn neighbour_cells([x, y, z]: [i64; 3]) -> [[i64; 3]; 27] {
     std::array::from_fn(|i| {
         let step = |stride: usize| (i / stride % 3) as i64 - 1;
@@ -67,7 +68,7 @@ fn neighbour_cells([x, y, z]: [i64; 3]) -> [[i64; 3]; 27] {
     })
 }
 
-/// The vertices on open edges, ascending.
+/// Returns the vertices on open edges, ascending.
 fn rim_vertices(mesh: &TriMesh) -> Vec<u32> {
     let table = EdgeTable::of(mesh);
     let mut rim: Vec<u32> = table
@@ -79,9 +80,8 @@ fn rim_vertices(mesh: &TriMesh) -> Vec<u32> {
     rim
 }
 
-/// The mesh with vertex v replaced by vertex `same_as[v]` (its own representative), the others left
-/// out.
-fn renumbered(mesh: &TriMesh, same_as: &[u32]) -> TriMesh {
+/// Replaces every vertex v by its representative `same_as[v]` and leaves out the others.
+fn merge_vertices(mesh: &TriMesh, same_as: &[u32]) -> TriMesh {
     let mut new_index = vec![0u32; same_as.len()];
     let mut vertices = Vec::with_capacity(same_as.len());
     for (v, &first) in same_as.iter().enumerate() {
@@ -98,8 +98,8 @@ fn renumbered(mesh: &TriMesh, same_as: &[u32]) -> TriMesh {
     TriMesh::from_parts(vertices, triangles)
 }
 
-/// The mesh without the vertices that no triangle uses; the others keep their order.
-pub(super) fn without_unused_vertices(mesh: TriMesh) -> TriMesh {
+/// Drops the vertices that no triangle uses; the others keep their order.
+pub(super) fn drop_unused_vertices(mesh: TriMesh) -> TriMesh {
     let mut used = vec![false; mesh.vertices().len()];
     mesh.triangles()
         .iter()
@@ -127,7 +127,7 @@ mod tests {
     use super::*;
     use crate::mesh::primitives::ball;
 
-    /// Three own corners for every triangle, as an STL file has them.
+    /// Gives every triangle three corners of its own, as an STL file does.
     pub fn soup(mesh: &TriMesh) -> TriMesh {
         let vertices: Vec<Point> = mesh.iter_corners().flatten().collect();
         let triangles = (0..mesh.triangles().len() as u32)
@@ -154,7 +154,7 @@ mod tests {
     }
 
     #[test]
-    fn only_rims_are_drawn_together() {
+    fn only_rims_are_merged() {
         let mesh = ball(&Point::origin(), 1.0, 1);
         assert_eq!(weld_open_edges(&mesh, 10.0), mesh);
         let soup = soup(&mesh)
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn unused_vertices_go_and_the_order_stays() {
         let points = (0..5).map(|i| Point::new(f64::from(i), 0.0, 0.0)).collect();
-        let mesh = without_unused_vertices(TriMesh::new(points, vec![[4, 1, 3]]).unwrap());
+        let mesh = drop_unused_vertices(TriMesh::new(points, vec![[4, 1, 3]]).unwrap());
         assert_eq!(mesh.triangles(), [[2, 0, 1]]);
         assert_eq!(
             mesh.vertices().iter().map(|p| p.x).collect::<Vec<_>>(),

@@ -2,20 +2,20 @@
 //!
 //! Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IEEE RT 2007.
 
-use super::{Bvh, Node};
+use super::tree::{Bvh, Node};
 use crate::geom::{Aabb, Point};
 
-/// Triangles a leaf may hold: below, box tests dominate; above, triangle tests do.
+/// Largest number of triangles of a leaf: below, box tests dominate; above, triangle tests do.
 const LEAF_SIZE: usize = 8;
 
-/// Bins per axis: fewer make poorer trees, more only cost building time.
+/// Number of bins per axis: fewer make poorer trees, more only cost building time.
 const BINS: usize = 16;
 
-/// Halves of so many triangles or more are built at the same time; below, handing over costs more
-/// than it gains.
+/// Least number of triangles for which both halves are built in parallel. Below, the hand-over
+/// costs more than it gains.
 const PARALLEL_ITEMS: usize = 4096;
 
-/// What the builder knows of a triangle.
+/// The data of a triangle that the builder needs.
 #[derive(Clone, Copy)]
 struct Item {
     aabb: Aabb,
@@ -23,23 +23,27 @@ struct Item {
     id: u32,
 }
 
-pub(super) fn build(triangles: Vec<[Point; 3]>) -> Bvh {
-    let mut items: Vec<Item> = triangles
-        .iter()
-        .enumerate()
-        .map(|(id, corners)| item(id, corners))
-        .collect();
-    let nodes = if items.is_empty() {
-        Vec::new()
-    } else {
-        subtree(&mut items, 0)
-    };
-    let ids: Vec<u32> = items.iter().map(|item| item.id).collect();
-    let corners = ids.iter().map(|&id| triangles[id as usize]).collect();
-    Bvh {
-        nodes,
-        corners,
-        ids,
+impl Bvh {
+    /// Builds the tree over these triangles by the surface-area heuristic in O(n log n).
+    pub fn new(triangles: impl IntoIterator<Item = [Point; 3]>) -> Self {
+        let triangles: Vec<[Point; 3]> = triangles.into_iter().collect();
+        let mut items: Vec<Item> = triangles
+            .iter()
+            .enumerate()
+            .map(|(id, corners)| item(id, corners))
+            .collect();
+        let nodes = if items.is_empty() {
+            Vec::new()
+        } else {
+            subtree(&mut items, 0)
+        };
+        let ids: Vec<u32> = items.iter().map(|item| item.id).collect();
+        let corners = ids.iter().map(|&id| triangles[id as usize]).collect();
+        Self {
+            nodes,
+            corners,
+            ids,
+        }
     }
 }
 
@@ -52,8 +56,8 @@ fn item(id: usize, corners: &[Point; 3]) -> Item {
     }
 }
 
-/// The tree over `items`, whose first triangle is number `first` of the whole; large halves at the
-/// same time.
+/// Builds the tree over `items`, whose first triangle is number `first` of the whole. Builds large
+/// halves in parallel.
 fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
     let mut nodes = Vec::with_capacity(items.len());
     if items.len() < PARALLEL_ITEMS {
@@ -76,7 +80,7 @@ fn subtree(items: &mut [Item], first: usize) -> Vec<Node> {
     nodes
 }
 
-/// Appends a tree whose inner nodes name their right children from its own root on.
+/// Appends a tree whose inner nodes number their right children from its own root.
 fn append_shifted(nodes: &mut Vec<Node>, tree: &[Node]) {
     let base = nodes.len() as u32;
     let shift = |node: &Node| {
@@ -114,7 +118,7 @@ fn subdivide(items: &mut [Item], first: usize, nodes: &mut Vec<Node>) {
     subdivide(right, first + middle, nodes);
 }
 
-/// Reorders the items in two parts and gives the size of the first.
+/// Reorders the items into two parts and returns the size of the first.
 fn partition(items: &mut [Item]) -> usize {
     let centers = items
         .iter()
@@ -134,7 +138,7 @@ fn partition(items: &mut [Item]) -> usize {
     items.len() / 2
 }
 
-/// The bin before which to split so that the expected cost of a query is least.
+/// Returns the bin before which to split so that the expected cost of a query is least.
 fn best_split(items: &[Item], bin_of: impl Fn(&Item) -> usize) -> Option<usize> {
     let mut bins = [(Aabb::EMPTY, 0usize); BINS];
     for item in items {
@@ -156,7 +160,7 @@ fn best_split(items: &[Item], bin_of: impl Fn(&Item) -> usize) -> Option<usize> 
     best.1
 }
 
-/// For each bin, the area times the count of everything from it on.
+/// Returns, for each bin, the area times the count of everything from it on.
 fn suffix_costs(bins: &[(Aabb, usize); BINS]) -> [f64; BINS] {
     let mut costs = [0.0; BINS];
     let (mut aabb, mut count) = (Aabb::EMPTY, 0);
@@ -168,7 +172,7 @@ fn suffix_costs(bins: &[(Aabb, usize); BINS]) -> [f64; BINS] {
     costs
 }
 
-/// Half the surface of a box; zero if it is empty.
+/// Returns half the surface area of a box; zero if it is empty.
 fn half_area(aabb: &Aabb) -> f64 {
     if aabb.is_empty() {
         return 0.0;

@@ -1,20 +1,22 @@
-//! Asking the hierarchy: nearest point, distances of triangles and segments, winding along a ray.
+//! Queries: nearest point, distances of triangles and segments, winding number along a ray.
 
 use std::ops::ControlFlow;
 
-use super::Bvh;
+use super::probe::Probe;
+use super::ray::{box_entry, crossing, is_above, triangle_crossing};
+use super::tree::Bvh;
 use crate::geom::triangle::{
-    Feature, TrianglePoint, closest_on_triangle, disjoint_triangles_distance_squared,
-    segment_triangle_distance_squared, tangent_bound, triangle_triangle_distance_squared,
+    Feature, TrianglePoint, closest_on_triangle, segment_triangle_distance_squared,
+    triangle_triangle_distance_squared,
 };
 use crate::geom::{Aabb, Point, Vector};
 
-/// "No triangle is known to be near."
+/// The hint of a query without any.
 pub const NO_HINT: u32 = u32::MAX;
 
-/// Deepest stack of postponed boxes. The trees are a few times log₂ n deep; a deeper one would only
-/// be slower, as the stack then grows on the heap.
-const STACK: usize = 64;
+/// Initial capacity of the stack of postponed boxes. Trees are a few times log₂ n deep; for a
+/// deeper one the stack grows, which is only slower.
+const STACK_CAPACITY: usize = 64;
 
 /// The triangle nearest to a point.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,17 +27,18 @@ pub struct Nearest {
     pub point: Point,
     /// The triangle's index as the caller numbered it.
     pub triangle: u32,
-    /// Where on the triangle the point lies.
+    /// The part of the triangle on which the point lies.
     pub feature: Feature,
-    /// A token by which a query near this one starts with a good bound.
+    /// A token that gives a query nearby a good first bound.
     pub hint: u32,
 }
 
 impl Bvh {
-    /// The point of all triangles nearest to `p`, if one is nearer than `limit_mm`.
+    /// Returns the point of all triangles nearest to `p`; `None` if none is nearer than
+    /// `limit_mm`.
     ///
-    /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]); they save time and change the
-    /// answer only among triangles equally near up to rounding.
+    /// `hints` are tokens of earlier answers nearby (or [`NO_HINT`]). They save time. They
+    /// change the answer only among triangles that are equally near up to rounding.
     pub fn closest(&self, p: &Point, limit_mm: f64, hints: &[u32]) -> Option<Nearest> {
         let mut search = Search {
             best: limit_mm * limit_mm,
@@ -53,8 +56,8 @@ impl Bvh {
         .nearest(self)
     }
 
-    /// The least distance from a triangle to all triangles, or `limit_mm` if none is nearer; 0
-    /// where they meet.
+    /// Returns the least distance from a triangle to all triangles, mm; 0 if they meet,
+    /// `limit_mm` if none is nearer.
     pub fn triangle_distance(&self, corners: &[Point; 3], limit_mm: f64) -> f64 {
         let probe = Probe::new(corners);
         self.visit(
@@ -69,7 +72,7 @@ impl Bvh {
         )
     }
 
-    /// Whether a triangle comes nearer than `limit_mm` to any of the triangles.
+    /// Returns true if a triangle comes nearer than `limit_mm` to any of the triangles.
     pub fn is_triangle_within(&self, corners: &[Point; 3], limit_mm: f64) -> bool {
         let probe = Probe::new(corners);
         let aabb = Aabb::of_points(corners);
@@ -93,8 +96,8 @@ impl Bvh {
         )
     }
 
-    /// The least distance from the segment to all triangles, or `limit_mm` if none is nearer; 0
-    /// where they meet.
+    /// Returns the least distance from the segment to all triangles, mm; 0 if they meet,
+    /// `limit_mm` if none is nearer.
     pub fn segment_distance(&self, a: &Point, b: &Point, limit_mm: f64) -> f64 {
         let ends = [*a, *b, *b];
         let probe = Probe::new(&ends);
@@ -109,15 +112,15 @@ impl Bvh {
         )
     }
 
-    /// Whether the segment from `a` to `b` passes through a triangle, decided in double precision:
-    /// a segment that only touches an edge may be told either way.
+    /// Returns true if the segment from `a` to `b` passes through a triangle. Decided in double
+    /// precision: for a segment that only touches an edge, either answer may come.
     pub fn is_crossed_by(&self, a: &Point, b: &Point) -> bool {
         let along = b - a;
         let inverse = along.map(f64::recip);
         self.visit(
             false,
             |aabb| {
-                if entered_box(a, &inverse, aabb).is_some() {
+                if box_entry(a, &inverse, aabb).is_some() {
                     0.0
                 } else {
                     f64::INFINITY
@@ -131,22 +134,23 @@ impl Bvh {
                 }
             },
             |is_crossed, slot| {
-                *is_crossed = *is_crossed || crossed_at(a, &along, &self.corners[slot]).is_some();
+                *is_crossed =
+                    *is_crossed || triangle_crossing(a, &along, &self.corners[slot]).is_some();
             },
         )
     }
 
-    /// How far along the segment from `a` to `b` it first passes through a triangle, as a share of
-    /// its length; none where it passes through none.
+    /// Returns the first point at which the segment from `a` to `b` passes through a triangle,
+    /// as a share of its length. `None` if it passes through none.
     pub fn first_crossing(&self, a: &Point, b: &Point) -> Option<f64> {
         let along = b - a;
         let inverse = along.map(f64::recip);
         let nearest = self.visit(
             f64::INFINITY,
-            |aabb| entered_box(a, &inverse, aabb).unwrap_or(f64::INFINITY),
+            |aabb| box_entry(a, &inverse, aabb).unwrap_or(f64::INFINITY),
             |nearest| *nearest,
             |nearest, slot| {
-                if let Some(share) = crossed_at(a, &along, &self.corners[slot]) {
+                if let Some(share) = triangle_crossing(a, &along, &self.corners[slot]) {
                     *nearest = nearest.min(share);
                 }
             },
@@ -154,9 +158,11 @@ impl Bvh {
         nearest.is_finite().then_some(nearest)
     }
 
-    /// Shows `see` the triangles whose boxes overlap `aabb` (touching counts), by the caller's
-    /// numbers and with their corners, until it breaks off; in an order that depends on the tree
-    /// alone.
+    /// Calls `see` with the triangles whose boxes overlap `aabb` (touching counts), until it
+    /// breaks.
+    ///
+    /// `see` gets the caller's index of a triangle, and its corners. The order depends on the
+    /// tree alone.
     pub fn visit_overlapping(
         &self,
         aabb: &Aabb,
@@ -181,11 +187,12 @@ impl Bvh {
         );
     }
 
-    /// How often the surface winds around `p`: the signed crossings of the ray from `p` along +z.
+    /// Returns the winding number of the surface around `p`: the signed crossings of the ray
+    /// from `p` along +z.
     ///
-    /// For a closed mesh 1 inside, 0 outside; where a mesh overlaps itself the count adds up. A ray
-    /// through an edge or a corner is counted once, by exact predicates (Shewchuk 1997).
-    /// Meaningless on the surface itself.
+    /// For a closed mesh 1 inside, 0 outside; overlaps of the mesh add up. A ray through an
+    /// edge or a corner counts once, by exact predicates (Shewchuk 1997). Meaningless on the
+    /// surface itself.
     pub fn winding(&self, p: &Point) -> i32 {
         self.visit(
             0,
@@ -201,8 +208,10 @@ impl Bvh {
         )
     }
 
-    /// Goes through the tree, nearer child first: `bound` is a box's lower bound, `limit` the value
-    /// below which boxes still matter, `leaf` sees a triangle; the state is the answer.
+    /// Traverses the tree, nearer child first, and returns the final state.
+    ///
+    /// `bound` gives a box's lower bound and `limit` the value below which boxes still matter.
+    /// `leaf` updates the state with a triangle.
     #[inline]
     fn visit<S>(
         &self,
@@ -211,7 +220,7 @@ impl Bvh {
         limit: impl Fn(&S) -> f64,
         mut leaf: impl FnMut(&mut S, usize),
     ) -> S {
-        let mut stack: Vec<(u32, f64)> = Vec::with_capacity(STACK);
+        let mut stack: Vec<(u32, f64)> = Vec::with_capacity(STACK_CAPACITY);
         if let Some(root) = self.nodes.first() {
             stack.push((0, bound(&root.aabb)));
         }
@@ -273,141 +282,10 @@ impl Search {
     }
 }
 
-/// A triangle that asks for its distance: what is needed to bound it cheaply.
-struct Probe<'a> {
-    corners: &'a [Point; 3],
-    center: Point,
-}
-
-impl<'a> Probe<'a> {
-    fn new(corners: &'a [Point; 3]) -> Self {
-        let center = Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
-        Self { corners, center }
-    }
-
-    /// A lower bound of the distance to a box.
-    fn bound(&self, aabb: &Aabb) -> f64 {
-        let nearest = self
-            .center
-            .coords
-            .sup(&aabb.min.coords)
-            .inf(&aabb.max.coords);
-        self.bound_from(self.center.coords - nearest)
-    }
-
-    /// A lower bound of the distance to a triangle.
-    fn triangle_bound(&self, other: &[Point; 3]) -> f64 {
-        self.bound_from(self.center - closest_on_triangle(&self.center, other).point)
-    }
-
-    /// Whether another triangle is nearer than `limit_mm`.
-    fn is_within(&self, other: &[Point; 3], limit_mm: f64) -> bool {
-        let bound = self.triangle_bound(other);
-        if bound >= limit_mm {
-            return false;
-        }
-        let gap = if bound > 0.0 {
-            disjoint_triangles_distance_squared
-        } else {
-            triangle_triangle_distance_squared
-        };
-        limit_mm > 0.0 && gap(self.corners, other) < limit_mm * limit_mm
-    }
-
-    /// The tangent bound of a convex set whose nearest point is at `center - offset`.
-    fn bound_from(&self, offset: Vector) -> f64 {
-        let distance = offset.norm();
-        if distance <= 0.0 {
-            return 0.0;
-        }
-        tangent_bound(&self.center, distance, &(offset / distance), self.corners)
-    }
-}
-
-/// The squared distance between two boxes, mm²; zero where they overlap.
+/// Returns the squared distance between two boxes, mm²; zero if they overlap.
 fn gap_squared(a: &Aabb, b: &Aabb) -> f64 {
     let gap = (a.min - b.max).sup(&(b.min - a.max)).sup(&Vector::zeros());
     gap.norm_squared()
-}
-
-/// Where the segment from `a` along 1/`inverse` enters the box, as a share of its length; none
-/// where it misses it: the slab test of Kay and Kajiya (1986).
-fn entered_box(a: &Point, inverse: &Vector, aabb: &Aabb) -> Option<f64> {
-    let low = (aabb.min - a).component_mul(inverse);
-    let high = (aabb.max - a).component_mul(inverse);
-    // A segment that lies in a face of the box gives 0/0; sup and inf then keep the other number.
-    let enter = (0..3).map(|i| low[i].min(high[i])).fold(0.0, f64::max);
-    let leave = (0..3).map(|i| low[i].max(high[i])).fold(1.0, f64::min);
-    (enter <= leave).then_some(enter)
-}
-
-/// Where the segment from `a` along `along` passes through the triangle, as a share of its length
-/// (Möller and Trumbore, 1997).
-fn crossed_at(a: &Point, along: &Vector, [p, q, r]: &[Point; 3]) -> Option<f64> {
-    let (first, second) = (q - p, r - p);
-    let normal = along.cross(&second);
-    let determinant = first.dot(&normal);
-    if determinant == 0.0 {
-        return None;
-    }
-    let from = (a - p) / determinant;
-    let across = from.cross(&first);
-    let (u, v, t) = (from.dot(&normal), along.dot(&across), second.dot(&across));
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && (0.0..=1.0).contains(&t)).then_some(t)
-}
-
-/// Whether the ray from `p` along +z may meet the box.
-fn is_above(p: &Point, aabb: &Aabb) -> bool {
-    aabb.max.z >= p.z
-        && aabb.min.x <= p.x
-        && p.x <= aabb.max.x
-        && aabb.min.y <= p.y
-        && p.y <= aabb.max.y
-}
-
-/// +1 or −1 if the ray from `p` along +z leaves or enters through the triangle, else 0.
-///
-/// The projected triangle's winding about `p` by half-open edge crossings, so that triangles
-/// sharing an edge share no ray and miss none.
-fn crossing(p: &Point, corners: &[Point; 3]) -> i32 {
-    let winding: i32 = (0..3)
-        .map(|i| edge_crossing(p, &corners[i], &corners[(i + 1) % 3]))
-        .sum();
-    if winding == 0 {
-        return 0;
-    }
-    let [a, b, c] = corners.map(|v| robust::Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    });
-    let below = robust::orient3d(
-        a,
-        b,
-        c,
-        robust::Coord3D {
-            x: p.x,
-            y: p.y,
-            z: p.z,
-        },
-    );
-    if below * f64::from(winding) > 0.0 {
-        winding
-    } else {
-        0
-    }
-}
-
-/// The crossing of the ray from `p` along +x, in the plane, with an edge: +1 upward, −1 downward.
-fn edge_crossing(p: &Point, from: &Point, to: &Point) -> i32 {
-    let upward = from.y <= p.y && p.y < to.y;
-    let downward = to.y <= p.y && p.y < from.y;
-    if !upward && !downward {
-        return 0;
-    }
-    let [a, b, q] = [from, to, p].map(|v| robust::Coord { x: v.x, y: v.y });
-    let side = robust::orient2d(a, b, q);
-    i32::from(upward && side > 0.0) - i32::from(downward && side < 0.0)
 }
 
 #[cfg(test)]
@@ -533,7 +411,7 @@ mod tests {
             let brute: Vec<u32> = (0..300)
                 .filter(|&t| overlaps(&triangles[t as usize]))
                 .collect();
-            let (mut seen, mut shown) = (Vec::new(), 0);
+            let (mut seen, mut visits) = (Vec::new(), 0);
             bvh.visit_overlapping(&aabb, |t, corners| {
                 assert_eq!(*corners, triangles[t as usize]);
                 seen.push(t);
@@ -542,14 +420,14 @@ mod tests {
             seen.sort_unstable();
             assert_eq!(seen, brute);
             bvh.visit_overlapping(&aabb, |_, _| {
-                shown += 1;
-                if shown < 3 {
+                visits += 1;
+                if visits < 3 {
                     ControlFlow::Continue(())
                 } else {
                     ControlFlow::Break(())
                 }
             });
-            assert_eq!(shown, brute.len().min(3));
+            assert_eq!(visits, brute.len().min(3));
         }
     }
 

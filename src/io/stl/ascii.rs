@@ -1,17 +1,20 @@
-//! ASCII STL, as programs write it: any case, any blanks, several solids, names in any encoding.
+//! Reads ASCII STL as programs write it: any case, any blanks, several solids, names in any
+//! encoding.
 
-use super::StlError;
+use super::error::StlError;
 use crate::geom::Point;
 
-/// The mark some editors put before UTF-8 text.
+/// The mark that some editors put before UTF-8 text.
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
-/// Bytes looked at to tell ASCII from a binary file whose header says "solid": a long name, and the
-/// first facet.
+/// Number of bytes searched to tell ASCII from a binary file whose header says "solid". Enough for
+/// a long name and the first facet.
 const PROBE_BYTES: usize = 4096;
 
-/// Whether the content begins like an ASCII STL file: the word solid in any case, and no zero byte
-/// nearby (a binary file that was cut off may begin with the word too, but its numbers hold zeros).
+/// Returns true if the content begins like an ASCII STL file: the word "solid" in any case, and no
+/// zero byte nearby.
+///
+/// A truncated binary file may begin with the word too, but its numbers contain zero bytes.
 pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
     let text = bytes
         .strip_prefix(BYTE_ORDER_MARK)
@@ -24,7 +27,7 @@ pub(crate) fn is_ascii(bytes: &[u8]) -> bool {
     begins && ends && !bytes[..bytes.len().min(PROBE_BYTES)].contains(&0)
 }
 
-/// The corners of the facets of all solids.
+/// Returns the corners of the facets of all solids, three for each facet.
 pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     let text = bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes);
     let mut reader = Reader {
@@ -41,7 +44,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     Ok(corners)
 }
 
-/// The text not yet read, and where it stands.
+/// The text not yet read, with the current line and facet.
 struct Reader<'a> {
     rest: &'a [u8],
     line: usize,
@@ -49,10 +52,10 @@ struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// The facets up to `endsolid`.
+    /// Reads the facets up to `endsolid`.
     fn solid(&mut self, corners: &mut Vec<Point>) -> Result<(), StlError> {
         loop {
-            let word = self.word().ok_or_else(|| self.cut("endsolid"))?;
+            let word = self.word().ok_or_else(|| self.cut_off("endsolid"))?;
             if word.eq_ignore_ascii_case(b"endsolid") {
                 self.skip_line();
                 return Ok(());
@@ -63,11 +66,11 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A facet after its first word.
+    /// Reads a facet after its first word.
     fn facet(&mut self, corners: &mut Vec<Point>) -> Result<(), StlError> {
         self.expect("normal")?;
         for _ in 0..3 {
-            self.word().ok_or_else(|| self.cut("a facet normal"))?;
+            self.word().ok_or_else(|| self.cut_off("a facet normal"))?;
         }
         self.expect("outer")?;
         self.expect("loop")?;
@@ -80,7 +83,7 @@ impl<'a> Reader<'a> {
     }
 
     fn expect(&mut self, expected: &'static str) -> Result<(), StlError> {
-        let word = self.word().ok_or_else(|| self.cut(expected))?;
+        let word = self.word().ok_or_else(|| self.cut_off(expected))?;
         self.must_be(word, expected)
     }
 
@@ -88,20 +91,20 @@ impl<'a> Reader<'a> {
         if word.eq_ignore_ascii_case(expected.as_bytes()) {
             Ok(())
         } else {
-            Err(self.unexpected(word, expected))
+            Err(self.unexpected_word(word, expected))
         }
     }
 
     fn number(&mut self) -> Result<f64, StlError> {
         let expected = "a coordinate";
-        let word = self.word().ok_or_else(|| self.cut(expected))?;
+        let word = self.word().ok_or_else(|| self.cut_off(expected))?;
         let number = std::str::from_utf8(word)
             .ok()
             .and_then(|word| word.parse().ok());
-        number.ok_or_else(|| self.unexpected(word, expected))
+        number.ok_or_else(|| self.unexpected_word(word, expected))
     }
 
-    fn unexpected(&self, word: &[u8], expected: &'static str) -> StlError {
+    fn unexpected_word(&self, word: &[u8], expected: &'static str) -> StlError {
         let found = String::from_utf8_lossy(&word[..word.len().min(MAX_QUOTED_BYTES)]).into_owned();
         StlError::Unexpected {
             line: self.line,
@@ -111,7 +114,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn cut(&self, expected: &'static str) -> StlError {
+    fn cut_off(&self, expected: &'static str) -> StlError {
         StlError::Cut {
             line: self.line,
             facet: self.facet,
@@ -119,7 +122,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The next word, if any.
+    /// Reads the next word; `None` at the end.
     fn word(&mut self) -> Option<&'a [u8]> {
         let start = self
             .rest
@@ -133,7 +136,7 @@ impl<'a> Reader<'a> {
         (end > 0).then(|| &rest[..end])
     }
 
-    /// Drops the rest of the line: the name of a solid.
+    /// Skips the rest of the line: the name of a solid.
     fn skip_line(&mut self) {
         let end = self
             .rest
@@ -144,10 +147,10 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// How much of a word that does not belong is shown.
+/// Longest excerpt of an unexpected word in a message, bytes.
 const MAX_QUOTED_BYTES: usize = 40;
 
-/// Whether the byte parts words.
+/// Returns true if the byte separates words.
 fn is_blank(byte: u8) -> bool {
     byte.is_ascii_whitespace() || byte == 0x0b
 }

@@ -1,37 +1,31 @@
-//! Binary STL: 80 bytes of header, the triangle count, 50 bytes a triangle.
+//! Reads binary STL: 80 bytes of header, the triangle count, 50 bytes for each triangle.
 
 use std::io::Cursor;
 
-use super::StlError;
+use super::error::StlError;
+use super::layout::{HEADER_BYTES, PREFIX_BYTES, TRIANGLE_BYTES};
 use crate::geom::Point;
 
-/// The header and the triangle count.
-pub(super) const PREFIX_BYTES: usize = HEADER_BYTES + 4;
-/// The free text at the start.
-pub(super) const HEADER_BYTES: usize = 80;
-/// A normal, three corners (f32) and two bytes of attribute.
-pub(super) const TRIANGLE_BYTES: usize = 50;
-
-/// Whether the length of the file is the one its triangle count asks for.
+/// Returns true if the file is exactly as long as its triangle count requires.
 pub(crate) fn is_binary(bytes: &[u8]) -> bool {
-    promised(bytes)
+    promised_count(bytes)
         .is_some_and(|count| bytes.len() - PREFIX_BYTES == count as usize * TRIANGLE_BYTES)
 }
 
-/// The triangle count in the header, if there is one.
-fn promised(bytes: &[u8]) -> Option<u32> {
+/// Returns the triangle count after the header; `None` if the file is too short.
+fn promised_count(bytes: &[u8]) -> Option<u32> {
     let count = bytes.get(HEADER_BYTES..PREFIX_BYTES)?;
     Some(u32::from_le_bytes(count.try_into().ok()?))
 }
 
-/// The corners of all triangles.
+/// Returns the corners of all triangles, three for each.
 pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
-    let promised = promised(bytes).ok_or(StlError::HeaderCut { bytes: bytes.len() })?;
+    let promised_count = promised_count(bytes).ok_or(StlError::HeaderCut { bytes: bytes.len() })?;
     if !is_binary(bytes) {
         let body = bytes.len() - PREFIX_BYTES;
         let (found, spare_bytes) = (body / TRIANGLE_BYTES, body % TRIANGLE_BYTES);
         return Err(StlError::WrongLength {
-            promised,
+            promised: promised_count,
             found,
             spare_bytes,
         });
@@ -39,8 +33,8 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     read_triangles(bytes)
 }
 
-/// Reads the triangles, the header blanked: the reader takes a header that begins with "solid" for
-/// ASCII.
+/// Reads the triangles with the header blanked, because `stl_io` takes a header that begins with
+/// "solid" for ASCII.
 fn read_triangles(bytes: &[u8]) -> Result<Vec<Point>, StlError> {
     let mut input = Cursor::new(bytes.to_vec());
     input.get_mut()[..HEADER_BYTES].fill(0);

@@ -1,35 +1,36 @@
-//! Writing binary STL.
+//! Writes binary STL.
 
 use std::path::{Path, PathBuf};
 
-use super::binary::{HEADER_BYTES, PREFIX_BYTES, TRIANGLE_BYTES};
+use super::layout::{HEADER_BYTES, PREFIX_BYTES, TRIANGLE_BYTES};
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
-/// What every header begins with: readers take a header that begins with "solid" for ASCII.
+/// First words of every header. Readers take a header that begins with "solid" for ASCII.
 const HEADER_START: &str = "binary STL, mm: ";
 
-/// Why a file could not be written.
+/// The reason that a file could not be written.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: the file cannot be written; check that the folder exists and has room, and your permissions", path.display())]
 pub struct WriteError {
     /// The path asked for.
     pub path: PathBuf,
-    /// What the system says.
+    /// The error of the operating system.
     pub source: std::io::Error,
 }
 
-/// The bytes of a binary STL file: `name` in the header (cut at 64 bytes), coordinates rounded to
-/// f32, normals computed from the rounded corners (zero for a triangle without area).
+/// Returns the bytes of a binary STL file with `name` in the header (cut at 64 bytes).
 ///
-/// Triangles whose corners fall together in single precision are left out: their neighbours then
-/// meet along the edge that remains, so a closed mesh stays closed. The same mesh gives the same
-/// bytes. A coordinate of −0.0 is written as 0.0, so equal places have equal bytes.
+/// Coordinates are rounded to f32. Normals are computed from the rounded corners;
+/// they are zero for a triangle without area. Leaves out triangles whose corners coincide in single
+/// precision. Their neighbours then meet along the edge that remains, so a closed mesh stays
+/// closed. The same mesh gives the same bytes. A coordinate of −0.0 is written as 0.0, so equal
+/// places have equal bytes.
 pub fn encode(mesh: &TriMesh, name: &str) -> Vec<u8> {
     let triangles: Vec<[[f32; 3]; 3]> = mesh
         .iter_corners()
-        .map(|corners| corners.map(rounded))
-        .filter(has_three_corners)
+        .map(|corners| corners.map(round_to_single))
+        .filter(has_distinct_corners)
         .collect();
     let mut bytes = Vec::with_capacity(PREFIX_BYTES + TRIANGLE_BYTES * triangles.len());
     bytes.extend(HEADER_START.bytes().chain(name.bytes()).take(HEADER_BYTES));
@@ -44,16 +45,16 @@ pub fn encode(mesh: &TriMesh, name: &str) -> Vec<u8> {
     bytes
 }
 
-/// A point in single precision, with no −0.0.
-fn rounded(p: Point) -> [f32; 3] {
+/// Rounds a point to single precision, without −0.0.
+fn round_to_single(p: Point) -> [f32; 3] {
     [p.x, p.y, p.z].map(|x| x as f32 + 0.0)
 }
 
-fn has_three_corners(&[a, b, c]: &[[f32; 3]; 3]) -> bool {
+fn has_distinct_corners(&[a, b, c]: &[[f32; 3]; 3]) -> bool {
     a != b && b != c && c != a
 }
 
-/// The unit normal of a triangle, or zero.
+/// Returns the unit normal of a triangle; zero if it has no area.
 fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
     let [a, b, c] = corners.map(|p| Point::from(p.map(f64::from)));
     let normal = (b - a)
@@ -63,7 +64,7 @@ fn normal(corners: [[f32; 3]; 3]) -> [f32; 3] {
     [normal.x, normal.y, normal.z].map(|x| x as f32 + 0.0)
 }
 
-/// Writes `mesh` to `path` as binary STL ([`encode`]), replacing a file that is there.
+/// Writes `mesh` to `path` as binary STL ([`encode`]) and replaces an existing file.
 pub fn write(path: &Path, mesh: &TriMesh, name: &str) -> Result<(), WriteError> {
     std::fs::write(path, encode(mesh, name)).map_err(|source| WriteError {
         path: path.to_path_buf(),

@@ -1,34 +1,35 @@
-//! The archive of a package: its parts unpacked, no further than their size justifies.
+//! Unpacks the parts of a package from its archive, up to a bound on the unpacked size.
 
 use std::io::{Cursor, Read};
 
 use zip::{ZipArchive, result::ZipError};
 
-use super::{Limit, MODEL_PART, MODEL_TYPE, ThreeMfError, xml::Scanner};
+use super::error::{Limit, ThreeMfError, xml_fault};
+use super::names::{MODEL_PART, MODEL_TYPE};
+use super::xml::Scanner;
 
-/// What may be unpacked whatever the size of the file, bytes: small files are packed best, and hurt
-/// nobody.
+/// Unpacked size allowed for a file of any size, bytes. Small files compress best and do no harm.
 const FREE_BYTES: u64 = 16 << 20;
 
 /// An open package.
 pub struct Archive<'a> {
     zip: ZipArchive<Cursor<&'a [u8]>>,
-    /// How many more bytes may be unpacked.
+    /// Number of bytes that may still be unpacked.
     left: u64,
 }
 
 impl<'a> Archive<'a> {
     /// Opens the archive in these bytes.
     pub fn open(bytes: &'a [u8]) -> Result<Self, ThreeMfError> {
-        let zip = ZipArchive::new(Cursor::new(bytes)).map_err(damaged("the archive"))?;
+        let zip = ZipArchive::new(Cursor::new(bytes)).map_err(archive_fault("the archive"))?;
         Ok(Self {
             zip,
             left: FREE_BYTES + bytes.len() as u64 * Limit::Unpacked.most(),
         })
     }
 
-    /// The name of the part that holds the model: where the package's relationships lead, else
-    /// where it usually is.
+    /// Returns the name of the part that holds the model, as the package's relationships say.
+    /// Returns the usual name if they do not.
     pub fn root_part(&mut self) -> Result<String, ThreeMfError> {
         let relationships = match self.text("_rels/.rels") {
             Err(ThreeMfError::NoModel { .. }) => return Ok(MODEL_PART.to_owned()),
@@ -43,7 +44,7 @@ impl<'a> Archive<'a> {
         Ok(MODEL_PART.to_owned())
     }
 
-    /// The text of a part.
+    /// Unpacks a part and returns its text.
     pub fn text(&mut self, part: &str) -> Result<String, ThreeMfError> {
         let mut file = match self.zip.by_name(part) {
             Err(ZipError::FileNotFound) => {
@@ -51,11 +52,11 @@ impl<'a> Archive<'a> {
                     part: part.to_owned(),
                 });
             }
-            file => file.map_err(damaged(part))?,
+            file => file.map_err(archive_fault(part))?,
         };
         let mut bytes = Vec::new();
         let unpacked = file.by_ref().take(self.left + 1).read_to_end(&mut bytes);
-        let unpacked = unpacked.map_err(|error| damaged(part)(error.into()))? as u64;
+        let unpacked = unpacked.map_err(|error| archive_fault(part)(error.into()))? as u64;
         self.left = self
             .left
             .checked_sub(unpacked)
@@ -67,21 +68,12 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// The name in the archive of a part that is told by its path.
+/// Returns the name in the archive of the part at this path.
 pub fn part_name(path: &str) -> String {
     path.trim_start_matches('/').to_owned()
 }
 
-/// A fault of a part's text.
-pub fn xml_fault(part: &str, line: usize, reason: &str) -> ThreeMfError {
-    ThreeMfError::Xml {
-        part: part.to_owned(),
-        line,
-        reason: reason.to_owned(),
-    }
-}
-
-fn damaged(part: &str) -> impl Fn(ZipError) -> ThreeMfError {
+fn archive_fault(part: &str) -> impl Fn(ZipError) -> ThreeMfError {
     move |error| ThreeMfError::Archive {
         part: part.to_owned(),
         reason: error.to_string(),

@@ -1,27 +1,28 @@
-//! What can be wrong with a 3MF package, and where.
+//! The faults of a 3MF package, each with its place.
 
-/// What of a package is bounded, so that a small file cannot take all memory or time.
+/// The bounds on a package, so that a small file cannot take all memory or time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Limit {
-    /// Unpacked bytes, for each packed one.
+    /// Unpacked bytes for each packed byte.
     Unpacked,
     /// Files that hold models.
     Models,
     /// Components within components.
     Depth,
-    /// Objects, counted at each of their places.
+    /// Objects, counted once for each of their places.
     Places,
-    /// Triangles, counted at each of their places.
+    /// Triangles, counted once for each of their places.
     Triangles,
 }
 
 impl Limit {
-    /// The most there may be.
+    /// Returns the largest number allowed.
     ///
-    /// Unpacked: the most regular meshes are packed to a fortieth, while blanks are packed to a
-    /// thousandth. Depth: drawing programs nest a few assemblies; a thousand would overflow the
-    /// stack. Places and triangles: more than any printer's job, and all of them still fit in
-    /// memory (4 GB).
+    /// * Unpacked: the most regular meshes compress to a fortieth, while blanks compress to a
+    ///   thousandth.
+    /// * Depth: drawing programs nest a few assemblies; a thousand would overflow the stack.
+    /// * Places and triangles: more than any printer's job, yet all fit in memory (4 GB).
     pub const fn most(self) -> u64 {
         match self {
             Self::Unpacked => 200,
@@ -43,15 +44,16 @@ impl Limit {
     }
 }
 
-/// Why bytes are not a 3MF model that can be used, and where.
+/// The reason that bytes are not a usable 3MF model, with the place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ThreeMfError {
     /// The archive cannot be unpacked.
     #[error("{part}: {reason}; the file was cut off or damaged: copy or export it again")]
     Archive {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
-        /// What the archive says.
+        /// The message of the archive reader.
         reason: String,
     },
     /// There is no model in the archive.
@@ -59,25 +61,25 @@ pub enum ThreeMfError {
         "there is no model in it (looked for {part}); is this another kind of ZIP archive? export the model as 3MF"
     )]
     NoModel {
-        /// The file that was looked for.
+        /// The name of the missing file.
         part: String,
     },
     /// The text is not XML.
     #[error("{part}, line {line}: {reason}; export the model again")]
     Xml {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
         /// The line, from 1.
         line: usize,
-        /// What the parser says.
+        /// The message of the parser.
         reason: String,
     },
-    /// The text declares entities.
+    /// The text declares a document type, which may declare entities.
     #[error(
         "{part}, line {line}: it declares a document type, which 3MF forbids; do not trust this file, or export the model again"
     )]
     DocumentType {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
         /// The line, from 1.
         line: usize,
@@ -87,7 +89,7 @@ pub enum ThreeMfError {
         "{part}, line {line}: <{element}> needs {attribute} to be {expected}, found {found:?}; export the model again"
     )]
     Attribute {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
         /// The line, from 1.
         line: usize,
@@ -95,9 +97,9 @@ pub enum ThreeMfError {
         element: &'static str,
         /// Its attribute.
         attribute: &'static str,
-        /// What it should be.
+        /// The value it should have, in words.
         expected: &'static str,
-        /// What it is; empty if it is missing.
+        /// The value it has; empty if it is missing.
         found: String,
     },
     /// A triangle names a vertex that does not exist.
@@ -107,17 +109,17 @@ pub enum ThreeMfError {
     IndexOutOfRange {
         /// The object's identifier.
         object: u32,
-        /// Which triangle, from 0.
+        /// Index of the triangle, from 0.
         triangle: usize,
-        /// The index it names.
+        /// The vertex index that it names.
         vertex: u32,
-        /// How many vertices there are.
+        /// Number of vertices of the object.
         vertices: usize,
     },
-    /// Two objects have one identifier.
+    /// Two objects have the same identifier.
     #[error("{part}: there are two objects {object}; export the model again")]
     Twice {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
         /// The identifier.
         object: u32,
@@ -127,7 +129,7 @@ pub enum ThreeMfError {
         "{part}: there is no object {object} where one is to be placed; export the model again"
     )]
     NoObject {
-        /// Which file in the archive should have it.
+        /// The file in the archive that should hold it.
         part: String,
         /// The identifier.
         object: u32,
@@ -135,12 +137,12 @@ pub enum ThreeMfError {
     /// An object is a component of itself.
     #[error("{part}: object {object} is a component of itself; export the model again")]
     Circle {
-        /// Which file in the archive.
+        /// The file in the archive.
         part: String,
         /// The identifier.
         object: u32,
     },
-    /// An extension that changes the shape.
+    /// The model needs an extension that changes the shape.
     #[error(
         "the model needs the extension {extension}, which is not understood; export it as plain triangles"
     )]
@@ -148,7 +150,7 @@ pub enum ThreeMfError {
         /// Its namespace or prefix.
         extension: String,
     },
-    /// A place is so far away that a coordinate is no number.
+    /// An object is placed so far away that a coordinate overflows.
     #[error(
         "object {object}: a coordinate is not a finite number where it is placed; export the model again"
     )]
@@ -156,13 +158,22 @@ pub enum ThreeMfError {
         /// The identifier.
         object: u32,
     },
-    /// There is nothing to be made.
+    /// The build holds no triangles.
     #[error("its build holds no triangles; put the model on the plate and export it again")]
     NoTriangles,
-    /// The package is larger than its file has any reason to be.
+    /// The package exceeds a bound.
     #[error("{}; do not trust this file, or export the model again as STL", limit.words())]
     TooMuch {
-        /// What there is too much of.
+        /// The bound.
         limit: Limit,
     },
+}
+
+/// Makes the fault of a part whose text is not XML.
+pub(super) fn xml_fault(part: &str, line: usize, reason: &str) -> ThreeMfError {
+    ThreeMfError::Xml {
+        part: part.to_owned(),
+        line,
+        reason: reason.to_owned(),
+    }
 }

@@ -1,18 +1,26 @@
-//! The objects of a package where its build puts them: components resolved, units and transforms
-//! applied.
+//! Places the objects of a package as its build says: resolves components, applies units and
+//! transforms.
 
 use std::collections::BTreeMap;
 
-use super::{
-    Limit, PlacedObject, ThreeMfError, Transform,
-    archive::Archive,
-    read::{Content, Model, Object, Reference, model},
-};
+use super::archive::Archive;
+use super::error::{Limit, ThreeMfError};
+use super::read::{Content, Model, Object, Reference, read_model};
+use super::transform::Transform;
 use crate::mesh::TriMesh;
 
-/// The objects that the model in that part builds.
-pub fn placed(archive: &mut Archive, root: &str) -> Result<Vec<PlacedObject>, ThreeMfError> {
-    let models = models(archive, root)?;
+/// An object at the place that the package's build gives it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedObject {
+    /// Its name in the package; empty if it has none.
+    pub name: String,
+    /// Its triangles in the coordinates of the build, mm.
+    pub mesh: TriMesh,
+}
+
+/// Returns the objects that the build of the model in part `root` places.
+pub fn place_objects(archive: &mut Archive, root: &str) -> Result<Vec<PlacedObject>, ThreeMfError> {
+    let models = read_models(archive, root)?;
     let mut builder = Builder {
         models: &models,
         path: Vec::new(),
@@ -29,15 +37,15 @@ pub fn placed(archive: &mut Archive, root: &str) -> Result<Vec<PlacedObject>, Th
     Ok(builder.found)
 }
 
-/// The model in that part, and all that its objects are taken from, by their parts.
-fn models(archive: &mut Archive, root: &str) -> Result<BTreeMap<String, Model>, ThreeMfError> {
+/// Reads the model in part `root` and all models it refers to; keyed by part.
+fn read_models(archive: &mut Archive, root: &str) -> Result<BTreeMap<String, Model>, ThreeMfError> {
     let mut models = BTreeMap::new();
     let mut waiting = vec![root.to_owned()];
     while let Some(part) = waiting.pop() {
         if models.contains_key(&part) {
             continue;
         }
-        let model = model(&part, &archive.text(&part)?)?;
+        let model = read_model(&part, &archive.text(&part)?)?;
         waiting.extend(references(&model).filter_map(|reference| reference.part.clone()));
         models.insert(part, model);
         if models.len() as u64 > Limit::Models.most() {
@@ -49,7 +57,7 @@ fn models(archive: &mut Archive, root: &str) -> Result<BTreeMap<String, Model>, 
     Ok(models)
 }
 
-/// Every place that a model speaks of.
+/// Returns every reference in a model: the items of its build and the components of its objects.
 fn references(model: &Model) -> impl Iterator<Item = &Reference> {
     let components = model
         .objects
@@ -61,10 +69,10 @@ fn references(model: &Model) -> impl Iterator<Item = &Reference> {
     model.items.iter().chain(components)
 }
 
-/// Puts objects where they belong, and counts.
+/// Places objects and counts them against the limits.
 struct Builder<'a> {
     models: &'a BTreeMap<String, Model>,
-    /// The objects within which the one at work lies.
+    /// The chain of objects that contain the current one, itself included.
     path: Vec<(&'a str, u32)>,
     places: u64,
     triangles: u64,
@@ -72,8 +80,8 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    /// Places what a model of that part refers to; `outer` takes that model's place to the build,
-    /// both in mm.
+    /// Places the object that a model of `part` refers to. `outer` maps that model's
+    /// coordinates to the build's, both in mm.
     fn place(
         &mut self,
         part: &'a str,
@@ -94,9 +102,9 @@ impl<'a> Builder<'a> {
                 object: id,
             });
         }
-        within(Limit::Depth, self.path.len() as u64)?;
+        check_limit(Limit::Depth, self.path.len() as u64)?;
         self.places += 1;
-        within(Limit::Places, self.places)?;
+        check_limit(Limit::Places, self.places)?;
         let inner = Transform {
             shift: reference.transform.shift * unit_mm,
             ..reference.transform
@@ -106,13 +114,13 @@ impl<'a> Builder<'a> {
             return Ok(());
         }
         self.path.push((part, id));
-        self.take(object, model.unit_mm, &map)?;
+        self.add(object, model.unit_mm, &map)?;
         self.path.pop();
         Ok(())
     }
 
-    /// Takes the object on top of the path, of a model in that unit.
-    fn take(
+    /// Adds the meshes of the object at the end of the path; `unit_mm` is its model's unit.
+    fn add(
         &mut self,
         object: &'a Object,
         unit_mm: f64,
@@ -127,8 +135,8 @@ impl<'a> Builder<'a> {
                 .try_for_each(|component| self.place(part, component, map)),
             Content::Mesh(mesh) => {
                 self.triangles += mesh.triangles().len() as u64;
-                within(Limit::Triangles, self.triangles)?;
-                let mesh = laid(mesh, unit_mm, map);
+                check_limit(Limit::Triangles, self.triangles)?;
+                let mesh = apply_map(mesh, unit_mm, map);
                 if !mesh
                     .vertices()
                     .iter()
@@ -146,8 +154,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// The mesh in mm where the map puts it, turned outward again where the map mirrors it.
-fn laid(mesh: &TriMesh, unit_mm: f64, map: &Transform) -> TriMesh {
+/// Converts the mesh to mm and applies the map; reverses the triangles if the map mirrors.
+fn apply_map(mesh: &TriMesh, unit_mm: f64, map: &Transform) -> TriMesh {
     let moved = mesh.map_vertices(|p| map.apply(&(p * unit_mm)));
     if map.mirrors() {
         moved.reversed()
@@ -156,7 +164,7 @@ fn laid(mesh: &TriMesh, unit_mm: f64, map: &Transform) -> TriMesh {
     }
 }
 
-fn within(limit: Limit, count: u64) -> Result<(), ThreeMfError> {
+fn check_limit(limit: Limit, count: u64) -> Result<(), ThreeMfError> {
     if count > limit.most() {
         Err(ThreeMfError::TooMuch { limit })
     } else {

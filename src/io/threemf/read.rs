@@ -1,39 +1,38 @@
-//! One model of a package: its unit, its objects, and where its build puts them.
+//! Reads one model of a package: its unit, its objects and its build.
 
 use std::collections::BTreeMap;
 
-use super::{
-    ThreeMfError, Transform,
-    archive::{part_name, xml_fault},
-    xml::{Scanner, Tag, Wanted},
-};
+use super::archive::part_name;
+use super::error::{ThreeMfError, xml_fault};
+use super::transform::Transform;
+use super::xml::{Requirement, Scanner, Tag};
 use crate::base::units::MM_PER_INCH;
 use crate::geom::Point;
 use crate::mesh::{MeshError, TriMesh};
 
-/// What one part of a package says.
+/// The model in one part of a package.
 #[derive(Debug, Default)]
 pub struct Model {
     /// The unit of its numbers, mm.
     pub unit_mm: f64,
     /// Its objects by their identifiers.
     pub objects: BTreeMap<u32, Object>,
-    /// What its build places.
+    /// The items of its build.
     pub items: Vec<Reference>,
 }
 
 /// An object of a model, in the model's unit.
 #[derive(Debug)]
 pub struct Object {
-    /// Empty without one.
+    /// Its name; empty if it has none.
     pub name: String,
-    /// Whether it only supports others while they are printed, or is not printed at all.
+    /// True for a support structure and for an object that is not printed.
     pub is_aside: bool,
-    /// What it is made of.
+    /// Its triangles or components.
     pub content: Content,
 }
 
-/// What an object is made of.
+/// The content of an object.
 #[derive(Debug)]
 pub enum Content {
     /// Triangles.
@@ -42,14 +41,14 @@ pub enum Content {
     Components(Vec<Reference>),
 }
 
-/// An object put somewhere.
+/// A reference to an object, with its place.
 #[derive(Debug)]
 pub struct Reference {
-    /// The part that holds it; none for the model's own.
+    /// The part that holds the object; `None` for the model's own part.
     pub part: Option<String>,
-    /// Its identifier.
+    /// The object's identifier.
     pub object: u32,
-    /// Where it is put, in the unit of the model that says so.
+    /// Its place, in the unit of the referring model.
     pub transform: Transform,
 }
 
@@ -62,47 +61,51 @@ const UNITS: [(&str, f64); 6] = [
     ("foot", 12.0 * MM_PER_INCH),
     ("meter", 1e3),
 ];
-/// Extensions that leave the shape as the core's triangles say: parts in several files, colours,
-/// names of faces.
-const HARMLESS: [&str; 3] = ["production/", "material/", "trianglesets/"];
-/// What the names of the consortium's extensions begin with.
-const CONSORTIUM: &str = "http://schemas.microsoft.com/3dmanufacturing/";
-/// The kinds of objects that are not the model itself (§4.1.1).
-const ASIDE: [&str; 3] = ["support", "solidsupport", "other"];
+/// Extensions that do not change the shape: parts in several files, colours, names of faces.
+const HARMLESS_EXTENSIONS: [&str; 3] = ["production/", "material/", "trianglesets/"];
+/// The common beginning of the namespaces of the consortium's extensions.
+const CONSORTIUM_PREFIX: &str = "http://schemas.microsoft.com/3dmanufacturing/";
+/// The object types that are not the model itself (§4.1.1).
+const ASIDE_TYPES: [&str; 3] = ["support", "solidsupport", "other"];
 
-const fn wanted(element: &'static str, attribute: &'static str, expected: &'static str) -> Wanted {
-    Wanted {
+const fn requirement(
+    element: &'static str,
+    attribute: &'static str,
+    expected: &'static str,
+) -> Requirement {
+    Requirement {
         element,
         attribute,
         expected,
     }
 }
 
-const UNIT: Wanted = wanted(
+const UNIT: Requirement = requirement(
     "model",
     "unit",
     "micron, millimeter, centimeter, inch, foot or meter",
 );
-const OBJECT_ID: Wanted = wanted("object", "id", "a number from 1 on");
-const REFERENCE_ID: Wanted = wanted("item or component", "objectid", "the number of an object");
-const TRANSFORM: Wanted = wanted(
+const OBJECT_ID: Requirement = requirement("object", "id", "a number from 1 on");
+const REFERENCE_ID: Requirement =
+    requirement("item or component", "objectid", "the number of an object");
+const TRANSFORM: Requirement = requirement(
     "item or component",
     "transform",
     "twelve finite numbers that do not flatten the object",
 );
-const COORDINATES: [Wanted; 3] = [
-    wanted("vertex", "x", "a finite number"),
-    wanted("vertex", "y", "a finite number"),
-    wanted("vertex", "z", "a finite number"),
+const COORDINATES: [Requirement; 3] = [
+    requirement("vertex", "x", "a finite number"),
+    requirement("vertex", "y", "a finite number"),
+    requirement("vertex", "z", "a finite number"),
 ];
-const CORNERS: [Wanted; 3] = [
-    wanted("triangle", "v1", "the number of a vertex"),
-    wanted("triangle", "v2", "the number of a vertex"),
-    wanted("triangle", "v3", "the number of a vertex"),
+const CORNERS: [Requirement; 3] = [
+    requirement("triangle", "v1", "the number of a vertex"),
+    requirement("triangle", "v2", "the number of a vertex"),
+    requirement("triangle", "v3", "the number of a vertex"),
 ];
 
-/// The model in the text of that part.
-pub fn model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
+/// Reads the model in the text of a part.
+pub fn read_model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
     let mut scanner = Scanner::new(part, text);
     let root = scanner.next_tag()?.filter(|tag| tag.name() == "model");
     let root = root.ok_or_else(|| xml_fault(part, 1, "there is no <model> in it"))?;
@@ -113,11 +116,11 @@ pub fn model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
     };
     scanner.children(&root, |scanner, tag| match tag.name() {
         "resources" => scanner.children(&tag, |scanner, tag| match tag.name() {
-            "object" => take_object(scanner, &tag, part, &mut model),
+            "object" => read_object(scanner, &tag, part, &mut model),
             _ => scanner.skip(&tag),
         }),
         "build" => {
-            model.items = references(scanner, &tag, "item")?;
+            model.items = read_references(scanner, &tag, "item")?;
             Ok(())
         }
         _ => scanner.skip(&tag),
@@ -125,15 +128,14 @@ pub fn model(part: &str, text: &str) -> Result<Model, ThreeMfError> {
     Ok(model)
 }
 
-/// Refuses extensions that the model needs and that may change its shape.
+/// Refuses an extension that the model requires and that may change its shape.
 fn check_extensions(root: &Tag) -> Result<(), ThreeMfError> {
     let needed = root.get("requiredextensions")?.unwrap_or_default();
     let namespaces = root.namespaces();
     for prefix in needed.split_ascii_whitespace() {
         let declared = namespaces.iter().find(|(name, _)| name == prefix);
         let extension = declared.map_or(prefix, |(_, namespace)| namespace.as_str());
-        let name = extension.strip_prefix(CONSORTIUM);
-        if !name.is_some_and(|name| HARMLESS.iter().any(|harmless| name.starts_with(harmless))) {
+        if !is_harmless(extension) {
             return Err(ThreeMfError::Extension {
                 extension: extension.to_owned(),
             });
@@ -142,16 +144,26 @@ fn check_extensions(root: &Tag) -> Result<(), ThreeMfError> {
     Ok(())
 }
 
+/// Returns true if the extension, a namespace or an undeclared prefix, leaves the shape as it is.
+fn is_harmless(extension: &str) -> bool {
+    let name = extension.strip_prefix(CONSORTIUM_PREFIX);
+    name.is_some_and(|name| {
+        HARMLESS_EXTENSIONS
+            .iter()
+            .any(|start| name.starts_with(start))
+    })
+}
+
 fn unit_mm(root: &Tag) -> Result<f64, ThreeMfError> {
     let Some(name) = root.get(UNIT.attribute)? else {
         return Ok(1.0);
     };
     let unit = UNITS.iter().find(|(unit, _)| *unit == name);
     unit.map(|(_, mm)| *mm)
-        .ok_or_else(|| root.not(&UNIT, &name))
+        .ok_or_else(|| root.attribute_fault(&UNIT, &name))
 }
 
-fn take_object(
+fn read_object(
     scanner: &mut Scanner,
     tag: &Tag,
     part: &str,
@@ -161,12 +173,14 @@ fn take_object(
     let name = tag.get("name")?.unwrap_or_default().into_owned();
     let is_aside = tag
         .get("type")?
-        .is_some_and(|kind| ASIDE.contains(&kind.as_ref()));
+        .is_some_and(|kind| ASIDE_TYPES.contains(&kind.as_ref()));
     let mut content = Content::Components(Vec::new());
     scanner.children(tag, |scanner, tag| {
         match tag.name() {
-            "mesh" => content = Content::Mesh(mesh(scanner, &tag, id)?),
-            "components" => content = Content::Components(references(scanner, &tag, "component")?),
+            "mesh" => content = Content::Mesh(read_mesh(scanner, &tag, id)?),
+            "components" => {
+                content = Content::Components(read_references(scanner, &tag, "component")?)
+            }
             _ => scanner.skip(&tag)?,
         }
         Ok(())
@@ -187,8 +201,8 @@ fn take_object(
     }
 }
 
-/// The objects that the elements of that name in the one that was opened place.
-fn references(
+/// Reads the references in the children of `opened` that are called `element`.
+fn read_references(
     scanner: &mut Scanner,
     opened: &Tag,
     element: &str,
@@ -196,19 +210,21 @@ fn references(
     let mut references = Vec::new();
     scanner.children(opened, |scanner, tag| {
         if tag.name() == element {
-            references.push(reference(&tag)?);
+            references.push(read_reference(&tag)?);
         }
         scanner.skip(&tag)
     })?;
     Ok(references)
 }
 
-fn reference(tag: &Tag) -> Result<Reference, ThreeMfError> {
+fn read_reference(tag: &Tag) -> Result<Reference, ThreeMfError> {
     let transform = match tag.get(TRANSFORM.attribute)? {
-        Some(text) => Transform::parse(&text).ok_or_else(|| tag.not(&TRANSFORM, &text))?,
+        Some(text) => {
+            Transform::parse(&text).ok_or_else(|| tag.attribute_fault(&TRANSFORM, &text))?
+        }
         None => Transform::default(),
     };
-    let part = tag.prefixed("path")?.map(|path| part_name(&path));
+    let part = tag.get_prefixed("path")?.map(|path| part_name(&path));
     Ok(Reference {
         part,
         object: tag.number(&REFERENCE_ID)?,
@@ -216,19 +232,19 @@ fn reference(tag: &Tag) -> Result<Reference, ThreeMfError> {
     })
 }
 
-/// The triangles of a mesh, in the model's unit.
-fn mesh(scanner: &mut Scanner, opened: &Tag, object: u32) -> Result<TriMesh, ThreeMfError> {
+/// Reads the triangles of a mesh, in the model's unit.
+fn read_mesh(scanner: &mut Scanner, opened: &Tag, object: u32) -> Result<TriMesh, ThreeMfError> {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     scanner.children(opened, |scanner, tag| match tag.name() {
         "vertices" => scanner.children(&tag, |scanner, tag| {
             if tag.name() == "vertex" {
-                vertices.push(vertex(&tag)?);
+                vertices.push(read_vertex(&tag)?);
             }
             scanner.skip(&tag)
         }),
         "triangles" => scanner.children(&tag, |scanner, tag| {
             if tag.name() == "triangle" {
-                triangles.push(corners(&tag)?);
+                triangles.push(read_corners(&tag)?);
             }
             scanner.skip(&tag)
         }),
@@ -249,21 +265,21 @@ fn mesh(scanner: &mut Scanner, opened: &Tag, object: u32) -> Result<TriMesh, Thr
     })
 }
 
-/// A vertex in single precision, as the consortium's own library and the slicers keep it: what is
-/// judged is what they see.
-fn vertex(tag: &Tag) -> Result<Point, ThreeMfError> {
+/// Reads a vertex in single precision, as the consortium's own library and the slicers keep it. The
+/// judgement then sees the same places as they do.
+fn read_vertex(tag: &Tag) -> Result<Point, ThreeMfError> {
     let mut numbers = [0.0; 3];
-    for (number, wanted) in numbers.iter_mut().zip(&COORDINATES) {
-        let single = tag.number::<f32>(wanted)?;
+    for (number, requirement) in numbers.iter_mut().zip(&COORDINATES) {
+        let single = tag.number::<f32>(requirement)?;
         if !single.is_finite() {
-            return Err(tag.not(wanted, &single.to_string()));
+            return Err(tag.attribute_fault(requirement, &single.to_string()));
         }
         *number = f64::from(single);
     }
     Ok(numbers.into())
 }
 
-fn corners(tag: &Tag) -> Result<[u32; 3], ThreeMfError> {
+fn read_corners(tag: &Tag) -> Result<[u32; 3], ThreeMfError> {
     let [a, b, c] = &CORNERS;
     Ok([tag.number(a)?, tag.number(b)?, tag.number(c)?])
 }

@@ -1,4 +1,4 @@
-//! Where an object of a package lies: an affine map, as the format writes it.
+//! The affine map that places an object of a package, as the format writes it.
 
 use crate::geom::{Matrix, Point, Vector};
 
@@ -20,12 +20,12 @@ impl Default for Transform {
     }
 }
 
-/// How many numbers the format writes for a map: the columns of `linear`, then `shift` (3MF core
-/// 1.3, §3.3: rows of a matrix by which row vectors are multiplied from the left).
+/// Count of numbers that the format writes for a map: the columns of `linear`, then `shift`. The
+/// format multiplies row vectors by the matrix from the left (3MF core 1.3, §3.3).
 const NUMBERS: usize = 12;
 
 impl Transform {
-    /// The map without a turn.
+    /// Returns a pure translation, mm.
     pub fn shift(shift: Vector) -> Self {
         Self {
             shift,
@@ -33,12 +33,12 @@ impl Transform {
         }
     }
 
-    /// Where the point goes.
+    /// Returns the image of the point.
     pub fn apply(&self, point: &Point) -> Point {
         Point::from(self.linear * point.coords + self.shift)
     }
 
-    /// This map, then `outer`.
+    /// Returns the composition: this map first, then `outer`.
     pub fn then(&self, outer: &Self) -> Self {
         Self {
             linear: outer.linear * self.linear,
@@ -46,12 +46,12 @@ impl Transform {
         }
     }
 
-    /// Whether it turns space inside out.
+    /// Returns true if the map reverses orientation.
     pub fn mirrors(&self) -> bool {
         self.linear.determinant() < 0.0
     }
 
-    /// The twelve numbers of the format.
+    /// Returns the twelve numbers of the format.
     pub(super) fn numbers(&self) -> [f64; NUMBERS] {
         std::array::from_fn(|i| {
             if i < 9 {
@@ -62,8 +62,8 @@ impl Transform {
         })
     }
 
-    /// The map of the twelve numbers; none if there are not twelve finite ones, or if they flatten
-    /// space.
+    /// Parses the twelve numbers of the format. `None` unless there are exactly twelve finite
+    /// numbers and an invertible linear part.
     pub(super) fn parse(text: &str) -> Option<Self> {
         let numbers: Vec<f64> = text
             .split_ascii_whitespace()

@@ -1,4 +1,4 @@
-//! Writing 3MF packages: objects with names and colours, each where it belongs.
+//! Writes 3MF packages: objects with names, colours and places.
 
 use std::fmt::Write as _;
 use std::io::{Cursor, Write as _};
@@ -6,7 +6,8 @@ use std::io::{Cursor, Write as _};
 use quick_xml::escape::escape;
 use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
-use super::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS, Transform};
+use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS};
+use super::transform::Transform;
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 use crate::repair::weld;
@@ -14,24 +15,24 @@ use crate::repair::weld;
 /// A package to be written.
 #[derive(Debug, Clone)]
 pub struct Package<'a> {
-    /// What it is called.
+    /// Its title.
     pub title: String,
-    /// What it shows, in a sentence.
+    /// Its content, in one sentence.
     pub description: String,
     /// The job it belongs to.
     pub job: String,
-    /// The objects; those that are placed nowhere are left out.
+    /// The objects; those that the build does not place are left out.
     pub objects: &'a [Object],
-    /// Where each of them lies.
+    /// The places of the objects.
     pub build: Build,
 }
 
-/// Where the objects of a package lie; places are indices of its objects with their maps.
+/// The places of a package's objects: pairs of an object's index and its map.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Build {
-    /// Each by itself, as things to be printed do.
+    /// Each is an item of its own, as for printing.
     Apart(Vec<(usize, Transform)>),
-    /// All of them as the components of one object of that name.
+    /// All are components of one object with this name.
     Together(String, Vec<(usize, Transform)>),
 }
 
@@ -43,7 +44,7 @@ impl Build {
     }
 }
 
-/// An object of a package, its triangles already written.
+/// An object of a package, with its triangles already encoded.
 #[derive(Debug, Clone)]
 pub struct Object {
     name: String,
@@ -51,32 +52,31 @@ pub struct Object {
     mesh_xml: String,
 }
 
-/// Why a package could not be put together.
+/// The reason that a package could not be put together.
 #[derive(Debug, thiserror::Error)]
 #[error("the 3MF package {title} cannot be put together; remedy: ask for --format stl")]
 pub struct PackageError {
     /// Its title.
     title: String,
-    /// What the archive says.
+    /// The error of the archive writer.
     source: zip::result::ZipError,
 }
 
 /// The identifier of the colours of a package; objects follow it.
 const COLORS_ID: usize = 1;
-/// How hard is compressed, 1 to 9. On meshes 6 takes four times as long as 3 for a tenth less.
+/// Compression level, 1 to 9. On meshes, 6 takes four times as long as 3 and saves a tenth.
 const COMPRESSION_LEVEL: i64 = 3;
-/// The names of metadata of our own are in this namespace.
+/// The namespace of this program's own metadata.
 const OUR_NAMESPACE: &str = "urn:equipoise:kit";
-/// Who may read and write an extracted file, on systems that keep that.
+/// Permissions of an extracted file, on systems that keep them.
 const PERMISSIONS: u32 = 0o644;
 
 impl Object {
-    /// An object of that name and colour (red, green, blue).
+    /// Makes an object with a name and a colour (red, green, blue).
     ///
-    /// Coordinates are rounded to single precision and written with the fewest digits that give
-    /// them back; corners that fall together become one, and triangles that lose a corner are left
-    /// out, as in a binary STL file of the same mesh: both hold the same triangles in the same
-    /// order.
+    /// Rounds coordinates to single precision and writes them with the fewest digits that
+    /// restore them. Merges corners that coincide then, and leaves out triangles that lose a
+    /// corner. A binary STL file of the same mesh holds the same triangles in the same order.
     pub fn new(name: &str, color: [u8; 3], mesh: &TriMesh) -> Self {
         Self {
             name: name.to_owned(),
@@ -87,7 +87,7 @@ impl Object {
 }
 
 impl Package<'_> {
-    /// The bytes of the package: the same for the same input, on any machine.
+    /// Returns the bytes of the package: the same for the same input, on any machine.
     pub fn encode(&self) -> Result<Vec<u8>, PackageError> {
         let model = self.model_xml();
         let parts = [
@@ -109,7 +109,7 @@ impl Package<'_> {
             .iter()
             .enumerate()
             .filter(is_placed)
-            .map(object_xml)
+            .map(|(index, object)| object_xml(index, object))
             .collect();
         let (joined, build) = self.build_xml();
         let colors: String = self.objects.iter().map(color_xml).collect();
@@ -138,7 +138,8 @@ impl Package<'_> {
         ]
     }
 
-    /// The object that holds the others, if there is one, and the items of the build.
+    /// Returns the object that holds the others (empty if there is none), and the items of the
+    /// build.
     fn build_xml(&self) -> (String, String) {
         match &self.build {
             Build::Apart(places) => (String::new(), places_xml("item", places)),
@@ -154,7 +155,7 @@ impl Package<'_> {
     }
 }
 
-/// The identifier of the object at that index.
+/// Returns the identifier of the object with this index.
 fn object_id(index: usize) -> usize {
     COLORS_ID + 1 + index
 }
@@ -171,7 +172,7 @@ fn color_xml(object: &Object) -> String {
     )
 }
 
-fn object_xml((index, object): (usize, &Object)) -> String {
+fn object_xml(index: usize, object: &Object) -> String {
     let (id, name) = (object_id(index), escape(object.name.as_str()));
     format!(
         "<object id=\"{id}\" type=\"model\" name=\"{name}\" pid=\"{COLORS_ID}\" pindex=\"{index}\">\n{}</object>\n",
@@ -179,7 +180,7 @@ fn object_xml((index, object): (usize, &Object)) -> String {
     )
 }
 
-/// The places as elements of that name.
+/// Writes the places as elements called `element`.
 fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
     let place = |(index, map): &(usize, Transform)| {
         let numbers = map.numbers().map(|x| (x + 0.0).to_string()).join(" ");
@@ -191,9 +192,9 @@ fn places_xml(element: &str, places: &[(usize, Transform)]) -> String {
     places.iter().map(place).collect()
 }
 
-/// The mesh as the format writes it, in single precision.
+/// Writes the mesh in single precision.
 fn mesh_xml(mesh: &TriMesh) -> String {
-    let mesh = weld(&mesh.map_vertices(rounded));
+    let mesh = weld(&mesh.map_vertices(round_to_single));
     let mut xml = String::from("<mesh><vertices>");
     for p in mesh.vertices() {
         // Writing into a string cannot fail.
@@ -215,8 +216,8 @@ fn mesh_xml(mesh: &TriMesh) -> String {
     xml
 }
 
-/// The point in single precision, with no −0.0.
-fn rounded(p: &Point) -> Point {
+/// Rounds a point to single precision, without −0.0.
+fn round_to_single(p: &Point) -> Point {
     p.map(|x| f64::from(x as f32) + 0.0)
 }
 
@@ -235,7 +236,7 @@ fn relationships() -> String {
     )
 }
 
-/// The parts in a ZIP archive that says nothing of when and where it was made.
+/// Packs the parts into a ZIP archive that does not depend on the time or the machine.
 fn archive(parts: &[(&str, String)]) -> Result<Vec<u8>, zip::result::ZipError> {
     let options = SimpleFileOptions::default()
         .compression_method(CompressionMethod::Deflated)

@@ -1,4 +1,4 @@
-//! The elements of a part's text, one after the other, with the line they stand in.
+//! Scans the elements of a part's text one by one, with their lines.
 
 use std::borrow::Cow;
 use std::str::FromStr;
@@ -8,37 +8,37 @@ use quick_xml::{
     events::{BytesStart, Event},
 };
 
-use super::{ThreeMfError, archive::xml_fault};
+use super::error::{ThreeMfError, xml_fault};
 
-/// Reads the tags of a text in their order.
+/// A reader of the tags of a text, in their order.
 pub struct Scanner<'a> {
     part: &'a str,
     text: &'a str,
     reader: Reader<&'a [u8]>,
 }
 
-/// Where in a package something stands.
+/// A place in a package.
 #[derive(Clone, Copy)]
 pub struct Place<'a> {
     part: &'a str,
     text: &'a str,
-    /// How far the text was read, bytes.
+    /// Number of bytes read up to here.
     offset: usize,
 }
 
-/// A tag that opens an element, or is one by itself, or closes one.
+/// A tag that opens or closes an element, or is an empty one.
 pub struct Tag<'a> {
-    /// Where it stands.
+    /// Its place in the text.
     pub place: Place<'a>,
-    /// What kind of tag it is.
+    /// Its kind.
     pub kind: Kind,
     content: BytesStart<'a>,
 }
 
-/// Which kind of tag.
+/// The kinds of tags.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
-    /// Elements may follow inside of it.
+    /// The start of an element with content.
     Open,
     /// An element without content.
     Empty,
@@ -47,7 +47,7 @@ pub enum Kind {
 }
 
 impl<'a> Scanner<'a> {
-    /// The tags of the text of that part.
+    /// Starts at the beginning of a part's text.
     pub fn new(part: &'a str, text: &'a str) -> Self {
         Self {
             part,
@@ -56,8 +56,8 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The next tag; none at the end of the text. A document type is refused: it could declare
-    /// entities that grow without end.
+    /// Reads the next tag; `None` at the end of the text. Refuses a document type, because it
+    /// could declare entities that grow without end.
     pub fn next_tag(&mut self) -> Result<Option<Tag<'a>>, ThreeMfError> {
         loop {
             let event = self.reader.read_event();
@@ -82,7 +82,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// Passes over all that is inside of the element that was just opened.
+    /// Skips the content of the element that was just opened.
     pub fn skip(&mut self, opened: &Tag) -> Result<(), ThreeMfError> {
         let mut depth = usize::from(opened.kind == Kind::Open);
         while depth > 0 {
@@ -90,14 +90,14 @@ impl<'a> Scanner<'a> {
                 Some(Kind::Open) => depth += 1,
                 Some(Kind::Close) => depth -= 1,
                 Some(Kind::Empty) => {}
-                None => return Err(self.cut()),
+                None => return Err(self.truncated()),
             }
         }
         Ok(())
     }
 
-    /// Calls `child` with every element that lies directly in the one that was opened; it must read
-    /// what is inside of it.
+    /// Calls `child` with every direct child of the element that was just opened. `child` must
+    /// read or skip the content of the one it gets.
     pub fn children(
         &mut self,
         opened: &Tag,
@@ -107,15 +107,15 @@ impl<'a> Scanner<'a> {
             return Ok(());
         }
         loop {
-            match self.next_tag()?.ok_or_else(|| self.cut())? {
+            match self.next_tag()?.ok_or_else(|| self.truncated())? {
                 tag if tag.kind == Kind::Close => return Ok(()),
                 tag => child(self, tag)?,
             }
         }
     }
 
-    /// The text ends within an element.
-    fn cut(&self) -> ThreeMfError {
+    /// Makes the fault of a text that ends within an element.
+    fn truncated(&self) -> ThreeMfError {
         let end = Place {
             part: self.part,
             text: self.text,
@@ -126,7 +126,7 @@ impl<'a> Scanner<'a> {
 }
 
 impl Place<'_> {
-    /// The line, from 1.
+    /// Returns the line of the place, from 1.
     fn line(&self) -> usize {
         let read = &self.text.as_bytes()[..self.offset.min(self.text.len())];
         1 + read.iter().filter(|&&byte| byte == b'\n').count()
@@ -144,30 +144,30 @@ impl Place<'_> {
     }
 }
 
-/// How much of a faulty attribute is shown, characters.
-const MAX_QUOTED: usize = 40;
+/// Longest excerpt of a faulty attribute in a message, characters.
+const MAX_EXCERPT_CHARS: usize = 40;
 
 impl Tag<'_> {
-    /// Its name without a prefix; empty for the end of an element.
+    /// Returns its name without a prefix; empty for the end of an element.
     pub fn name(&self) -> &str {
         self.content.local_name().into_inner()
     }
 
-    /// The attribute of that full name; none without it.
+    /// Returns the attribute with this full name; `None` if it is missing.
     pub fn get(&self, name: &str) -> Result<Option<Cow<'_, str>>, ThreeMfError> {
         self.find(|key| key == name)
     }
 
-    /// The attribute of that name in some namespace but the element's own; none without it.
-    pub fn prefixed(&self, name: &str) -> Result<Option<Cow<'_, str>>, ThreeMfError> {
+    /// Returns the first attribute with a prefix and this local name; `None` if there is none.
+    pub fn get_prefixed(&self, name: &str) -> Result<Option<Cow<'_, str>>, ThreeMfError> {
         self.find(|key| key.split_once(':').is_some_and(|(_, local)| local == name))
     }
 
-    /// The value of the first attribute whose name is wanted.
-    fn find(&self, is_wanted: impl Fn(&str) -> bool) -> Result<Option<Cow<'_, str>>, ThreeMfError> {
+    /// Returns the value of the first attribute whose full name matches.
+    fn find(&self, matches: impl Fn(&str) -> bool) -> Result<Option<Cow<'_, str>>, ThreeMfError> {
         for attribute in self.content.attributes() {
             let attribute = attribute.map_err(|error| self.place.fault(&error.to_string()))?;
-            if is_wanted(attribute.key.into_inner()) {
+            if matches(attribute.key.into_inner()) {
                 let value = attribute.normalized_value(XmlVersion::Explicit1_0);
                 return value
                     .map(Some)
@@ -177,25 +177,27 @@ impl Tag<'_> {
         Ok(None)
     }
 
-    /// The number that an attribute must hold.
-    pub fn number<T: FromStr>(&self, wanted: &Wanted) -> Result<T, ThreeMfError> {
-        let text = self.get(wanted.attribute)?.unwrap_or_default();
-        text.trim().parse().map_err(|_| self.not(wanted, &text))
+    /// Reads the number that an attribute must hold.
+    pub fn number<T: FromStr>(&self, requirement: &Requirement) -> Result<T, ThreeMfError> {
+        let text = self.get(requirement.attribute)?.unwrap_or_default();
+        text.trim()
+            .parse()
+            .map_err(|_| self.attribute_fault(requirement, &text))
     }
 
-    /// The fault that an attribute is not what it must be.
-    pub fn not(&self, wanted: &Wanted, found: &str) -> ThreeMfError {
+    /// Makes the fault of an attribute that does not meet its requirement.
+    pub fn attribute_fault(&self, requirement: &Requirement, found: &str) -> ThreeMfError {
         ThreeMfError::Attribute {
             part: self.place.part.to_owned(),
             line: self.place.line(),
-            element: wanted.element,
-            attribute: wanted.attribute,
-            expected: wanted.expected,
-            found: found.chars().take(MAX_QUOTED).collect(),
+            element: requirement.element,
+            attribute: requirement.attribute,
+            expected: requirement.expected,
+            found: found.chars().take(MAX_EXCERPT_CHARS).collect(),
         }
     }
 
-    /// The names that the element declares for namespaces, with the namespaces.
+    /// Returns the prefixes that the element declares, each with its namespace.
     pub fn namespaces(&self) -> Vec<(String, String)> {
         let declared = self.content.attributes().flatten().filter_map(|attribute| {
             let prefix = attribute.key.into_inner().strip_prefix("xmlns:")?;
@@ -205,13 +207,13 @@ impl Tag<'_> {
     }
 }
 
-/// What an attribute must be.
+/// The requirement on an attribute.
 #[derive(Debug, Clone, Copy)]
-pub struct Wanted {
+pub struct Requirement {
     /// The element it belongs to.
     pub element: &'static str,
     /// Its name.
     pub attribute: &'static str,
-    /// What it must hold, in words.
+    /// The value it must hold, in words.
     pub expected: &'static str,
 }
