@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Check, Limit};
+use super::{Check, CheckKind, Limit};
 use crate::geom::Point;
 use crate::mass::{Lump, Moments, moments_of_mesh};
 use crate::mesh::{MeshDistance, TriMesh};
@@ -50,7 +50,7 @@ pub(super) fn least_room_mm(
 pub(super) fn room_check(room_mm: f64) -> Check {
     let promise = "every part of ballast lies in a void, with a gap around it of";
     Check::new(
-        "ballast room",
+        CheckKind::BallastRoom,
         promise,
         Some(room_mm),
         Limit::above(0.0, "mm"),

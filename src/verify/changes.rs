@@ -5,7 +5,8 @@ use std::fmt;
 use std::path::Path;
 
 use super::{
-    Check, Evidence, Fingerprint, Limit, PartEvidence, Promise, PromisedPart, VerifyError,
+    Check, CheckKind, Evidence, Fingerprint, Limit, PartEvidence, Promise, PromisedPart,
+    VerifyError,
     fingerprint::Likeness,
     kit::{HOLLOWED_FILE, read_file},
     pegs::Felt,
@@ -194,15 +195,12 @@ fn missing_pins(part: &PromisedPart, read: &PartEvidence) -> Vec<String> {
         .collect()
 }
 
-/// The name of the check that nothing was changed.
-pub const FILES_CHECK: &str = "changed files";
-
 /// The check that nothing was changed, with what became of each file that was.
 pub fn files_check(changes: &[FileChange]) -> Check {
     let words: Vec<String> = changes.iter().map(FileChange::to_string).collect();
     let promise = "every file is the one the checklist was made for";
     Check::new(
-        FILES_CHECK,
+        CheckKind::ChangedFiles,
         promise,
         Some(changes.len() as f64),
         Limit::at_most(0.0, ""),

@@ -1,6 +1,8 @@
 //! One promise held against what was measured.
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::CheckKind;
 
 /// How a value is held against its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -41,8 +43,9 @@ impl Comparison {
 /// One line of the verdict: promise, measured value, limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Check {
-    /// A short name, unique in the list.
-    pub name: String,
+    /// The promise that is checked; in JSON beside its English name, the key `name`.
+    #[serde(flatten, serialize_with = "with_name")]
+    pub kind: CheckKind,
     /// What was promised, in words.
     pub promise: String,
     /// What was measured; none if there is no such number (the critical speed of a top that cannot
@@ -113,10 +116,10 @@ impl Limit {
 impl Check {
     /// Holds `value` against `limit`. A value that is missing, infinite or not a number fails and
     /// is kept as none, so that no such number reaches a file.
-    pub fn new(name: &str, promise: &str, value: Option<f64>, limit: Limit) -> Self {
+    pub fn new(kind: CheckKind, promise: &str, value: Option<f64>, limit: Limit) -> Self {
         let value = value.filter(|value| value.is_finite());
         Self {
-            name: name.to_owned(),
+            kind,
             promise: promise.to_owned(),
             value,
             limit: limit.value,
@@ -135,13 +138,25 @@ impl Check {
     }
 }
 
+/// Writes a kind together with its English name.
+fn with_name<S: Serializer>(kind: &CheckKind, serializer: S) -> Result<S::Ok, S::Error> {
+    #[derive(Serialize)]
+    struct Named<'a> {
+        name: String,
+        #[serde(flatten)]
+        kind: &'a CheckKind,
+    }
+    let name = kind.to_string();
+    Named { name, kind }.serialize(serializer)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn a_limit_met_exactly_is_kept_by_at_most_and_at_least_and_broken_by_below_and_above() {
-        let pass = |limit| Check::new("n", "p", Some(1.0), limit).pass;
+        let pass = |limit| Check::new(CheckKind::Wall, "p", Some(1.0), limit).pass;
         assert!(pass(Limit::at_most(1.0, "mm")) && pass(Limit::at_least(1.0, "mm")));
         assert!(!pass(Limit::below(1.0, "")) && !pass(Limit::above(1.0, "")));
     }
@@ -159,9 +174,23 @@ mod tests {
                 Limit::at_least(1.0, ""),
                 Limit::below(1.0, ""),
             ] {
-                let check = Check::new("n", "p", value, limit);
+                let check = Check::new(CheckKind::Wall, "p", value, limit);
                 assert_eq!((check.pass, check.value), (false, None));
             }
         }
+    }
+
+    #[test]
+    fn a_check_is_written_with_its_name_and_kind_and_read_back_from_the_kind() {
+        let kind = CheckKind::VoidOpen { void: "V1".into() };
+        let check = Check::new(kind, "p", Some(1.5), Limit::at_least(1.0, "mm"));
+        let text = serde_json::to_string(&check).unwrap();
+        assert_eq!(
+            text,
+            r#"{"name":"void V1 open","kind":"void-open","void":"V1","promise":"p","value":1.5,"#
+                .to_owned()
+                + r#""limit":1.0,"unit":"mm","comparison":"at_least","pass":true}"#
+        );
+        assert_eq!(serde_json::from_str::<Check>(&text).unwrap(), check);
     }
 }

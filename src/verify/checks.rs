@@ -2,8 +2,8 @@
 
 use super::joints::{film_check, marks_check};
 use super::{
-    Afloat, Aim, Check, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts, Promise,
-    PromisedPart, RotorOrder, WaterOrder, ballast, cleaning::cleaning_checks,
+    Afloat, Aim, Check, CheckKind, FigureName, Figures, Judgement, Limit, PartFacts, Peg, PegFacts,
+    Promise, PromisedPart, RotorOrder, WaterOrder, ballast, cleaning::cleaning_checks,
 };
 use crate::goal::GoalKind;
 
@@ -84,7 +84,7 @@ pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
     let offset = |promise| {
         Check::new(
-            "axis offset",
+            CheckKind::AxisOffset,
             promise,
             assembly.axis_offset_mm,
             Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
@@ -102,7 +102,7 @@ fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
         ]
         .concat(),
         GoalKind::Stand => vec![Check::new(
-            "standing",
+            CheckKind::Standing,
             "it stands, and topples when tilted by",
             assembly.topples_deg,
             Limit::above(STANDING_LIMIT_DEG, "°"),
@@ -126,28 +126,28 @@ fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
     let found = |value: fn(&Afloat) -> f64| assembly.afloat.as_ref().map(value);
     let aside = found(|afloat| afloat.waterline_mm).map(|mm| (mm - order.waterline_mm).abs());
     let depth = format!("it floats {:.2} mm deep, within", order.waterline_mm);
-    let check = |name, promise: &str, value, limit| Check::new(name, promise, value, limit);
+    let check = |kind, promise: &str, value, limit| Check::new(kind, promise, value, limit);
     vec![
         check(
-            "waterline",
+            CheckKind::Waterline,
             &depth,
             aside,
             Limit::at_most(WATERLINE_LIMIT_MM, "mm"),
         ),
         check(
-            "upright",
+            CheckKind::Upright,
             "its centre of mass is over its centre of buoyancy",
             found(|afloat| afloat.offset_mm),
             Limit::at_most(AXIS_OFFSET_LIMIT_MM, "mm"),
         ),
         check(
-            "stability",
+            CheckKind::Stability,
             "its metacentre is above its centre of mass by",
             found(|afloat| afloat.metacentric_height_mm),
             Limit::above(METACENTRIC_LIMIT_MM, "mm"),
         ),
         check(
-            "righting",
+            CheckKind::Righting,
             "it rights itself whichever way it is heeled, at least from",
             found(|afloat| afloat.rights_from_deg),
             Limit::at_least(RIGHTING_LIMIT_DEG, "°"),
@@ -163,7 +163,7 @@ fn grade_check(order: &RotorOrder, assembly: &Figures) -> Check {
     );
     let grade = assembly.value_of(FigureName::BalanceGradeMmS);
     Check::new(
-        "balance quality",
+        CheckKind::BalanceQuality,
         &promise,
         grade,
         Limit::at_most(order.grade_mm_s, "mm/s"),
@@ -176,13 +176,13 @@ fn spinning_checks(assembly: &Figures) -> Vec<Check> {
     let dominance = Limit::below(DOMINANCE_LIMIT_RATIO, "");
     vec![
         Check::new(
-            "axis tilt",
+            CheckKind::AxisTilt,
             "the spin axis is a principal axis",
             assembly.axis_tilt_deg,
             tilt,
         ),
         Check::new(
-            "dominance",
+            CheckKind::Dominance,
             "the moment of inertia is largest about the spin axis (I_b/I_c)",
             assembly.dominance_ratio,
             dominance,
@@ -198,7 +198,7 @@ fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check 
         _ => Limit::at_most(promised + slack, figure.unit()),
     };
     Check::new(
-        figure.name(),
+        CheckKind::PromisedFigure { figure },
         figure.promise(),
         assembly.value_of(figure),
         limit,
@@ -208,7 +208,7 @@ fn figure_check(figure: FigureName, promised: f64, assembly: &Figures) -> Check 
 fn wall_check(required_mm: f64, wall_mm: f64) -> Check {
     let limit = Limit::at_least(required_mm - WALL_TOLERANCE_MM, "mm");
     Check::new(
-        "wall",
+        CheckKind::Wall,
         "every wall between a void and the outside is at least",
         Some(wall_mm),
         limit,
@@ -224,14 +224,14 @@ fn fit_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
         let off_mm = fit.gap_mm.map(|gap_mm| (gap_mm - ordered_mm).abs());
         let promise = format!("the halves are {ordered_mm} mm apart at their axle, within");
         Check::new(
-            "string gap",
+            CheckKind::StringGap,
             &promise,
             off_mm,
             Limit::at_most(STRING_GAP_TOLERANCE_MM, "mm"),
         )
     });
     let room = Check::new(
-        "hardware",
+        CheckKind::Hardware,
         "every piece of hardware goes into its socket, with room on each side of",
         fit.room_mm,
         Limit::at_least(0.0, "mm"),
@@ -254,21 +254,25 @@ fn surface_checks(found: &Judgement) -> Vec<Check> {
     let cavities = found.parts.iter().map(|p| p.cavities).sum();
     vec![
         none(
-            "broken surfaces",
+            CheckKind::BrokenSurfaces,
             "every file is closed, 2-manifold and turned outward",
             broken.clone().count(),
         )
         .at(listed(broken)),
         none(
-            "self-intersections",
+            CheckKind::SelfIntersections,
             "no surface passes through itself",
             crossings,
         )
         .at(listed(
             crossed.map(|(id, s)| format!("{id}: {}", s.crossings)),
         )),
-        none("closed cavities", "every void is opened by a cut", cavities)
-            .at(listed(sealed.map(|p| format!("{}: {}", p.id, p.cavities)))),
+        none(
+            CheckKind::ClosedCavities,
+            "every void is opened by a cut",
+            cavities,
+        )
+        .at(listed(sealed.map(|p| format!("{}: {}", p.id, p.cavities)))),
     ]
 }
 
@@ -278,14 +282,14 @@ fn plate_checks(parts: &[PartFacts]) -> Vec<Check> {
     let (pose, pose_at) = worst(parts, |part| part.pose_error);
     vec![
         Check::new(
-            "resting",
+            CheckKind::Resting,
             "every part rests on the plate",
             resting,
             Limit::at_most(RESTING_LIMIT_MM, "mm"),
         )
         .at(resting_at),
         Check::new(
-            "pose",
+            CheckKind::Pose,
             "every pose is a turn and a shift",
             pose,
             Limit::at_most(POSE_LIMIT_RATIO, ""),
@@ -303,7 +307,7 @@ fn room_check(parts: &[PartFacts], room_mm: [f64; 3]) -> Check {
     let (excess_mm, at) = worst(parts, excess);
     let left_mm = excess_mm.map(|excess| -excess);
     Check::new(
-        "build volume",
+        CheckKind::BuildVolume,
         "every part fits, with room to spare of",
         left_mm,
         Limit::at_least(0.0, "mm"),
@@ -323,7 +327,7 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
     let whole = found.hollowed.volume_mm3;
     let error = (found.assembly.volume_mm3 - whole - joints).abs() / whole;
     Check::new(
-        "volumes",
+        CheckKind::Volumes,
         "the parts add up to the uncut body, its pins, sockets and engraved ids",
         Some(error),
         Limit::at_most(VOLUME_SUM_LIMIT_RATIO, ""),
@@ -333,7 +337,11 @@ fn volume_check(promise: &Promise, found: &Judgement) -> Check {
 /// Whether the pins are in the files, fit their sockets, and leave the wall; and the parts leave
 /// each other room.
 fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
-    let apart = none("overlap", "no part reaches into another", found.overlaps);
+    let apart = none(
+        CheckKind::Overlap,
+        "no part reaches into another",
+        found.overlaps,
+    );
     if found.pegs.is_empty() {
         return vec![apart];
     }
@@ -343,14 +351,14 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let wall_mm = bulge_mm.map(|bulge_mm| -bulge_mm);
     vec![
         Check::new(
-            "pins",
+            CheckKind::Pins,
             "every pin and socket has its size, within",
             deviation_mm,
             Limit::at_most(PIN_LIMIT_MM, "mm"),
         )
         .at(off_at),
         Check::new(
-            "clearance",
+            CheckKind::Clearance,
             "the gap of every pin on each side is the ordered one, short by",
             lack_mm,
             Limit::at_most(GAP_TOLERANCE_MM, "mm"),
@@ -364,7 +372,7 @@ fn joint_checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
 fn wall_around_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
     let limit = Limit::at_least(promise.printer.minimum_wall_mm - WALL_TOLERANCE_MM, "mm");
     Check::new(
-        "socket wall",
+        CheckKind::SocketWall,
         "the wall around every socket is at least",
         wall_mm,
         limit,
@@ -383,8 +391,8 @@ fn worst_of(
 }
 
 /// A check that nothing of a kind was found.
-fn none(name: &str, promise: &str, count: usize) -> Check {
-    Check::new(name, promise, Some(count as f64), Limit::at_most(0.0, ""))
+fn none(kind: CheckKind, promise: &str, count: usize) -> Check {
+    Check::new(kind, promise, Some(count as f64), Limit::at_most(0.0, ""))
 }
 
 /// The largest value of any part and whose it is; none without parts.

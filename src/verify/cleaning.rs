@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::mouths::{Place, places};
 use super::pegs::Felt;
 use super::shells::pieces;
-use super::{Check, Limit, Promise};
+use super::{Check, CheckKind, Limit, Promise};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, Plane, Point, Vector};
 use crate::mesh::{TriMesh, area_mm2, spread_points};
@@ -332,9 +332,11 @@ pub(super) fn cleaning_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Che
         };
         checks.extend(share.map(|(what, ratio)| {
             let promise = format!("the wall of {} is {what}, to a share of", void.id);
-            let name = format!("void {} clean", void.id);
+            let kind = CheckKind::VoidClean {
+                void: void.id.clone(),
+            };
             Check::new(
-                &name,
+                kind,
                 &promise,
                 Some(ratio),
                 Limit::at_least(cleaning.sight_ratio, ""),
@@ -361,7 +363,10 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
     let limit = Limit::at_least(least_mm * (1.0 - OPENING_SLACK_RATIO), "mm");
     // A void in which every piece is a dimple lies in plain sight.
     let value = narrowest_mm.or((void.sight_ratio > 0.0).then_some(least_mm));
-    Check::new(&format!("void {} open", void.id), &promise, value, limit)
+    let kind = CheckKind::VoidOpen {
+        void: void.id.clone(),
+    };
+    Check::new(kind, &promise, value, limit)
 }
 
 /// Whether the sheet tells of every void, and of its sight what is found.
@@ -379,10 +384,9 @@ fn stated_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
         .filter_map(off)
         .fold(0.0, f64::max);
     let is_whole = promise.voids.len() == found.len();
-    let name = "voids as stated";
     let promise = "the sheet states the share of every void's wall in sight, within";
     Some(Check::new(
-        name,
+        CheckKind::VoidsAsStated,
         promise,
         is_whole.then_some(worst),
         Limit::at_most(SIGHT_TOLERANCE_RATIO, ""),

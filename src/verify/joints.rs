@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::pegs::Felt;
-use super::{Check, Limit, Mark, PartEvidence, Promise};
+use super::{Check, CheckKind, Limit, Mark, PartEvidence, Promise};
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{FlatFace, Moments};
@@ -101,7 +101,12 @@ pub(super) fn lost_strokes(promise: &Promise, felt: &[Felt]) -> Option<usize> {
 /// Whether all engraved ids are there.
 pub(super) fn marks_check(lost: usize) -> Check {
     let promise = "every stroke of every engraved id is as deep as promised, but for";
-    Check::new("ids", promise, Some(lost as f64), Limit::at_most(0.0, ""))
+    Check::new(
+        CheckKind::EngravedIds,
+        promise,
+        Some(lost as f64),
+        Limit::at_most(0.0, ""),
+    )
 }
 
 /// The area of a part's triangles all of whose corners lie in a plane of the model.
@@ -119,7 +124,7 @@ fn flat_area_mm2(part: &PartEvidence, is_in_plane: impl Fn(&Point) -> bool) -> f
 pub(super) fn film_check((error, joint): (f64, String)) -> Check {
     let promise = "every film of glue is as large as its faces, but for a share of";
     Check::new(
-        "glue",
+        CheckKind::Glue,
         promise,
         Some(error),
         Limit::at_most(FILM_LIMIT_RATIO, ""),

@@ -77,7 +77,7 @@ pub(crate) fn failures(evidence: &Evidence) -> Vec<String> {
         .checks
         .into_iter()
         .filter(|check| !check.pass)
-        .map(|check| check.name)
+        .map(|check| check.kind.to_string())
         .collect()
 }
 
@@ -153,7 +153,7 @@ fn a_part_too_large_for_the_printer_is_found() {
     let room = judgement
         .checks
         .iter()
-        .find(|check| check.name == "build volume")
+        .find(|check| check.kind == CheckKind::BuildVolume)
         .unwrap();
     assert_eq!((room.pass, room.value), (false, Some(-1.0)));
 }

@@ -15,6 +15,7 @@ mod joints;
 mod judge;
 #[cfg(test)]
 pub(crate) mod judge_tests;
+mod kind;
 mod kit;
 #[cfg(test)]
 mod kit_tests;
@@ -38,7 +39,7 @@ mod water;
 
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
-pub use changes::{Change, FILES_CHECK, FileChange, files_check};
+pub use changes::{Change, FileChange, files_check};
 pub use check::{Check, Comparison, Limit};
 pub use checks::{
     AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
@@ -52,6 +53,7 @@ pub use fingerprint::{Fingerprint, Likeness};
 pub use hardware::{Fit, Hardware, mass_moments};
 pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
 pub use judge::{Evidence, Judgement, judge, setting};
+pub use kind::CheckKind;
 pub use kit::{
     CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE, VerifyError, read_promise, verify_kit,
 };

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::{
-    Check, Evidence, Fingerprint, Limit, Promise, VerifyError,
+    Check, CheckKind, Evidence, Fingerprint, Limit, Promise, VerifyError,
     fingerprint::Likeness,
     kit::{of_nominal_size, read_file},
     sheet::has_its_shape,
@@ -60,7 +60,7 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     );
     let words = "every 3MF file holds the parts as they are judged";
     let check = Check::new(
-        "3MF files",
+        CheckKind::Packages,
         words,
         Some(faults.len() as f64),
         Limit::at_most(0.0, ""),

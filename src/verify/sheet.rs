@@ -4,7 +4,8 @@
 use serde_json::{Map, Value, json};
 
 use super::{
-    Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells,
+    Check, CheckKind, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise,
+    Shells,
 };
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
@@ -23,6 +24,9 @@ const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
 const NOTHING: f64 = 1e-6;
 /// So many of the places that differ are told; the rest are counted.
 const TOLD: usize = 6;
+
+/// The keys of a check's kind and of what it speaks of.
+const KIND_KEYS: [&str; 3] = ["kind", "void", "figure"];
 
 /// What is held against the files, and how closely.
 struct Comparison {
@@ -58,7 +62,7 @@ pub fn sheet_check(misstated: &[String]) -> Check {
         words += &format!("; and {more} more");
     }
     Check::new(
-        "checklist",
+        CheckKind::Checklist,
         promise,
         Some(misstated.len() as f64),
         Limit::at_most(0.0, ""),
@@ -103,7 +107,7 @@ fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<
     let passes = judgement.checks.iter().all(|check| check.pass);
     let mut rows = Map::new();
     rows.insert("assembly".to_owned(), json!(judgement.assembly));
-    rows.insert("checks".to_owned(), json!(judgement.checks));
+    rows.insert("checks".to_owned(), check_rows(&sheet["checks"], judgement));
     rows.insert(
         "verdict".to_owned(),
         json!(if passes { "pass" } else { "fail" }),
@@ -125,16 +129,31 @@ fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<
     rows
 }
 
+/// Returns the rows of the checks. Kits made before checks had kinds state their names alone, so
+/// the kind of such a row is left out.
+fn check_rows(stated: &Value, judgement: &Judgement) -> Value {
+    let row = |(index, check): (usize, &Check)| {
+        let is_old = stated
+            .get(index)
+            .is_some_and(|row| row.get("kind").is_none());
+        let mut row = json!(check);
+        if let Some(keys) = row.as_object_mut().filter(|_| is_old) {
+            keys.retain(|key, _| !KIND_KEYS.contains(&key.as_str()));
+        }
+        row
+    };
+    judgement.checks.iter().enumerate().map(row).collect()
+}
+
 /// What the checklist knows from before it was rounded to a file's digits.
 pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement) -> Value {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let voids = evidence.promise.voids.iter().zip(&shells.inward);
     let void_row = |(promised, cavity): (&super::PromisedVoid, &crate::mesh::TriMesh)| {
-        let names = ["open", "clean"].map(|word| format!("void {} {word}", promised.id));
         let is_clean = judgement
             .checks
             .iter()
-            .filter(|check| names.contains(&check.name))
+            .filter(|check| check.kind.void() == Some(&promised.id))
             .all(|c| c.pass);
         let mut row = json!({ "volume_mm3": moments_of_mesh(cavity).volume().abs() });
         if (0..evidence.parts.len()).all(|part| has_its_shape(evidence, part)) {
