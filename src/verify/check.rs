@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize, Serializer};
 
 use super::CheckKind;
 
-/// How a value is held against its limit.
+/// The comparison that a value must satisfy with its limit.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Comparison {
@@ -19,7 +19,7 @@ pub enum Comparison {
 }
 
 impl Comparison {
-    /// Whether `value` keeps the limit; never if it is not a number.
+    /// Returns true if `value` keeps the limit; NaN never does.
     pub fn holds(self, value: f64, limit: f64) -> bool {
         match self {
             Self::AtMost => value <= limit,
@@ -29,7 +29,7 @@ impl Comparison {
         }
     }
 
-    /// The sign a person reads: ≤, ≥, < or >.
+    /// Returns the sign for people: ≤, ≥, < or >.
     pub fn sign(self) -> &'static str {
         match self {
             Self::AtMost => "≤",
@@ -40,34 +40,34 @@ impl Comparison {
     }
 }
 
-/// One line of the verdict: promise, measured value, limit.
+/// One line of the verdict: a promise, the measured value and its limit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Check {
-    /// The promise that is checked; in JSON beside its English name, the key `name`.
+    /// The kind of promise. JSON has its English name beside it, as `name`.
     #[serde(flatten, serialize_with = "with_name")]
     pub kind: CheckKind,
-    /// What was promised, in words.
+    /// The promise in words.
     pub promise: String,
-    /// What was measured; none if there is no such number (the critical speed of a top that cannot
-    /// spin).
+    /// The measured value, or `None` if there is no such number, such as the critical speed of a
+    /// top that cannot spin.
     pub value: Option<f64>,
-    /// What it is held against.
+    /// The limit it is compared with.
     pub limit: f64,
     /// The unit of value and limit; empty for counts and ratios.
     pub unit: String,
-    /// How it is held against it.
+    /// The comparison with the limit.
     pub comparison: Comparison,
-    /// Whether the promise is kept.
+    /// True if the promise is kept.
     pub pass: bool,
-    /// Where the value was found, or what is wrong there.
+    /// The place where the value was found, or the faults found there.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub detail: Option<String>,
 }
 
-/// A limit as it is written in a list of checks.
+/// A limit of a check.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Limit {
-    /// How a value is held against it.
+    /// The comparison of a value with it.
     pub comparison: Comparison,
     /// The limit itself.
     pub value: f64,
@@ -114,8 +114,8 @@ impl Limit {
 }
 
 impl Check {
-    /// Holds `value` against `limit`. A value that is missing, infinite or not a number fails and
-    /// is kept as none, so that no such number reaches a file.
+    /// Compares `value` with `limit`. A missing, infinite or NaN value fails and becomes `None`, so
+    /// that no such number reaches a file.
     pub fn new(kind: CheckKind, promise: &str, value: Option<f64>, limit: Limit) -> Self {
         let value = value.filter(|value| value.is_finite());
         Self {
@@ -130,7 +130,7 @@ impl Check {
         }
     }
 
-    /// The same check with a word on where its value was found.
+    /// Returns the same check with a detail: the place of its value, or the faults.
     #[must_use]
     pub fn at(mut self, detail: Option<String>) -> Self {
         self.detail = detail;
@@ -162,7 +162,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_measured_fails_whatever_the_limit() {
+    fn a_value_that_cannot_be_measured_fails_whatever_the_limit() {
         for value in [
             None,
             Some(f64::NAN),

@@ -1,4 +1,4 @@
-//! The kinds of checks, as data: which promise is held, and the void or figure it speaks of.
+//! The kinds of checks as data: the promise, and the void or figure it is about.
 
 use std::fmt;
 
@@ -6,12 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use super::FigureName;
 
-/// Every kind of check the judge makes, in the order of the list. No two checks of a kit are equal
-/// in it.
+/// The kind of a check, unique in the list of a kit.
 ///
-/// In JSON it is the key `kind`, in kebab case, with the void or figure in a key of its own. Those
-/// keys are stable: programs may match on them. The names that [`fmt::Display`] words are for
-/// people and may change.
+/// In JSON it is the key `kind`, in kebab case; the void or figure has a key of its own. These keys
+/// are stable, so programs may match on them. [`fmt::Display`] writes the English name, which may
+/// change.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
