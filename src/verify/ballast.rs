@@ -25,8 +25,8 @@ pub(super) fn ballast_moments(ballast: &[BallastOrder], density_g_mm3: f64) -> M
         .fold(Moments::default(), |sum, part| sum + part)
 }
 
-/// Returns the least gap between a part of ballast and the material around it, mm, or `None` without
-/// ballast. Negative if a part lies in material or outside the body.
+/// Returns the least gap between a part of ballast and the material around it, mm, or `None`
+/// without ballast. Negative if a part lies in material or outside the body.
 pub(super) fn least_room_mm(
     ballast: &[BallastOrder],
     hollowed: &TriMesh,

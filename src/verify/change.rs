@@ -93,7 +93,8 @@ impl FileChange {
         }
     }
 
-    /// Returns true if the change alters a shape that is judged, so that other promises fail with it.
+    /// Returns true if the change alters a shape that is judged, so that other promises fail with
+    /// it.
     pub fn is_of_shape(&self) -> bool {
         match self.change {
             Change::Altered => self.file == HOLLOWED_FILE,

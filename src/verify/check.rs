@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_limit_met_exactly_is_kept_by_at_most_and_at_least_and_broken_by_below_and_above() {
+    fn a_limit_met_exactly_is_kept_if_inclusive_and_broken_if_strict() {
         let pass = |limit| Check::new(CheckKind::Wall, "p", Some(1.0), limit).pass;
         assert!(pass(Limit::at_most(1.0, "mm")) && pass(Limit::at_least(1.0, "mm")));
         assert!(!pass(Limit::below(1.0, "")) && !pass(Limit::above(1.0, "")));

@@ -9,8 +9,8 @@ use super::limits::{
 use super::void_checks::void_checks;
 use super::{Check, CheckKind, Judgement, Limit, PartFacts, Peg, PegFacts, Promise, PromisedPart};
 
-/// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered? Is
-/// the wall there? Can it be printed? Do the parts make the whole?
+/// Returns all checks of a kit, in the order of a person's questions. Does it do what was ordered?
+/// Is the wall there? Can it be printed? Do the parts make the whole?
 pub fn checks(promise: &Promise, found: &Judgement) -> Vec<Check> {
     let mut checks = goal_checks(&promise.goal, &found.assembly);
     checks.extend(
@@ -228,8 +228,26 @@ fn socket_wall_check(promise: &Promise, wall_mm: Option<f64>) -> Check {
     )
 }
 
-/// Returns the largest value of any pin and the pin's id. A pin without a value counts as infinite, so
-/// that the check fails.
+/// Checks that all strokes of the engraved ids are there.
+fn marks_check(lost: usize) -> Check {
+    let promise = "every stroke of every engraved id is as deep as promised, but for";
+    no_faults(CheckKind::EngravedIds, promise, lost)
+}
+
+/// Checks that the films of glue are as large as the faces in the files.
+fn film_check(error: &FilmError) -> Check {
+    let promise = "every film of glue is as large as its faces, but for a share of";
+    Check::new(
+        CheckKind::Glue,
+        promise,
+        Some(error.ratio),
+        Limit::at_most(FILM_LIMIT_RATIO, ""),
+    )
+    .at(Some(error.joint.clone()))
+}
+
+/// Returns the largest value of any pin and the pin's id. A pin without a value counts as infinite,
+/// so that the check fails.
 fn worst_peg(
     pegs: &[PegFacts],
     value: impl Fn(&PegFacts) -> Option<f64>,
@@ -263,22 +281,4 @@ fn worst_part(
 fn join_words(words: impl Iterator<Item = String>) -> Option<String> {
     let words: Vec<String> = words.collect();
     (!words.is_empty()).then(|| words.join("; "))
-}
-
-/// Checks that all strokes of the engraved ids are there.
-fn marks_check(lost: usize) -> Check {
-    let promise = "every stroke of every engraved id is as deep as promised, but for";
-    no_faults(CheckKind::EngravedIds, promise, lost)
-}
-
-/// Checks that the films of glue are as large as the faces in the files.
-fn film_check(error: &FilmError) -> Check {
-    let promise = "every film of glue is as large as its faces, but for a share of";
-    Check::new(
-        CheckKind::Glue,
-        promise,
-        Some(error.ratio),
-        Limit::at_most(FILM_LIMIT_RATIO, ""),
-    )
-    .at(Some(error.joint.clone()))
 }

@@ -26,18 +26,19 @@ const CLEAR_RATIO: f64 = 0.999;
 const SLIVER_RATIO: f64 = 1e-4;
 /// A pocket no deeper than half its mouth lies in plain sight, and its mouth may be of any width.
 const DIMPLE_RATIO: f64 = 0.5;
+
 /// Facts about the openings of a void in the written parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VoidFacts {
     /// The name on the sheet.
     pub id: String,
-    /// Diameters of the largest discs through the mouths of every piece that is no dimple, the widest
-    /// first, mm.
+    /// Diameters of the largest discs through the mouths of every piece that is no dimple, the
+    /// widest first, mm.
     pub openings_mm: Vec<Vec<f64>>,
     /// Share of its wall in sight of the mouths of the same piece and within the tool's reach.
     pub sight_ratio: f64,
-    /// Share of its wall that is in sight, or printed without support since it does not face down or
-    /// is steep enough.
+    /// Share of its wall that is in sight, or printed without support since it does not face down
+    /// or is steep enough.
     pub clean_ratio: f64,
 }
 
@@ -199,13 +200,13 @@ impl Inspector<'_> {
 
     /// Returns the shares of a piece's wall in sight, and in sight or printed without support.
     fn shares(&self, patch: &Patch, own: &[OwnPoint], count: usize) -> [f64; 2] {
-        let eyes = self.viewpoints(own);
+        let viewpoints = self.viewpoints(own);
         let corners: Vec<[Point; 3]> = patch.wall.iter_corners().collect();
         let points = spread_points(&corners, count.max(1));
-        let looks: Vec<[bool; 2]> = points
+        let seen_and_clean: Vec<[bool; 2]> = points
             .par_iter()
             .map(|point| {
-                let is_seen = eyes
+                let is_seen = viewpoints
                     .iter()
                     .any(|eye| self.sees(patch.probe, eye, &point.at));
                 [
@@ -214,8 +215,8 @@ impl Inspector<'_> {
                 ]
             })
             .collect();
-        [0, 1]
-            .map(|i| looks.iter().filter(|look| look[i]).count() as f64 / looks.len().max(1) as f64)
+        let total = seen_and_clean.len().max(1) as f64;
+        [0, 1].map(|i| seen_and_clean.iter().filter(|is| is[i]).count() as f64 / total)
     }
 
     /// Returns a thinned list of the points that let the tool in, or the widest if none does.
@@ -243,8 +244,8 @@ impl Inspector<'_> {
         line.norm() <= self.reach_mm && probe.is_clear(eye, &(eye + line * CLEAR_RATIO))
     }
 
-    /// Returns true if a triangle of a part's surface prints without support: it faces up or is steep
-    /// enough.
+    /// Returns true if a triangle of a part's surface prints without support: it faces up or is
+    /// steep enough.
     fn is_self_supporting(&self, probe: &PartProbe, [a, b, c]: &[Point; 3]) -> bool {
         let Some(overhang_deg) = self.overhang_deg else {
             return false;

@@ -30,9 +30,9 @@ fn kit(cleaning: Cleaning) -> Evidence {
     kit
 }
 
-/// Returns the box with a cover 0.4 mm thick inside the lower tray, which leaves a slit at one end. It
-/// reaches into the side walls; the tests look at the sight alone.
-fn covered_kit() -> Evidence {
+/// Returns the box with a cover 0.4 mm thick inside the lower tray, which leaves a slit at one end.
+/// It reaches into the side walls; the tests look at the sight alone.
+fn kit_with_cover() -> Evidence {
     let mut kit = kit(IN_SIGHT);
     let cover = block(Point::new(2.0, 2.0, 4.5), [50.0, 36.0, 0.4]);
     kit.parts[0].mesh = kit.parts[0].mesh.clone().joined(&cover);
@@ -53,7 +53,7 @@ fn both_trays_of_a_box_lie_open_and_in_sight() {
 
 #[test]
 fn a_wall_behind_a_cover_is_not_clean_and_not_as_stated() {
-    let failed = failures(&covered_kit());
+    let failed = failures(&kit_with_cover());
     assert!(failed.contains(&"void V1 clean".to_owned()), "{failed:?}");
     assert!(failed.contains(&"voids as stated".to_owned()), "{failed:?}");
 }
@@ -66,7 +66,7 @@ fn a_floor_that_faces_up_needs_no_sight_if_no_support_stands_on_it() {
         overhang_deg: Some(45.0),
         ..IN_SIGHT
     };
-    let mut kit = covered_kit();
+    let mut kit = kit_with_cover();
     kit.promise.printer.cleaning = Some(leaning);
     assert!(!failures(&kit).contains(&"void V1 clean".to_owned()));
     assert!(judge(&kit).voids[0].sight_ratio < 0.95);

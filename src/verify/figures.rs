@@ -25,8 +25,8 @@ pub struct Setting {
     pub aim: Aim,
     /// The support polygon of the outer surface, in the goal frame; only for an object that stands.
     pub support: Option<Support>,
-    /// The extent of the outer surface along the axis, goal frame, mm; only for a rotor, which has its
-    /// planes there.
+    /// The extent of the outer surface along the axis, goal frame, mm; only for a rotor, which has
+    /// its planes there.
     pub ends_mm: Option<[f64; 2]>,
     /// The outer surface in the goal frame; only for an object that floats.
     pub hull: Option<Hull>,
@@ -36,8 +36,8 @@ pub struct Setting {
 
 /// The mass properties of a body and its figures for the goal.
 ///
-/// A figure is `None` if the goal does not ask for it, or if it does not exist, such as the critical
-/// speed of a top that cannot spin.
+/// A figure is `None` if the goal does not ask for it or if it does not exist. An example is the
+/// critical speed of a top that cannot spin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
     /// The mass with the hardware, g.
@@ -56,8 +56,8 @@ pub struct Figures {
     pub axis_offset_mm: Option<f64>,
     /// The angle between the spin axis and the principal axis nearest to it, degrees.
     pub axis_tilt_deg: Option<f64>,
-    /// The larger transverse moment over the axial one about the centre, I_b/I_c. Below 1 the axis is
-    /// dominant.
+    /// The larger transverse moment over the axial one about the centre, I_b/I_c. Below 1 the axis
+    /// is dominant.
     pub dominance_ratio: Option<f64>,
     /// Spin-It's squared ratio (I_xx² + 2 I_xy² + I_yy²)/I_zz² about the centre (eq. 6).
     pub spin_it_ratio: Option<f64>,
@@ -74,8 +74,8 @@ pub struct Figures {
 }
 
 impl Setting {
-    /// Returns the setting of a kit: its goal, and the properties of the outer surface (model frame)
-    /// that the goal needs.
+    /// Returns the setting of a kit: its goal, and the properties of the outer surface (model
+    /// frame) that the goal needs.
     pub fn new(promise: &Promise, outer: &TriMesh) -> Self {
         let (aim, frame) = (promise.goal, promise.goal.frame());
         Self {
@@ -104,8 +104,8 @@ impl Figures {
         }
     }
 
-    /// Returns the figures of the region with these moments (model frame) and the setting's hardware
-    /// in it. As exact as the moments: nothing is sampled.
+    /// Returns the figures of the region with these moments (model frame) and the setting's
+    /// hardware in it. As exact as the moments: nothing is sampled.
     pub fn new(printed: &Moments, setting: &Setting) -> Self {
         let density_g_mm3 = setting.density_g_mm3();
         let moments = &(*printed + setting.hardware * density_g_mm3.recip());
@@ -249,11 +249,11 @@ fn largest_transverse(inertia: &Matrix) -> f64 {
     0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
 }
 
-/// Returns ω = √(g M ℓ / (I_c − I_b)) in rpm, with the moments about the centre (Spin-It eq. 1), for
-/// a body in the goal frame.
+/// Returns ω = √(g M ℓ / (I_c − I_b)) in rpm, with the moments about the centre (Spin-It eq. 1),
+/// for a body in the goal frame.
 ///
-/// Zero if the centre hangs below the contact. `None` if the axis is not dominant, since no speed is
-/// enough then.
+/// Zero if the centre hangs below the contact. `None` if the axis is not dominant, since no speed
+/// is enough then.
 fn critical_speed_rpm(local: &Body) -> Option<f64> {
     let margin = local.inertia_g_mm2[(2, 2)] - largest_transverse(&local.inertia_g_mm2);
     let height_mm = local.center.z.max(0.0);

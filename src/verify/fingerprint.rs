@@ -14,7 +14,8 @@ use crate::mesh::TriMesh;
 /// distinguish a shape from its mirror image, which the second cannot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fingerprint {
-    /// SHA-256 of the triangles in single precision, independent of their order and the file format.
+    /// SHA-256 of the triangles in single precision, independent of their order and the file
+    /// format.
     pub triangles_sha256: String,
     /// The area, mm².
     pub area_mm2: f64,
@@ -45,9 +46,9 @@ pub enum Likeness {
     Other,
 }
 
-/// Moments agree within this share of the shape's own size. Files of six digits round to 1e-6 of it,
-/// and mirror images differ by far more. Above 1e-3 the image of a nearly symmetrical part passes
-/// for the part.
+/// Moments agree within this share of the shape's own size. Files of six digits round to 1e-6 of
+/// it, and mirror images differ by far more. Above 1e-3 the image of a nearly symmetrical part
+/// passes for the part.
 const TOLERANCE_RATIO: f64 = 1e-5;
 /// A shape has moved if its centre is farther away than this, mm; rounding moves it by less than a
 /// micrometre.
@@ -127,7 +128,8 @@ impl Fingerprint {
         }
     }
 
-    /// Returns true if the map and the scale turn the moments of this shape into those of the other.
+    /// Returns true if the map and the scale turn the moments of this shape into those of the
+    /// other.
     fn maps_to(&self, other: &Self, map: &AxisMap, ratio: f64) -> bool {
         let radius_mm = (self.second_mm4[..3].iter().sum::<f64>() / self.area_mm2).sqrt();
         let near = |own: f64, found: f64, power: i32| {

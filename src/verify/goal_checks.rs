@@ -50,8 +50,8 @@ pub(super) fn goal_checks(aim: &Aim, assembly: &Figures) -> Vec<Check> {
     }
 }
 
-/// Checks that the assembly floats at its waterline, upright, and rights itself. The outer surface is
-/// assumed to be tight.
+/// Checks that the assembly floats at its waterline, upright, and rights itself. The outer surface
+/// is assumed to be tight.
 fn floating_checks(order: &WaterOrder, assembly: &Figures) -> Vec<Check> {
     let found = |value: fn(&Afloat) -> f64| assembly.afloat.as_ref().map(value);
     let aside = found(|afloat| afloat.waterline_mm).map(|mm| (mm - order.waterline_mm).abs());

@@ -46,7 +46,8 @@ pub struct Hardware {
 /// The fit of the hardware in the parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// The least room between a rod and the surface around it, mm; negative if a rod does not go in.
+    /// The least room between a rod and the surface around it, mm; negative if a rod does not go
+    /// in.
     pub room_mm: Option<f64>,
     /// The gap between a yo-yo's halves around their axle, mm; `None` if there is one body.
     pub gap_mm: Option<f64>,
@@ -115,7 +116,8 @@ fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     off_axis.fold(f64::INFINITY, f64::min) - bar.radius_mm
 }
 
-/// Returns the corners of the part of a triangle between two heights (Sutherland and Hodgman, 1974).
+/// Returns the corners of the part of a triangle between two heights (Sutherland and Hodgman,
+/// 1974).
 fn clip_between(corners: [Vector; 3], [low_mm, high_mm]: [f64; 2]) -> Vec<Vector> {
     let above = clip(&corners, |p| p.z - low_mm);
     clip(&above, |p| high_mm - p.z)

@@ -6,8 +6,8 @@ use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::Moments;
 
-/// Triangles within this distance of a joint's plane lie in it, mm: far above the rounding of files,
-/// far below a layer.
+/// Triangles within this distance of a joint's plane lie in it, mm: far above the rounding of
+/// files, far below a layer.
 const IN_PLANE_MM: f64 = 1e-3;
 /// Tolerance of a stroke's depth, as a share of it.
 const DEPTH_RATIO: f64 = 0.05;

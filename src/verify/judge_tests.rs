@@ -274,7 +274,7 @@ fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
 fn boat(waterline_mm: f64) -> Evidence {
     let mut evidence = sound();
     // Density of the liquid: mass over displaced volume, 1.2 · (28 800 − 11 016)/(2400 · T) at a
-    // draught of T mm; 1.482 at 6 mm.
+    // draught of T mm. That is 1.482 at 6 mm.
     let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
     let water = Some(WaterOrder {
         liquid_g_cm3,

@@ -34,7 +34,7 @@ pub enum CheckKind {
     Righting,
     /// Balance quality grade of a rotor.
     BalanceQuality,
-    /// The figure that the buyer was told.
+    /// The figure promised to the buyer.
     PromisedFigure {
         /// The figure.
         figure: FigureName,

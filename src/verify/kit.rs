@@ -9,8 +9,8 @@ use super::seal::find_paper_changes;
 use super::sheet::{find_misstatements, sheet_check};
 use super::{Judgement, VerifyError, judge};
 
-/// Reads every file of the kit in `folder` and judges it, without the solver. The checklist supplies
-/// the goal and the promises, the meshes everything else.
+/// Reads every file of the kit in `folder` and judges it, without the solver. The checklist
+/// supplies the goal and the promises, the meshes everything else.
 ///
 /// # Errors
 ///

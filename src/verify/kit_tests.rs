@@ -11,8 +11,8 @@ use super::*;
 use crate::base::digest::sha256_hex;
 use crate::io::stl;
 
-/// Writes the sound kit of the judge's tests with its papers. The checklist has only the keys that the
-/// judge reads.
+/// Writes the sound kit of the judge's tests with its papers. The checklist has only the keys that
+/// the judge reads.
 fn write_kit(folder: &Path) {
     let evidence = sound();
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");

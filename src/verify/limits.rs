@@ -35,9 +35,9 @@ pub const POSE_LIMIT_RATIO: f64 = 1e-9;
 /// A pin or socket may be this far from its promised radius, length or depth, mm. The flats of a
 /// circle of 48 sides lie 0.004 mm inside it at 4 mm across. Above it a pin may bind or rattle.
 pub const PIN_LIMIT_MM: f64 = 0.02;
-/// The gap between a pin and its socket may be this much narrower than ordered, mm, for the rounding
-/// of files. A greater limit would consume the shop's own clearance, though printers are far less
-/// accurate.
+/// The gap between a pin and its socket may be this much narrower than ordered, mm, for the
+/// rounding of files. A greater limit would consume the shop's own clearance, though printers are
+/// far less accurate.
 pub const GAP_TOLERANCE_MM: f64 = 1e-3;
 /// The written assembly may miss the promised figure by this share. It is above the rounding of STL
 /// (1e-6) and below anything a person can measure.
@@ -49,9 +49,9 @@ pub const FILM_LIMIT_RATIO: f64 = 0.1;
 /// steps.
 pub(super) const OPENING_SLACK_RATIO: f64 = 2e-3;
 /// A stated share in sight may differ from the found one by this. Four standard deviations of two
-/// samples of 2000 and 3000 points are 0.058 at a share of a half, the widest case, and 0.025 at 95 %.
+/// samples of 2000 and 3000 points are at most 0.058, at a share of a half. At 95 % they are 0.025.
 pub const SIGHT_TOLERANCE_RATIO: f64 = 0.06;
-/// A number of the checklist may differ by this share of the largest number beside it. Both are exact
-/// integrals of the same triangles, which another machine rounds by 1e-12. Above 1e-5 a tenth of a
-/// gram could be taken off a heavy part unseen.
+/// A number of the checklist may differ by this share of the largest number beside it. Both are
+/// exact integrals of the same triangles, which another machine rounds by 1e-12. Above 1e-5 a tenth
+/// of a gram could be taken off a heavy part unseen.
 pub const SHEET_LIMIT_RATIO: f64 = 1e-6;

@@ -1,4 +1,5 @@
-//! The mouths of a void: the openings where a cut passes through its wall, on the surface as written.
+//! The mouths of a void: the openings where a cut passes through its wall, on the surface as
+//! written.
 
 use std::collections::BTreeMap;
 
@@ -53,8 +54,8 @@ struct Rims {
 
 /// Samples the mouths of a void's shell (turned either way) in a plane.
 ///
-/// The points are spread over the mouths and along their rims, with just the room for a tool of this
-/// radius there; the widest point of each mouth is added.
+/// The points are spread over the mouths, and along their rims with just the room for a tool of
+/// this radius. The widest point of each mouth is added.
 pub(super) fn sample_mouths(
     shell: &TriMesh,
     plane: &Plane,
@@ -138,8 +139,8 @@ impl Rims {
         if is_inside { distance } else { -distance }
     }
 
-    /// Returns the mouth that a point of the void lies in. The smallest ring around the point is that
-    /// mouth's outer rim.
+    /// Returns the mouth that a point of the void lies in. The smallest ring around the point is
+    /// that mouth's outer rim.
     fn mouth(&self, p: &Flat) -> Option<usize> {
         let around = self
             .rings
@@ -159,12 +160,12 @@ impl Rims {
             let (column, row) = ((i % ACROSS) as f64 + 0.5, (i / ACROSS) as f64 + 0.5);
             ring.low + nalgebra::Vector2::new(step.x * column, step.y * row)
         };
-        let points = (0..ACROSS * ACROSS).map(|i| self.measured(at(i)));
+        let points = (0..ACROSS * ACROSS).map(|i| self.measure(at(i)));
         points.filter(|point| point.room_mm > 0.0).collect()
     }
 
-    /// Returns a point with the room around it.
-    fn measured(&self, at: Flat) -> Roomy {
+    /// Measures the room around a point.
+    fn measure(&self, at: Flat) -> Roomy {
         let room_mm = self.room_mm(&at);
         Roomy { at, room_mm }
     }
@@ -182,7 +183,7 @@ impl Rims {
                 let normal = nalgebra::Vector2::new(along.y, -along.x);
                 let sides = [1.0, -1.0]
                     .map(|side| foot + normal * (side * room_mm * (1.0 + ROOM_SLACK_RATIO)));
-                let beside = sides.map(|p| self.measured(p));
+                let beside = sides.map(|p| self.measure(p));
                 points.extend(beside.into_iter().find(|point| point.room_mm >= room_mm));
                 next += spacing;
             }
@@ -191,8 +192,8 @@ impl Rims {
         points
     }
 
-    /// Climbs to a point with the most room by steps in eight directions. A step that gains nothing is
-    /// halved.
+    /// Climbs to a point with the most room by steps in eight directions. A step that gains nothing
+    /// is halved.
     fn climb(&self, ring: &Ring, mut best: Roomy) -> Roomy {
         let size = (ring.high - ring.low).norm();
         let mut step = size / ACROSS as f64;
@@ -200,7 +201,7 @@ impl Rims {
             let sides = (0..8).map(|i| (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos());
             let around = sides.map(|(sin, cos)| best.at + nalgebra::Vector2::new(cos, sin) * step);
             let next = around
-                .map(|p| self.measured(p))
+                .map(|p| self.measure(p))
                 .max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
             match next {
                 Some(next) if next.room_mm > best.room_mm => best = next,
@@ -232,8 +233,8 @@ impl Ring {
     }
 }
 
-/// Returns the two edges in which a triangle crosses the plane, if it does: first the one that goes
-/// down, then the one that comes up. The ends of each ascend. A corner on the plane counts as above.
+/// Returns the two edges in which a triangle crosses the plane, if it does. The first goes down,
+/// the second comes up. The ends of each ascend. A corner on the plane counts as above.
 fn crossing_edges(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<([u32; 2], [u32; 2])> {
     let above = |i: u32| heights[i as usize] >= 0.0;
     let edges = [[a, b], [b, c], [c, a]];
@@ -286,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn two_mouths_of_one_cut_are_told_apart_and_a_hole_is_none() {
+    fn two_mouths_of_one_cut_are_distinguished_and_a_hole_is_no_mouth() {
         let two =
             block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
         let mouths: std::collections::BTreeSet<usize> = sample_mouths(&two, &level(2.0), 0.5)

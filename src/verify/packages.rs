@@ -32,8 +32,8 @@ enum Kind {
 
 /// Checks all packages of a kit; `None` if it has none.
 ///
-/// Objects are compared with the fingerprints of the parts as made, so that a changed file of a part
-/// is not blamed on them.
+/// Objects are compared with the fingerprints of the parts as made, so that a changed file of a
+/// part is not blamed on them.
 ///
 /// # Errors
 ///
@@ -152,8 +152,8 @@ fn find_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
     faults
 }
 
-/// Returns true if an object is the part: in its place in the assembly, anywhere on a plate, or with
-/// the same triangles in its own package.
+/// Returns true if an object is the part. In the assembly its place counts too; in its own package
+/// it has the same triangles.
 fn is_right(kind: Kind, object: &PlacedObject, evidence: &Evidence, part: usize) -> bool {
     let (found, read) = (Fingerprint::of(&object.mesh), &evidence.parts[part]);
     let promised = evidence.promise.parts[part].fingerprint.clone();

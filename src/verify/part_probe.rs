@@ -28,8 +28,8 @@ impl<'a> PartProbe<'a> {
         self.surface.winding(&self.part.pose.to_print(model)) != 0
     }
 
-    /// Returns the distance from a point to the part's surface along a unit direction, mm; `None` if
-    /// it is more than `reach_mm`.
+    /// Returns the distance from a point to the part's surface along a unit direction, mm; `None`
+    /// if it is more than `reach_mm`.
     pub(super) fn distance_along(
         &self,
         model: &Point,

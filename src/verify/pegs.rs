@@ -8,8 +8,8 @@ use crate::mesh::TriMesh;
 
 /// Number of rays around a pin at each height: one for every flat of the pins in a kit.
 const DIRECTIONS: usize = 48;
-/// Heights at which the sides of a pin and its socket are measured, as shares of the pin's length:
-/// above the socket's chamfer, below the pin's.
+/// Heights at which the sides of a pin and its socket are measured, as shares of the pin's length.
+/// They are above the socket's chamfer and below the pin's.
 const HEIGHTS: [f64; 3] = [0.35, 0.5, 0.65];
 /// Number of points measured on a pin's end and on a socket's bottom.
 const ENDS: usize = 4;
@@ -29,8 +29,8 @@ const UNDER_MM: f64 = 0.005;
 pub struct PegFacts {
     /// The id that the pin and its socket share.
     pub id: String,
-    /// The largest deviation of radius, length or depth from the promise, mm. Infinite if the pin or
-    /// its socket is missing.
+    /// The largest deviation of radius, length or depth from the promise, mm. Infinite if the pin
+    /// or its socket is missing.
     pub deviation_mm: f64,
     /// The least gap between the sides of the pin and the socket, mm; `None` if either is missing.
     pub gap_mm: Option<f64>,

@@ -16,8 +16,8 @@ fn rod(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
     cylinder(diameter_mm / 2.0, below + above, 96).map_vertices(|p| p + base)
 }
 
-/// Returns the sound kit with a pin and a socket made in these sizes (diameter and length), the socket
-/// moved by `shift`. The sizes [`PIN`] and [`SOCKET`] are promised.
+/// Returns the sound kit with a pin and a socket made in these sizes (diameter and length), the
+/// socket moved by `shift`. The sizes [`PIN`] and [`SOCKET`] are promised.
 fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
     let mut evidence = sound();
     let body = |evidence: &Evidence, i: usize| {

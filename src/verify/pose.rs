@@ -81,8 +81,8 @@ impl Pose {
     }
 }
 
-/// Returns the larger of two numbers, or NaN if either is NaN, so that a broken matrix cannot pass as
-/// rigid.
+/// Returns the larger of two numbers, or NaN if either is NaN, so that a broken matrix cannot pass
+/// as rigid.
 fn max_or_nan(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }

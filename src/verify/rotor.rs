@@ -22,8 +22,8 @@ pub struct Unbalance {
     pub static_g_mm: f64,
     /// The couple unbalance about the centre of mass: the products of inertia with the axis, g·mm².
     pub couple_g_mm2: f64,
-    /// The larger of the two unbalances in the end planes, g·mm. Together they are equivalent to the
-    /// static and the couple unbalance.
+    /// The larger of the two unbalances in the end planes, g·mm. Together they are equivalent to
+    /// the static and the couple unbalance.
     pub end_plane_g_mm: f64,
     /// The balance quality grade e·ω, mm/s (ISO 21940-11, tolerance halved between two planes).
     ///

@@ -1,5 +1,5 @@
-//! The list of all hashes of a kit, in the format of `sha256sum --check`. It seals the papers, which
-//! the checklist cannot.
+//! The list of all hashes of a kit, in the format of `sha256sum --check`. It seals the papers,
+//! which the checklist cannot.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,7 +9,8 @@ use super::reading::read_file;
 use super::{Change, FileChange, Promise, VerifyError};
 use crate::base::digest::sha256_hex;
 
-/// Returns the list of these files, in their order. Each line has the hash, two blanks and the path.
+/// Returns the list of these files, in their order. Each line has the hash, two blanks and the
+/// path.
 pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String {
     files
         .into_iter()
@@ -19,8 +20,8 @@ pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String 
 
 /// Returns the changes of the papers: the checklist, the job sheet and the list itself.
 ///
-/// The checklist has the hashes of all other files, the job sheet that of the checklist, and the list
-/// all of them. Any two that disagree are reported.
+/// The checklist has the hashes of all other files, the job sheet that of the checklist, and the
+/// list all of them. Any two that disagree are reported.
 ///
 /// # Errors
 ///

@@ -13,8 +13,8 @@ use crate::mass::moments_of_mesh;
 use crate::mesh::TriMesh;
 use crate::repair::weld;
 
-/// The same limit for the model and its voids, which the checklist states as they were before they
-/// were rounded to the digits of a file.
+/// The same limit for the model and its voids. The checklist states them from before the rounding
+/// to a file's digits.
 const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
 /// Numbers within this distance are equal in any unit, since large numbers may cancel. The same
 /// triangles in another order move an axis by 1e-8 mm and tilt it by 1e-7°. A nanometre matters to
@@ -27,14 +27,14 @@ const MAX_LISTED: usize = 6;
 const KIND_KEYS: [&str; 3] = ["kind", "void", "figure"];
 
 /// A comparison of stated values with found ones, and the misstatements so far.
-struct Comparison {
+struct Comparer {
     /// Relative tolerance.
     ratio: f64,
     misstatements: Vec<String>,
 }
 
-/// Finds the places where the checklist disagrees with the files, a sentence each, in the order of its
-/// keys.
+/// Finds the places where the checklist disagrees with the files, a sentence each, in the order of
+/// its keys.
 ///
 /// Parts whose files do not match their fingerprints are left out with everything that depends on
 /// them. They are another fault, and would hide this one.
@@ -43,12 +43,12 @@ pub fn find_misstatements(
     evidence: &Evidence,
     judgement: &Judgement,
 ) -> Vec<String> {
-    let mut exact = Comparison {
+    let mut exact = Comparer {
         ratio: SHEET_LIMIT_RATIO,
         misstatements: Vec::new(),
     };
     exact.object("", sheet, &restate(sheet, evidence, judgement));
-    let mut rough = Comparison {
+    let mut rough = Comparer {
         ratio: BEFORE_ROUNDING_RATIO,
         misstatements: exact.misstatements,
     };
@@ -215,7 +215,7 @@ fn joint_rows(promise: &Promise) -> Vec<Value> {
     promise.joints.iter().map(row).collect()
 }
 
-impl Comparison {
+impl Comparer {
     /// Compares every key of `found` with the stated one. Keys that were not computed again are
     /// skipped.
     fn object(&mut self, at: &str, stated: &Value, found: &Value) {
@@ -277,8 +277,8 @@ fn is_near(stated: &Value, found: &Value, slack: f64) -> bool {
     }
 }
 
-/// Returns the largest magnitude in a value. The small numbers of a vector or tensor are as exact as its
-/// large ones.
+/// Returns the largest magnitude in a value. The small numbers of a vector or tensor are as exact
+/// as its large ones.
 pub(super) fn largest(value: &Value) -> f64 {
     match value {
         Value::Array(values) => values.iter().map(largest).fold(0.0, f64::max),

@@ -15,8 +15,8 @@ pub struct Shells {
 }
 
 impl Shells {
-    /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single vertex
-    /// stay apart, so a cavity that touches the outside in a point still counts as a cavity.
+    /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single
+    /// vertex stay apart, so a cavity that touches the outside in a point still counts as a cavity.
     pub fn of_mesh(mesh: &TriMesh) -> Self {
         let (outward, inward) = connected_pieces(mesh)
             .into_iter()
@@ -51,7 +51,8 @@ fn join(meshes: &[TriMesh]) -> TriMesh {
     meshes.iter().fold(TriMesh::default(), TriMesh::joined)
 }
 
-/// Returns the pieces of a mesh that are connected through shared edges, each with its own vertices.
+/// Returns the pieces of a mesh that are connected through shared edges, each with its own
+/// vertices.
 pub(super) fn connected_pieces(mesh: &TriMesh) -> Vec<TriMesh> {
     let mut groups: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     for (&triangle, root) in mesh.triangles().iter().zip(roots(mesh)) {

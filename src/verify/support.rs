@@ -70,8 +70,8 @@ fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// Returns the corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for
-/// convex hulls in two dimensions", IPL 9, 1979).
+/// Returns the corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm
+/// for convex hulls in two dimensions", IPL 9, 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();

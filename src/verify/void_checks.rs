@@ -3,7 +3,8 @@
 use super::limits::{OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
 use super::{Check, CheckKind, CleaningRule, Limit, Promise, PromisedVoid, VoidFacts};
 
-/// Checks that every void is open and clean by the printer's rule; empty if no cleaning was ordered.
+/// Checks that every void is open and clean by the printer's rule; empty if no cleaning was
+/// ordered.
 pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> {
     let Some(cleaning) = promise.printer.cleaning else {
         return Vec::new();
@@ -40,7 +41,7 @@ pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> 
             )
         }));
     }
-    checks.extend(stated_check(promise, found));
+    checks.extend(agreement_check(promise, found));
     checks
 }
 
@@ -66,8 +67,9 @@ fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check
     Check::new(kind, &promise, value, limit)
 }
 
-/// Checks that the sheet lists every void, with the share of its wall in sight; `None` without voids.
-fn stated_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
+/// Checks that the sheet lists every void, with the share of its wall in sight; `None` without
+/// voids.
+fn agreement_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
     if found.is_empty() && promise.voids.is_empty() {
         return None;
     }

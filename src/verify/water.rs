@@ -29,8 +29,8 @@ pub struct Afloat {
     /// The height of the lower metacentre over the centre of mass, mm. The body stays upright if it
     /// is positive.
     pub metacentric_height_mm: f64,
-    /// The greatest of the heels tried from which it rights itself in every direction, degrees; 0 if
-    /// there is none.
+    /// The greatest of the heels tried from which it rights itself in every direction, degrees; 0
+    /// if there is none.
     pub rights_from_deg: f64,
 }
 
@@ -115,7 +115,8 @@ impl Hull {
         Some(mean - (0.5 * (along_x - along_y)).hypot(cross))
     }
 
-    /// Returns the greatest heel tried up to which the body rights itself in every direction, degrees.
+    /// Returns the greatest heel tried up to which the body rights itself in every direction,
+    /// degrees.
     fn rights_from_deg(&self, body: &Upright) -> f64 {
         let direction = |i: usize| std::f64::consts::TAU * i as f64 / DIRECTIONS as f64;
         let is_righted = |heel_deg: &&f64| {
