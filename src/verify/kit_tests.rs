@@ -229,6 +229,26 @@ fn a_false_number_is_reported_with_its_key_and_both_values() {
 }
 
 #[test]
+fn a_kit_made_before_checks_had_kinds_passes_and_a_false_kind_is_reported() {
+    let with_checks = |change: &dyn Fn(&mut Value)| {
+        kit_with(|kit| {
+            edit(kit, |sheet| {
+                let rows = sheet["checks"].as_array_mut().unwrap();
+                rows.iter_mut().for_each(change);
+            });
+            seal(kit);
+        })
+        .unwrap()
+    };
+    let old = with_checks(&|row| {
+        row.as_object_mut().unwrap().remove("kind").unwrap();
+    });
+    assert!(old.passes());
+    let wrong = with_checks(&|row| row["kind"] = json!("pins"));
+    assert_eq!(failures(&wrong), ["checklist"]);
+}
+
+#[test]
 fn papers_that_do_not_belong_together_are_reported_one_by_one() {
     let changed = |change: &dyn Fn(&Path)| {
         let judgement = kit_with(change).unwrap();
