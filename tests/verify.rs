@@ -338,7 +338,7 @@ fn a_package_that_holds_other_parts_is_told() {
     assert_eq!(code, Some(1), "{said}");
     for words in [
         "holds P02 0 times",
-        "assembly.3mf: P01 is not the part of its own file, or not in its place",
+        "assembly.3mf: P01 differs from the part in its own file, or is not in its place",
     ] {
         assert!(said.contains(words), "{words:?} is not told in\n{said}");
     }

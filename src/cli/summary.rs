@@ -349,7 +349,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use super::*;
-    use crate::verify::Limit;
+    use crate::verify::{CheckKind, Limit};
 
     const PLAIN: Manner = Manner {
         quiet: false,
@@ -399,8 +399,14 @@ mod tests {
 
     #[test]
     fn what_failed_is_told_in_full_and_what_passed_is_counted() {
-        let check =
-            |name: &str, value| Check::new(name, name, Some(value), Limit::at_most(1.0, "mm"));
+        let check = |promise: &str, value| {
+            Check::new(
+                CheckKind::Wall,
+                promise,
+                Some(value),
+                Limit::at_most(1.0, "mm"),
+            )
+        };
         let checks = [
             check("one", 0.5),
             check("two", 2.0).at(Some("at P01".into())),

@@ -7,7 +7,7 @@ use super::Exit;
 use super::prepare::Voice;
 use super::show::{GREEN, Manner, RED, paint, say};
 use super::summary::{checks_table, summary};
-use crate::verify::{Check, FILES_CHECK, FileChange, VerifyError, files_check, verify_kit};
+use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
 
 /// Why `verify` could not run.
 #[derive(Debug, thiserror::Error)]
@@ -60,11 +60,13 @@ fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
         )
     });
     let mut text: String = causes.collect();
-    let told = |check: &&Check| !check.pass && (check.name != FILES_CHECK || changes.is_empty());
+    let told = |check: &&Check| {
+        !check.pass && (check.kind != CheckKind::ChangedFiles || changes.is_empty())
+    };
     let broken: Vec<Check> = checks.iter().filter(told).cloned().collect();
     let follows = changes.iter().any(FileChange::is_of_shape) && manner.verbose == 0;
     if follows && !broken.is_empty() {
-        let names: Vec<&str> = broken.iter().map(|check| check.name.as_str()).collect();
+        let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
         text += &format!(
             "  with it {} broken: {} (-v tells each)\n",
             if names.len() == 1 {

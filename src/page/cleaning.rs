@@ -6,7 +6,7 @@ use super::fields::left_inside;
 use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, VoidRow, checks_of_void};
-use crate::verify::Check;
+use crate::verify::{Check, CheckKind};
 
 /// Less than this left solid changes no figure that is shown, mm³: where the figures differ, it is
 /// for solving again with pins and on the printer's own columns.
@@ -37,7 +37,11 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
 }
 
 fn verdict(check: &Check) -> Markup {
-    let word = check.name.rsplit(' ').next().unwrap_or_default();
+    let word = if matches!(check.kind, CheckKind::VoidOpen { .. }) {
+        "open"
+    } else {
+        "clean"
+    };
     html! {
         @if check.pass { "✓ " (word) }
         @else { strong class="fail" { "✗ not " (word) } }

@@ -33,7 +33,7 @@ pub(super) fn checks(checks: &[Check]) -> Markup {
 fn check_line(check: &Check) -> Markup {
     html! {
         tr {
-            td { (check.name) }
+            td { (check.kind) }
             td { (check.promise) @if let Some(detail) = check.detail.as_ref().filter(|_| !check.pass) { br; span class="small" { (detail) } } }
             td class="n" { (quantity_or_dash(check.value, &check.unit)) }
             td class="n" { (check.comparison.sign()) " " (quantity(check.limit, &check.unit)) }

@@ -7,7 +7,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::goal::Request;
 use crate::run::{Model, Placed, Shop};
-use crate::verify::Check;
+use crate::verify::{Check, CheckKind, FigureName};
 
 /// Hint for models with hardware: remedies are searched for the bare model only.
 const BARE: &str =
@@ -60,35 +60,45 @@ pub fn remedies(
     })
 }
 
-/// Hints by the beginning of the name of a broken check.
-const HINTS: [(&str, &str); 8] = [
-    ("standing", "lay ballast into its foot (--ballast=auto)"),
+/// Hints by the kinds of the broken checks.
+const HINTS: [(fn(&CheckKind) -> bool, &str); 8] = [
     (
-        "axis",
+        |kind| matches!(kind, CheckKind::Standing),
+        "lay ballast into its foot (--ballast=auto)",
+    ),
+    (
+        |kind| matches!(kind, CheckKind::AxisOffset | CheckKind::AxisTilt),
         "a finer --pitch brings the written parts nearer to the optimum",
     ),
     (
-        "dominance",
+        |kind| {
+            let figure = FigureName::DominanceRatio;
+            matches!(kind, CheckKind::Dominance) || *kind == CheckKind::PromisedFigure { figure }
+        },
         "spin it about the axis of its largest moment (--up=principal, or --up=auto for the best of all)",
     ),
     (
-        "wall",
+        |kind| matches!(kind, CheckKind::Wall),
         "give a thicker --wall, so that what is lost at sharp edges does not count",
     ),
     (
-        "build volume",
+        |kind| matches!(kind, CheckKind::BuildVolume),
         "make it smaller (--size), or choose a printer with more room",
     ),
     (
-        "void",
+        |kind| kind.void().is_some() || matches!(kind, CheckKind::VoidsAsStated),
         "make it larger with the same wall, or give the cuts yourself: edit cuts.toml and give it back with --cut",
     ),
     (
-        "socket wall",
+        |kind| matches!(kind, CheckKind::SocketWall),
         "give a thicker --wall, or align the parts by dowels (--pins=dowel)",
     ),
-    ("waterline", "leave the waterline free (--waterline=auto)"),
+    (
+        |kind| matches!(kind, CheckKind::Waterline),
+        "leave the waterline free (--waterline=auto)",
+    ),
 ];
+
 /// Adds the reason why a kit breaks a promise, and what helps.
 pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
     if prepared.passes() {
@@ -97,10 +107,11 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
     watch.enter(Phase::Advise);
     let checks = prepared.checklist.checks.iter();
     let broken: Vec<&Check> = checks.filter(|check| !check.pass).collect();
-    let is_broken = |name: &str| broken.iter().any(|check| check.name.starts_with(name));
-    let hints = HINTS.iter().filter(|(name, _)| is_broken(name));
+    let hints = HINTS
+        .iter()
+        .filter(|(is_about, _)| broken.iter().any(|check| is_about(&check.kind)));
     let hints = hints.map(|(_, hint)| *hint).chain([MORE_ROOM]);
-    let falls_over = broken.iter().any(|check| check.name == "standing");
+    let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
     let failure = Failure {
         reason: reason(&prepared, &broken),
         hints: hints.map(str::to_owned).collect(),
@@ -120,7 +131,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
 /// What the goal could have reached, and what became of it.
 fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
     let proof = &prepared.checklist.certificate;
-    let names: Vec<&str> = broken.iter().map(|check| check.name.as_str()).collect();
+    let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
     let unit = proof.figure.unit();
     match proof.written_value {
         Some(written) => format!(

@@ -63,8 +63,7 @@ pub fn is_clean(checks: &[Check], void: &str) -> bool {
 
 /// The checks that are about a void.
 pub fn checks_of_void<'a>(checks: &'a [Check], void: &str) -> impl Iterator<Item = &'a Check> {
-    let names = ["open", "clean"].map(|word| format!("void {void} {word}"));
     checks
         .iter()
-        .filter(move |check| names.contains(&check.name))
+        .filter(move |check| check.kind.void() == Some(void))
 }

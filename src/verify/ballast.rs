@@ -1,14 +1,12 @@
-//! Ballast as a kit declares it: parts of stated mass at stated places, and whether they have room
-//! there; and fillings.
+//! Ballast and fillings as a kit declares them: their moments, and the room around the ballast.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Check, Limit};
 use crate::geom::Point;
 use crate::mass::{Lump, Moments, moments_of_mesh};
 use crate::mesh::{MeshDistance, TriMesh};
 
-/// A stock part that is laid into a void when the kit is put together.
+/// A stock part that is laid into a void during assembly.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct BallastOrder {
     /// Its name on the sheet, such as `B1`.
@@ -18,7 +16,7 @@ pub struct BallastOrder {
     pub lump: Lump,
 }
 
-/// What the parts add to a body of `density_g_mm3`, model frame.
+/// Returns the moments that the ballast adds to a body of this density, model frame.
 pub(super) fn ballast_moments(ballast: &[BallastOrder], density_g_mm3: f64) -> Moments {
     let of_part = |order: &BallastOrder| order.lump.moments(density_g_mm3);
     ballast
@@ -27,8 +25,8 @@ pub(super) fn ballast_moments(ballast: &[BallastOrder], density_g_mm3: f64) -> M
         .fold(Moments::default(), |sum, part| sum + part)
 }
 
-/// The least gap between a part of ballast and the material around it, mm; negative where one lies
-/// in material, or outside the body; none without ballast.
+/// Returns the least gap between a part of ballast and the material around it, mm, or `None`
+/// without ballast. Negative if a part lies in material or outside the body.
 pub(super) fn least_room_mm(
     ballast: &[BallastOrder],
     hollowed: &TriMesh,
@@ -46,26 +44,15 @@ pub(super) fn least_room_mm(
     Some(ballast.iter().map(room_mm).fold(f64::INFINITY, f64::min))
 }
 
-/// Whether every part of ballast fits where it was declared to lie.
-pub(super) fn room_check(room_mm: f64) -> Check {
-    let promise = "every part of ballast lies in a void, with a gap around it of";
-    Check::new(
-        "ballast room",
-        promise,
-        Some(room_mm),
-        Limit::above(0.0, "mm"),
-    )
-}
-
-/// What the voids are filled with.
+/// The filling of the voids.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FillOrder {
     /// Its density, g/cm³.
     pub density_g_cm3: f64,
 }
 
-/// What a filling of the voids, which are turned inward, adds to a body of `density_g_cm3`, model
-/// frame.
+/// Returns the moments that a filling of the voids adds to a body of this density, model frame. The
+/// surfaces of the voids are turned inward.
 pub(super) fn fill_moments(
     fill: Option<FillOrder>,
     voids: &TriMesh,

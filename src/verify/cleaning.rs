@@ -1,167 +1,138 @@
-//! Whether every void can be cleaned: its wall on the written parts, looked at through the mouths
-//! that the cuts leave in it.
+//! Facts about the cleaning of voids: the openings, and the share of each wall in sight of them, on
+//! the written parts.
 
 use rayon::prelude::*;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
-use super::mouths::{Place, places};
-use super::pegs::Felt;
-use super::shells::pieces;
-use super::{Check, Limit, Promise};
+use super::mouths::{MouthPoint, sample_mouths};
+use super::part_probe::PartProbe;
+use super::shells::connected_pieces;
+use super::{Promise, PromisedCut};
 use crate::geom::triangle::closest_on_segment;
 use crate::geom::{Bvh, Plane, Point, Vector};
 use crate::mesh::{TriMesh, area_mm2, spread_points};
-use crate::printer::CleaningRule;
 use crate::repair::weld;
 
-/// What is within this of a void's surface is its wall, and what is within it of a cut lies in it,
-/// mm: a hundred steps of f32 coordinates at 100 mm, a tenth of the thinnest layer.
+/// Distance within which triangles belong to a void's wall and points lie in a cut, mm. It is a
+/// hundred steps of f32 coordinates at 100 mm, and a tenth of the thinnest layer.
 const NEAR_MM: f64 = 1e-3;
-/// Points of each void's wall that are looked at: a share of 5 % is then known to four thousandths.
+/// Number of sample points on each void's wall: a share of 5 % is then known to four thousandths.
 const SAMPLES: f64 = 3000.0;
-/// Places of a piece's mouths that are looked from, at most.
-const EYES: usize = 400;
-/// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
-const LOOKED_RATIO: f64 = 0.999;
-/// Pieces of a wall below this share of it are what rounding leaves of triangles along a rim.
-const CRUMB_RATIO: f64 = 1e-4;
+/// Greatest number of viewpoints in the mouths of a piece.
+const MAX_VIEWPOINTS: usize = 400;
+/// Share of a line of sight that must be clear; the rest would meet the wall it ends on.
+const CLEAR_RATIO: f64 = 0.999;
+/// Pieces of a wall below this share are slivers that rounding leaves along a rim.
+const SLIVER_RATIO: f64 = 1e-4;
 /// A pocket no deeper than half its mouth lies in plain sight, and its mouth may be of any width.
 const DIMPLE_RATIO: f64 = 0.5;
-/// A measured opening may fall short of the least by this share: where the widest disc lies is
-/// searched for by steps.
-const OPENING_SLACK_RATIO: f64 = 2e-3;
-/// A stated share in sight may differ from the found one by this: four standard deviations of two
-/// samples of 2000 and 3000 at a half, where they are widest, are 0.058; where 95 % is asked they
-/// are 0.025.
-pub const SIGHT_TOLERANCE_RATIO: f64 = 0.06;
 
-/// A cut of the checklist.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct PromisedCut {
-    /// A point of its plane, model frame, mm.
-    pub point_mm: [f64; 3],
-    /// The normal of its plane, model frame.
-    pub normal: [f64; 3],
-}
-
-/// What the checklist says of a void, in the order of the cavities of `hollowed.stl`.
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct PromisedVoid {
-    /// The name on the sheet, such as `V1`.
-    pub id: String,
-    /// The share of its wall in sight of its openings, if it was measured.
-    #[serde(default)]
-    pub sight_ratio: Option<f64>,
-    /// The least opening that was ordered for it, mm; the printer's where none is stated.
-    #[serde(default)]
-    pub least_opening_mm: Option<f64>,
-}
-
-/// How a void lies open in the written parts.
+/// Facts about the openings of a void in the written parts.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct VoidFacts {
     /// The name on the sheet.
     pub id: String,
-    /// For every piece of it that is no dimple, the diameters of the largest discs through its
-    /// mouths, the widest first, mm.
+    /// Diameters of the largest discs through the mouths of every piece that is no dimple, the
+    /// widest first, mm.
     pub openings_mm: Vec<Vec<f64>>,
-    /// The share of its wall in sight of the mouths of its own piece, and within the tool's reach.
+    /// Share of its wall in sight of the mouths of the same piece and within the tool's reach.
     pub sight_ratio: f64,
-    /// The share that is in sight, or printed without support because it does not look down, or
-    /// leans enough.
+    /// Share of its wall that is in sight, or printed without support since it does not face down
+    /// or is steep enough.
     pub clean_ratio: f64,
 }
 
+/// A point in a mouth, with the index of its cut.
+type OwnPoint = (usize, MouthPoint);
+
 /// A connected piece of a void's wall on a part.
 struct Patch<'a> {
-    felt: &'a Felt<'a>,
+    probe: &'a PartProbe<'a>,
     /// Its triangles, model frame.
     wall: TriMesh,
-    /// Its edges that lie in a cut, with the cut's index.
+    /// Its open edges that lie in a cut, with the cut's index.
     rims: Vec<(usize, [Point; 2])>,
 }
 
-/// The voids of the uncut result as the parts have them; none where no cleaning was ordered.
-pub(super) fn voids(promise: &Promise, cavities: &[TriMesh], felt: &[Felt]) -> Vec<VoidFacts> {
+/// Inspects the voids of the uncut result on the parts; empty if no cleaning was ordered.
+pub(super) fn inspect_voids(
+    promise: &Promise,
+    cavities: &[TriMesh],
+    probes: &[PartProbe],
+) -> Vec<VoidFacts> {
     let Some(cleaning) = promise.printer.cleaning else {
         return Vec::new();
     };
     let plane =
         |cut: &PromisedCut| Plane::through(&Point::from(cut.point_mm), &Vector::from(cut.normal));
     let planes: Vec<Plane> = promise.cuts.iter().map(plane).collect();
-    let parts: Vec<TriMesh> = felt.par_iter().map(in_model).collect();
+    let parts = probes.par_iter().map(PlacedPart::new).collect::<Vec<_>>();
     let tool_mm = promise.printer.minimum_opening_mm.unwrap_or(0.0);
-    let (reach_mm, overhang_deg) = (
-        cleaning.reach_mm.unwrap_or(f64::INFINITY),
-        cleaning.overhang_deg,
-    );
-    let seeker = Seeker {
+    let inspector = Inspector {
         planes: &planes,
         tool_mm,
-        reach_mm,
-        overhang_deg,
+        reach_mm: cleaning.reach_mm.unwrap_or(f64::INFINITY),
+        overhang_deg: cleaning.overhang_deg,
     };
-    let fact = |(index, cavity): (usize, &TriMesh)| {
+    let facts = |(index, cavity): (usize, &TriMesh)| {
         let id = promise
             .voids
             .get(index)
             .map_or_else(|| format!("V{}", index + 1), |void| void.id.clone());
-        seeker.void(id, cavity, (felt, &parts))
+        inspector.inspect(id, cavity, &parts)
     };
-    cavities.par_iter().enumerate().map(fact).collect()
+    cavities.par_iter().enumerate().map(facts).collect()
 }
 
-/// A part's triangles where they belong in the model.
-fn in_model(felt: &Felt) -> TriMesh {
-    weld(&felt.part.mesh).map_vertices(|p| felt.part.pose.to_model(p))
+/// A part with its welded surface in its place in the model.
+struct PlacedPart<'a> {
+    probe: &'a PartProbe<'a>,
+    surface: TriMesh,
 }
 
-/// How voids are looked into.
-struct Seeker<'a> {
+impl<'a> PlacedPart<'a> {
+    fn new(probe: &'a PartProbe) -> Self {
+        let part = probe.part;
+        let surface = weld(&part.mesh).map_vertices(|p| part.pose.to_model(p));
+        Self { probe, surface }
+    }
+}
+
+/// The inspection of voids: the planes of the cuts, and the limits of the tool and the process.
+struct Inspector<'a> {
     planes: &'a [Plane],
     tool_mm: f64,
     reach_mm: f64,
     overhang_deg: Option<f64>,
 }
 
-impl Seeker<'_> {
-    fn void(
-        &self,
-        id: String,
-        cavity: &TriMesh,
-        (felt, parts): (&[Felt], &[TriMesh]),
-    ) -> VoidFacts {
+impl Inspector<'_> {
+    /// Measures the openings of a void and the shares of its wall on all parts.
+    fn inspect(&self, id: String, cavity: &TriMesh, parts: &[PlacedPart]) -> VoidFacts {
         let surface = Bvh::new(cavity.iter_corners());
-        let area: f64 = cavity
-            .iter_corners()
-            .map(|corners| area_mm2(&corners))
-            .sum();
-        let mouths: Vec<Vec<Place>> = self
+        let area = surface_mm2(cavity);
+        let mouths: Vec<Vec<MouthPoint>> = self
             .planes
             .iter()
-            .map(|plane| places(cavity, plane, self.tool_mm / 2.0))
+            .map(|plane| sample_mouths(cavity, plane, self.tool_mm / 2.0))
             .collect();
         let (mut openings_mm, mut found, mut seen, mut clean) = (Vec::new(), 0.0, 0.0, 0.0);
-        for (felt, part) in felt.iter().zip(parts) {
-            for patch in self.patches(&surface, felt, part) {
-                let wall_mm2: f64 = patch
-                    .wall
-                    .iter_corners()
-                    .map(|corners| area_mm2(&corners))
-                    .sum();
-                if wall_mm2 < CRUMB_RATIO * area {
+        for part in parts {
+            for patch in self.patches(&surface, part) {
+                let wall_mm2 = surface_mm2(&patch.wall);
+                if wall_mm2 < SLIVER_RATIO * area {
                     continue;
                 }
-                let own = patch.places(&mouths);
+                let own = patch.own_points(&mouths);
                 openings_mm.extend(self.openings(&patch, &own));
-                let [in_sight, cleaned] =
-                    self.looked_at(&patch, &own, (wall_mm2 / area * SAMPLES) as usize);
+                let [seen_ratio, clean_ratio] =
+                    self.shares(&patch, &own, (wall_mm2 / area * SAMPLES) as usize);
                 found += wall_mm2;
-                seen += in_sight * wall_mm2;
-                clean += cleaned * wall_mm2;
+                seen += seen_ratio * wall_mm2;
+                clean += clean_ratio * wall_mm2;
             }
         }
-        // What no part has of the wall counts as out of sight.
+        // Any of the wall that is on no part counts as out of sight.
         let whole = f64::max(found, area).max(f64::MIN_POSITIVE);
         VoidFacts {
             id,
@@ -171,128 +142,142 @@ impl Seeker<'_> {
         }
     }
 
-    /// The connected pieces of a void's wall on a part.
-    fn patches<'a>(&self, surface: &Bvh, felt: &'a Felt<'a>, part: &TriMesh) -> Vec<Patch<'a>> {
+    /// Returns the connected pieces of a void's wall on a part.
+    fn patches<'a>(&self, void: &Bvh, part: &'a PlacedPart) -> Vec<Patch<'a>> {
+        let PlacedPart { probe, surface } = part;
         let in_cut = |points: &[Point]| {
             self.planes
                 .iter()
                 .position(|plane| points.iter().all(|p| plane.distance(p).abs() < NEAR_MM))
         };
         let is_wall = |t: &&[u32; 3]| {
-            let corners = t.map(|v| part.vertices()[v as usize]);
+            let corners = t.map(|v| surface.vertices()[v as usize]);
             let middle =
                 Point::from((corners[0].coords + corners[1].coords + corners[2].coords) / 3.0);
-            surface.closest(&middle, NEAR_MM, &[]).is_some() && in_cut(&corners).is_none()
+            void.closest(&middle, NEAR_MM, &[]).is_some() && in_cut(&corners).is_none()
         };
-        let triangles: Vec<[u32; 3]> = part.triangles().iter().filter(is_wall).copied().collect();
-        let all = TriMesh::new(part.vertices().to_vec(), triangles).unwrap_or_default();
+        let triangles: Vec<[u32; 3]> = surface
+            .triangles()
+            .iter()
+            .filter(is_wall)
+            .copied()
+            .collect();
+        let all = TriMesh::new(surface.vertices().to_vec(), triangles).unwrap_or_default();
         let patch = |wall: TriMesh| {
             let rims = open_edges(&wall).into_iter();
             Patch {
-                felt,
+                probe,
                 rims: rims
                     .filter_map(|edge| Some((in_cut(&edge)?, edge)))
                     .collect(),
                 wall,
             }
         };
-        pieces(&all).into_iter().map(patch).collect()
+        connected_pieces(&all).into_iter().map(patch).collect()
     }
 
-    /// The openings of a piece that is no dimple.
-    fn openings(&self, patch: &Patch, own: &[(usize, Place)]) -> Option<Vec<f64>> {
+    /// Returns the widths of the mouths of a piece, the widest first, mm; `None` if it is a dimple.
+    fn openings(&self, patch: &Patch, own: &[OwnPoint]) -> Option<Vec<f64>> {
         let mut widest: Vec<((usize, usize), f64)> = Vec::new();
-        for (cut, place) in own {
-            let (name, wide_mm) = ((*cut, place.mouth), 2.0 * place.room_mm);
-            match widest.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, most_mm)) => *most_mm = most_mm.max(wide_mm),
-                None => widest.push((name, wide_mm)),
+        for (cut, point) in own {
+            let (mouth, width_mm) = ((*cut, point.mouth), 2.0 * point.room_mm);
+            match widest.iter_mut().find(|(known, _)| *known == mouth) {
+                Some((_, most_mm)) => *most_mm = most_mm.max(width_mm),
+                None => widest.push((mouth, width_mm)),
             }
         }
         widest.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let is_dimple = widest.first().is_some_and(|&((cut, _), wide_mm)| {
+        let is_dimple = widest.first().is_some_and(|&((cut, _), width_mm)| {
             let heights = patch
                 .wall
                 .vertices()
                 .iter()
                 .map(|p| self.planes[cut].distance(p).abs());
-            heights.fold(0.0, f64::max) <= DIMPLE_RATIO * wide_mm
+            heights.fold(0.0, f64::max) <= DIMPLE_RATIO * width_mm
         });
-        (!is_dimple).then(|| widest.into_iter().map(|(_, wide_mm)| wide_mm).collect())
+        (!is_dimple).then(|| widest.into_iter().map(|(_, width_mm)| width_mm).collect())
     }
 
-    /// The shares of a piece's wall in sight, and in sight or printed without support.
-    fn looked_at(&self, patch: &Patch, own: &[(usize, Place)], count: usize) -> [f64; 2] {
-        let eyes = self.eyes(own);
+    /// Returns the shares of a piece's wall in sight, and in sight or printed without support.
+    fn shares(&self, patch: &Patch, own: &[OwnPoint], count: usize) -> [f64; 2] {
+        let viewpoints = self.viewpoints(own);
         let corners: Vec<[Point; 3]> = patch.wall.iter_corners().collect();
         let points = spread_points(&corners, count.max(1));
-        let looks: Vec<[bool; 2]> = points
+        let seen_and_clean: Vec<[bool; 2]> = points
             .par_iter()
             .map(|point| {
-                let is_seen = eyes.iter().any(|eye| self.sees(patch.felt, eye, &point.at));
+                let is_seen = viewpoints
+                    .iter()
+                    .any(|eye| self.sees(patch.probe, eye, &point.at));
                 [
                     is_seen,
-                    is_seen || self.needs_nothing(patch.felt, &corners[point.triangle]),
+                    is_seen || self.is_self_supporting(patch.probe, &corners[point.triangle]),
                 ]
             })
             .collect();
-        [0, 1]
-            .map(|i| looks.iter().filter(|look| look[i]).count() as f64 / looks.len().max(1) as f64)
+        let total = seen_and_clean.len().max(1) as f64;
+        [0, 1].map(|i| seen_and_clean.iter().filter(|is| is[i]).count() as f64 / total)
     }
 
-    /// The places that let the tool in, thinned; the widest where none does.
-    fn eyes(&self, own: &[(usize, Place)]) -> Vec<Point> {
-        let mut roomy: Vec<&Place> = own.iter().map(|(_, place)| place).collect();
+    /// Returns a thinned list of the points that let the tool in, or the widest if none does.
+    fn viewpoints(&self, own: &[OwnPoint]) -> Vec<Point> {
+        let mut roomy: Vec<&MouthPoint> = own.iter().map(|(_, point)| point).collect();
         roomy.sort_by(|a, b| b.room_mm.total_cmp(&a.room_mm));
         let wide = roomy
             .iter()
-            .filter(|place| 2.0 * place.room_mm >= self.tool_mm)
+            .filter(|point| 2.0 * point.room_mm >= self.tool_mm)
             .count()
             .max(1);
-        let stride = wide.div_ceil(EYES).max(1);
+        let stride = wide.div_ceil(MAX_VIEWPOINTS).max(1);
         roomy
             .iter()
             .take(wide)
             .step_by(stride)
-            .map(|place| place.at)
+            .map(|point| point.at)
             .collect()
     }
 
-    /// Whether nothing of the part is between the eye and a place of its wall within reach.
-    fn sees(&self, felt: &Felt, eye: &Point, at: &Point) -> bool {
+    /// Returns true if the wall at a point is within reach of the eye and nothing of the part is
+    /// between them.
+    fn sees(&self, probe: &PartProbe, eye: &Point, at: &Point) -> bool {
         let line = at - eye;
-        line.norm() <= self.reach_mm && felt.is_clear(eye, &(eye + line * LOOKED_RATIO))
+        line.norm() <= self.reach_mm && probe.is_clear(eye, &(eye + line * CLEAR_RATIO))
     }
 
-    /// Whether a triangle of a part's surface prints without support: it looks up, or leans enough
-    /// from the level.
-    fn needs_nothing(&self, felt: &Felt, [a, b, c]: &[Point; 3]) -> bool {
+    /// Returns true if a triangle of a part's surface prints without support: it faces up or is
+    /// steep enough.
+    fn is_self_supporting(&self, probe: &PartProbe, [a, b, c]: &[Point; 3]) -> bool {
         let Some(overhang_deg) = self.overhang_deg else {
             return false;
         };
-        let normal = felt.part.pose.rotation() * (b - a).cross(&(c - a));
+        let normal = probe.part.pose.rotation() * (b - a).cross(&(c - a));
         -normal.z <= overhang_deg.to_radians().cos() * normal.norm()
     }
 }
 
 impl Patch<'_> {
-    /// The places of the void's mouths whose nearest rim is this piece's, with their cuts.
-    fn places(&self, mouths: &[Vec<Place>]) -> Vec<(usize, Place)> {
-        let is_own = |cut: usize, place: &Place| {
+    /// Returns the points of the void's mouths whose nearest rim belongs to this piece.
+    fn own_points(&self, mouths: &[Vec<MouthPoint>]) -> Vec<OwnPoint> {
+        let is_own = |cut: usize, point: &MouthPoint| {
             let edges = self.rims.iter().filter(|(of, _)| *of == cut);
             edges.into_iter().any(|(_, [a, b])| {
-                (closest_on_segment(&place.rim, a, b) - place.rim).norm() < 2.0 * NEAR_MM
+                (closest_on_segment(&point.rim, a, b) - point.rim).norm() < 2.0 * NEAR_MM
             })
         };
         let all = mouths
             .iter()
             .enumerate()
-            .flat_map(|(cut, places)| places.iter().map(move |place| (cut, *place)));
-        all.filter(|(cut, place)| is_own(*cut, place)).collect()
+            .flat_map(|(cut, points)| points.iter().map(move |point| (cut, *point)));
+        all.filter(|(cut, point)| is_own(*cut, point)).collect()
     }
 }
 
-/// The edges of a surface that have one side only.
+/// Returns the area of a surface, mm².
+fn surface_mm2(mesh: &TriMesh) -> f64 {
+    mesh.iter_corners().map(|corners| area_mm2(&corners)).sum()
+}
+
+/// Returns the edges of a surface with a triangle on one side only.
 fn open_edges(mesh: &TriMesh) -> Vec<[Point; 2]> {
     let mut sides: Vec<[u32; 2]> = mesh
         .triangles()
@@ -304,87 +289,4 @@ fn open_edges(mesh: &TriMesh) -> Vec<[Point; 2]> {
     let open = sides.iter().copied().filter(is_open);
     open.map(|side| side.map(|v| mesh.vertices()[v as usize]))
         .collect()
-}
-
-/// Whether every void is open and clean by the printer's rule.
-pub(super) fn cleaning_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> {
-    let Some(cleaning) = promise.printer.cleaning else {
-        return Vec::new();
-    };
-    let mut checks = Vec::new();
-    for (index, void) in found.iter().enumerate() {
-        let ordered = promise.voids.get(index);
-        let least_mm = ordered
-            .and_then(|void| void.least_opening_mm)
-            .or(promise.printer.minimum_opening_mm);
-        checks.push(opening_check(
-            void,
-            cleaning.pair_opening_mm,
-            least_mm.unwrap_or(0.0),
-        ));
-        let share = match cleaning.rule {
-            CleaningRule::InSight => Some(("in sight of its openings", void.sight_ratio)),
-            CleaningRule::InSightOrSelfSupporting => Some((
-                "in sight of its openings, or printed without support",
-                void.clean_ratio,
-            )),
-            CleaningRule::MeltOut | CleaningRule::PowderEscape => None,
-        };
-        checks.extend(share.map(|(what, ratio)| {
-            let promise = format!("the wall of {} is {what}, to a share of", void.id);
-            let name = format!("void {} clean", void.id);
-            Check::new(
-                &name,
-                &promise,
-                Some(ratio),
-                Limit::at_least(cleaning.sight_ratio, ""),
-            )
-        }));
-    }
-    checks.extend(stated_check(promise, found));
-    checks
-}
-
-/// Whether every piece of a void has an opening wide enough, or two where two smaller ones do.
-fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check {
-    let by_pair = |openings: &Vec<f64>| {
-        let second_mm = openings.get(1).copied().unwrap_or(0.0);
-        let one_mm = openings.first().copied().unwrap_or(0.0);
-        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) {
-            one_mm.max(least_mm)
-        } else {
-            one_mm
-        }
-    };
-    let narrowest_mm = void.openings_mm.iter().map(by_pair).reduce(f64::min);
-    let promise = format!("every piece of {} opens by", void.id);
-    let limit = Limit::at_least(least_mm * (1.0 - OPENING_SLACK_RATIO), "mm");
-    // A void in which every piece is a dimple lies in plain sight.
-    let value = narrowest_mm.or((void.sight_ratio > 0.0).then_some(least_mm));
-    Check::new(&format!("void {} open", void.id), &promise, value, limit)
-}
-
-/// Whether the sheet tells of every void, and of its sight what is found.
-fn stated_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
-    if found.is_empty() && promise.voids.is_empty() {
-        return None;
-    }
-    let off = |(void, facts): (&PromisedVoid, &VoidFacts)| {
-        Some((void.sight_ratio? - facts.sight_ratio).abs())
-    };
-    let worst = promise
-        .voids
-        .iter()
-        .zip(found)
-        .filter_map(off)
-        .fold(0.0, f64::max);
-    let is_whole = promise.voids.len() == found.len();
-    let name = "voids as stated";
-    let promise = "the sheet states the share of every void's wall in sight, within";
-    Some(Check::new(
-        name,
-        promise,
-        is_whole.then_some(worst),
-        Limit::at_most(SIGHT_TOLERANCE_RATIO, ""),
-    ))
 }

@@ -1,44 +1,48 @@
-//! The figures of a body for its goal, computed from its ten moments and nothing else.
+//! The figures of a body for its goal, computed from its ten moments alone.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Afloat, Aim, FigureName, Hull, Support, Unbalance, WaterOrder};
+use super::hardware::mass_moments;
+use super::rotor::ends_mm;
+use super::{Afloat, Aim, FigureName, Hull, Promise, Support, Unbalance, WaterOrder};
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::geom::{Frame, Matrix};
 use crate::goal::GoalKind;
 use crate::mass::{Body, Moments};
+use crate::mesh::TriMesh;
 
 /// Revolutions per minute in one radian per second.
 const RPM_PER_RAD_S: f64 = 60.0 / std::f64::consts::TAU;
 /// Cubic millimetres in one cubic centimetre.
 const MM3_PER_CM3: f64 = 1000.0;
 
-/// How a body is looked at: its material, its goal, and what it stands on.
+/// The setting of the figures: the material, the goal, and what the goal needs of the surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Setting {
     /// The density, g/cm³.
     pub density_g_cm3: f64,
     /// The goal as placed on the model.
     pub aim: Aim,
-    /// The support polygon of the outer surface, in the goal frame; only an object that stands has
-    /// one.
+    /// The support polygon of the outer surface, in the goal frame; only for an object that stands.
     pub support: Option<Support>,
-    /// Where the outer surface begins and ends along the axis, goal frame, mm; only a rotor has its
-    /// planes there.
+    /// The extent of the outer surface along the axis, goal frame, mm; only for a rotor, which has
+    /// its planes there.
     pub ends_mm: Option<[f64; 2]>,
-    /// The outer surface in the goal frame; only what floats has water on it.
+    /// The outer surface in the goal frame; only for an object that floats.
     pub hull: Option<Hull>,
-    /// The moments times the densities of what is not printed, model frame, g, g·mm and g·mm².
+    /// The moments of the hardware times its densities, model frame, g, g·mm and g·mm².
     pub hardware: Moments,
 }
 
-/// The mass properties of a body and its figures for the goal; a figure that the goal does not ask
-/// for, or that does not exist (the critical speed of a top that cannot spin), is `None`.
+/// The mass properties of a body and its figures for the goal.
+///
+/// A figure is `None` if the goal does not ask for it or if it does not exist. An example is the
+/// critical speed of a top that cannot spin.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// With its hardware, g.
+    /// The mass with the hardware, g.
     pub mass_g: f64,
-    /// Of what is printed, mm³.
+    /// The printed volume, mm³.
     pub volume_mm3: f64,
     /// The centre of mass, model frame, mm.
     pub center_mm: [f64; 3],
@@ -52,7 +56,7 @@ pub struct Figures {
     pub axis_offset_mm: Option<f64>,
     /// The angle between the spin axis and the principal axis nearest to it, degrees.
     pub axis_tilt_deg: Option<f64>,
-    /// The larger transverse moment over the axial one about the centre, I_b/I_c; below 1 the axis
+    /// The larger transverse moment over the axial one about the centre, I_b/I_c. Below 1 the axis
     /// is dominant.
     pub dominance_ratio: Option<f64>,
     /// Spin-It's squared ratio (I_xx² + 2 I_xy² + I_yy²)/I_zz² about the centre (eq. 6).
@@ -61,33 +65,47 @@ pub struct Figures {
     pub critical_speed_rpm: Option<f64>,
     /// The tilt at which a standing object topples, degrees; negative if it does not stand.
     pub topples_deg: Option<f64>,
-    /// What is left of a rotor's unbalance.
+    /// The residual unbalance of a rotor.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub unbalance: Option<Unbalance>,
-    /// How it floats; none where it sinks.
+    /// The floating position and stability; `None` if it sinks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub afloat: Option<Afloat>,
 }
 
 impl Setting {
-    /// The density, g/mm³.
+    /// Returns the setting of a kit: its goal, and the properties of the outer surface (model
+    /// frame) that the goal needs.
+    pub fn new(promise: &Promise, outer: &TriMesh) -> Self {
+        let (aim, frame) = (promise.goal, promise.goal.frame());
+        Self {
+            density_g_cm3: promise.material.density_g_cm3,
+            aim,
+            support: (aim.kind == GoalKind::Stand).then(|| Support::of_mesh(outer, &frame)),
+            ends_mm: (aim.kind == GoalKind::Balance).then(|| ends_mm(outer, &frame)),
+            hull: (aim.kind == GoalKind::Float).then(|| Hull::new(outer, &frame)),
+            hardware: mass_moments(&promise.hardware),
+        }
+    }
+
+    /// Returns the density, g/mm³.
     pub fn density_g_mm3(&self) -> f64 {
         self.density_g_cm3 / MM3_PER_CM3
     }
 }
 
 impl Figures {
-    /// The figures of a printed region with a load inside, both as moments of the print's density
-    /// (model frame); the volume is that of the print alone.
-    pub fn loaded(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
+    /// Returns the figures of a printed region with a load inside. Both are moments of the print's
+    /// density (model frame). The volume is that of the print alone.
+    pub fn with_load(printed: &Moments, load: &Moments, setting: &Setting) -> Self {
         Self {
             volume_mm3: printed.volume(),
             ..Self::new(&(*printed + *load), setting)
         }
     }
 
-    /// The figures of the region with these moments (model frame), with the setting's hardware in
-    /// it. As exact as the moments: nothing is sampled.
+    /// Returns the figures of the region with these moments (model frame) and the setting's
+    /// hardware in it. As exact as the moments: nothing is sampled.
     pub fn new(printed: &Moments, setting: &Setting) -> Self {
         let density_g_mm3 = setting.density_g_mm3();
         let moments = &(*printed + setting.hardware * density_g_mm3.recip());
@@ -95,15 +113,15 @@ impl Figures {
         let frame = setting.aim.frame();
         let plain = Self::without_goal(printed.volume(), &body);
         match setting.aim.kind {
-            GoalKind::Top => plain.of_top(&body, &frame),
-            GoalKind::Yoyo => plain.of_yoyo(&body, &frame),
-            GoalKind::Stand => plain.of_standing(&body, &frame, setting.support.as_ref()),
-            GoalKind::Float => plain.of_floating(&body, setting),
-            GoalKind::Balance => plain.of_rotor(moments, setting),
+            GoalKind::Top => plain.for_top(&body, &frame),
+            GoalKind::Yoyo => plain.for_yoyo(&body, &frame),
+            GoalKind::Stand => plain.for_stand(&body, &frame, setting.support.as_ref()),
+            GoalKind::Float => plain.for_float(&body, setting),
+            GoalKind::Balance => plain.for_rotor(moments, setting),
         }
     }
 
-    /// The value of one figure, if this body has it.
+    /// Returns the value of one figure, if this body has it.
     pub fn value_of(&self, name: FigureName) -> Option<f64> {
         match name {
             FigureName::CriticalSpeedRpm => self.critical_speed_rpm,
@@ -139,23 +157,23 @@ impl Figures {
         }
     }
 
-    fn of_top(self, body: &Body, frame: &Frame) -> Self {
+    fn for_top(self, body: &Body, frame: &Frame) -> Self {
         let local = body.in_frame(frame);
         Self {
             axis_offset_mm: Some(local.center.x.hypot(local.center.y)),
             critical_speed_rpm: critical_speed_rpm(&local),
-            ..self.spinning(body, frame)
+            ..self.for_spinning(body, frame)
         }
     }
 
-    fn of_yoyo(self, body: &Body, frame: &Frame) -> Self {
+    fn for_yoyo(self, body: &Body, frame: &Frame) -> Self {
         Self {
             axis_offset_mm: Some((body.center - frame.origin).norm()),
-            ..self.spinning(body, frame)
+            ..self.for_spinning(body, frame)
         }
     }
 
-    fn of_standing(self, body: &Body, frame: &Frame, support: Option<&Support>) -> Self {
+    fn for_stand(self, body: &Body, frame: &Frame, support: Option<&Support>) -> Self {
         let center = frame.to_local(&body.center);
         let ground_mm = support.map_or(0.0, |support| support.ground_mm);
         Self {
@@ -165,7 +183,7 @@ impl Figures {
         }
     }
 
-    fn of_floating(self, body: &Body, setting: &Setting) -> Self {
+    fn for_float(self, body: &Body, setting: &Setting) -> Self {
         let center = setting.aim.frame().to_local(&body.center);
         let float = |(hull, order): (&Hull, WaterOrder)| {
             hull.float(body.mass_g / (order.liquid_g_cm3 / MM3_PER_CM3), &center)
@@ -178,7 +196,7 @@ impl Figures {
         }
     }
 
-    fn of_rotor(self, moments: &Moments, setting: &Setting) -> Self {
+    fn for_rotor(self, moments: &Moments, setting: &Setting) -> Self {
         let (local, density) = (
             moments.in_frame(&setting.aim.frame()),
             setting.density_g_mm3(),
@@ -194,8 +212,8 @@ impl Figures {
         }
     }
 
-    /// What tops and yo-yos have in common.
-    fn spinning(self, body: &Body, frame: &Frame) -> Self {
+    /// Adds the figures that tops and yo-yos have in common.
+    fn for_spinning(self, body: &Body, frame: &Frame) -> Self {
         let local = body.in_frame(frame);
         let (inertia, axial) = (&local.inertia_g_mm2, local.inertia_g_mm2[(2, 2)]);
         let transverse = inertia.fixed_view::<2, 2>(0, 0).norm_squared();
@@ -209,7 +227,7 @@ impl Figures {
     }
 }
 
-/// The angle between the frame's axis and the principal axis nearest to it, radians.
+/// Returns the angle between the frame's axis and the principal axis nearest to it, radians.
 fn axis_tilt(body: &Body, frame: &Frame) -> f64 {
     let axis = frame.axis();
     let axes = body.principal().axes;
@@ -225,17 +243,17 @@ fn axis_tilt(body: &Body, frame: &Frame) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The larger eigenvalue of the upper 2×2 block of a tensor whose z is the spin axis.
+/// Returns the larger eigenvalue of the upper 2×2 block of a tensor whose z is the spin axis.
 fn largest_transverse(inertia: &Matrix) -> f64 {
     let (xx, xy, yy) = (inertia[(0, 0)], inertia[(0, 1)], inertia[(1, 1)]);
     0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
 }
 
-/// ω = √(g M ℓ / (I_c − I_b)) with the moments about the centre (Spin-It eq. 1), for a body in the
-/// goal frame.
+/// Returns ω = √(g M ℓ / (I_c − I_b)) in rpm, with the moments about the centre (Spin-It eq. 1),
+/// for a body in the goal frame.
 ///
-/// Zero when the centre hangs below the contact; none when the axis is not dominant, for then no
-/// speed is enough.
+/// Zero if the centre hangs below the contact. `None` if the axis is not dominant, since no speed
+/// is enough then.
 fn critical_speed_rpm(local: &Body) -> Option<f64> {
     let margin = local.inertia_g_mm2[(2, 2)] - largest_transverse(&local.inertia_g_mm2);
     let height_mm = local.center.z.max(0.0);
@@ -248,7 +266,7 @@ mod tests {
     use super::*;
     use crate::geom::{Point, Vector};
 
-    /// The moments of a box with one corner at `corner`, in closed form.
+    /// Returns the moments of a box with one corner at `corner`, in closed form.
     fn box_moments(corner: [f64; 3], size: [f64; 3]) -> Moments {
         let [a, b, c] = size;
         let volume = a * b * c;
@@ -341,8 +359,7 @@ mod tests {
             corners_mm,
             ground_mm: 10.0,
         });
-        // The frame of axis z may be turned about z; the polygon above is symmetric, so only swap
-        // if it is.
+        // The polygon above holds only if the goal frame is not turned about z.
         let aim = Aim::new(GoalKind::Stand, [0.0; 3], [0.0, 0.0, 1.0]);
         assert_eq!(
             aim.frame().to_local(&Point::new(1.0, 0.0, 0.0)),
@@ -367,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn the_spin_it_ratio_does_not_depend_on_how_the_frame_is_turned_about_its_axis() {
+    fn the_spin_it_ratio_does_not_depend_on_a_turn_of_the_frame_about_its_axis() {
         let value = |axis: [f64; 3]| {
             Figures::new(&plate(), &setting(GoalKind::Yoyo, axis))
                 .spin_it_ratio

@@ -1,5 +1,5 @@
-//! What a part's shape is known by when its file comes back: its triangles, and numbers that tell
-//! how it was changed.
+//! Fingerprints of parts: the hash of a part's triangles, and moments that show how its shape was
+//! changed.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,16 +7,17 @@ use crate::base::digest::sha256_hex;
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
-/// The mark of a surface: the hash of its triangles, and the moments of its area.
+/// The fingerprint of a surface: the hash of its triangles, and the moments of its area.
 ///
-/// The moments are sums over the triangles' middles, each weighed by its area: exact for the
-/// triangles as they are, and they follow every turn, mirror and scaling. The third ones tell a
-/// shape from its mirror image, which the second cannot.
+/// The moments are sums over the centroids of the triangles, weighted by area. They are exact for
+/// the triangles as written, and follow every rotation, mirror and scaling. The third moments
+/// distinguish a shape from its mirror image, which the second cannot.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fingerprint {
-    /// SHA-256 of the triangles in single precision, whatever their order and the file's form.
+    /// SHA-256 of the triangles in single precision, independent of their order and the file
+    /// format.
     pub triangles_sha256: String,
-    /// mm².
+    /// The area, mm².
     pub area_mm2: f64,
     /// The centre of the area, mm.
     pub center_mm: [f64; 3],
@@ -26,18 +27,18 @@ pub struct Fingerprint {
     pub third_mm5: [f64; 10],
 }
 
-/// How the shape of one mark becomes that of another.
+/// The relation of one shape to another, from their fingerprints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Likeness {
     /// The same triangles.
     Same,
-    /// The same shape but for the last digits of a file, in the same place.
+    /// The same shape in the same place, up to the last digits of a file.
     Near,
-    /// The same shape elsewhere, by so many mm.
+    /// The same shape, moved by this distance, mm.
     Moved(f64),
-    /// Turned by right angles.
+    /// The same shape, rotated by right angles.
     Turned,
-    /// The same shape times that.
+    /// The same shape, scaled by this factor.
     Scaled(f64),
     /// The mirror image.
     Mirrored,
@@ -46,16 +47,16 @@ pub enum Likeness {
 }
 
 /// Moments agree within this share of the shape's own size. Files of six digits round to 1e-6 of
-/// it, and tell a mirror image from its original by far more; above 1e-3 a symmetrical part's image
+/// it, and mirror images differ by far more. Above 1e-3 the image of a nearly symmetrical part
 /// passes for the part.
 const TOLERANCE_RATIO: f64 = 1e-5;
-/// A shape has moved when its centre is farther away than this, mm: rounding moves it by less than
-/// a micrometre.
+/// A shape has moved if its centre is farther away than this, mm; rounding moves it by less than a
+/// micrometre.
 const STILL_MM: f64 = 1e-3;
 
-/// The axes of the second moments, in the order in which they are kept.
+/// The axes of the second moments, in their order.
 const SECOND: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
-/// The axes of the third moments.
+/// The axes of the third moments, in their order.
 const THIRD: [[usize; 3]; 10] = [
     [0, 0, 0],
     [0, 0, 1],
@@ -68,7 +69,7 @@ const THIRD: [[usize; 3]; 10] = [
     [1, 2, 2],
     [2, 2, 2],
 ];
-/// The orders that three axes can come in, the turns first.
+/// The permutations of three axes, the even ones first.
 const ORDERS: [[usize; 3]; 6] = [
     [0, 1, 2],
     [1, 2, 0],
@@ -79,7 +80,7 @@ const ORDERS: [[usize; 3]; 6] = [
 ];
 
 impl Fingerprint {
-    /// The mark of a surface; one pass over its triangles and a sort of them.
+    /// Returns the fingerprint of a surface; one pass over its triangles and a sort of them.
     pub fn of(mesh: &TriMesh) -> Self {
         let patches: Vec<(f64, Point)> = mesh.iter_corners().map(patch).collect();
         let area_mm2: f64 = patches.iter().map(|(area, _)| area).sum();
@@ -108,13 +109,13 @@ impl Fingerprint {
         }
     }
 
-    /// What was done to this shape to get the other: the plainest that explains it.
+    /// Returns the simplest change that turns this shape into the other.
     pub fn likeness(&self, other: &Self) -> Likeness {
         if self.triangles_sha256 == other.triangles_sha256 {
             return Likeness::Same;
         }
         let ratio = (other.area_mm2 / self.area_mm2).sqrt();
-        let Some(map) = maps().find(|map| self.becomes(other, map, ratio)) else {
+        let Some(map) = maps().find(|map| self.maps_to(other, map, ratio)) else {
             return Likeness::Other;
         };
         let moved_mm = (Vector::from(other.center_mm) - Vector::from(self.center_mm)).norm();
@@ -127,21 +128,22 @@ impl Fingerprint {
         }
     }
 
-    /// Whether the other's moments are this one's through the map and times the ratio.
-    fn becomes(&self, other: &Self, map: &AxisMap, ratio: f64) -> bool {
+    /// Returns true if the map and the scale turn the moments of this shape into those of the
+    /// other.
+    fn maps_to(&self, other: &Self, map: &AxisMap, ratio: f64) -> bool {
         let radius_mm = (self.second_mm4[..3].iter().sum::<f64>() / self.area_mm2).sqrt();
         let near = |own: f64, found: f64, power: i32| {
             let size = self.area_mm2 * radius_mm.powi(power - 2);
             (own - found / ratio.powi(power)).abs() <= TOLERANCE_RATIO * size
         };
         let second = SECOND.iter().zip(other.second_mm4).all(|(axes, found)| {
-            let (sign, from) = map.of(*axes);
-            near(sign * self.second_mm4[place(&SECOND, from)], found, 4)
+            let (sign, from) = map.source(*axes);
+            near(sign * self.second_mm4[index_in(&SECOND, from)], found, 4)
         });
         second
             && THIRD.iter().zip(other.third_mm5).all(|(axes, found)| {
-                let (sign, from) = map.of(*axes);
-                near(sign * self.third_mm5[place(&THIRD, from)], found, 5)
+                let (sign, from) = map.source(*axes);
+                near(sign * self.third_mm5[index_in(&THIRD, from)], found, 5)
             })
     }
 }
@@ -149,7 +151,7 @@ impl Fingerprint {
 /// A map of the axes onto each other or their opposites: one of the 48 symmetries of a cube.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct AxisMap {
-    /// From which axis each comes.
+    /// The source axis of each axis.
     from: [usize; 3],
     signs: [f64; 3],
 }
@@ -160,8 +162,8 @@ impl AxisMap {
         signs: [1.0; 3],
     };
 
-    /// The sign and the axes that these come from, ascending.
-    fn of<const N: usize>(&self, axes: [usize; N]) -> (f64, [usize; N]) {
+    /// Returns the sign and the source axes of these axes, ascending.
+    fn source<const N: usize>(&self, axes: [usize; N]) -> (f64, [usize; N]) {
         let mut from = axes.map(|axis| self.from[axis]);
         from.sort_unstable();
         (axes.iter().map(|&axis| self.signs[axis]).product(), from)
@@ -173,7 +175,7 @@ impl AxisMap {
     }
 }
 
-/// All maps of the axes, the identity first, then the turns, then the mirrors.
+/// Returns all maps of the axes: the identity first, then the rotations, then the mirrors.
 fn maps() -> impl Iterator<Item = AxisMap> {
     let sign = |i: usize, axis: usize| if i >> axis & 1 == 1 { -1.0 } else { 1.0 };
     let all = ORDERS
@@ -187,21 +189,21 @@ fn maps() -> impl Iterator<Item = AxisMap> {
     turns.into_iter().chain(mirrors)
 }
 
-/// Where the axes stand in a list that has them.
-fn place<const N: usize>(list: &[[usize; N]], axes: [usize; N]) -> usize {
+/// Returns the index of the axes in a list that has them.
+fn index_in<const N: usize>(list: &[[usize; N]], axes: [usize; N]) -> usize {
     list.iter()
         .position(|known| *known == axes)
         .unwrap_or_default()
 }
 
-/// The area of a triangle, mm², and its middle.
+/// Returns the area of a triangle, mm², and its centroid.
 fn patch([a, b, c]: [Point; 3]) -> (f64, Point) {
     let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
     ((b - a).cross(&(c - a)).norm() / 2.0, middle)
 }
 
-/// SHA-256 of the triangles in single precision, each begun at its least corner, in ascending
-/// order.
+/// Returns the SHA-256 of the triangles in single precision, in ascending order, each rotated to
+/// start at its least corner.
 fn triangles_sha256(mesh: &TriMesh) -> String {
     let mut triangles: Vec<[[u32; 3]; 3]> = mesh
         .iter_corners()
@@ -223,7 +225,7 @@ fn triangles_sha256(mesh: &TriMesh) -> String {
     sha256_hex(&[&bytes])
 }
 
-/// The bits of a point in single precision; −0.0 counts as 0.0.
+/// Returns the bits of a point in single precision; −0.0 counts as 0.0.
 fn bits(p: Point) -> [u32; 3] {
     [p.x, p.y, p.z].map(|x| (x as f32 + 0.0).to_bits())
 }
@@ -241,7 +243,7 @@ mod tests {
         block(Point::origin(), [10.0, 6.0, 3.0]).joined(&knob)
     }
 
-    fn mapped(linear: Matrix, shift: Vector) -> Likeness {
+    fn likeness_after(linear: Matrix, shift: Vector) -> Likeness {
         let moved = lopsided().map_vertices(|p| Point::from(linear * p.coords + shift));
         let mesh = if linear.determinant() < 0.0 {
             moved.reversed()
@@ -252,7 +254,7 @@ mod tests {
     }
 
     #[test]
-    fn the_same_triangles_are_known_in_any_order_and_from_any_corner() {
+    fn the_same_triangles_are_recognised_in_any_order_and_from_any_corner() {
         let mesh = lopsided();
         let turned = mesh
             .triangles()
@@ -272,15 +274,18 @@ mod tests {
     }
 
     #[test]
-    fn what_was_done_to_a_shape_is_told() {
+    fn the_change_of_a_shape_is_recognised() {
         let id = Matrix::identity();
         let turn = Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
-        let Likeness::Moved(mm) = mapped(id, Vector::new(3.0, 0.0, 4.0)) else {
+        let Likeness::Moved(mm) = likeness_after(id, Vector::new(3.0, 0.0, 4.0)) else {
             panic!()
         };
         assert!((mm - 5.0).abs() < 1e-9);
-        assert_eq!(mapped(turn, Vector::new(1.0, 2.0, 3.0)), Likeness::Turned);
-        let Likeness::Scaled(ratio) = mapped(id * 1.02, Vector::zeros()) else {
+        assert_eq!(
+            likeness_after(turn, Vector::new(1.0, 2.0, 3.0)),
+            Likeness::Turned
+        );
+        let Likeness::Scaled(ratio) = likeness_after(id * 1.02, Vector::zeros()) else {
             panic!()
         };
         assert!((ratio - 1.02).abs() < 1e-9);
@@ -288,13 +293,16 @@ mod tests {
             let mut mirror = id;
             mirror[(axis, axis)] = -1.0;
             assert_eq!(
-                mapped(mirror, Vector::new(10.0, 0.0, 0.0)),
+                likeness_after(mirror, Vector::new(10.0, 0.0, 0.0)),
                 Likeness::Mirrored
             );
-            assert_eq!(mapped(turn * mirror, Vector::zeros()), Likeness::Mirrored);
+            assert_eq!(
+                likeness_after(turn * mirror, Vector::zeros()),
+                Likeness::Mirrored
+            );
         }
         assert_eq!(
-            mapped(
+            likeness_after(
                 Matrix::from_diagonal(&Vector::new(1.0, 1.0, 1.1)),
                 Vector::zeros()
             ),
@@ -322,7 +330,7 @@ mod tests {
     }
 
     #[test]
-    fn half_of_the_maps_are_turns() {
+    fn half_of_the_maps_are_rotations() {
         let all: Vec<AxisMap> = maps().collect();
         assert_eq!((all.len(), all[0]), (48, AxisMap::IDENTITY));
         assert!(

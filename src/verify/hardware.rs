@@ -1,58 +1,55 @@
-//! What is put into a kit's parts that is not printed: its mass, and whether it goes where it
-//! should.
+//! Hardware in a kit's parts: its mass, and its fit in the sockets.
 
 use std::f64::consts::TAU;
 
 use serde::{Deserialize, Serialize};
 
-use super::Aim;
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Moments, RoundBar};
 use crate::mesh::{TriMesh, winding_number};
 
-/// The ends of a rod are left out over so much, mm: they touch the bottoms of their sockets.
+/// Length left out at each end of a rod, mm, since the ends touch the bottoms of their sockets.
 const END_MM: f64 = 1e-3;
-/// Lines along the axis on which the string gap is measured.
+/// Number of lines along the axis on which the string gap is measured.
 const GAP_LINES: usize = 16;
-/// How far outside of the socket they lie, as a share of the ordered wall: in the middle of the
-/// hub.
+/// Distance of these lines from the socket as a share of the ordered wall: the middle of the hub.
 const GAP_WALL_RATIO: f64 = 0.5;
 
-/// One piece of hardware as the kit names it: a round bar in its place.
+/// One piece of hardware as the kit declares it: a round bar in its place.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Hardware {
     /// The name on the sheet, such as `H1`.
     pub id: String,
-    /// What it is: `axle`, `ring`, `tip` or `stem`.
+    /// Its kind: `axle`, `ring`, `tip` or `stem`; for a dowel its stock name.
     pub what: String,
     /// One end of its axis, model frame, mm.
     pub from_mm: [f64; 3],
-    /// The other end; of a round end the outermost point.
+    /// The other end, model frame, mm; of a round end the outermost point.
     pub to_mm: [f64; 3],
     /// The outer diameter, mm.
     pub diameter_mm: f64,
     /// The diameter of the hole along it, mm; zero for none.
     pub hole_mm: f64,
-    /// Whether the end at `to_mm` is a half ball.
+    /// True if the end at `to_mm` is a half ball.
     pub round_end: bool,
     /// g/cm³.
     pub density_g_cm3: f64,
-    /// What it weighs, g.
+    /// Its mass, g.
     pub mass_g: f64,
-    /// How far it goes in, into each half for an axle, mm.
+    /// Its depth in the socket, mm; in each half for an axle.
     pub depth_mm: f64,
-    /// The diameter of its socket, mm; zero where it has none.
+    /// The diameter of its socket, mm; zero if it has none.
     pub socket_mm: f64,
 }
 
-/// How the hardware sits in the parts.
+/// The fit of the hardware in the parts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fit {
-    /// The least room between a rod and the surface around it, mm; negative where a rod does not go
+    /// The least room between a rod and the surface around it, mm; negative if a rod does not go
     /// in.
     pub room_mm: Option<f64>,
-    /// How far a yo-yo's halves are apart about their axle, mm; none where there is one body.
+    /// The gap between a yo-yo's halves around their axle, mm; `None` if there is one body.
     pub gap_mm: Option<f64>,
 }
 
@@ -67,13 +64,13 @@ impl Hardware {
         }
     }
 
-    /// Its moments times its density, g, g·mm and g·mm², model frame.
+    /// Returns its moments times its density, g, g·mm and g·mm², model frame.
     fn mass_moments(&self) -> Moments {
         self.bar().moments() * (self.density_g_cm3 / MM3_PER_CM3)
     }
 }
 
-/// The moments of all pieces times their densities, model frame.
+/// Returns the moments of all pieces times their densities, g, g·mm and g·mm², model frame.
 pub fn mass_moments(hardware: &[Hardware]) -> Moments {
     hardware
         .iter()
@@ -81,21 +78,27 @@ pub fn mass_moments(hardware: &[Hardware]) -> Moments {
         .fold(Moments::default(), |sum, piece| sum + piece)
 }
 
-/// How the pieces sit in the outer surface.
-pub fn fit(hardware: &[Hardware], aim: &Aim, (outer, wall_mm): (&TriMesh, f64)) -> Option<Fit> {
+/// Measures the fit of the pieces in the outer surface (model frame); `None` if there are none. The
+/// string gap is measured along z of `goal`, in the middle of a hub with this wall.
+pub fn measure_fit(
+    hardware: &[Hardware],
+    goal: &Frame,
+    outer: &TriMesh,
+    wall_mm: f64,
+) -> Option<Fit> {
     let rooms = hardware.iter().map(|piece| room_mm(&piece.bar(), outer));
     let room_mm = rooms.min_by(f64::total_cmp)?;
     let axle = hardware.iter().find(|piece| piece.what == "axle");
     let radius_mm = |axle: &Hardware| 0.5 * axle.socket_mm + GAP_WALL_RATIO * wall_mm;
-    let gap_mm = axle.and_then(|axle| gap_mm(outer, &aim.frame(), radius_mm(axle)));
+    let gap_mm = axle.and_then(|axle| gap_mm(outer, goal, radius_mm(axle)));
     Some(Fit {
         room_mm: Some(room_mm),
         gap_mm,
     })
 }
 
-/// The least distance of the surface from the side of a bar, mm; negative by as much as it reaches
-/// in. A bar that lies in the material as a whole has less than none.
+/// Returns the least distance of the surface from the side of a bar, mm, negative where the surface
+/// reaches into the bar. A bar entirely inside the material has minus its radius.
 fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     let frame = Frame::with_axis(bar.from, &(bar.to - bar.from));
     let middle = nalgebra::center(&bar.from, &bar.to);
@@ -105,7 +108,7 @@ fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     }
     let ends_mm = [END_MM, bar.length_mm() - END_MM];
     let off_axis = outer.iter_corners().filter_map(|corners| {
-        distance_from_axis(&between(
+        distance_from_axis(&clip_between(
             corners.map(|p| frame.to_local(&p).coords),
             ends_mm,
         ))
@@ -113,15 +116,15 @@ fn room_mm(bar: &RoundBar, outer: &TriMesh) -> f64 {
     off_axis.fold(f64::INFINITY, f64::min) - bar.radius_mm
 }
 
-/// The corners of the part of a triangle that lies between two heights (Sutherland and Hodgman,
+/// Returns the corners of the part of a triangle between two heights (Sutherland and Hodgman,
 /// 1974).
-fn between(corners: [Vector; 3], [low_mm, high_mm]: [f64; 2]) -> Vec<Vector> {
-    let above = clipped(&corners, |p| p.z - low_mm);
-    clipped(&above, |p| high_mm - p.z)
+fn clip_between(corners: [Vector; 3], [low_mm, high_mm]: [f64; 2]) -> Vec<Vector> {
+    let above = clip(&corners, |p| p.z - low_mm);
+    clip(&above, |p| high_mm - p.z)
 }
 
-/// The part of a polygon where a linear height is not negative.
-fn clipped(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> Vec<Vector> {
+/// Clips a polygon to the region where a linear height is not negative.
+fn clip(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> Vec<Vector> {
     let mut kept = Vec::new();
     for (i, p) in polygon.iter().enumerate() {
         let next = &polygon[(i + 1) % polygon.len()];
@@ -136,7 +139,7 @@ fn clipped(polygon: &[Vector], height: impl Fn(&Vector) -> f64) -> Vec<Vector> {
     kept
 }
 
-/// How near a polygon comes to the z axis, mm; none for no polygon.
+/// Returns the distance of a polygon from the z axis, mm; `None` for an empty polygon.
 fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
     let sides = || polygon.iter().zip(polygon.iter().cycle().skip(1));
     let turns = |sign: f64| sides().all(|(p, q)| sign * (p.x * q.y - p.y * q.x) > 0.0);
@@ -156,8 +159,8 @@ fn distance_from_axis(polygon: &[Vector]) -> Option<f64> {
     sides().map(to_side).min_by(f64::total_cmp)
 }
 
-/// The least way from half to half along the axis, on lines about it at this radius, mm; none where
-/// a line meets only one.
+/// Returns the least distance between the halves along the axis, mm, on lines at this radius around
+/// it. `None` if no line meets both halves.
 fn gap_mm(outer: &TriMesh, frame: &Frame, radius_mm: f64) -> Option<f64> {
     let local: Vec<[Vector; 3]> = outer
         .iter_corners()
@@ -185,7 +188,7 @@ fn gap_mm(outer: &TriMesh, frame: &Frame, radius_mm: f64) -> Option<f64> {
         .filter(|gap| gap.is_finite())
 }
 
-/// Where the vertical line through a point meets a triangle.
+/// Returns the height at which the vertical line through a point meets a triangle, if it does.
 fn height_on_line(corners: &[Vector; 3], at: &Vector) -> Option<f64> {
     let [a, b, c] = corners.map(|corner| corner - at);
     let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
@@ -198,7 +201,6 @@ fn height_on_line(corners: &[Vector; 3], at: &Vector) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::goal::GoalKind;
     use crate::verify::test_meshes::block;
 
     fn rod(what: &str, from_mm: [f64; 3], to_mm: [f64; 3]) -> Hardware {
@@ -217,7 +219,7 @@ mod tests {
         }
     }
 
-    /// Two blocks of 10 × 10 × 5 mm, 3 mm apart.
+    /// Returns two blocks of 10 × 10 × 5 mm, 3 mm apart.
     fn blocks() -> TriMesh {
         block(Point::new(-5.0, -5.0, 1.5), [10.0, 10.0, 5.0])
             .joined(&block(Point::new(-5.0, -5.0, -6.5), [10.0, 10.0, 5.0]))
@@ -225,16 +227,16 @@ mod tests {
 
     #[test]
     fn the_gap_between_two_blocks_is_their_distance() {
-        let aim = Aim::new(GoalKind::Yoyo, [0.0; 3], [0.0, 0.0, 1.0]);
+        let goal = Frame::identity();
         let axle = rod("axle", [0.0, 0.0, -1.4], [0.0, 0.0, 1.4]);
-        let fit = fit(&[axle], &aim, (&blocks(), 1.0)).unwrap();
+        let fit = measure_fit(&[axle], &goal, &blocks(), 1.0).unwrap();
         assert!((fit.gap_mm.unwrap() - 3.0).abs() < 1e-12);
         // Between the faces the rod is in the open: nothing lies beside it.
         assert_eq!(fit.room_mm, Some(f64::INFINITY));
     }
 
     #[test]
-    fn a_rod_has_as_much_room_as_the_wall_beside_it_leaves() {
+    fn a_rod_has_the_room_that_the_wall_beside_it_leaves() {
         let beside = |x: f64| room_mm(&rod("tip", [x, 0.0, -3.0], [x, 0.0, 9.0]).bar(), &blocks());
         assert!((beside(7.5) - 1.5).abs() < 1e-12);
         assert!((beside(5.4) + 0.6).abs() < 1e-12);

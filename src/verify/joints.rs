@@ -1,46 +1,35 @@
-//! What joins the parts: whether the films of glue are as large as the faces in the files, and the
-//! ids in them are there.
+//! Facts about the joints: the films of glue against the faces in the files, and the engraved ids.
 
-use serde::{Deserialize, Serialize};
-
-use super::pegs::Felt;
-use super::{Check, Limit, Mark, PartEvidence, Promise};
+use super::part_probe::PartProbe;
+use super::{GlueFilm, Mark, PartEvidence, Promise};
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::{Matrix, Point, Vector};
-use crate::mass::{FlatFace, Moments};
+use crate::mass::Moments;
 
-/// Triangles of a file this near to a joint's plane lie in it, mm: far above the rounding of files,
-/// far below a layer.
+/// Triangles within this distance of a joint's plane lie in it, mm: far above the rounding of
+/// files, far below a layer.
 const IN_PLANE_MM: f64 = 1e-3;
-/// A stroke may be this much shallower or deeper, as a share of its depth.
+/// Tolerance of a stroke's depth, as a share of it.
 const DEPTH_RATIO: f64 = 0.05;
-/// A film may differ from the faces in the files by this share: what pins, sockets and engraved
-/// marks take off one side.
-pub const FILM_LIMIT_RATIO: f64 = 0.1;
-
-/// The film of glue in a joint.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct GlueFilm {
-    /// mm.
-    pub thickness_mm: f64,
-    /// g/cm³.
-    pub density_g_cm3: f64,
-    /// What it weighs, g.
-    pub mass_g: f64,
-    /// Where it is.
-    #[serde(flatten)]
-    pub face: FlatFace,
-}
 
 impl GlueFilm {
-    /// The unit normal of its plane: across it, it has no extent.
+    /// Returns the unit normal of its plane: the film has no extent along it.
     fn normal(&self) -> Vector {
         let eigen = Matrix::from(self.face.squares_mm4).symmetric_eigen();
         eigen.eigenvectors.column(eigen.eigenvalues.imin()).into()
     }
 }
 
-/// The moments times the densities of all films, model frame.
+/// A film of glue that differs from its faces.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FilmError {
+    /// Difference of the areas as a share of the film's area.
+    pub ratio: f64,
+    /// The joint of the film.
+    pub joint: String,
+}
+
+/// Returns the moments times the densities of all films, model frame.
 pub(super) fn film_moments(promise: &Promise) -> Moments {
     let films = promise.joints.iter().filter_map(|joint| joint.glue);
     let of_film =
@@ -50,11 +39,11 @@ pub(super) fn film_moments(promise: &Promise) -> Moments {
         .fold(Moments::default(), |sum, film| sum + film)
 }
 
-/// By how much of it a film's area differs from that of the faces in its plane, at worst, and in
-/// which joint; none without films.
+/// Returns the greatest difference between a film's area and that of the faces in its plane; `None`
+/// without films.
 ///
-/// All films of a plane are taken together; of the faces that look either way, the mean.
-pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f64, String)> {
+/// All films in a plane are taken together. The area of the faces is the mean of both directions.
+pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<FilmError> {
     let films: Vec<(&String, GlueFilm)> = promise
         .joints
         .iter()
@@ -63,48 +52,48 @@ pub(super) fn film_error(promise: &Promise, parts: &[PartEvidence]) -> Option<(f
     let error = |(id, film): &(&String, GlueFilm)| {
         let (center, normal) = (Point::from(film.face.center_mm), film.normal());
         let is_in_plane = |p: &Point| normal.dot(&(p - center)).abs() <= IN_PLANE_MM;
-        let alike = films
+        let coplanar = films
             .iter()
             .filter(|(_, other)| is_in_plane(&Point::from(other.face.center_mm)));
-        let promised: f64 = alike.map(|(_, other)| other.face.area_mm2).sum();
+        let promised: f64 = coplanar.map(|(_, other)| other.face.area_mm2).sum();
         let found: f64 = parts
             .iter()
             .map(|part| flat_area_mm2(part, is_in_plane))
             .sum::<f64>()
             / 2.0;
-        ((promised - found).abs() / promised, (*id).clone())
+        FilmError {
+            ratio: (promised - found).abs() / promised,
+            joint: (*id).clone(),
+        }
     };
-    films.iter().map(error).max_by(|a, b| a.0.total_cmp(&b.0))
+    films
+        .iter()
+        .map(error)
+        .max_by(|a, b| a.ratio.total_cmp(&b.ratio))
 }
 
-/// How many strokes of engraved ids are missing from their files, or not as deep as promised; none
-/// where no part bears an id.
-pub(super) fn lost_strokes(promise: &Promise, felt: &[Felt]) -> Option<usize> {
-    let parts = promise.parts.iter().zip(felt);
-    let marks: Vec<(&Mark, &Felt)> = parts
-        .flat_map(|(part, felt)| part.marks.iter().map(move |mark| (mark, felt)))
+/// Counts the strokes of engraved ids that are missing from their files or not as deep as promised;
+/// `None` if no part bears an id.
+pub(super) fn count_lost_strokes(promise: &Promise, probes: &[PartProbe]) -> Option<usize> {
+    let parts = promise.parts.iter().zip(probes);
+    let marks: Vec<(&Mark, &PartProbe)> = parts
+        .flat_map(|(part, probe)| part.marks.iter().map(move |mark| (mark, probe)))
         .collect();
-    let is_lost = |mark: &Mark, felt: &Felt, stroke: &[f64; 3]| {
+    let is_lost = |mark: &Mark, probe: &PartProbe, stroke: &[f64; 3]| {
         let at =
             |depth: f64| Point::from(*stroke) + Vector::from(mark.axis) * (depth * mark.depth_mm);
-        felt.holds(&at(1.0 - DEPTH_RATIO)) || !felt.holds(&at(1.0 + DEPTH_RATIO))
+        probe.contains(&at(1.0 - DEPTH_RATIO)) || !probe.contains(&at(1.0 + DEPTH_RATIO))
     };
-    let lost = |&(mark, felt): &(&Mark, &Felt)| {
+    let lost = |&(mark, probe): &(&Mark, &PartProbe)| {
         mark.strokes_mm
             .iter()
-            .filter(|s| is_lost(mark, felt, s))
+            .filter(|s| is_lost(mark, probe, s))
             .count()
     };
     (!marks.is_empty()).then(|| marks.iter().map(lost).sum())
 }
 
-/// Whether all engraved ids are there.
-pub(super) fn marks_check(lost: usize) -> Check {
-    let promise = "every stroke of every engraved id is as deep as promised, but for";
-    Check::new("ids", promise, Some(lost as f64), Limit::at_most(0.0, ""))
-}
-
-/// The area of a part's triangles all of whose corners lie in a plane of the model.
+/// Returns the area of the part's triangles with all corners in a plane of the model, mm².
 fn flat_area_mm2(part: &PartEvidence, is_in_plane: impl Fn(&Point) -> bool) -> f64 {
     let corners = part
         .mesh
@@ -113,16 +102,4 @@ fn flat_area_mm2(part: &PartEvidence, is_in_plane: impl Fn(&Point) -> bool) -> f
     let flat = corners.filter(|corners| corners.iter().all(&is_in_plane));
     flat.map(|[a, b, c]| (b - a).cross(&(c - a)).norm() / 2.0)
         .sum()
-}
-
-/// Whether the films are as large as the faces in the files.
-pub(super) fn film_check((error, joint): (f64, String)) -> Check {
-    let promise = "every film of glue is as large as its faces, but for a share of";
-    Check::new(
-        "glue",
-        promise,
-        Some(error),
-        Limit::at_most(FILM_LIMIT_RATIO, ""),
-    )
-    .at(Some(joint))
 }

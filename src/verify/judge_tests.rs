@@ -1,4 +1,4 @@
-//! The judge tried on a sound kit, and on the same kit with one thing wrong at a time.
+//! The judge on a sound kit, and on the same kit with one fault at a time.
 
 use super::*;
 use crate::geom::{Matrix, Point, Vector};
@@ -9,9 +9,13 @@ use test_meshes::{block, tray};
 
 const SIZE: [f64; 3] = [60.0, 40.0, 12.0];
 const WALL: f64 = 3.0;
+/// The seat of a pin, in the middle of a side of the box of [`sound`], whose halves meet at z = 16.
+pub(crate) const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
 
-/// A box top 60 × 40 × 12 mm that floats 10 mm over its contact, hollow, cut through the middle
-/// into two equal trays: the lower lies as in the model, the upper is turned over.
+/// Returns a hollow box top of 60 × 40 × 12 mm, 10 mm over its contact.
+///
+/// It is cut through the middle into two equal trays. The lower lies as in the model, the upper is
+/// turned over.
 pub(crate) fn sound() -> Evidence {
     let half = [SIZE[0], SIZE[1], SIZE[2] / 2.0];
     let corner = Vector::new(-30.0, -20.0, 10.0);
@@ -71,13 +75,27 @@ fn promise(poses: &[Pose]) -> Promise {
     }
 }
 
-/// The names of the checks a kit fails.
+/// Returns a pin or socket of this diameter and length at the seat.
+pub(crate) fn peg(diameter_mm: f64, length_mm: f64, volume_mm3: f64) -> Peg {
+    let (id, joint) = ("N1".to_owned(), "J1".to_owned());
+    Peg {
+        id,
+        joint,
+        center_mm: SEAT,
+        axis: [0.0, 0.0, 1.0],
+        diameter_mm,
+        length_mm,
+        volume_mm3,
+    }
+}
+
+/// Returns the names of the checks that a kit fails.
 pub(crate) fn failures(evidence: &Evidence) -> Vec<String> {
     judge(evidence)
         .checks
         .into_iter()
         .filter(|check| !check.pass)
-        .map(|check| check.name)
+        .map(|check| check.kind.to_string())
         .collect()
 }
 
@@ -153,7 +171,7 @@ fn a_part_too_large_for_the_printer_is_found() {
     let room = judgement
         .checks
         .iter()
-        .find(|check| check.name == "build volume")
+        .find(|check| check.kind == CheckKind::BuildVolume)
         .unwrap();
     assert_eq!((room.pass, room.value), (false, Some(-1.0)));
 }
@@ -161,7 +179,7 @@ fn a_part_too_large_for_the_printer_is_found() {
 #[test]
 fn a_socket_that_was_never_sunk_is_found() {
     let mut evidence = sound();
-    evidence.promise.parts[0].sockets = vec![pegs_tests::peg(0.4, 0.8, 0.1)];
+    evidence.promise.parts[0].sockets = vec![peg(0.4, 0.8, 0.1)];
     assert_eq!(failures(&evidence), ["volumes"]);
 }
 
@@ -192,7 +210,7 @@ fn a_hole_in_a_part_is_found() {
 }
 
 #[test]
-fn a_body_turned_about_its_longest_axis_cannot_spin_and_says_so() {
+fn a_body_turned_about_its_longest_axis_cannot_spin() {
     let mut evidence = sound();
     evidence.promise.goal = Aim::new(GoalKind::Yoyo, [0.0, 0.0, 16.0], [1.0, 0.0, 0.0]);
     assert_eq!(failures(&evidence), ["dominance"]);
@@ -219,7 +237,7 @@ fn the_judgement_is_the_same_on_one_thread_and_on_four() {
     assert_eq!(on(1), on(4));
 }
 
-/// The sound box as a rotor about its own middle, which is at z = 16.
+/// Returns the sound box as a rotor about a point; its own middle is at z = 16.
 fn rotor(origin_mm: [f64; 3], speed_rpm: f64) -> Evidence {
     let mut evidence = sound();
     let rotor = Some(RotorOrder {
@@ -252,11 +270,11 @@ fn a_rotor_ten_micrometres_aside_keeps_its_grade_slowly_and_breaks_it_fast() {
     assert!((unbalance.static_g_mm - 0.01 * mass_g).abs() < 1e-9 && unbalance.couple_g_mm2 < 1e-9);
 }
 
-/// The sound box in a liquid in which it lies so deep.
+/// Returns the sound box with this promised waterline, in a liquid in which it lies 6 mm deep.
 fn boat(waterline_mm: f64) -> Evidence {
     let mut evidence = sound();
-    // Its mass over the water it displaces: 1.2 · (28 800 − 11 016)/(2400 · T) at T mm; at 6 mm a
-    // liquid of 1.482.
+    // Density of the liquid: mass over displaced volume, 1.2 · (28 800 − 11 016)/(2400 · T) at a
+    // draught of T mm. That is 1.482 at 6 mm.
     let liquid_g_cm3 = 1.2 * (28_800.0 - 11_016.0) / (2400.0 * 6.0);
     let water = Some(WaterOrder {
         liquid_g_cm3,
@@ -270,7 +288,7 @@ fn boat(waterline_mm: f64) -> Evidence {
 }
 
 #[test]
-fn a_box_that_floats_as_deep_as_was_said_passes_and_one_said_to_be_higher_does_not() {
+fn a_box_that_floats_as_promised_passes_and_one_promised_higher_fails() {
     assert_eq!(failures(&boat(6.0)), Vec::<String>::new());
     assert_eq!(failures(&boat(5.9)), ["waterline"]);
     let afloat = judge(&boat(6.0)).assembly.afloat.unwrap();
@@ -279,7 +297,7 @@ fn a_box_that_floats_as_deep_as_was_said_passes_and_one_said_to_be_higher_does_n
 }
 
 #[test]
-fn a_box_heavier_than_the_water_it_displaces_sinks_and_fails_every_promise_of_floating() {
+fn a_box_heavier_than_its_water_sinks_and_fails_every_promise_of_floating() {
     let mut evidence = boat(6.0);
     evidence.promise.goal.water = Some(WaterOrder {
         liquid_g_cm3: 0.7,
@@ -298,8 +316,8 @@ fn a_box_with_a_heavy_side_does_not_float_upright() {
     assert!(failures(&evidence).contains(&"upright".to_owned()));
 }
 
-/// The sound kit with a ball of steel hung on the axis in the middle of its void.
-fn ballasted() -> Evidence {
+/// Returns the sound kit with a ball of steel on the axis in the middle of its void.
+fn kit_with_ballast() -> Evidence {
     let mut evidence = sound();
     let shape = LumpShape::Ball { diameter_mm: 4.0 };
     let lump = Lump {
@@ -317,7 +335,7 @@ fn ballasted() -> Evidence {
 
 #[test]
 fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
-    let [bare, loaded] = [sound(), ballasted()].map(|evidence| judge(&evidence));
+    let [bare, loaded] = [sound(), kit_with_ballast()].map(|evidence| judge(&evidence));
     assert!(loaded.passes());
     assert!((loaded.assembly.mass_g - bare.assembly.mass_g - 0.2624).abs() < 1e-12);
     assert_eq!(
@@ -333,25 +351,26 @@ fn ballast_counts_by_its_declared_mass_at_its_declared_place() {
 
 #[test]
 fn a_wrong_mass_of_ballast_is_found() {
-    let mut evidence = ballasted();
-    let sheet = sheet::stated(&serde_json::Value::Null, &evidence, &judge(&evidence));
-    let before = misstatements(&sheet, &evidence, &judge(&evidence));
+    let mut evidence = kit_with_ballast();
+    let sheet = sheet::restate(&serde_json::Value::Null, &evidence, &judge(&evidence));
+    let before = find_misstatements(&sheet, &evidence, &judge(&evidence));
     assert!(
         before.iter().all(|words| words.starts_with("model.")),
         "{before:?}"
     );
     evidence.promise.ballast[0].lump.mass_g *= 1.01;
-    let told = misstatements(&sheet, &evidence, &judge(&evidence));
+    let after = find_misstatements(&sheet, &evidence, &judge(&evidence));
     assert!(
-        told.iter()
+        after
+            .iter()
             .any(|words| words.starts_with("assembly.mass_g states")),
-        "{told:?}"
+        "{after:?}"
     );
 }
 
 #[test]
 fn ballast_beside_its_place_spoils_the_balance_or_has_no_room() {
-    let mut evidence = ballasted();
+    let mut evidence = kit_with_ballast();
     evidence.promise.ballast[0].lump.center_mm[0] = 20.0;
     assert!(failures(&evidence).contains(&"axis offset".to_owned()));
     for place in [[0.0, 0.0, 17.5], [0.0, 0.0, 21.0], [0.0, 0.0, 40.0]] {
@@ -372,7 +391,6 @@ fn a_filling_counts_by_the_volume_of_the_voids() {
     let void_cm3 = 54.0 * 34.0 * 6.0 / 1000.0;
     assert!((filled.assembly.mass_g - bare.assembly.mass_g - 2.4 * void_cm3).abs() < 1e-9);
     assert_eq!(filled.assembly.volume_mm3, bare.assembly.volume_mm3);
-    // Twice as dense as the print, the filling outweighs the box's inside: the box is a top still,
-    // about the same centre.
+    // The filling is twice as dense as the print; the box is still a top, about the same centre.
     assert!(filled.passes() && (filled.assembly.center_mm[2] - 16.0).abs() < 1e-12);
 }

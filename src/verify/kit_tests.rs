@@ -6,13 +6,13 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::judge_tests::sound;
-use super::sheet::{stated, stated_before_rounding};
+use super::sheet::{restate, restate_before_rounding};
 use super::*;
 use crate::base::digest::sha256_hex;
 use crate::io::stl;
 
-/// Writes the sound kit of the judge's tests with a checklist of no more than the judge reads, and
-/// its papers.
+/// Writes the sound kit of the judge's tests with its papers. The checklist has only the keys that
+/// the judge reads.
 fn write_kit(folder: &Path) {
     let evidence = sound();
     let hollowed = stl::encode(&evidence.hollowed, "hollowed");
@@ -33,13 +33,13 @@ fn write_kit(folder: &Path) {
         "voids": [{ "id": "V1" }],
         "files": { HOLLOWED_FILE: sha256_hex(&[&hollowed]) },
     });
-    // As the program does, what is found is stated.
+    // As the program does, the checklist states the results.
     let read = Evidence {
         promise: serde_json::from_value(sheet.clone()).unwrap(),
         ..evidence
     };
-    fill_in(&mut sheet, stated(&Value::Null, &read, &judge(&read)));
-    fill_in(&mut sheet, stated_before_rounding(&read, &judge(&read)));
+    fill_in(&mut sheet, restate(&Value::Null, &read, &judge(&read)));
+    fill_in(&mut sheet, restate_before_rounding(&read, &judge(&read)));
     fs::write(folder.join(CHECKLIST_FILE), sheet.to_string()).unwrap();
     seal(folder);
 }
@@ -110,7 +110,7 @@ fn edit(folder: &Path, change: impl FnOnce(&mut Value)) {
     fs::write(path, sheet.to_string()).unwrap();
 }
 
-/// The sound kit after a change of its folder.
+/// Judges the sound kit after a change of its folder.
 fn kit_with(change: impl FnOnce(&Path)) -> Result<Judgement, VerifyError> {
     let room = tempfile::tempdir().unwrap();
     write_kit(room.path());
@@ -118,12 +118,12 @@ fn kit_with(change: impl FnOnce(&Path)) -> Result<Judgement, VerifyError> {
     verify_kit(room.path())
 }
 
-fn failures(judgement: &Judgement) -> Vec<&str> {
+fn failures(judgement: &Judgement) -> Vec<String> {
     judgement
         .checks
         .iter()
         .filter(|check| !check.pass)
-        .map(|check| check.name.as_str())
+        .map(|check| check.kind.to_string())
         .collect()
 }
 
@@ -137,11 +137,11 @@ fn a_file_exchanged_for_another_is_found() {
     let judgement = kit_with(|kit| {
         fs::copy(kit.join("parts/P01.stl"), kit.join(HOLLOWED_FILE)).unwrap();
     });
-    assert!(failures(&judgement.unwrap()).contains(&"changed files"));
+    assert!(failures(&judgement.unwrap()).contains(&"changed files".to_owned()));
 }
 
 #[test]
-fn a_part_with_the_same_shape_under_another_header_is_a_changed_file_and_nothing_else() {
+fn a_part_of_the_same_shape_under_another_header_is_only_a_changed_file() {
     let judgement = kit_with(|kit| {
         let renamed = stl::encode(&sound().parts[0].mesh, "another name");
         fs::write(kit.join("parts/P01.stl"), renamed).unwrap();
@@ -149,7 +149,7 @@ fn a_part_with_the_same_shape_under_another_header_is_a_changed_file_and_nothing
     assert_eq!(failures(&judgement.unwrap()), ["changed files"]);
 }
 
-/// Every number of a value, by its JSON pointer.
+/// Returns every number of a value, by its JSON pointer.
 fn numbers(at: &str, value: &Value) -> Vec<String> {
     match value {
         Value::Number(_) => vec![at.to_owned()],
@@ -167,7 +167,7 @@ fn numbers(at: &str, value: &Value) -> Vec<String> {
 }
 
 #[test]
-fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_them() {
+fn every_number_of_the_checklist_that_follows_from_the_files_is_checked() {
     let room = tempfile::tempdir().unwrap();
     write_kit(room.path());
     let whole = fs::read_to_string(room.path().join(CHECKLIST_FILE)).unwrap();
@@ -188,8 +188,7 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_the
         .any(|table| key.starts_with(table))
     };
     let keys: Vec<String> = numbers("", &sheet).into_iter().filter(of_judge).collect();
-    // Mass, volume, centre, inertia and figures of three bodies, and the rows and marks of two
-    // parts.
+    // Figures of three bodies, and the rows and fingerprints of two parts.
     assert!(keys.len() > 100, "{}", keys.len());
     for key in keys {
         let mut lie = sheet.clone();
@@ -199,19 +198,19 @@ fn every_number_of_the_checklist_that_follows_from_the_files_is_held_against_the
         let step = (old.abs().max(sheet::largest(row)) * 1e-3).max(1.0);
         *lie.pointer_mut(&key).unwrap() = json!(old + step);
         fs::write(room.path().join(CHECKLIST_FILE), lie.to_string()).unwrap();
-        // A careful liar makes the job sheet and the list of hashes anew.
+        // A careful forger makes the job sheet and the list of hashes anew.
         seal(room.path());
-        let told = verify_kit(room.path()).unwrap();
+        let judgement = verify_kit(room.path()).unwrap();
         assert!(
-            !told.passes(),
-            "{key} may be {} in place of {old}",
+            !judgement.passes(),
+            "{key} may be {} instead of {old}",
             old + step
         );
     }
 }
 
 #[test]
-fn a_lie_is_told_with_its_key_and_both_numbers() {
+fn a_false_number_is_reported_with_its_key_and_both_values() {
     let judgement = kit_with(|kit| {
         edit(kit, |sheet| sheet["parts"][1]["mass_g"] = json!(20.0));
         seal(kit);
@@ -230,7 +229,27 @@ fn a_lie_is_told_with_its_key_and_both_numbers() {
 }
 
 #[test]
-fn papers_that_do_not_belong_together_are_told_each() {
+fn a_kit_made_before_checks_had_kinds_passes_and_a_false_kind_is_reported() {
+    let with_checks = |change: &dyn Fn(&mut Value)| {
+        kit_with(|kit| {
+            edit(kit, |sheet| {
+                let rows = sheet["checks"].as_array_mut().unwrap();
+                rows.iter_mut().for_each(change);
+            });
+            seal(kit);
+        })
+        .unwrap()
+    };
+    let old = with_checks(&|row| {
+        row.as_object_mut().unwrap().remove("kind").unwrap();
+    });
+    assert!(old.passes());
+    let wrong = with_checks(&|row| row["kind"] = json!("pins"));
+    assert_eq!(failures(&wrong), ["checklist"]);
+}
+
+#[test]
+fn papers_that_do_not_belong_together_are_reported_one_by_one() {
     let changed = |change: &dyn Fn(&Path)| {
         let judgement = kit_with(change).unwrap();
         assert_eq!(failures(&judgement), ["changed files"]);
@@ -257,8 +276,8 @@ fn papers_that_do_not_belong_together_are_told_each() {
     );
     let emptied = changed(&|kit| fs::write(kit.join(SUMS_FILE), "").unwrap());
     assert!(emptied.contains("SHA256SUMS was changed"), "{emptied}");
-    let gone = changed(&|kit| fs::remove_file(kit.join(SUMS_FILE)).unwrap());
-    assert_eq!(gone, "SHA256SUMS is missing");
+    let missing = changed(&|kit| fs::remove_file(kit.join(SUMS_FILE)).unwrap());
+    assert_eq!(missing, "SHA256SUMS is missing");
     // The list made anew over a job sheet of another checklist.
     let other = changed(&|kit| {
         append(CHECKLIST_FILE)(kit);
@@ -273,7 +292,7 @@ fn papers_that_do_not_belong_together_are_told_each() {
         )
         .unwrap();
     });
-    assert_eq!(other, "checklist.html speaks of another checklist.json");
+    assert_eq!(other, "checklist.html belongs to another checklist.json");
 }
 
 #[test]

@@ -1,71 +1,110 @@
-//! The independent judge: it sees the written files, the goal and the printer, and nothing of how
-//! they were made.
+//! The independent judge. It sees the written files of a kit, its promises and the printer, and
+//! nothing of the code that made them.
+//!
+//! [`verify_kit`] reads a kit from its folder; [`judge`] measures the evidence; [`checks`] compares
+//! the facts with the promises. Facts and checks are separate: a fact is a measured value, a check
+//! holds it against a limit.
 
-mod ballast;
-mod changes;
-mod check;
-mod checks;
-mod cleaning;
-#[cfg(test)]
-mod cleaning_tests;
-mod figures;
+// The promises: the judge's view of `checklist.json`.
 mod fingerprint;
-mod hardware;
-mod joints;
-mod judge;
-#[cfg(test)]
-pub(crate) mod judge_tests;
-mod kit;
-#[cfg(test)]
-mod kit_tests;
-mod measure;
-mod mouths;
-mod packages;
-mod pegs;
-#[cfg(test)]
-mod pegs_tests;
 mod pose;
 mod promise;
+// The evidence: reading a kit.
+mod error;
+mod evidence;
+mod files;
+mod reading;
+// The facts about a whole body.
+mod ballast;
+mod figures;
+mod hardware;
 mod rotor;
+mod support;
+mod water;
+// The facts about surfaces, parts and joints.
+mod cleaning;
+mod joints;
+mod measure;
+mod mouths;
+mod part_probe;
+mod pegs;
+mod shells;
+// The checks and the verdict.
+mod check;
+mod checks;
+mod goal_checks;
+mod judge;
+mod judgement;
+mod kind;
+mod limits;
+mod void_checks;
+// The checks of the files of a kit as they were delivered.
+mod change;
+mod changes;
+mod kit;
+mod packages;
 mod seal;
 mod sheet;
-mod shells;
-mod support;
+
+#[cfg(test)]
+mod cleaning_tests;
+#[cfg(test)]
+pub(crate) mod judge_tests;
+#[cfg(test)]
+mod kit_tests;
+#[cfg(test)]
+mod pegs_tests;
 #[cfg(test)]
 pub(crate) mod test_meshes;
-mod wall;
-mod water;
 
+// The judgement: from a folder, or from evidence in memory.
+pub use error::VerifyError;
+pub use evidence::{Evidence, PartEvidence, assembly_moments};
+pub use judge::judge;
+pub use judgement::Judgement;
+pub use kit::verify_kit;
+pub use reading::read_promise;
+
+// The promises.
 pub use crate::printer::{Cleaning, CleaningRule};
 pub use ballast::{BallastOrder, FillOrder};
-pub use changes::{Change, FILES_CHECK, FileChange, files_check};
-pub use check::{Check, Comparison, Limit};
-pub use checks::{
-    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
-    GAP_TOLERANCE_MM, METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO, RESTING_LIMIT_MM,
-    RIGHTING_LIMIT_DEG, STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO,
-    WALL_TOLERANCE_MM, WATERLINE_LIMIT_MM, checks,
-};
-pub use cleaning::{PromisedCut, PromisedVoid, SIGHT_TOLERANCE_RATIO, VoidFacts};
-pub use figures::{Figures, Setting};
 pub use fingerprint::{Fingerprint, Likeness};
-pub use hardware::{Fit, Hardware, mass_moments};
-pub use joints::{FILM_LIMIT_RATIO, GlueFilm};
-pub use judge::{Evidence, Judgement, judge, setting};
-pub use kit::{
-    CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE, VerifyError, read_promise, verify_kit,
-};
-pub use measure::{PartEvidence, PartFacts, SurfaceFacts, assembly_moments};
-pub use pegs::PegFacts;
+pub use hardware::Hardware;
 pub use pose::Pose;
 pub use promise::{
-    Aim, Density, FigureName, Mark, Peg, PrinterLimits, Promise, PromisedFigure, PromisedJoint,
-    PromisedPart, SCHEMA, WallOrder,
+    Aim, Density, FigureName, GlueFilm, Mark, Peg, PrinterLimits, Promise, PromisedCut,
+    PromisedFigure, PromisedJoint, PromisedPart, PromisedVoid, SCHEMA, WallOrder,
 };
-pub use rotor::{RotorOrder, Unbalance};
-pub use seal::sums;
-pub use sheet::{SHEET_LIMIT_RATIO, misstatements};
+pub use rotor::RotorOrder;
+pub use water::WaterOrder;
+
+// The facts.
+pub use cleaning::VoidFacts;
+pub use figures::{Figures, Setting};
+pub use hardware::{Fit, mass_moments};
+pub use joints::FilmError;
+pub use measure::{PartFacts, SurfaceFacts};
+pub use pegs::PegFacts;
+pub use rotor::Unbalance;
 pub use shells::Shells;
 pub use support::{SUPPORT_BAND_RATIO, Support};
-pub use wall::smallest_wall_mm;
-pub use water::{Afloat, Hull, WaterOrder};
+pub use water::{Afloat, Hull};
+
+// The checks and their limits.
+pub use check::{Check, Comparison, Limit};
+pub use checks::checks;
+pub use kind::CheckKind;
+pub use limits::{
+    AXIS_OFFSET_LIMIT_MM, AXIS_TILT_LIMIT_DEG, DOMINANCE_LIMIT_RATIO, FIGURE_SLACK_RATIO,
+    FILM_LIMIT_RATIO, GAP_TOLERANCE_MM, METACENTRIC_LIMIT_MM, PIN_LIMIT_MM, POSE_LIMIT_RATIO,
+    RESTING_LIMIT_MM, RIGHTING_LIMIT_DEG, SHEET_LIMIT_RATIO, SIGHT_TOLERANCE_RATIO,
+    STANDING_LIMIT_DEG, STRING_GAP_TOLERANCE_MM, VOLUME_SUM_LIMIT_RATIO, WALL_TOLERANCE_MM,
+    WATERLINE_LIMIT_MM,
+};
+
+// The files of a kit and their changes.
+pub use change::{Change, FileChange};
+pub use changes::files_check;
+pub use files::{CHECKLIST_FILE, HOLLOWED_FILE, SHEET_FILE, SUMS_FILE};
+pub use seal::sums;
+pub use sheet::find_misstatements;

@@ -1,4 +1,4 @@
-//! The mouths of a void: the open places in which a cut passes through its wall, on the surface as
+//! The mouths of a void: the openings where a cut passes through its wall, on the surface as
 //! written.
 
 use std::collections::BTreeMap;
@@ -6,33 +6,41 @@ use std::collections::BTreeMap;
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::TriMesh;
 
-/// Places across the box of a mouth, along each of two directions.
+/// Number of sample points across the bounding box of a mouth, along each of two directions.
 const ACROSS: usize = 16;
-/// Places along a rim.
+/// Number of sample points along a rim.
 const ALONG: usize = 64;
-/// Those keep this share more from it than they must, so that rounding takes none of them away.
+/// Relative excess of their distance from the rim, so that rounding drops none of them.
 const ROOM_SLACK_RATIO: f64 = 1e-9;
-/// The places with most room from which the widest is climbed to.
+/// Number of points with most room from which the search climbs to the widest.
 const CLIMBS: usize = 3;
-/// The climb to the widest place ends at steps of this share of the mouth's box.
+/// Last step of the climb, as a share of the mouth's bounding box.
 const CLIMB_RATIO: f64 = 5e-4;
 
-/// A place in a mouth.
+/// A point in a mouth.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Place {
-    /// Where it is, model frame.
+pub(super) struct MouthPoint {
+    /// The point, model frame.
     pub at: Point,
-    /// The distance to the nearest rim, mm.
+    /// Its distance from the nearest rim, mm.
     pub room_mm: f64,
     /// The nearest point of a rim.
     pub rim: Point,
-    /// Which mouth of this void and cut it belongs to.
+    /// The index of its mouth among those of this void and cut.
     pub mouth: usize,
 }
 
+/// A point in coordinates of the plane.
 type Flat = nalgebra::Point2<f64>;
 
-/// A closed line of the section.
+/// A point of the plane and the room around it, mm.
+#[derive(Clone, Copy)]
+struct Roomy {
+    at: Flat,
+    room_mm: f64,
+}
+
+/// A closed line of the section, with its bounding box.
 struct Ring {
     segments: Vec<[Flat; 2]>,
     low: Flat,
@@ -44,22 +52,28 @@ struct Rims {
     rings: Vec<Ring>,
 }
 
-/// Places spread over the mouths of a void's shell (turned either way) in a plane and along their
-/// rims, there with just the room for a tool of this radius, and the widest place of each.
-pub(super) fn places(shell: &TriMesh, plane: &Plane, tool_radius_mm: f64) -> Vec<Place> {
+/// Samples the mouths of a void's shell (turned either way) in a plane.
+///
+/// The points are spread over the mouths, and along their rims with just the room for a tool of
+/// this radius. The widest point of each mouth is added.
+pub(super) fn sample_mouths(
+    shell: &TriMesh,
+    plane: &Plane,
+    tool_radius_mm: f64,
+) -> Vec<MouthPoint> {
     let (u, v) = plane.basis();
     let rims = Rims::of(shell, plane, [u, v]);
     let lift = |p: &Flat| plane.foot() + u * p.x + v * p.y;
-    let mut places = Vec::new();
+    let mut points = Vec::new();
     for ring in &rims.rings {
-        let mut flat = rims.spread(ring);
-        flat.sort_by(|a, b| b.1.total_cmp(&a.1));
-        let starts: Vec<(Flat, f64)> = flat.iter().copied().take(CLIMBS).collect();
-        flat.extend(starts.into_iter().map(|start| rims.climbed(ring, start)));
-        flat.extend(rims.beside(ring, tool_radius_mm));
-        places.extend(flat.into_iter().filter_map(|(at, room_mm)| {
+        let mut flat = rims.grid_points(ring);
+        flat.sort_by(|a, b| b.room_mm.total_cmp(&a.room_mm));
+        let starts: Vec<Roomy> = flat.iter().copied().take(CLIMBS).collect();
+        flat.extend(starts.into_iter().map(|start| rims.climb(ring, start)));
+        flat.extend(rims.points_beside(ring, tool_radius_mm));
+        points.extend(flat.into_iter().filter_map(|Roomy { at, room_mm }| {
             let (_, rim) = rims.nearest(&at)?;
-            Some(Place {
+            Some(MouthPoint {
                 at: lift(&at),
                 room_mm,
                 rim: lift(&rim),
@@ -67,7 +81,7 @@ pub(super) fn places(shell: &TriMesh, plane: &Plane, tool_radius_mm: f64) -> Vec
             })
         }));
     }
-    places
+    points
 }
 
 impl Rims {
@@ -84,7 +98,7 @@ impl Rims {
             shell
                 .triangles()
                 .iter()
-                .filter_map(|t| crossed(t, &heights)),
+                .filter_map(|t| crossing_edges(t, &heights)),
         );
         let mut rings = Vec::new();
         while let Some((mut from, mut to)) = next.pop_first() {
@@ -98,7 +112,7 @@ impl Rims {
         Self { rings }
     }
 
-    /// The nearest point of a rim and its distance, mm.
+    /// Returns the distance to the nearest rim, mm, and the nearest point on it.
     fn nearest(&self, p: &Flat) -> Option<(f64, Flat)> {
         let on = self
             .rings
@@ -118,40 +132,46 @@ impl Rims {
             .min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
-    /// The room about a point, mm; negative outside the void.
+    /// Returns the room around a point, mm; negative outside the void.
     fn room_mm(&self, p: &Flat) -> f64 {
-        let is_inside = self.rings.iter().filter(|ring| ring.holds(p)).count() % 2 == 1;
+        let is_inside = self.rings.iter().filter(|ring| ring.contains(p)).count() % 2 == 1;
         let distance = self.nearest(p).map_or(0.0, |(distance, _)| distance);
         if is_inside { distance } else { -distance }
     }
 
-    /// The mouth a point of the void lies in: the smallest ring around it is that mouth's outer
-    /// rim.
+    /// Returns the mouth that a point of the void lies in. The smallest ring around the point is
+    /// that mouth's outer rim.
     fn mouth(&self, p: &Flat) -> Option<usize> {
         let around = self
             .rings
             .iter()
             .enumerate()
-            .filter(|(_, ring)| ring.holds(p));
+            .filter(|(_, ring)| ring.contains(p));
         let size = |ring: &Ring| (ring.high - ring.low).norm();
         around
             .min_by(|a, b| size(a.1).total_cmp(&size(b.1)))
             .map(|(index, _)| index)
     }
 
-    /// Points of the void over the box of a ring, with their room.
-    fn spread(&self, ring: &Ring) -> Vec<(Flat, f64)> {
+    /// Returns the points of a grid over the bounding box of a ring that lie in the void.
+    fn grid_points(&self, ring: &Ring) -> Vec<Roomy> {
         let step = (ring.high - ring.low) / ACROSS as f64;
         let at = |i: usize| {
             let (column, row) = ((i % ACROSS) as f64 + 0.5, (i / ACROSS) as f64 + 0.5);
             ring.low + nalgebra::Vector2::new(step.x * column, step.y * row)
         };
-        let points = (0..ACROSS * ACROSS).map(at).map(|p| (p, self.room_mm(&p)));
-        points.filter(|(_, room_mm)| *room_mm > 0.0).collect()
+        let points = (0..ACROSS * ACROSS).map(|i| self.measure(at(i)));
+        points.filter(|point| point.room_mm > 0.0).collect()
     }
 
-    /// Points beside a ring, inside the void, with this room.
-    fn beside(&self, ring: &Ring, room_mm: f64) -> Vec<(Flat, f64)> {
+    /// Measures the room around a point.
+    fn measure(&self, at: Flat) -> Roomy {
+        let room_mm = self.room_mm(&at);
+        Roomy { at, room_mm }
+    }
+
+    /// Returns points beside a ring, inside the void, with this room.
+    fn points_beside(&self, ring: &Ring, room_mm: f64) -> Vec<Roomy> {
         let length = |[a, b]: &[Flat; 2]| (b - a).norm();
         let spacing = ring.segments.iter().map(length).sum::<f64>() / ALONG as f64;
         let (mut points, mut walked, mut next) = (Vec::new(), 0.0, 0.0);
@@ -163,12 +183,8 @@ impl Rims {
                 let normal = nalgebra::Vector2::new(along.y, -along.x);
                 let sides = [1.0, -1.0]
                     .map(|side| foot + normal * (side * room_mm * (1.0 + ROOM_SLACK_RATIO)));
-                let beside = sides.map(|p| (p, self.room_mm(&p)));
-                points.extend(
-                    beside
-                        .into_iter()
-                        .find(|(_, found_mm)| *found_mm >= room_mm),
-                );
+                let beside = sides.map(|p| self.measure(p));
+                points.extend(beside.into_iter().find(|point| point.room_mm >= room_mm));
                 next += spacing;
             }
             walked += length(segment);
@@ -176,22 +192,23 @@ impl Rims {
         points
     }
 
-    /// The roomiest point that steps to the eight sides lead to, the steps halved where none does.
-    fn climbed(&self, ring: &Ring, (mut at, mut room_mm): (Flat, f64)) -> (Flat, f64) {
+    /// Climbs to a point with the most room by steps in eight directions. A step that gains nothing
+    /// is halved.
+    fn climb(&self, ring: &Ring, mut best: Roomy) -> Roomy {
         let size = (ring.high - ring.low).norm();
         let mut step = size / ACROSS as f64;
         while step > CLIMB_RATIO * size {
             let sides = (0..8).map(|i| (f64::from(i) * std::f64::consts::FRAC_PI_4).sin_cos());
-            let around = sides.map(|(sin, cos)| at + nalgebra::Vector2::new(cos, sin) * step);
-            let best = around
-                .map(|p| (p, self.room_mm(&p)))
-                .max_by(|a, b| a.1.total_cmp(&b.1));
-            match best {
-                Some((better, more_mm)) if more_mm > room_mm => (at, room_mm) = (better, more_mm),
+            let around = sides.map(|(sin, cos)| best.at + nalgebra::Vector2::new(cos, sin) * step);
+            let next = around
+                .map(|p| self.measure(p))
+                .max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
+            match next {
+                Some(next) if next.room_mm > best.room_mm => best = next,
                 _ => step /= 2.0,
             }
         }
-        (at, room_mm)
+        best
     }
 }
 
@@ -207,8 +224,8 @@ impl Ring {
         })
     }
 
-    /// Whether a point lies inside, by even and odd.
-    fn holds(&self, p: &Flat) -> bool {
+    /// Returns true if a point lies inside, by the even-odd rule.
+    fn contains(&self, p: &Flat) -> bool {
         let crosses = |[a, b]: &&[Flat; 2]| {
             (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
         };
@@ -216,9 +233,9 @@ impl Ring {
     }
 }
 
-/// The two edges in which a triangle crosses the plane, from the one that goes down to the one that
-/// comes up, each by its ends ascending; a corner on the plane counts as above it.
-fn crossed(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<([u32; 2], [u32; 2])> {
+/// Returns the two edges in which a triangle crosses the plane, if it does. The first goes down,
+/// the second comes up. The ends of each ascend. A corner on the plane counts as above.
+fn crossing_edges(&[a, b, c]: &[u32; 3], heights: &[f64]) -> Option<([u32; 2], [u32; 2])> {
     let above = |i: u32| heights[i as usize] >= 0.0;
     let edges = [[a, b], [b, c], [c, a]];
     let down = edges.into_iter().find(|&[p, q]| above(p) && !above(q))?;
@@ -244,48 +261,49 @@ mod tests {
         for turned in [false, true] {
             let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
             let shell = if turned { shell.reversed() } else { shell };
-            let widest = places(&shell, &level(4.0), 0.5)
+            let widest = sample_mouths(&shell, &level(4.0), 0.5)
                 .into_iter()
                 .max_by(|a, b| a.room_mm.total_cmp(&b.room_mm));
             let widest = widest.unwrap();
             assert!((widest.room_mm - 2.5).abs() < 0.01, "{widest:?}");
             assert!((widest.at.z - 4.0).abs() < 1e-12 && (widest.rim - widest.at).norm() > 2.49);
         }
-        assert!(places(&block(Point::origin(), [8.0, 5.0, 6.0]), &level(7.0), 0.5).is_empty());
+        let block = block(Point::origin(), [8.0, 5.0, 6.0]);
+        assert!(sample_mouths(&block, &level(7.0), 0.5).is_empty());
     }
 
     #[test]
-    fn places_along_the_rim_keep_just_the_tools_room() {
+    fn points_along_the_rim_keep_just_the_tools_room() {
         let shell = block(Point::new(1.0, 2.0, 3.0), [8.0, 5.0, 6.0]);
         let beside = |room_mm: f64| {
-            places(&shell, &level(4.0), room_mm)
+            sample_mouths(&shell, &level(4.0), room_mm)
                 .into_iter()
                 .filter(move |p| (p.room_mm - room_mm).abs() < 1e-6)
         };
-        // All but those whose foot is nearer than 0.6 mm to a corner: 8 times 0.6 of 26 mm.
+        // All but the points within 0.6 mm of a corner along the rim: 8 times 0.6 of 26 mm.
         let found = beside(0.6).count() as f64 / ALONG as f64;
         assert!((found - 21.2 / 26.0).abs() < 0.1, "{found}");
         assert_eq!(beside(2.6).count(), 0, "a tool wider than the mouth");
     }
 
     #[test]
-    fn two_mouths_of_one_cut_are_told_apart_and_a_hole_is_none() {
+    fn two_mouths_of_one_cut_are_distinguished_and_a_hole_is_no_mouth() {
         let two =
             block(Point::origin(), [4.0; 3]).joined(&block(Point::new(10.0, 0.0, 0.0), [4.0; 3]));
-        let mouths: std::collections::BTreeSet<usize> = places(&two, &level(2.0), 0.5)
+        let mouths: std::collections::BTreeSet<usize> = sample_mouths(&two, &level(2.0), 0.5)
             .iter()
-            .map(|place| place.mouth)
+            .map(|point| point.mouth)
             .collect();
         assert_eq!(mouths.len(), 2);
-        // A square frame: 1 mm of room all around a column of material.
+        // A square frame: 1 mm of room around a column of material.
         let frame = block(Point::origin(), [10.0; 3])
             .joined(&block(Point::new(2.0, 2.0, 0.0), [6.0; 3]).reversed());
-        let found = places(&frame, &level(2.0), 0.5);
+        let found = sample_mouths(&frame, &level(2.0), 0.5);
         let first = found[0].mouth;
         assert!(
             found
                 .iter()
-                .all(|place| place.mouth == first && place.room_mm < 1.2),
+                .all(|point| point.mouth == first && point.room_mm < 1.2),
             "{found:?}"
         );
     }

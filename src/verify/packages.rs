@@ -1,42 +1,43 @@
-//! The 3MF files beside the parts: do they hold the parts that are judged, where they belong?
+//! The check of the 3MF files: they hold the parts that are judged, in their places.
 
 use std::path::Path;
 
-use super::{
-    Check, Evidence, Fingerprint, Limit, Promise, VerifyError,
-    fingerprint::Likeness,
-    kit::{of_nominal_size, read_file},
-    sheet::has_its_shape,
-};
+use super::fingerprint::Likeness;
+use super::reading::{read_file, undo_print_scale};
+use super::{Check, CheckKind, Evidence, Fingerprint, Limit, Promise, VerifyError};
 use crate::io::threemf::{PlacedObject, decode_objects};
 
-/// The parts in place.
+/// The file with all parts in place.
 const ASSEMBLY_FILE: &str = "assembly.3mf";
-/// What the names of the plates begin with.
+/// The prefix of the names of plates.
 const PLATE: &str = "plate";
 
-/// A package, or all plates together: its name, what it is, and what it holds.
+/// A package, or all plates together.
 struct Package {
     name: String,
     kind: Kind,
     objects: Vec<PlacedObject>,
 }
 
-/// What a package is.
+/// The kind of a package.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     /// All parts in place.
     Assembly,
-    /// All parts in print pose, anywhere.
+    /// All parts in print pose, anywhere on the plates.
     Plates,
     /// One part.
     Part,
 }
 
-/// The check of all packages of a kit; none where it has none.
+/// Checks all packages of a kit; `None` if it has none.
 ///
-/// Objects are held against the marks of the parts as they were made, so that a part's changed file
-/// is not laid to them.
+/// Objects are compared with the fingerprints of the parts as made, so that a changed file of a
+/// part is not blamed on them.
+///
+/// # Errors
+///
+/// If a package cannot be read.
 pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check>, VerifyError> {
     let promise = &evidence.promise;
     let is_beside = |file: &&String| {
@@ -50,17 +51,17 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     for file in files.into_iter().filter(|file| folder.join(file).exists()) {
         match decode_objects(&read_file(&folder.join(file))?) {
             Err(error) => faults.push(format!("{file}: {error}")),
-            Ok(objects) => packages.push(package(file, objects, promise)),
+            Ok(objects) => packages.push(Package::new(file, objects, promise)),
         }
     }
     faults.extend(
-        together(packages)
+        merge_plates(packages)
             .iter()
-            .flat_map(|package| object_faults(package, evidence)),
+            .flat_map(|package| find_faults(package, evidence)),
     );
     let words = "every 3MF file holds the parts as they are judged";
     let check = Check::new(
-        "3MF files",
+        CheckKind::Packages,
         words,
         Some(faults.len() as f64),
         Limit::at_most(0.0, ""),
@@ -70,28 +71,32 @@ pub fn packages_check(folder: &Path, evidence: &Evidence) -> Result<Option<Check
     ))
 }
 
-fn package(file: &str, objects: Vec<PlacedObject>, promise: &Promise) -> Package {
-    let kind = match file {
-        ASSEMBLY_FILE => Kind::Assembly,
-        _ if file.starts_with(PLATE) => Kind::Plates,
-        _ => Kind::Part,
-    };
-    let nominal = |object| {
-        if kind == Kind::Assembly {
-            object
-        } else {
-            nominal(object, promise)
+impl Package {
+    /// Recognises the kind of a package by its name. Printed objects are returned in nominal size.
+    fn new(file: &str, objects: Vec<PlacedObject>, promise: &Promise) -> Self {
+        let kind = match file {
+            ASSEMBLY_FILE => Kind::Assembly,
+            _ if file.starts_with(PLATE) => Kind::Plates,
+            _ => Kind::Part,
+        };
+        let scale_ratio = match kind {
+            Kind::Assembly => None,
+            Kind::Plates | Kind::Part => promise.printer.print_scale_ratio,
+        };
+        let nominal = |object: PlacedObject| PlacedObject {
+            mesh: undo_print_scale(object.mesh, scale_ratio),
+            ..object
+        };
+        Self {
+            name: file.to_owned(),
+            kind,
+            objects: objects.into_iter().map(nominal).collect(),
         }
-    };
-    Package {
-        name: file.to_owned(),
-        kind,
-        objects: objects.into_iter().map(nominal).collect(),
     }
 }
 
-/// The packages, those of plates taken together: each part lies on one of them.
-fn together(packages: Vec<Package>) -> Vec<Package> {
+/// Merges the plates into one package, since each part lies on only one of them.
+fn merge_plates(packages: Vec<Package>) -> Vec<Package> {
     let (plates, mut all): (Vec<Package>, Vec<Package>) = packages
         .into_iter()
         .partition(|package| package.kind == Kind::Plates);
@@ -108,33 +113,24 @@ fn together(packages: Vec<Package>) -> Vec<Package> {
     all
 }
 
-/// An object of a plate or of a part's own package in the size before it was scaled for the
-/// printer.
-fn nominal(object: PlacedObject, promise: &Promise) -> PlacedObject {
-    PlacedObject {
-        mesh: of_nominal_size(object.mesh, promise.printer.print_scale_ratio),
-        ..object
-    }
-}
-
-/// What is wrong with the objects of a package, in words.
-fn object_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
+/// Returns the faults of a package's objects, in words.
+fn find_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
     let Package {
         name,
         kind,
         objects,
     } = package;
     let all = 0..evidence.parts.len();
-    let twin = |part: &usize| {
+    let is_own = |part: &usize| {
         Path::new(&evidence.promise.parts[*part].file).with_extension("3mf") == Path::new(name)
     };
     let wanted: Vec<usize> = all
-        .filter(|part| *kind != Kind::Part || twin(part))
+        .filter(|part| *kind != Kind::Part || is_own(part))
         .collect();
     let mut faults = Vec::new();
     if objects.len() != wanted.len() {
         faults.push(format!(
-            "{name} holds {} objects in place of {}",
+            "{name} holds {} objects instead of {}",
             objects.len(),
             wanted.len()
         ));
@@ -144,10 +140,10 @@ fn object_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
         let found: Vec<&PlacedObject> =
             objects.iter().filter(|object| object.name == *id).collect();
         match found.as_slice() {
-            [object] if is_right(*kind, object, (evidence, part)) => {}
+            [object] if is_right(*kind, object, evidence, part) => {}
             [_] => {
                 faults.push(format!(
-                    "{name}: {id} is not the part of its own file, or not in its place"
+                    "{name}: {id} differs from the part in its own file, or is not in its place"
                 ));
             }
             _ => faults.push(format!("{name} holds {id} {} times", found.len())),
@@ -156,18 +152,19 @@ fn object_faults(package: &Package, evidence: &Evidence) -> Vec<String> {
     faults
 }
 
-/// Whether an object is the part: in its place in the assembly, anywhere on a plate, with the same
-/// triangles in its own file.
-fn is_right(kind: Kind, object: &PlacedObject, (evidence, part): (&Evidence, usize)) -> bool {
+/// Returns true if an object is the part. In the assembly its place counts too; in its own package
+/// it has the same triangles.
+fn is_right(kind: Kind, object: &PlacedObject, evidence: &Evidence, part: usize) -> bool {
     let (found, read) = (Fingerprint::of(&object.mesh), &evidence.parts[part]);
-    let mark = evidence.promise.parts[part].fingerprint.clone();
+    let promised = evidence.promise.parts[part].fingerprint.clone();
     let printed = || {
-        mark.unwrap_or_else(|| Fingerprint::of(&read.mesh))
+        promised
+            .unwrap_or_else(|| Fingerprint::of(&read.mesh))
             .likeness(&found)
     };
     match kind {
-        // Where it belongs can be told only by the part as it was made.
-        Kind::Assembly if !has_its_shape(evidence, part) => true,
+        // Only the part as made shows the place in the assembly.
+        Kind::Assembly if !evidence.is_part_as_made(part) => true,
         Kind::Assembly => {
             let placed = read.mesh.map_vertices(|p| read.pose.to_model(p));
             matches!(

@@ -1,51 +1,33 @@
-//! Pins and sockets felt out in files: a sound joint, and the same joint with one thing wrong at a
-//! time.
+//! Pins and sockets in files: a sound joint, and the same joint with one fault at a time.
 
-use super::judge_tests::{failures, sound};
+use super::judge_tests::{SEAT, failures, peg, sound};
 use super::*;
 use crate::geom::Vector;
 use crate::mass::FlatFace;
 use crate::mesh::{Csg, TriMesh, primitives::cylinder};
 
-/// Where the pin stands: in the middle of a side of the box of [`sound`], whose halves meet at z =
-/// 16.
-const SEAT: [f64; 3] = [28.5, 0.0, 16.0];
 const GAP_MM: f64 = 0.1;
 const PIN: [f64; 2] = [0.6, 1.2];
 const SOCKET: [f64; 2] = [PIN[0] + 2.0 * GAP_MM, PIN[1] + 0.3];
 
-/// A pin or socket of that diameter and length at the seat.
-pub(crate) fn peg(diameter_mm: f64, length_mm: f64, volume_mm3: f64) -> Peg {
-    let (id, joint) = ("N1".to_owned(), "J1".to_owned());
-    Peg {
-        id,
-        joint,
-        center_mm: SEAT,
-        axis: [0.0, 0.0, 1.0],
-        diameter_mm,
-        length_mm,
-        volume_mm3,
-    }
-}
-
-/// A turned body of 96 sides about the seat, from `below` under the cut to `above` over it.
-fn turned(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
+/// Returns a cylinder of 96 sides about the seat, from `below` under the cut to `above` over it.
+fn rod(diameter_mm: f64, [below, above]: [f64; 2]) -> TriMesh {
     let base = Vector::from(SEAT) - Vector::z() * below;
     cylinder(diameter_mm / 2.0, below + above, 96).map_vertices(|p| p + base)
 }
 
-/// The sound kit with pins of one size made and another promised.
-fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
+/// Returns the sound kit with a pin and a socket made in these sizes (diameter and length), the
+/// socket moved by `shift`. The sizes [`PIN`] and [`SOCKET`] are promised.
+fn kit_with_pin(pin: [f64; 2], socket: [f64; 2], shift: Vector) -> Evidence {
     let mut evidence = sound();
     let body = |evidence: &Evidence, i: usize| {
         let part = &evidence.parts[i];
         Csg::of_mesh(&part.mesh.map_vertices(|p| part.pose.to_model(p))).unwrap()
     };
-    let (pin, socket) = made;
     let carrier = body(&evidence, 0)
-        .union(&Csg::of_mesh(&turned(pin[0], [0.5, pin[1]])).unwrap())
+        .union(&Csg::of_mesh(&rod(pin[0], [0.5, pin[1]])).unwrap())
         .unwrap();
-    let hole = turned(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
+    let hole = rod(socket[0], [0.5, socket[1]]).map_vertices(|p| p + shift);
     let receiver = body(&evidence, 1)
         .subtract(&Csg::of_mesh(&hole).unwrap())
         .unwrap();
@@ -55,7 +37,7 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
             .unwrap()
             .map_vertices(|p| part.pose.to_print(p));
     }
-    let volume = |[diameter, length]: [f64; 2]| turned(diameter, [0.0, length]).signed_volume_mm3();
+    let volume = |[diameter, length]: [f64; 2]| rod(diameter, [0.0, length]).signed_volume_mm3();
     evidence.promise.parts[0].pins = vec![peg(PIN[0], PIN[1], volume(PIN))];
     evidence.promise.parts[1].sockets = vec![peg(SOCKET[0], SOCKET[1], volume(SOCKET))];
     let joint = PromisedJoint {
@@ -69,8 +51,8 @@ fn jointed(made: ([f64; 2], [f64; 2]), shift: Vector) -> Evidence {
     evidence
 }
 
-/// What fails beside what moves with any pin: a single pin at the side puts the centre aside.
-fn wrong(evidence: &Evidence) -> Vec<String> {
+/// Returns the failures except those of any single pin at the side, which moves the centre of mass.
+fn pin_failures(evidence: &Evidence) -> Vec<String> {
     failures(evidence)
         .into_iter()
         .filter(|name| name != "axis offset" && name != "volumes")
@@ -79,16 +61,16 @@ fn wrong(evidence: &Evidence) -> Vec<String> {
 
 #[test]
 fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
-    let evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     assert_eq!(
-        wrong(&evidence),
+        pin_failures(&evidence),
         Vec::<String>::new(),
         "{:?}",
         judge(&evidence).pegs
     );
     assert!(!failures(&evidence).contains(&"volumes".to_owned()));
     let found = judge(&evidence).pegs.remove(0);
-    // Sides of 96-gons lie within 5e-4 of their radius inside the circle.
+    // Sides of 96-gons lie at most 5e-4 of their radius inside the circle.
     assert!(
         found.deviation_mm < 5e-4 && (found.gap_mm.unwrap() - GAP_MM).abs() < 5e-4,
         "{found:?}"
@@ -99,56 +81,58 @@ fn a_pin_that_stands_in_its_socket_keeps_every_promise() {
 
 #[test]
 fn a_pin_left_out_of_the_file_is_missed() {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     evidence.parts[0].mesh = sound().parts[0].mesh.clone();
-    assert_eq!(wrong(&evidence), ["pins", "clearance"]);
+    assert_eq!(pin_failures(&evidence), ["pins", "clearance"]);
 }
 
 #[test]
-fn a_socket_left_out_of_the_file_is_missed_and_the_pin_reaches_into_the_material() {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+fn a_missing_socket_is_found_and_the_pin_reaches_into_the_material() {
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     evidence.parts[1].mesh = sound().parts[1].mesh.clone();
-    assert_eq!(wrong(&evidence), ["pins", "clearance", "overlap"]);
+    assert_eq!(pin_failures(&evidence), ["pins", "clearance", "overlap"]);
 }
 
 #[test]
 fn a_socket_that_no_part_has_on_the_list_is_missed() {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     evidence.promise.parts[1].sockets.clear();
-    assert_eq!(wrong(&evidence), ["pins", "clearance", "socket wall"]);
+    assert_eq!(
+        pin_failures(&evidence),
+        ["pins", "clearance", "socket wall"]
+    );
 }
 
 #[test]
 fn a_pin_too_stout_or_too_long_and_a_socket_too_shallow_are_found() {
-    let stout = jointed(([PIN[0] + 0.06, PIN[1]], SOCKET), Vector::zeros());
-    assert_eq!(wrong(&stout), ["pins", "clearance"]);
-    let long = jointed(([PIN[0], PIN[1] + 0.05], SOCKET), Vector::zeros());
-    assert_eq!(wrong(&long), ["pins"]);
-    let shallow = jointed((PIN, [SOCKET[0], SOCKET[1] - 0.05]), Vector::zeros());
-    assert_eq!(wrong(&shallow), ["pins"]);
+    let stout = kit_with_pin([PIN[0] + 0.06, PIN[1]], SOCKET, Vector::zeros());
+    assert_eq!(pin_failures(&stout), ["pins", "clearance"]);
+    let long = kit_with_pin([PIN[0], PIN[1] + 0.05], SOCKET, Vector::zeros());
+    assert_eq!(pin_failures(&long), ["pins"]);
+    let shallow = kit_with_pin(PIN, [SOCKET[0], SOCKET[1] - 0.05], Vector::zeros());
+    assert_eq!(pin_failures(&shallow), ["pins"]);
 }
 
 #[test]
 fn a_socket_sunk_aside_leaves_too_small_a_gap() {
-    // Nothing that the socket's own axis would show: half the tolerance of sizes, ten times that of
-    // gaps.
-    let aside = jointed((PIN, SOCKET), Vector::new(0.0, 0.01, 0.0));
-    assert_eq!(wrong(&aside), ["clearance"]);
+    // Half the tolerance of sizes, ten times that of gaps.
+    let aside = kit_with_pin(PIN, SOCKET, Vector::new(0.0, 0.01, 0.0));
+    assert_eq!(pin_failures(&aside), ["clearance"]);
 }
 
-/// The sound kit with a dowel in two sockets, the second made as told.
-fn dowelled(made: [f64; 2]) -> Evidence {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+/// Returns the sound kit with a dowel in two sockets, the second made in this size.
+fn kit_with_dowel(made: [f64; 2]) -> Evidence {
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     let below = &mut evidence.parts[0];
     let whole = sound().parts.remove(0);
     let body = Csg::of_mesh(&whole.mesh.map_vertices(|p| whole.pose.to_model(p))).unwrap();
-    let hole = turned(made[0], [made[1], 0.5]);
+    let hole = rod(made[0], [made[1], 0.5]);
     let body = body.subtract(&Csg::of_mesh(&hole).unwrap()).unwrap();
     below.mesh = body
         .to_mesh()
         .unwrap()
         .map_vertices(|p| below.pose.to_print(p));
-    let volume_mm3 = turned(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
+    let volume_mm3 = rod(SOCKET[0], [SOCKET[1], 0.0]).signed_volume_mm3();
     let second = Peg {
         axis: [0.0, 0.0, -1.0],
         ..peg(SOCKET[0], SOCKET[1], volume_mm3)
@@ -174,9 +158,9 @@ fn dowelled(made: [f64; 2]) -> Evidence {
 
 #[test]
 fn a_dowel_lies_in_two_sockets_and_weighs() {
-    let evidence = dowelled(SOCKET);
+    let evidence = kit_with_dowel(SOCKET);
     assert_eq!(
-        wrong(&evidence),
+        pin_failures(&evidence),
         Vec::<String>::new(),
         "{:?}",
         judge(&evidence).pegs
@@ -200,18 +184,24 @@ fn a_dowel_lies_in_two_sockets_and_weighs() {
 #[test]
 fn a_second_socket_too_narrow_too_shallow_or_missing_is_found() {
     assert_eq!(
-        wrong(&dowelled([SOCKET[0] - 0.06, SOCKET[1]])),
+        pin_failures(&kit_with_dowel([SOCKET[0] - 0.06, SOCKET[1]])),
         ["pins", "clearance"]
     );
-    assert_eq!(wrong(&dowelled([SOCKET[0], SOCKET[1] - 0.05])), ["pins"]);
-    let mut evidence = dowelled(SOCKET);
+    assert_eq!(
+        pin_failures(&kit_with_dowel([SOCKET[0], SOCKET[1] - 0.05])),
+        ["pins"]
+    );
+    let mut evidence = kit_with_dowel(SOCKET);
     evidence.promise.parts[0].sockets.clear();
-    assert_eq!(wrong(&evidence), ["pins", "clearance", "socket wall"]);
+    assert_eq!(
+        pin_failures(&evidence),
+        ["pins", "clearance", "socket wall"]
+    );
 }
 
-/// A film in the joint of the sound kit: a face of this area.
-fn glued(area_mm2: f64) -> Evidence {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+/// Returns the sound kit with a film of glue of this area in its joint.
+fn kit_with_glue(area_mm2: f64) -> Evidence {
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     let face = FlatFace {
         area_mm2,
         center_mm: [0.0, 0.0, SEAT[2]],
@@ -227,7 +217,7 @@ fn glued(area_mm2: f64) -> Evidence {
     evidence
 }
 
-/// The area of the box's rim where its halves meet, mm².
+/// Returns the area of the box's rim where its halves meet, mm².
 fn rim_mm2(evidence: &Evidence) -> f64 {
     let flat = |[a, b, c]: [crate::geom::Point; 3]| {
         let is_flat = [a, b, c].iter().all(|p| (p.z - SEAT[2]).abs() < 1e-4);
@@ -247,20 +237,20 @@ fn rim_mm2(evidence: &Evidence) -> f64 {
 
 #[test]
 fn a_film_as_large_as_its_faces_weighs_and_one_too_large_or_small_is_found() {
-    let area_mm2 = rim_mm2(&glued(1.0));
-    let evidence = glued(area_mm2);
-    assert_eq!(wrong(&evidence), Vec::<String>::new());
-    let bare = jointed((PIN, SOCKET), Vector::zeros());
+    let area_mm2 = rim_mm2(&kit_with_glue(1.0));
+    let evidence = kit_with_glue(area_mm2);
+    assert_eq!(pin_failures(&evidence), Vec::<String>::new());
+    let bare = kit_with_pin(PIN, SOCKET, Vector::zeros());
     let mass_g = judge(&evidence).assembly.mass_g - judge(&bare).assembly.mass_g;
     assert!((mass_g - 1e-4 * area_mm2).abs() < 1e-12);
     for factor in [0.8, 1.3] {
-        assert_eq!(wrong(&glued(factor * area_mm2)), ["glue"]);
+        assert_eq!(pin_failures(&kit_with_glue(factor * area_mm2)), ["glue"]);
     }
 }
 
 #[test]
 fn a_wall_around_the_socket_thinner_than_ordered_is_found() {
-    let mut evidence = jointed((PIN, SOCKET), Vector::zeros());
+    let mut evidence = kit_with_pin(PIN, SOCKET, Vector::zeros());
     evidence.promise.printer.minimum_wall_mm = 1.5 - SOCKET[0] / 2.0 + 0.011;
-    assert_eq!(wrong(&evidence), ["socket wall"]);
+    assert_eq!(pin_failures(&evidence), ["socket wall"]);
 }

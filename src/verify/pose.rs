@@ -1,25 +1,25 @@
-//! How a part lies on the printer's plate.
+//! Poses of parts on the printer's plate.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::Moments;
 
-/// The 4×4 matrix, in rows, that takes model coordinates to the print coordinates of a part, mm.
+/// The homogeneous 4×4 matrix that maps model coordinates to print coordinates of a part, mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Pose {
-    /// The rows of the homogeneous matrix.
+    /// The rows of the matrix.
     pub rows: [[f64; 4]; 4],
 }
 
 impl Pose {
-    /// The pose in which print and model coordinates are the same.
+    /// Returns the pose in which print and model coordinates are the same.
     pub fn identity() -> Self {
         Self::new(&Matrix::identity(), &Vector::zeros())
     }
 
-    /// The pose print = rotation · model + translation.
+    /// Returns the pose print = rotation · model + translation.
     pub fn new(rotation: &Matrix, translation: &Vector) -> Self {
         let row = |i: usize| {
             [
@@ -34,35 +34,35 @@ impl Pose {
         }
     }
 
-    /// The linear part: a proper rotation if the pose is rigid.
+    /// Returns the linear part, a proper rotation if the pose is rigid.
     pub fn rotation(&self) -> Matrix {
         Matrix::from_fn(|row, column| self.rows[row][column])
     }
 
-    /// The translation, mm.
+    /// Returns the translation, mm.
     pub fn translation(&self) -> Vector {
         Vector::from_fn(|row, _| self.rows[row][3])
     }
 
-    /// Model coordinates of a point of the plate's frame; exact only for a rigid pose.
+    /// Returns the model coordinates of a point in the print frame. Exact only for a rigid pose.
     pub fn to_model(&self, print: &Point) -> Point {
         Point::from(self.rotation().tr_mul(&(print.coords - self.translation())))
     }
 
-    /// Print coordinates of a point of the model's frame.
+    /// Returns the print coordinates of a point in the model frame.
     pub fn to_print(&self, model: &Point) -> Point {
         Point::from(self.rotation() * model.coords + self.translation())
     }
 
-    /// The moments in the model frame of a region whose moments are given in the print frame.
+    /// Converts the moments of a region from the print frame to the model frame.
     pub fn moments_to_model(&self, print: &Moments) -> Moments {
         print
             .translated(&-self.translation())
             .rotated(&self.rotation().transpose())
     }
 
-    /// How far the matrix is from a rigid motion: the largest deviation of R·Rᵀ from 1, of det R
-    /// from +1 and of the last row from (0, 0, 0, 1). A mirror gives 2.
+    /// Returns the deviation of the matrix from a rigid motion. It is the largest deviation of R·Rᵀ
+    /// from 1, of det R from +1 and of the last row from (0, 0, 0, 1). A mirror gives 2.
     pub fn rigidity_error(&self) -> f64 {
         let rotation = self.rotation();
         let orthogonal = (rotation * rotation.transpose() - Matrix::identity()).amax();
@@ -77,13 +77,13 @@ impl Pose {
             (w - 1.0).abs(),
         ]
         .into_iter()
-        .fold(0.0, larger)
+        .fold(0.0, max_or_nan)
     }
 }
 
-/// The larger of two numbers; not a number if either is not, so that a broken matrix cannot pass as
-/// rigid.
-fn larger(a: f64, b: f64) -> f64 {
+/// Returns the larger of two numbers, or NaN if either is NaN, so that a broken matrix cannot pass
+/// as rigid.
+fn max_or_nan(a: f64, b: f64) -> f64 {
     if a > b || a.is_nan() { a } else { b }
 }
 
@@ -92,7 +92,7 @@ mod tests {
     use super::*;
     use nalgebra::Rotation3;
 
-    fn tilted() -> Pose {
+    fn oblique_pose() -> Pose {
         let rotation = Rotation3::from_euler_angles(0.3, -1.1, 2.0).into_inner();
         Pose::new(&rotation, &Vector::new(4.0, -7.0, 2.5))
     }
@@ -100,7 +100,7 @@ mod tests {
     #[test]
     fn a_point_laid_on_the_plate_comes_back_to_the_model() {
         let point = Point::new(1.0, 2.0, 3.0);
-        let back = tilted().to_model(&tilted().to_print(&point));
+        let back = oblique_pose().to_model(&oblique_pose().to_print(&point));
         // Three products and sums of numbers below 10: a few units in the last place of 10.
         assert!((back - point).norm() < 1e-14);
     }
@@ -109,7 +109,7 @@ mod tests {
     fn the_moments_of_a_point_mass_move_with_the_point() {
         let at = |p: &Point| Moments(Moments::monomials(p.x, p.y, p.z));
         let point = Point::new(1.0, 2.0, 3.0);
-        let back = tilted().moments_to_model(&at(&tilted().to_print(&point)));
+        let back = oblique_pose().moments_to_model(&at(&oblique_pose().to_print(&point)));
         for (got, want) in back.0.iter().zip(at(&point).0) {
             assert!((got - want).abs() < 1e-12);
         }
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_rotation_is_rigid_and_a_mirror_a_stretch_and_a_hole_are_not() {
-        assert!(tilted().rigidity_error() < 1e-15);
+        assert!(oblique_pose().rigidity_error() < 1e-15);
         let mirror = Pose::new(
             &Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)),
             &Vector::zeros(),

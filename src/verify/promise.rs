@@ -1,34 +1,34 @@
-//! What a kit promises: the judge's own narrow view of `checklist.json`.
+//! The promises of a kit: the judge's own narrow view of `checklist.json`.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
 use super::{
-    BallastOrder, Cleaning, FillOrder, Fingerprint, GlueFilm, Hardware, Pose, PromisedCut,
-    PromisedVoid, RotorOrder, WaterOrder,
+    BallastOrder, Cleaning, FillOrder, Fingerprint, Hardware, Pose, RotorOrder, WaterOrder,
 };
 use crate::geom::{Frame, Point, Vector};
 use crate::goal::GoalKind;
+use crate::mass::FlatFace;
 
 /// The schema of `checklist.json` this judge understands.
 pub const SCHEMA: u32 = 1;
 
-/// The promises of a kit, and what is needed to hold its files against them.
+/// The promises of a kit, and the data needed to judge its files by them.
 ///
-/// Every other key of the checklist is left unread, so that nothing the makers computed on the way
-/// can reach the verdict.
+/// Every other key of the checklist is left unread, so that no intermediate result of the maker can
+/// reach the verdict.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct Promise {
     /// The version of the keys, [`SCHEMA`].
     pub schema: u32,
-    /// What must hold the parts.
+    /// The limits of the printer.
     pub printer: PrinterLimits,
-    /// What they are printed of.
+    /// The material of the parts.
     pub material: Density,
-    /// What the assembly is for.
+    /// The goal of the assembly.
     pub goal: Aim,
-    /// The figure the buyer was told, if the goal has one.
+    /// The figure promised to the buyer, if the goal has one.
     pub promise: Option<PromisedFigure>,
     /// The wall that was ordered.
     pub wall: WallOrder,
@@ -40,19 +40,19 @@ pub struct Promise {
     /// The voids, in the order of the cavities of the uncut result.
     #[serde(default)]
     pub voids: Vec<PromisedVoid>,
-    /// What is put into them that is not printed.
+    /// The hardware put into the parts.
     #[serde(default)]
     pub hardware: Vec<Hardware>,
     /// The dowels in its joints.
     #[serde(default)]
     pub dowels: Vec<Hardware>,
-    /// How far the halves of a yo-yo are to be apart, mm; none where there is one body.
+    /// The gap between the halves of a yo-yo, mm; `None` if there is one body.
     #[serde(default)]
     pub string_gap_mm: Option<f64>,
     /// The stock parts that are laid into its voids.
     #[serde(default)]
     pub ballast: Vec<BallastOrder>,
-    /// What the voids are filled with; none for air.
+    /// The filling of the voids; `None` for air.
     #[serde(default)]
     pub fill: Option<FillOrder>,
     /// The joints between them.
@@ -63,21 +63,21 @@ pub struct Promise {
     pub files: BTreeMap<String, String>,
 }
 
-/// The space a printer has.
+/// The limits of a printer and its process.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 pub struct PrinterLimits {
     /// The edges of the build volume along x, y and z, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
-    /// What part files are multiplied by along x, y and z to make up for shrinkage; none where they
-    /// are of nominal size.
+    /// The scale of the part files along x, y and z, which compensates shrinkage; `None` if they
+    /// have nominal size.
     #[serde(default)]
     pub print_scale_ratio: Option<[f64; 3]>,
-    /// The least wall the process prints, mm: what must stay around sockets.
+    /// The least wall the process prints, mm. As much must stay around sockets.
     pub minimum_wall_mm: f64,
     /// The least opening through which a void can be cleaned, mm.
     #[serde(default)]
     pub minimum_opening_mm: Option<f64>,
-    /// When a void counts as clean; none where that is not judged.
+    /// The rule by which a void counts as clean; `None` if that is not judged.
     #[serde(default)]
     pub cleaning: Option<Cleaning>,
 }
@@ -92,22 +92,22 @@ pub struct Density {
 /// The goal, as placed on the model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Aim {
-    /// What it must do.
+    /// The kind of goal.
     pub kind: GoalKind,
     /// The contact point, the spin point, or a point of the support plane; model frame, mm.
     pub origin_mm: [f64; 3],
     /// The spin axis or up, model frame; any length but zero.
     pub axis: [f64; 3],
-    /// How a rotor runs; none for other goals.
+    /// The order for a rotor; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotor: Option<RotorOrder>,
-    /// How it floats; none for other goals.
+    /// The order for a floating object; `None` for other goals.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub water: Option<WaterOrder>,
 }
 
 impl Aim {
-    /// A goal that is told by its place alone.
+    /// Returns a goal with a place alone, without rotor and water.
     pub fn new(kind: GoalKind, origin_mm: [f64; 3], axis: [f64; 3]) -> Self {
         Self {
             kind,
@@ -118,13 +118,13 @@ impl Aim {
         }
     }
 
-    /// The goal frame: its origin at the contact, its z along the axis.
+    /// Returns the goal frame, with its origin at the contact and its z along the axis.
     pub fn frame(&self) -> Frame {
         Frame::with_axis(Point::from(self.origin_mm), &Vector::from(self.axis))
     }
 }
 
-/// Which of the [`super::Figures`] was promised.
+/// The name of one of the [`super::Figures`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FigureName {
@@ -140,14 +140,14 @@ pub enum FigureName {
     CenterHeightMm,
     /// The height of the metacentre over the centre of mass, mm; more is better.
     MetacentricHeightMm,
-    /// What a rotor weighs, g; more is better: nothing was removed but what balances it.
+    /// The mass of a rotor, g; more is better, since less was removed to balance it.
     MassG,
     /// A rotor's balance quality grade at its speed, mm/s (ISO 21940-11); less is better.
     BalanceGradeMmS,
 }
 
 impl FigureName {
-    /// What it is called on the sheet.
+    /// Returns its name on the sheet.
     pub fn name(self) -> &'static str {
         match self {
             Self::CriticalSpeedRpm => "critical speed",
@@ -161,7 +161,7 @@ impl FigureName {
         }
     }
 
-    /// What promising it says.
+    /// Returns the words that promise it, before the value.
     pub fn promise(self) -> &'static str {
         match self {
             Self::CriticalSpeedRpm => "it spins upright from",
@@ -175,7 +175,7 @@ impl FigureName {
         }
     }
 
-    /// Whether more of it is better.
+    /// Returns true if more of it is better.
     pub fn more_is_better(self) -> bool {
         matches!(
             self,
@@ -183,7 +183,7 @@ impl FigureName {
         )
     }
 
-    /// The unit of its values; empty for a ratio.
+    /// Returns the unit of its values; empty for a ratio.
     pub fn unit(self) -> &'static str {
         match self {
             Self::CriticalSpeedRpm => "rpm",
@@ -199,7 +199,7 @@ impl FigureName {
 /// One figure as it was promised.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct PromisedFigure {
-    /// Which figure.
+    /// The figure.
     pub figure: FigureName,
     /// Its promised value, in the unit its name ends in.
     pub value: f64,
@@ -221,7 +221,7 @@ pub struct PromisedPart {
     pub file: String,
     /// The SHA-256 of that file, in hex.
     pub sha256: String,
-    /// What its shape is known by; none in kits of before there were marks.
+    /// The fingerprint of its shape; `None` in kits made before there were fingerprints.
     #[serde(default)]
     pub fingerprint: Option<Fingerprint>,
     /// Model coordinates to print coordinates.
@@ -240,23 +240,23 @@ pub struct PromisedPart {
 /// An id sunk into a cut face, stroke by stroke.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Mark {
-    /// What it says.
+    /// The id.
     pub text: String,
     /// The cut that made the face.
     pub cut: String,
     /// The unit direction into the part, model frame.
     pub axis: [f64; 3],
-    /// How deep it is, mm.
+    /// Its depth, mm.
     pub depth_mm: f64,
-    /// How wide its strokes are, mm.
+    /// The width of its strokes, mm.
     pub stroke_mm: f64,
     /// The middle of every stroke in the face, model frame, mm.
     pub strokes_mm: Vec<[f64; 3]>,
-    /// mm³, of what it takes away.
+    /// The volume it removes, mm³.
     pub volume_mm3: f64,
 }
 
-/// What a pin adds to the hollowed body, or a socket takes from it.
+/// A pin added to the hollowed body, or a socket taken from it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Peg {
     /// Its name; a pin and its socket share it.
@@ -265,32 +265,67 @@ pub struct Peg {
     pub joint: String,
     /// The middle of its base on the cut, model frame, mm.
     pub center_mm: [f64; 3],
-    /// Its direction: out of the part that has the pin, into the part that has the socket; model
-    /// frame.
+    /// Its direction, model frame: out of the part with the pin, into the part with the socket.
     pub axis: [f64; 3],
-    /// mm.
+    /// Its diameter, mm.
     pub diameter_mm: f64,
     /// The pin's length or the socket's depth, mm.
     pub length_mm: f64,
-    /// mm³, of the triangles as written.
+    /// The volume of its triangles as written, mm³.
     pub volume_mm3: f64,
 }
 
-/// What was ordered of the pins of a joint.
+/// The gap and the glue ordered for a joint.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PromisedJoint {
     /// The name on the sheet, such as `J1`.
     pub id: String,
     /// The gap between pin and socket on each side, mm.
     pub clearance_mm: f64,
-    /// The film of glue in it; none where it is not known.
+    /// The film of glue in it; `None` if it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub glue: Option<GlueFilm>,
 }
 
+/// The film of glue in a joint.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+pub struct GlueFilm {
+    /// Its thickness, mm.
+    pub thickness_mm: f64,
+    /// g/cm³.
+    pub density_g_cm3: f64,
+    /// Its mass, g.
+    pub mass_g: f64,
+    /// The face it covers.
+    #[serde(flatten)]
+    pub face: FlatFace,
+}
+
+/// A cut of the checklist.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PromisedCut {
+    /// A point of its plane, model frame, mm.
+    pub point_mm: [f64; 3],
+    /// The normal of its plane, model frame.
+    pub normal: [f64; 3],
+}
+
+/// A void of the checklist, in the order of the cavities of `hollowed.stl`.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+pub struct PromisedVoid {
+    /// The name on the sheet, such as `V1`.
+    pub id: String,
+    /// The share of its wall in sight of its openings, if it was measured.
+    #[serde(default)]
+    pub sight_ratio: Option<f64>,
+    /// The least opening that was ordered for it, mm; the printer's if none is stated.
+    #[serde(default)]
+    pub least_opening_mm: Option<f64>,
+}
+
 impl Promise {
-    /// The gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is not in
-    /// the list.
+    /// Returns the gap ordered between the pins and sockets of a joint, mm; 0 for a joint that is
+    /// not in the list.
     pub(super) fn clearance_mm(&self, joint: &str) -> f64 {
         let found = self.joints.iter().find(|known| known.id == joint);
         found.map_or(0.0, |joint| joint.clearance_mm)

@@ -1,4 +1,4 @@
-//! What is left of a rotor's unbalance: static, couple, and in the planes at its two ends.
+//! The residual unbalance of a rotor: static, couple, and in the planes at its two ends.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,10 +6,10 @@ use crate::geom::{Frame, Vector};
 use crate::mass::Moments;
 use crate::mesh::TriMesh;
 
-/// How a rotor runs, and the grade it was ordered to.
+/// The speed of a rotor, and the balance quality grade that was ordered.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct RotorOrder {
-    /// The service speed, turns a minute.
+    /// The service speed, rpm.
     pub speed_rpm: f64,
     /// The ISO 21940-11 balance quality grade at that speed, mm/s.
     pub grade_mm_s: f64,
@@ -22,18 +22,19 @@ pub struct Unbalance {
     pub static_g_mm: f64,
     /// The couple unbalance about the centre of mass: the products of inertia with the axis, g·mm².
     pub couple_g_mm2: f64,
-    /// The larger of the unbalances in the planes at the two ends, which together do what both of
-    /// the above do, g·mm.
+    /// The larger of the two unbalances in the end planes, g·mm. Together they are equivalent to
+    /// the static and the couple unbalance.
     pub end_plane_g_mm: f64,
-    /// The balance quality grade e·ω, mm/s, with e twice the end planes' larger unbalance over the
-    /// mass: a purely static unbalance in the middle counts with its own offset (ISO 21940-11,
-    /// tolerance halved between two planes).
+    /// The balance quality grade e·ω, mm/s (ISO 21940-11, tolerance halved between two planes).
+    ///
+    /// Here e is twice the larger end-plane unbalance over the mass. A purely static unbalance in
+    /// the middle thus counts with its own offset.
     pub grade_mm_s: f64,
 }
 
 impl Unbalance {
-    /// The unbalance of a body of these moments (goal frame) and this density, between planes at
-    /// `ends_mm` along z.
+    /// Returns the unbalance of a body with these moments (goal frame) and this density. The two
+    /// planes lie at the given heights along z, mm.
     pub fn new(
         moments: &Moments,
         density_g_mm3: f64,
@@ -58,7 +59,7 @@ impl Unbalance {
     }
 }
 
-/// Where a surface begins and ends along the frame's axis, mm.
+/// Returns the lowest and the highest coordinate of a surface along the frame's axis, mm.
 pub fn ends_mm(mesh: &TriMesh, frame: &Frame) -> [f64; 2] {
     let along = mesh
         .vertices()
@@ -79,7 +80,7 @@ mod tests {
         grade_mm_s: 2.5,
     };
 
-    /// Small balls of these masses at these places, 1 g/mm³.
+    /// Returns the moments of small balls with these masses and places, 1 g/mm³.
     fn balls(places: &[(f64, [f64; 3])]) -> Moments {
         let ball = |&(mass, at): &(f64, [f64; 3])| {
             Moments::from_parts(mass, &Vector::zeros(), &Matrix::zeros())
@@ -107,8 +108,8 @@ mod tests {
 
     #[test]
     fn a_pure_couple_is_seen_though_the_centre_is_on_the_axis() {
-        // 3 g at ±2 mm off the axis, 20 mm apart along it: U₁ = 3·2 = 6 g·mm in each of the planes
-        // there, couple 120 g·mm².
+        // 3 g at ±2 mm off the axis, 20 mm apart along it: U₁ = 3·2 = 6 g·mm in each plane, couple
+        // 120 g·mm².
         let pair = balls(&[
             (3.0, [2.0, 0.0, -10.0]),
             (3.0, [-2.0, 0.0, 10.0]),
@@ -117,8 +118,7 @@ mod tests {
         let got = Unbalance::new(&pair, 1.0, [-10.0, 10.0], &ORDER);
         assert!(got.static_g_mm < 1e-12 && (got.couple_g_mm2 - 120.0).abs() < 1e-12);
         assert!((got.end_plane_g_mm - 6.0).abs() < 1e-12);
-        // The planes may lie anywhere: the couple about the centre is the same, the planes' share
-        // grows with their nearness.
+        // The couple does not depend on the planes; their unbalances grow as they come closer.
         let near = Unbalance::new(&pair, 1.0, [-2.5, 2.5], &ORDER);
         assert!(
             (near.couple_g_mm2 - 120.0).abs() < 1e-12 && (near.end_plane_g_mm - 24.0).abs() < 1e-12

@@ -1,15 +1,16 @@
-//! The list of all hashes of a kit, in the form that `sha256sum --check` reads: what holds the
-//! papers themselves.
+//! The list of all hashes of a kit, in the format of `sha256sum --check`. It seals the papers,
+//! which the checklist cannot.
 
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use super::changes::{Change, FileChange};
-use super::kit::{CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, lies_within, read_file};
-use super::{Promise, VerifyError};
+use super::files::{CHECKLIST_FILE, SHEET_FILE, SUMS_FILE, is_inside_kit};
+use super::reading::read_file;
+use super::{Change, FileChange, Promise, VerifyError};
 use crate::base::digest::sha256_hex;
 
-/// The list over these files, a line each in their order: the hash, two blanks, the path.
+/// Returns the list of these files, in their order. Each line has the hash, two blanks and the
+/// path.
 pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String {
     files
         .into_iter()
@@ -17,11 +18,18 @@ pub fn sums<'a>(files: impl IntoIterator<Item = (&'a str, &'a [u8])>) -> String 
         .collect()
 }
 
-/// What became of the papers: the checklist, the job sheet and the list itself.
+/// Returns the changes of the papers: the checklist, the job sheet and the list itself.
 ///
 /// The checklist has the hashes of all other files, the job sheet that of the checklist, and the
-/// list all of them; any two that disagree are told.
-pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>, VerifyError> {
+/// list all of them. Any two that disagree are reported.
+///
+/// # Errors
+///
+/// If a paper cannot be read.
+pub fn find_paper_changes(
+    folder: &Path,
+    promise: &Promise,
+) -> Result<Vec<FileChange>, VerifyError> {
     let changed = |file: &str, change| FileChange {
         file: file.to_owned(),
         change,
@@ -33,7 +41,7 @@ pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>
     if !folder.join(SUMS_FILE).is_file() {
         return Ok(changes);
     }
-    let listed = listed(&String::from_utf8_lossy(&read_file(
+    let listed = parse_sums(&String::from_utf8_lossy(&read_file(
         &folder.join(SUMS_FILE),
     )?));
     let json = sha256_hex(&[&read_file(&folder.join(CHECKLIST_FILE))?]);
@@ -59,11 +67,11 @@ pub fn paper_changes(folder: &Path, promise: &Promise) -> Result<Vec<FileChange>
     Ok(changes)
 }
 
-/// The hashes of a list by path; lines that are none, or point out of the kit, are passed over.
-fn listed(text: &str) -> BTreeMap<String, String> {
+/// Returns the hashes of a list by path. Lines without a hash or outside the kit are skipped.
+fn parse_sums(text: &str) -> BTreeMap<String, String> {
     let line = |line: &str| {
         let (sha256, file) = line.split_once("  ")?;
-        lies_within(file).then(|| (file.to_owned(), sha256.to_owned()))
+        is_inside_kit(file).then(|| (file.to_owned(), sha256.to_owned()))
     };
     text.lines().filter_map(line).collect()
 }

@@ -1,64 +1,71 @@
-//! Whether checklist.json states what the files hold: every number of it that follows from them,
-//! computed again.
+//! The check of checklist.json against the files: every number that follows from them, computed
+//! again.
 
 use serde_json::{Map, Value, json};
 
+use super::limits::SHEET_LIMIT_RATIO;
 use super::{
-    Check, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise, Shells,
+    Check, CheckKind, Evidence, FigureName, Fingerprint, Judgement, Limit, PartFacts, Promise,
+    PromisedJoint, PromisedVoid, Shells,
 };
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::moments_of_mesh;
+use crate::mesh::TriMesh;
 use crate::repair::weld;
 
-/// A number of the checklist may differ by this share of the largest number beside it. Both are
-/// exact integrals of the same triangles, which another machine rounds by 1e-12; above 1e-5 a tenth
-/// of a gram could be taken off a heavy part unseen.
-pub const SHEET_LIMIT_RATIO: f64 = 1e-6;
-/// The same for the model and its voids, which the checklist knows from before they were rounded to
-/// a file's digits.
+/// The same limit for the model and its voids. The checklist states them from before the rounding
+/// to a file's digits.
 const BEFORE_ROUNDING_RATIO: f64 = 1e-4;
-/// Numbers nearer to each other than this are equal, whatever their unit: what is left where two
-/// large ones cancel. The same triangles in another order move an axis by 1e-8 mm and tilt it by
-/// 1e-7°; a nanometre is of no consequence to anybody.
-const NOTHING: f64 = 1e-6;
-/// So many of the places that differ are told; the rest are counted.
-const TOLD: usize = 6;
+/// Numbers within this distance are equal in any unit, since large numbers may cancel. The same
+/// triangles in another order move an axis by 1e-8 mm and tilt it by 1e-7°. A nanometre matters to
+/// nobody.
+const NEGLIGIBLE: f64 = 1e-6;
+/// Greatest number of misstatements that are listed; the rest are counted.
+const MAX_LISTED: usize = 6;
 
-/// What is held against the files, and how closely.
-struct Comparison {
+/// The keys of a check's kind, with its void or figure.
+const KIND_KEYS: [&str; 3] = ["kind", "void", "figure"];
+
+/// A comparison of stated values with found ones, and the misstatements so far.
+struct Comparer {
+    /// Relative tolerance.
     ratio: f64,
-    found: Vec<String>,
+    misstatements: Vec<String>,
 }
 
-/// Where the checklist states something else than what its files hold, a sentence each, in the
-/// order of its keys.
+/// Finds the places where the checklist disagrees with the files, a sentence each, in the order of
+/// its keys.
 ///
-/// Parts whose files have another shape than their marks are left out, and all that depends on
-/// them: they are another complaint, and would hide this one.
-pub fn misstatements(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Vec<String> {
-    let mut exact = Comparison {
+/// Parts whose files do not match their fingerprints are left out with everything that depends on
+/// them. They are another fault, and would hide this one.
+pub fn find_misstatements(
+    sheet: &Value,
+    evidence: &Evidence,
+    judgement: &Judgement,
+) -> Vec<String> {
+    let mut exact = Comparer {
         ratio: SHEET_LIMIT_RATIO,
-        found: Vec::new(),
+        misstatements: Vec::new(),
     };
-    exact.object("", sheet, &stated(sheet, evidence, judgement));
-    let mut rough = Comparison {
+    exact.object("", sheet, &restate(sheet, evidence, judgement));
+    let mut rough = Comparer {
         ratio: BEFORE_ROUNDING_RATIO,
-        found: exact.found,
+        misstatements: exact.misstatements,
     };
-    rough.object("", sheet, &stated_before_rounding(evidence, judgement));
-    rough.found
+    rough.object("", sheet, &restate_before_rounding(evidence, judgement));
+    rough.misstatements
 }
 
-/// The check that the checklist states what the files hold.
+/// Checks that the checklist agrees with the files.
 pub fn sheet_check(misstated: &[String]) -> Check {
     let promise = "the checklist states what the files hold";
-    let more = misstated.len().saturating_sub(TOLD);
-    let mut words = misstated[..misstated.len().min(TOLD)].join("; ");
+    let more = misstated.len().saturating_sub(MAX_LISTED);
+    let mut words = misstated[..misstated.len().min(MAX_LISTED)].join("; ");
     if more > 0 {
         words += &format!("; and {more} more");
     }
     Check::new(
-        "checklist",
+        CheckKind::Checklist,
         promise,
         Some(misstated.len() as f64),
         Limit::at_most(0.0, ""),
@@ -66,11 +73,11 @@ pub fn sheet_check(misstated: &[String]) -> Check {
     .at((!words.is_empty()).then_some(words))
 }
 
-/// What the checklist must state of these files, in its own keys.
-pub(super) fn stated(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Value {
+/// Returns the part of the checklist that follows from these files, under its own keys.
+pub(super) fn restate(sheet: &Value, evidence: &Evidence, judgement: &Judgement) -> Value {
     let promise = &evidence.promise;
     let is_whole: Vec<bool> = (0..evidence.parts.len())
-        .map(|part| has_its_shape(evidence, part))
+        .map(|part| evidence.is_part_as_made(part))
         .collect();
     let parts = judgement.parts.iter().enumerate();
     let parts: Vec<Value> = parts
@@ -92,18 +99,18 @@ pub(super) fn stated(sheet: &Value, evidence: &Evidence, judgement: &Judgement) 
     rows.insert("parts".to_owned(), json!(parts));
     rows.insert("joints".to_owned(), json!(joint_rows(promise)));
     if is_whole.into_iter().all(|whole| whole) {
-        rows.extend(of_the_whole(sheet, promise, judgement));
+        rows.extend(restate_whole(sheet, promise, judgement));
     }
     Value::Object(rows)
 }
 
-/// What depends on every part.
-fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<String, Value> {
+/// Returns the keys that depend on all parts.
+fn restate_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<String, Value> {
     let figure = |name| judgement.assembly.value_of(name);
     let passes = judgement.checks.iter().all(|check| check.pass);
     let mut rows = Map::new();
     rows.insert("assembly".to_owned(), json!(judgement.assembly));
-    rows.insert("checks".to_owned(), json!(judgement.checks));
+    rows.insert("checks".to_owned(), check_rows(&sheet["checks"], judgement));
     rows.insert(
         "verdict".to_owned(),
         json!(if passes { "pass" } else { "fail" }),
@@ -114,7 +121,7 @@ fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<
             json!({ "value": figure(promised.figure) }),
         );
     }
-    // Spin-It's functional with weights is no figure of the judge's.
+    // The judge has no figure for Spin-It's functional with weights.
     let named = serde_json::from_value(sheet["certificate"]["figure"].clone()).ok();
     if let Some(named) = named.filter(|name| *name != FigureName::SpinItRatio) {
         rows.insert(
@@ -125,39 +132,46 @@ fn of_the_whole(sheet: &Value, promise: &Promise, judgement: &Judgement) -> Map<
     rows
 }
 
-/// What the checklist knows from before it was rounded to a file's digits.
-pub(super) fn stated_before_rounding(evidence: &Evidence, judgement: &Judgement) -> Value {
+/// Returns the rows of the checks. Kits made before checks had kinds state their names alone, so
+/// the kind of such a row is left out.
+fn check_rows(stated: &Value, judgement: &Judgement) -> Value {
+    let row = |(index, check): (usize, &Check)| {
+        let is_old = stated
+            .get(index)
+            .is_some_and(|row| row.get("kind").is_none());
+        let mut row = json!(check);
+        if let Some(keys) = row.as_object_mut().filter(|_| is_old) {
+            keys.retain(|key, _| !KIND_KEYS.contains(&key.as_str()));
+        }
+        row
+    };
+    judgement.checks.iter().enumerate().map(row).collect()
+}
+
+/// Returns the keys whose values the checklist states from before the rounding to a file's digits.
+pub(super) fn restate_before_rounding(evidence: &Evidence, judgement: &Judgement) -> Value {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let voids = evidence.promise.voids.iter().zip(&shells.inward);
-    let void_row = |(promised, cavity): (&super::PromisedVoid, &crate::mesh::TriMesh)| {
-        let names = ["open", "clean"].map(|word| format!("void {} {word}", promised.id));
+    let void_row = |(promised, cavity): (&PromisedVoid, &TriMesh)| {
         let is_clean = judgement
             .checks
             .iter()
-            .filter(|check| names.contains(&check.name))
+            .filter(|check| check.kind.void() == Some(&promised.id))
             .all(|c| c.pass);
         let mut row = json!({ "volume_mm3": moments_of_mesh(cavity).volume().abs() });
-        if (0..evidence.parts.len()).all(|part| has_its_shape(evidence, part)) {
+        if (0..evidence.parts.len()).all(|part| evidence.is_part_as_made(part)) {
             row["is_clean"] = json!(is_clean);
         }
         row
     };
     let mut rows = json!({ "voids": voids.map(void_row).collect::<Vec<_>>() });
-    // Sockets for hardware, and what a tip adds, are in the file but not in the model that came in.
+    // The file has sockets and tips of the hardware, which the model of the job has not.
     if evidence.promise.hardware.is_empty() {
         let outer = shells.outer_mesh();
         let size: [f64; 3] = outer.aabb().size().into();
         rows["model"] = json!({ "size_mm": size, "volume_mm3": moments_of_mesh(&outer).volume() });
     }
     rows
-}
-
-/// Whether a part has the triangles that its mark says; parts of kits without marks are taken as
-/// they are.
-pub(super) fn has_its_shape(evidence: &Evidence, part: usize) -> bool {
-    let mark = evidence.promise.parts[part].fingerprint.as_ref();
-    let found = || Fingerprint::of(&evidence.parts[part].mesh);
-    mark.is_none_or(|mark| mark.triangles_sha256 == found().triangles_sha256)
 }
 
 fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
@@ -178,9 +192,9 @@ fn part_row(evidence: &Evidence, part: usize, facts: &PartFacts) -> Value {
     row
 }
 
-/// The pins of every joint, and what its glue weighs.
+/// Returns the number of pins of every joint and the mass of its glue.
 fn joint_rows(promise: &Promise) -> Vec<Value> {
-    let row = |joint: &super::PromisedJoint| {
+    let row = |joint: &PromisedJoint| {
         let pegs = promise
             .parts
             .iter()
@@ -201,9 +215,9 @@ fn joint_rows(promise: &Promise) -> Vec<Value> {
     promise.joints.iter().map(row).collect()
 }
 
-impl Comparison {
-    /// Holds every key of `found` against what is stated there; keys that were not computed again
-    /// are passed over.
+impl Comparer {
+    /// Compares every key of `found` with the stated one. Keys that were not computed again are
+    /// skipped.
     fn object(&mut self, at: &str, stated: &Value, found: &Value) {
         let Some(found) = found.as_object() else {
             return;
@@ -226,16 +240,16 @@ impl Comparison {
             }
             _ if is_near(stated, found, self.ratio * largest(found)) => {}
             _ => self
-                .found
+                .misstatements
                 .push(format!("{at} states {stated}, the files have {found}")),
         }
     }
 
-    /// Rows of a table, told by their ids or names.
+    /// Compares the rows of a table, named by their ids or names.
     fn rows(&mut self, at: &str, stated: &Value, found: &[Value]) {
         let stated = stated.as_array().map_or(&[][..], Vec::as_slice);
         if stated.len() != found.len() {
-            self.found.push(format!(
+            self.misstatements.push(format!(
                 "{at} has {} rows, the files have {}",
                 stated.len(),
                 found.len()
@@ -250,21 +264,21 @@ impl Comparison {
     }
 }
 
-/// Whether two values are equal, numbers within `slack` or [`NOTHING`].
+/// Returns true if two values are equal, numbers within `slack` or [`NEGLIGIBLE`].
 fn is_near(stated: &Value, found: &Value, slack: f64) -> bool {
     match (stated, found) {
         (Value::Array(a), Value::Array(b)) => {
             a.len() == b.len() && a.iter().zip(b).all(|(a, b)| is_near(a, b, slack))
         }
         _ => match (stated.as_f64(), found.as_f64()) {
-            (Some(a), Some(b)) => (a - b).abs() <= slack.max(NOTHING),
+            (Some(a), Some(b)) => (a - b).abs() <= slack.max(NEGLIGIBLE),
             _ => stated == found,
         },
     }
 }
 
-/// The largest magnitude in a value: a vector's or tensor's small numbers are as exact as its large
-/// ones.
+/// Returns the largest magnitude in a value. The small numbers of a vector or tensor are as exact
+/// as its large ones.
 pub(super) fn largest(value: &Value) -> f64 {
     match value {
         Value::Array(values) => values.iter().map(largest).fold(0.0, f64::max),

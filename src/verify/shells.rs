@@ -1,9 +1,9 @@
-//! The connected pieces of a surface, and which way each is turned.
+//! The shells of a surface: its connected pieces by orientation, and the wall between them.
 
 use std::collections::BTreeMap;
 
 use crate::mass::moments_of_mesh;
-use crate::mesh::TriMesh;
+use crate::mesh::{MeshDistance, TriMesh};
 
 /// The shells of a surface: outward ones bound material, inward ones bound air.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -16,32 +16,44 @@ pub struct Shells {
 
 impl Shells {
     /// Splits a mesh into pieces connected through shared edges. Pieces that meet in a single
-    /// vertex stay apart, so a cavity that touches the outside in a point is still seen as one.
+    /// vertex stay apart, so a cavity that touches the outside in a point still counts as a cavity.
     pub fn of_mesh(mesh: &TriMesh) -> Self {
-        let (outward, inward) = pieces(mesh)
+        let (outward, inward) = connected_pieces(mesh)
             .into_iter()
             .partition(|piece| moments_of_mesh(piece).volume() > 0.0);
         Self { outward, inward }
     }
 
-    /// The outer surface alone.
+    /// Returns the outer surface alone.
     pub fn outer_mesh(&self) -> TriMesh {
         join(&self.outward)
     }
 
-    /// The cavities alone, still turned inward.
+    /// Returns the cavities alone, still turned inward.
     pub fn inner_mesh(&self) -> TriMesh {
         join(&self.inward)
     }
+
+    /// Returns the smallest wall between the cavities and the outer surface, mm, or `None` if there
+    /// is no cavity. It is the distance between triangles, not between samples.
+    ///
+    /// A cavity of the model itself counts as a void; one that pierces the outside gives 0.
+    pub fn smallest_wall_mm(&self) -> Option<f64> {
+        if self.inward.is_empty() || self.outward.is_empty() {
+            return None;
+        }
+        Some(MeshDistance::new(&self.outer_mesh()).min_distance_to(&self.inner_mesh()))
+    }
 }
 
-/// All meshes side by side.
+/// Returns all meshes side by side.
 fn join(meshes: &[TriMesh]) -> TriMesh {
     meshes.iter().fold(TriMesh::default(), TriMesh::joined)
 }
 
-/// The pieces of a mesh that hang together through shared edges, each with its own vertices.
-pub(super) fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
+/// Returns the pieces of a mesh that are connected through shared edges, each with its own
+/// vertices.
+pub(super) fn connected_pieces(mesh: &TriMesh) -> Vec<TriMesh> {
     let mut groups: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
     for (&triangle, root) in mesh.triangles().iter().zip(roots(mesh)) {
         groups.entry(root).or_default().push(triangle);
@@ -52,10 +64,10 @@ pub(super) fn pieces(mesh: &TriMesh) -> Vec<TriMesh> {
         .collect()
 }
 
-/// For each triangle the least triangle it is connected to.
+/// Returns for each triangle the least triangle it is connected to.
 fn roots(mesh: &TriMesh) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
-    let mut sides = sorted_sides(mesh);
+    let mut sides = sides_of(mesh);
     sides.sort_unstable();
     for pair in sides.windows(2).filter(|pair| pair[0].0 == pair[1].0) {
         let (a, b) = (find(&mut parent, pair[0].1), find(&mut parent, pair[1].1));
@@ -66,8 +78,8 @@ fn roots(mesh: &TriMesh) -> Vec<u32> {
         .collect()
 }
 
-/// Every side of every triangle as (its vertices ascending, the triangle).
-fn sorted_sides(mesh: &TriMesh) -> Vec<([u32; 2], u32)> {
+/// Returns every side of every triangle with the triangle, its vertices ascending.
+fn sides_of(mesh: &TriMesh) -> Vec<([u32; 2], u32)> {
     let sides = |(index, &[a, b, c]): (usize, &[u32; 3])| {
         [[a, b], [b, c], [c, a]].map(|[from, to]| ([from.min(to), from.max(to)], index as u32))
     };
@@ -78,7 +90,7 @@ fn sorted_sides(mesh: &TriMesh) -> Vec<([u32; 2], u32)> {
         .collect()
 }
 
-/// The root of a triangle, with the path to it halved (Tarjan and van Leeuwen 1984).
+/// Returns the root of a triangle and halves the path to it (Tarjan and van Leeuwen 1984).
 fn find(parent: &mut [u32], mut triangle: u32) -> u32 {
     while parent[triangle as usize] != triangle {
         let grandparent = parent[parent[triangle as usize] as usize];
@@ -88,7 +100,7 @@ fn find(parent: &mut [u32], mut triangle: u32) -> u32 {
     triangle
 }
 
-/// The mesh of some triangles of another, with only the vertices they use.
+/// Returns some triangles of a mesh as a mesh with only the vertices they use.
 fn extract(mesh: &TriMesh, triangles: &[[u32; 3]]) -> TriMesh {
     let mut used: Vec<u32> = triangles.iter().flatten().copied().collect();
     used.sort_unstable();

@@ -1,11 +1,10 @@
-//! What an object stands on, and how far it may be tilted.
+//! The support polygon of a standing object, and the tilt at which it topples.
 
 use crate::geom::{Frame, Point};
 use crate::mesh::TriMesh;
 
-/// Vertices within this share of the height from the lowest one touch the ground. Below it, a foot
-/// that was modelled a little uneven carries nothing; above it, the rounding of an edge counts as
-/// foot.
+/// Vertices within this share of the height from the lowest one touch the ground. With less, a
+/// slightly uneven foot carries nothing; with more, a rounded edge counts as foot.
 pub const SUPPORT_BAND_RATIO: f64 = 0.002;
 
 /// The support polygon of a body in the goal frame.
@@ -18,8 +17,8 @@ pub struct Support {
 }
 
 impl Support {
-    /// The convex hull of the vertices of `mesh` (model frame) that touch the ground when `frame`'s
-    /// z is up.
+    /// Returns the convex hull of the vertices that touch the ground when z of `frame` is up. The
+    /// mesh is in the model frame.
     pub fn of_mesh(mesh: &TriMesh, frame: &Frame) -> Self {
         let local: Vec<Point> = mesh.vertices().iter().map(|p| frame.to_local(p)).collect();
         let ground_mm = local.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
@@ -36,8 +35,8 @@ impl Support {
         }
     }
 
-    /// The tilt, in radians, at which a body with this centre of mass (goal frame) topples over its
-    /// nearest edge; negative if it does not stand at all.
+    /// Returns the tilt at which a body with this centre of mass (goal frame) topples over its
+    /// nearest edge, in radians. Negative if it does not stand at all.
     ///
     /// Quasi-static: it topples when the centre is over the edge, tan(tilt) = distance to the edge
     /// / height (Prévost et al. 2013).
@@ -53,7 +52,7 @@ impl Support {
     }
 }
 
-/// The edges of a closed polygon.
+/// Returns the edges of a closed polygon.
 fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '_ {
     corners
         .iter()
@@ -61,18 +60,18 @@ fn edges(corners: &[[f64; 2]]) -> impl Iterator<Item = ([f64; 2], [f64; 2])> + '
         .map(|(&from, &to)| (from, to))
 }
 
-/// How far `point` lies to the left of the line from → to.
+/// Returns the distance of `point` to the left of the line from → to.
 fn distance_left_of(from: [f64; 2], to: [f64; 2], point: [f64; 2]) -> f64 {
-    turn(from, to, point) / (to[0] - from[0]).hypot(to[1] - from[1])
+    cross(from, to, point) / (to[0] - from[0]).hypot(to[1] - from[1])
 }
 
-/// Twice the area of the triangle a, b, c: positive if it turns left.
-fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
+/// Returns twice the signed area of the triangle a, b, c: positive if it turns left.
+fn cross(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-/// The corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm for
-/// convex hulls in two dimensions", IPL 9, 1979).
+/// Returns the corners of the convex hull, counter-clockwise (Andrew, "Another efficient algorithm
+/// for convex hulls in two dimensions", IPL 9, 1979).
 fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
@@ -84,11 +83,11 @@ fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     hull
 }
 
-/// The lower hull of points sorted by x, without its last corner.
+/// Returns the lower hull of points sorted by x, without its last corner.
 fn half_hull(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut chain: Vec<[f64; 2]> = Vec::new();
     for point in points {
-        while chain.len() > 1 && turn(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0
+        while chain.len() > 1 && cross(chain[chain.len() - 2], chain[chain.len() - 1], point) <= 0.0
         {
             chain.pop();
         }
@@ -133,7 +132,7 @@ mod tests {
     }
 
     #[test]
-    fn nothing_stands_on_a_point_or_on_an_edge_unless_exactly_above_it() {
+    fn nothing_stands_on_a_point_or_an_edge_unless_exactly_above_it() {
         let point = Support {
             corners_mm: vec![[0.0, 0.0]],
             ground_mm: 0.0,

@@ -3,7 +3,7 @@
 use crate::geom::{Point, Vector};
 use crate::mesh::TriMesh;
 
-/// An axis-aligned block with its least corner at `corner`.
+/// Returns an axis-aligned block with its least corner at `corner`.
 pub fn block(corner: Point, size: [f64; 3]) -> TriMesh {
     let at = |i: usize| {
         let bits = Vector::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2 & 1) as f64);
@@ -24,8 +24,8 @@ pub fn block(corner: Point, size: [f64; 3]) -> TriMesh {
     TriMesh::new((0..8).map(at).collect(), triangles).unwrap()
 }
 
-/// A ball of latitude rings: `rings` from pole to pole, twice as many around; the first vertex is
-/// the north pole.
+/// Returns a ball of latitude rings: `rings` from pole to pole, twice as many around. The first
+/// vertex is the north pole.
 pub fn ball(center: Point, radius: f64, rings: u32) -> TriMesh {
     let around = 2 * rings;
     let at = |ring: u32, step: u32| {
@@ -67,8 +67,8 @@ fn angle(step: u32, of: u32) -> f64 {
     std::f64::consts::TAU * f64::from(step) / f64::from(of)
 }
 
-/// A block of `size` with its least corner at the origin and a pocket sunk into its top: `wall` all
-/// around and below.
+/// Returns a block with its least corner at the origin and a pocket in its top. The wall has the
+/// same thickness all around and below.
 pub fn tray(size: [f64; 3], wall: f64) -> TriMesh {
     let [a, b, c] = size;
     let ring = |inset: f64, z: f64| {

@@ -1,17 +1,16 @@
-//! The judge's own hydrostatics: a body is floated by integrating the pressure of the water over
-//! its wet triangles.
+//! The judge's own hydrostatics, which integrate the pressure of the water over the wet triangles.
 //!
-//! Nothing is shared with what placed the goal, which integrates volumes: here p = ρ g ζ acts on
-//! every wet triangle, ζ the depth, and what holds the body up, and where, follows. The metacentric
-//! height is not computed from the waterplane but measured: the body is heeled a little and its
-//! righting arm taken.
+//! They share nothing with the code that placed the goal, which integrates volumes. Here
+//! p = ρ g ζ acts on every wet triangle at depth ζ; buoyancy and its centre follow. The metacentric
+//! height does not come from the waterplane: the body is heeled a little and its righting arm
+//! measured.
 
 use serde::{Deserialize, Serialize};
 
 use crate::geom::{Frame, Point, Vector};
 use crate::mesh::TriMesh;
 
-/// In what a body is to float, and how deep.
+/// The liquid a body must float in, and its waterline.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct WaterOrder {
     /// The density of the liquid, g/cm³.
@@ -20,32 +19,32 @@ pub struct WaterOrder {
     pub waterline_mm: f64,
 }
 
-/// How a body of a given mass and centre floats.
+/// The floating position and stability of a body with a given mass and centre.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Afloat {
-    /// The waterline above the lowest point at which it displaces its mass, held upright, mm.
+    /// The waterline above the lowest point at which the upright body displaces its mass, mm.
     pub waterline_mm: f64,
-    /// How far its centre of mass then lies beside the centre of buoyancy, mm.
+    /// Horizontal distance of its centre of mass from the centre of buoyancy there, mm.
     pub offset_mm: f64,
-    /// The height of the lower metacentre over the centre of mass, mm; it stays upright where this
+    /// The height of the lower metacentre over the centre of mass, mm. The body stays upright if it
     /// is positive.
     pub metacentric_height_mm: f64,
-    /// The greatest of the heels tried from which it rights itself whichever way it leans, degrees;
-    /// 0 where from none.
+    /// The greatest of the heels tried from which it rights itself in every direction, degrees; 0
+    /// if there is none.
     pub rights_from_deg: f64,
 }
 
 /// The heels tried, degrees.
 const HEELS_DEG: [f64; 6] = [1.0, 2.0, 5.0, 10.0, 20.0, 45.0];
-/// The ways to lean that are tried, around the axis.
-const LEANS: usize = 12;
+/// Number of directions of heel that are tried around the axis.
+const DIRECTIONS: usize = 12;
 /// The heel whose righting arm gives the metacentric height, degrees. Above 0.1° the waterplane of
-/// a knobbly model changes with it; below 0.001° rounding shows.
+/// a rough model changes with it; below 0.001° rounding shows.
 const PROBE_DEG: f64 = 0.02;
 /// Rounds of the search for the level; Newton's method takes about five.
 const LEVEL_ROUNDS: usize = 60;
-/// The displaced volume is found to this share; below 1e-13 rounding decides, above 1e-9 the
-/// metacentric height feels it.
+/// Relative accuracy of the displaced volume. Below 1e-13 rounding decides; above 1e-9 the
+/// metacentric height suffers.
 const VOLUME_TOLERANCE_RATIO: f64 = 1e-11;
 
 /// The outside of a body in the goal frame.
@@ -55,18 +54,18 @@ pub struct Hull {
     lowest_mm: f64,
 }
 
-/// What the water does to a body: how much it carries and where.
+/// The buoyancy of a body: the displaced volume and its first moments.
 #[derive(Debug, Clone, Copy, Default)]
 struct Buoyancy {
     volume: f64,
-    /// The area of the section at the level, by which the volume grows with it.
+    /// The area of the section at the water level: the growth of the volume with the level.
     section: f64,
     /// ∫x over the displaced volume, across the vertical.
     first_across: Vector,
 }
 
 impl Hull {
-    /// The outside as seen from a goal frame.
+    /// Returns the outer surface in a goal frame.
     pub fn new(outer: &TriMesh, frame: &Frame) -> Self {
         let triangles: Vec<[Point; 3]> = outer
             .iter_corners()
@@ -79,30 +78,32 @@ impl Hull {
         }
     }
 
-    /// How a body of this outside floats that displaces `volume_mm3` and has its centre of mass
-    /// (goal frame) here; none if it sinks or has no mass.
+    /// Floats a body with this outside, displaced volume and centre of mass (goal frame). `None` if
+    /// it sinks or has no mass.
     pub fn float(&self, volume_mm3: f64, center: &Point) -> Option<Afloat> {
-        let (level, held) = self.level(volume_mm3, &Vector::z(), center.z)?;
-        let held_up = Held {
+        let (level, buoyancy) = self.find_level(volume_mm3, &Vector::z(), center.z)?;
+        let upright = Upright {
             volume_mm3,
             center: *center,
             level,
         };
-        let aside = center.coords.xy() - held.first_across.xy() / held.volume;
+        let aside = center.coords.xy() - buoyancy.first_across.xy() / buoyancy.volume;
         Some(Afloat {
             waterline_mm: level - self.lowest_mm,
             offset_mm: aside.norm(),
-            metacentric_height_mm: self.metacentric_height(&held_up)?,
-            rights_from_deg: self.rights_from_deg(&held_up),
+            metacentric_height_mm: self.metacentric_height(&upright)?,
+            rights_from_deg: self.rights_from_deg(&upright),
         })
     }
 
-    /// The least over all leans of the righting arm's growth with the heel: the lesser eigenvalue
-    /// of the 2 × 2 form that three leans determine.
-    fn metacentric_height(&self, body: &Held) -> Option<f64> {
+    /// Returns the metacentric height, mm: the least growth of the righting arm with the heel over
+    /// all directions. It is the lesser eigenvalue of the 2 × 2 form that three directions
+    /// determine.
+    fn metacentric_height(&self, body: &Upright) -> Option<f64> {
         let heel = PROBE_DEG.to_radians();
-        let growth = |lean_rad: f64| {
-            let [there, back] = [heel, -heel].map(|heel| self.righting_arm(body, lean_rad, heel));
+        let growth = |direction_rad: f64| {
+            let [there, back] =
+                [heel, -heel].map(|heel| self.righting_arm(body, direction_rad, heel));
             Some((there? - back?) / (2.0 * heel.sin()))
         };
         let quarter = std::f64::consts::FRAC_PI_2;
@@ -114,12 +115,13 @@ impl Hull {
         Some(mean - (0.5 * (along_x - along_y)).hypot(cross))
     }
 
-    /// The greatest heel tried up to which every lean is righted.
-    fn rights_from_deg(&self, body: &Held) -> f64 {
-        let lean = |i: usize| std::f64::consts::TAU * i as f64 / LEANS as f64;
+    /// Returns the greatest heel tried up to which the body rights itself in every direction,
+    /// degrees.
+    fn rights_from_deg(&self, body: &Upright) -> f64 {
+        let direction = |i: usize| std::f64::consts::TAU * i as f64 / DIRECTIONS as f64;
         let is_righted = |heel_deg: &&f64| {
-            let arm = |i| self.righting_arm(body, lean(i), heel_deg.to_radians());
-            (0..LEANS).all(|i| arm(i).is_some_and(|arm| arm > 0.0))
+            let arm = |i| self.righting_arm(body, direction(i), heel_deg.to_radians());
+            (0..DIRECTIONS).all(|i| arm(i).is_some_and(|arm| arm > 0.0))
         };
         HEELS_DEG
             .iter()
@@ -129,21 +131,21 @@ impl Hull {
             .unwrap_or(0.0)
     }
 
-    /// The lever with which the water turns the body back, mm, when its side at `lean_rad` about
-    /// the axis is lifted by `heel_rad` and it lies as deep as its mass wants.
-    fn righting_arm(&self, body: &Held, lean_rad: f64, heel_rad: f64) -> Option<f64> {
-        let lifted = Vector::new(lean_rad.cos(), lean_rad.sin(), 0.0);
+    /// Returns the righting arm of the body, mm, with its side at `direction_rad` about the axis
+    /// lifted by `heel_rad`. The body displaces the same volume as upright. `None` if it sinks.
+    fn righting_arm(&self, body: &Upright, direction_rad: f64, heel_rad: f64) -> Option<f64> {
+        let lifted = Vector::new(direction_rad.cos(), direction_rad.sin(), 0.0);
         let up = Vector::z() * heel_rad.cos() + lifted * heel_rad.sin();
         let across = lifted * heel_rad.cos() - Vector::z() * heel_rad.sin();
         let near = up.dot(&Vector::new(body.center.x, body.center.y, body.level));
-        let (_, held) = self.level(body.volume_mm3, &up, near)?;
-        Some(across.dot(&body.center.coords) - across.dot(&held.first_across) / held.volume)
+        let (_, buoyancy) = self.find_level(body.volume_mm3, &up, near)?;
+        Some(across.dot(&body.center.coords) - across.dot(&buoyancy.first_across) / buoyancy.volume)
     }
 
-    /// The height along `up` of the level at which the body displaces this volume, and what the
-    /// water then does; none where it has less. Newton's method from `near`, kept between the
-    /// levels known to be too low and too high.
-    fn level(&self, volume_mm3: f64, up: &Vector, near: f64) -> Option<(f64, Buoyancy)> {
+    /// Finds the level along `up` at which the body displaces this volume, with the buoyancy there.
+    /// `None` if the body has less volume. Newton's method from `near`, kept between the levels
+    /// known to be too low and too high.
+    fn find_level(&self, volume_mm3: f64, up: &Vector, near: f64) -> Option<(f64, Buoyancy)> {
         let heights = self
             .triangles
             .iter()
@@ -161,50 +163,51 @@ impl Hull {
             if !(low < level && level < high) {
                 level = 0.5 * (low + high);
             }
-            let held = self.buoyancy(up, level);
-            let excess = held.volume - volume_mm3;
+            let buoyancy = self.buoyancy(up, level);
+            let excess = buoyancy.volume - volume_mm3;
             if excess.abs() <= VOLUME_TOLERANCE_RATIO * volume_mm3 {
-                return Some((level, held));
+                return Some((level, buoyancy));
             }
             if excess < 0.0 {
                 low = level;
             } else {
                 high = level;
             }
-            level -= excess / held.section;
+            level -= excess / buoyancy.section;
         }
         Some((level, self.buoyancy(up, level)))
     }
 
-    /// The water's pressure summed over the triangles below a level across `up`: the divergence
-    /// theorem turns ∬ ζ n·u dA into the displaced volume and ∬ x ζ n·u dA into its first moments
-    /// across u, ζ the height over the level; the level's own plane, where ζ = 0, adds nothing. The
-    /// level's section is what the wet triangles do not close.
+    /// Sums the pressure of the water over the triangles below a level across `up`.
+    ///
+    /// With the height ζ over the level, the divergence theorem turns ∬ ζ n·u dA into the displaced
+    /// volume. It turns ∬ x ζ n·u dA into its first moments across u. The plane of the level, at
+    /// ζ = 0, adds nothing. The section is the area that the wet triangles leave open.
     fn buoyancy(&self, up: &Vector, level: f64) -> Buoyancy {
-        let mut held = Buoyancy::default();
+        let mut buoyancy = Buoyancy::default();
         for corners in &self.triangles {
             let height = corners.map(|corner| up.dot(&corner.coords) - level);
             let (wet, count) = wet_part(corners, &height);
             for i in 2..count.max(2) {
-                held.add_triangle([wet[0], wet[i - 1], wet[i]], up);
+                buoyancy.add_triangle([wet[0], wet[i - 1], wet[i]], up);
             }
         }
-        held
+        buoyancy
     }
 }
 
-/// A body held upright in the water: what it displaces, its centre, and the level.
+/// A body held upright in the water: its displaced volume, its centre, and the level.
 #[derive(Debug, Clone, Copy)]
-struct Held {
+struct Upright {
     volume_mm3: f64,
     center: Point,
     level: f64,
 }
 
-/// A corner and its height over the level.
+/// A corner and its height over the level, mm.
 type Sounding = (Point, f64);
 
-/// The corners of a triangle's part under water, and how many they are.
+/// Returns the corners of the part of a triangle under water, and their number.
 fn wet_part(corners: &[Point; 3], height: &[f64; 3]) -> ([Sounding; 4], usize) {
     let mut wet = [(Point::origin(), 0.0); 4];
     let mut count = 0;
@@ -223,7 +226,7 @@ fn wet_part(corners: &[Point; 3], height: &[f64; 3]) -> ([Sounding; 4], usize) {
 }
 
 impl Buoyancy {
-    /// Adds the pressure on one wet triangle; the middles of its edges integrate the products of
+    /// Adds the pressure on one wet triangle. The midpoints of its edges integrate the product of
     /// two linear functions exactly.
     fn add_triangle(&mut self, corners: [Sounding; 3], up: &Vector) {
         let [(a, p), (b, q), (c, r)] = corners;
@@ -243,7 +246,7 @@ mod tests {
     use super::*;
     use crate::verify::test_meshes::{ball, block};
 
-    /// A block 40 × 60 × 30, its bottom at z = 5.
+    /// Returns a block 40 × 60 × 30 with its bottom at z = 5.
     fn pontoon() -> Hull {
         Hull::new(
             &block(Point::new(-20.0, -30.0, 5.0), [40.0, 60.0, 30.0]),
@@ -271,7 +274,7 @@ mod tests {
     #[test]
     fn a_pontoon_heeled_five_degrees_has_the_arm_of_the_wall_sided_formula() {
         let heel = 5.0_f64.to_radians();
-        let body = Held {
+        let body = Upright {
             volume_mm3: 40.0 * 60.0 * 12.0,
             center: Point::new(0.0, 0.0, 13.0),
             level: 17.0,
@@ -283,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn top_heavy_it_turns_over_and_too_heavy_it_sinks() {
+    fn a_pontoon_turns_over_if_top_heavy_and_sinks_if_too_heavy() {
         let volume = 40.0 * 60.0 * 12.0;
         let tall = pontoon()
             .float(volume, &Point::new(0.0, 0.0, 25.0))

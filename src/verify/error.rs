@@ -1,0 +1,98 @@
+//! The error of a kit that cannot be judged.
+
+use std::path::{Path, PathBuf};
+
+use super::{Change, FileChange, SCHEMA};
+use crate::io::ReadError;
+
+/// A kit cannot be judged at all.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum VerifyError {
+    /// A file of the kit cannot be read.
+    #[error("cannot read {path}; is this the folder of a whole kit?")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// The error of the system.
+        source: std::io::Error,
+    },
+    /// The checklist is not one that this program writes.
+    #[error(
+        "{path} is not a checklist this program can read; write the kit again with `equipoise prepare`"
+    )]
+    Checklist {
+        /// The file.
+        path: PathBuf,
+        /// The fault and its line.
+        source: serde_json::Error,
+    },
+    /// The checklist has another schema.
+    #[error(
+        "{path} has schema {found}, this program reads schema {SCHEMA}; use the version that wrote it"
+    )]
+    Schema {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u64,
+    },
+    /// The checklist names a file outside the kit.
+    #[error("the checklist names `{file}`, which lies outside the kit; do not trust this kit")]
+    Outside {
+        /// The path in the checklist.
+        file: String,
+    },
+    /// Meshes that the judgement needs are missing.
+    #[error(
+        "{} missing from {folder}: {}; remedy: copy the kit again, or make it again with equipoise prepare --job {folder}/job.toml",
+        if files.len() == 1 { "a file is" } else { "files are" },
+        files.join(", "),
+        folder = folder.display()
+    )]
+    Missing {
+        /// The folder of the kit.
+        folder: PathBuf,
+        /// The files, by their paths in it.
+        files: Vec<String>,
+    },
+    /// A mesh of the kit cannot be read.
+    #[error("{path} holds no mesh")]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// The fault.
+        source: ReadError,
+    },
+}
+
+impl VerifyError {
+    /// Returns the changed files without which the kit in `folder` cannot be measured: its promises
+    /// are broken as well. Empty if there is no kit to judge.
+    pub fn changes(&self, folder: &Path) -> Vec<FileChange> {
+        match self {
+            Self::Missing { files, .. } => files
+                .iter()
+                .map(|file| FileChange {
+                    file: file.clone(),
+                    change: Change::Missing,
+                })
+                .collect(),
+            Self::Mesh { path, source } => {
+                let causes =
+                    std::iter::successors(Some(source as &dyn std::error::Error), |e| e.source());
+                let why = causes.last().map(ToString::to_string).unwrap_or_default();
+                let file = path
+                    .strip_prefix(folder)
+                    .unwrap_or(path)
+                    .display()
+                    .to_string();
+                vec![FileChange {
+                    file,
+                    change: Change::Unreadable(why),
+                }]
+            }
+            _ => Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The evidence before the judge: the promises of a kit, and the meshes read back from its files.
+
+use super::{Fingerprint, Pose, Promise};
+use crate::mass::{Moments, moments_of_mesh};
+use crate::mesh::TriMesh;
+
+/// The evidence before the judge: the promises, and the meshes as they were read back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// The promises.
+    pub promise: Promise,
+    /// The uncut result, model frame, mm.
+    pub hollowed: TriMesh,
+    /// The parts, in the order of the checklist.
+    pub parts: Vec<PartEvidence>,
+}
+
+/// One part as it was read back.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PartEvidence {
+    /// The name on the sheet, such as `P01`.
+    pub id: String,
+    /// The triangles of its file, print frame, mm.
+    pub mesh: TriMesh,
+    /// Model coordinates to print coordinates.
+    pub pose: Pose,
+}
+
+impl Evidence {
+    /// Returns true if a part has the triangles of its promised fingerprint. Parts of kits without
+    /// fingerprints are taken as they are.
+    pub(super) fn is_part_as_made(&self, part: usize) -> bool {
+        let promised = self.promise.parts[part].fingerprint.as_ref();
+        let found = || Fingerprint::of(&self.parts[part].mesh);
+        promised.is_none_or(|promised| promised.triangles_sha256 == found().triangles_sha256)
+    }
+}
+
+impl PartEvidence {
+    /// Returns the moments of the part in its place in the model.
+    pub fn moments(&self) -> Moments {
+        self.pose.moments_to_model(&moments_of_mesh(&self.mesh))
+    }
+}
+
+/// Returns the moments of the parts put together in the model frame, exact for the triangles as
+/// written.
+pub fn assembly_moments<'a>(parts: impl IntoIterator<Item = &'a PartEvidence>) -> Moments {
+    parts
+        .into_iter()
+        .fold(Moments::default(), |sum, part| sum + part.moments())
+}

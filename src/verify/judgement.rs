@@ -1,0 +1,47 @@
+//! The judgement of a kit: the facts found in its files, and the verdict on every promise.
+
+use super::joints::FilmError;
+use super::{Check, Figures, FileChange, Fit, PartFacts, PegFacts, SurfaceFacts, VoidFacts};
+
+/// The judgement of a kit.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// The figures of the outer surface filled solid.
+    pub solid: Figures,
+    /// The figures of the uncut result with its ballast.
+    pub hollowed: Figures,
+    /// The figures of the parts put together with the ballast.
+    pub assembly: Figures,
+    /// Facts about the surface of the uncut result.
+    pub surface: SurfaceFacts,
+    /// Facts about each part.
+    pub parts: Vec<PartFacts>,
+    /// The smallest wall between a void and the outside, mm; `None` without voids.
+    pub wall_min_mm: Option<f64>,
+    /// The fit of the hardware in the outer surface; `None` without hardware.
+    pub fit: Option<Fit>,
+    /// The least gap around a part of ballast, mm; `None` without ballast.
+    pub ballast_room_mm: Option<f64>,
+    /// Every pin and its socket, as found in the files.
+    pub pegs: Vec<PegFacts>,
+    /// Number of sample points just under the parts' surfaces that lie in another part too.
+    pub overlaps: usize,
+    /// Facts about every void in the parts; empty if no cleaning was ordered.
+    pub voids: Vec<VoidFacts>,
+    /// The film of glue that differs most from its faces; `None` without films.
+    pub film_error: Option<FilmError>,
+    /// Number of strokes of engraved ids that are not in their files as deep as promised; `None`
+    /// without ids.
+    pub lost_strokes: Option<usize>,
+    /// Every promise with its verdict.
+    pub checks: Vec<Check>,
+    /// The files changed since the kit was made; empty while it is made.
+    pub changes: Vec<FileChange>,
+}
+
+impl Judgement {
+    /// Returns true if every promise is kept.
+    pub fn passes(&self) -> bool {
+        self.checks.iter().all(|check| check.pass)
+    }
+}

@@ -1,0 +1,235 @@
+//! The kinds of checks as data: the promise, and the void or figure it is about.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::FigureName;
+
+/// The kind of a check, unique in the list of a kit.
+///
+/// In JSON it is the key `kind`, in kebab case; the void or figure has a key of its own. These keys
+/// are stable, so programs may match on them. [`fmt::Display`] writes the English name, which may
+/// change.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum CheckKind {
+    /// Distance of the centre of mass from the spin axis, or from a yo-yo's spin point.
+    AxisOffset,
+    /// Angle between the spin axis and the nearest principal axis.
+    AxisTilt,
+    /// Ratio I_b/I_c, which makes the spin axis the stable one.
+    Dominance,
+    /// Tilt at which a standing object topples.
+    Standing,
+    /// Distance of a floating object's waterline from the predicted one.
+    Waterline,
+    /// Distance of a floating object's centre of mass from the vertical through its centre of
+    /// buoyancy.
+    Upright,
+    /// Metacentric height of a floating object.
+    Stability,
+    /// Heel from which a floating object rights itself.
+    Righting,
+    /// Balance quality grade of a rotor.
+    BalanceQuality,
+    /// The figure promised to the buyer.
+    PromisedFigure {
+        /// The figure.
+        figure: FigureName,
+    },
+    /// Smallest wall between a void and the outside.
+    Wall,
+    /// Room around the hardware in its sockets.
+    Hardware,
+    /// Gap between the halves of a yo-yo.
+    StringGap,
+    /// Gap around the ballast.
+    BallastRoom,
+    /// Files that do not bound a solid.
+    BrokenSurfaces,
+    /// Pairs of triangles that pierce each other.
+    SelfIntersections,
+    /// Cavities that no cut opens.
+    ClosedCavities,
+    /// Height of the parts over the plate.
+    Resting,
+    /// Deviation of the poses from rigid motions.
+    Pose,
+    /// Room left for the parts in the printer.
+    BuildVolume,
+    /// Openings of a void.
+    VoidOpen {
+        /// The void's id, such as `V1`.
+        void: String,
+    },
+    /// Share of a void's wall that can be cleaned.
+    VoidClean {
+        /// The void's id, such as `V1`.
+        void: String,
+    },
+    /// Agreement of the voids with what the checklist states of them.
+    VoidsAsStated,
+    /// Sum of the parts' volumes against the uncut body.
+    Volumes,
+    /// Sizes of the pins and sockets.
+    Pins,
+    /// Gaps between the pins and their sockets.
+    Clearance,
+    /// Walls around the sockets.
+    SocketWall,
+    /// Parts that reach into each other.
+    Overlap,
+    /// Films of glue against the faces they join.
+    Glue,
+    /// Strokes of the engraved ids.
+    EngravedIds,
+    /// Agreement of `checklist.json` with the files.
+    Checklist,
+    /// Files that are not as they were made.
+    ChangedFiles,
+    /// Agreement of the 3MF files with the parts.
+    Packages,
+}
+
+impl CheckKind {
+    /// Returns the id of the void this check is about, or `None` if it is about no single void.
+    pub fn void(&self) -> Option<&str> {
+        match self {
+            Self::VoidOpen { void } | Self::VoidClean { void } => Some(void),
+            _ => None,
+        }
+    }
+}
+
+impl fmt::Display for CheckKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::AxisOffset => "axis offset",
+            Self::AxisTilt => "axis tilt",
+            Self::Dominance => "dominance",
+            Self::Standing => "standing",
+            Self::Waterline => "waterline",
+            Self::Upright => "upright",
+            Self::Stability => "stability",
+            Self::Righting => "righting",
+            Self::BalanceQuality => "balance quality",
+            Self::PromisedFigure { figure } => figure.name(),
+            Self::Wall => "wall",
+            Self::Hardware => "hardware",
+            Self::StringGap => "string gap",
+            Self::BallastRoom => "ballast room",
+            Self::BrokenSurfaces => "broken surfaces",
+            Self::SelfIntersections => "self-intersections",
+            Self::ClosedCavities => "closed cavities",
+            Self::Resting => "resting",
+            Self::Pose => "pose",
+            Self::BuildVolume => "build volume",
+            Self::VoidOpen { void } => return write!(f, "void {void} open"),
+            Self::VoidClean { void } => return write!(f, "void {void} clean"),
+            Self::VoidsAsStated => "voids as stated",
+            Self::Volumes => "volumes",
+            Self::Pins => "pins",
+            Self::Clearance => "clearance",
+            Self::SocketWall => "socket wall",
+            Self::Overlap => "overlap",
+            Self::Glue => "glue",
+            Self::EngravedIds => "ids",
+            Self::Checklist => "checklist",
+            Self::ChangedFiles => "changed files",
+            Self::Packages => "3MF files",
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// The keys and names of all kinds without data.
+    const KEYS: [(CheckKind, &str, &str); 30] = [
+        (CheckKind::AxisOffset, "axis-offset", "axis offset"),
+        (CheckKind::AxisTilt, "axis-tilt", "axis tilt"),
+        (CheckKind::Dominance, "dominance", "dominance"),
+        (CheckKind::Standing, "standing", "standing"),
+        (CheckKind::Waterline, "waterline", "waterline"),
+        (CheckKind::Upright, "upright", "upright"),
+        (CheckKind::Stability, "stability", "stability"),
+        (CheckKind::Righting, "righting", "righting"),
+        (
+            CheckKind::BalanceQuality,
+            "balance-quality",
+            "balance quality",
+        ),
+        (CheckKind::Wall, "wall", "wall"),
+        (CheckKind::Hardware, "hardware", "hardware"),
+        (CheckKind::StringGap, "string-gap", "string gap"),
+        (CheckKind::BallastRoom, "ballast-room", "ballast room"),
+        (
+            CheckKind::BrokenSurfaces,
+            "broken-surfaces",
+            "broken surfaces",
+        ),
+        (
+            CheckKind::SelfIntersections,
+            "self-intersections",
+            "self-intersections",
+        ),
+        (
+            CheckKind::ClosedCavities,
+            "closed-cavities",
+            "closed cavities",
+        ),
+        (CheckKind::Resting, "resting", "resting"),
+        (CheckKind::Pose, "pose", "pose"),
+        (CheckKind::BuildVolume, "build-volume", "build volume"),
+        (
+            CheckKind::VoidsAsStated,
+            "voids-as-stated",
+            "voids as stated",
+        ),
+        (CheckKind::Volumes, "volumes", "volumes"),
+        (CheckKind::Pins, "pins", "pins"),
+        (CheckKind::Clearance, "clearance", "clearance"),
+        (CheckKind::SocketWall, "socket-wall", "socket wall"),
+        (CheckKind::Overlap, "overlap", "overlap"),
+        (CheckKind::Glue, "glue", "glue"),
+        (CheckKind::EngravedIds, "engraved-ids", "ids"),
+        (CheckKind::Checklist, "checklist", "checklist"),
+        (CheckKind::ChangedFiles, "changed-files", "changed files"),
+        (CheckKind::Packages, "packages", "3MF files"),
+    ];
+
+    fn assert_reads_back(kind: &CheckKind, value: &serde_json::Value) {
+        assert_eq!(json!(kind), *value);
+        let back: CheckKind = serde_json::from_value(value.clone()).unwrap();
+        assert_eq!(back, *kind);
+    }
+
+    #[test]
+    fn the_keys_and_names_of_the_kinds_are_these() {
+        for (kind, key, name) in KEYS {
+            assert_reads_back(&kind, &json!({ "kind": key }));
+            assert_eq!(kind.to_string(), name);
+        }
+    }
+
+    #[test]
+    fn a_kind_that_speaks_of_a_void_or_figure_writes_it_in_a_key_of_its_own() {
+        let void = || "V2".to_owned();
+        let open = CheckKind::VoidOpen { void: void() };
+        let clean = CheckKind::VoidClean { void: void() };
+        let figure = FigureName::CriticalSpeedRpm;
+        let promised = CheckKind::PromisedFigure { figure };
+        assert_reads_back(&open, &json!({ "kind": "void-open", "void": "V2" }));
+        assert_reads_back(&clean, &json!({ "kind": "void-clean", "void": "V2" }));
+        let row = json!({ "kind": "promised-figure", "figure": "critical_speed_rpm" });
+        assert_reads_back(&promised, &row);
+        let names = [&open, &clean, &promised].map(CheckKind::to_string);
+        assert_eq!(names, ["void V2 open", "void V2 clean", "critical speed"]);
+        let voids = [&open, &clean, &promised].map(CheckKind::void);
+        assert_eq!(voids, [Some("V2"), Some("V2"), None]);
+    }
+}

@@ -1,0 +1,102 @@
+//! Reading a kit from its folder: the checklist and the meshes, nothing else.
+
+use std::path::Path;
+
+use serde_json::Value;
+
+use super::files::{CHECKLIST_FILE, HOLLOWED_FILE, is_inside_kit};
+use super::{Evidence, PartEvidence, Promise, SCHEMA, VerifyError};
+use crate::geom::Vector;
+use crate::io::read_model;
+use crate::mesh::TriMesh;
+
+/// Reads the meshes of a kit with these promises. The parts are returned in nominal size.
+pub(super) fn read_evidence(folder: &Path, promise: Promise) -> Result<Evidence, VerifyError> {
+    check_files(folder, &promise)?;
+    let hollowed = read_mesh(&folder.join(HOLLOWED_FILE))?;
+    let parts = promise.parts.iter().map(|part| {
+        let mesh = read_mesh(&folder.join(&part.file))?;
+        Ok(PartEvidence {
+            id: part.id.clone(),
+            mesh: undo_print_scale(mesh, promise.printer.print_scale_ratio),
+            pose: part.print_from_model,
+        })
+    });
+    Ok(Evidence {
+        hollowed,
+        parts: parts.collect::<Result<_, _>>()?,
+        promise,
+    })
+}
+
+/// Reads the promises from the checklist of a kit.
+///
+/// # Errors
+///
+/// If the checklist cannot be read, is not one, or has another schema.
+pub fn read_promise(folder: &Path) -> Result<Promise, VerifyError> {
+    read_checklist(folder).map(|(promise, _)| promise)
+}
+
+/// Reads the promises, and the whole checklist as it is.
+pub(super) fn read_checklist(folder: &Path) -> Result<(Promise, Value), VerifyError> {
+    let path = folder.join(CHECKLIST_FILE);
+    let bytes = read_file(&path)?;
+    let sheet: Result<Value, _> = serde_json::from_slice(&bytes);
+    match sheet.as_ref().map(|sheet| sheet["schema"].as_u64()) {
+        Ok(Some(found)) if found != u64::from(SCHEMA) => {
+            return Err(VerifyError::Schema { path, found });
+        }
+        _ => {}
+    }
+    let read = sheet.and_then(|sheet| Ok((serde_json::from_slice(&bytes)?, sheet)));
+    read.map_err(|source| VerifyError::Checklist { path, source })
+}
+
+/// Refuses a kit that names files outside of it, or that lacks a mesh.
+fn check_files(folder: &Path, promise: &Promise) -> Result<(), VerifyError> {
+    let parts = || promise.parts.iter().map(|part| &part.file);
+    if let Some(file) = parts()
+        .chain(promise.files.keys())
+        .find(|file| !is_inside_kit(file))
+    {
+        return Err(VerifyError::Outside { file: file.clone() });
+    }
+    let hollowed = HOLLOWED_FILE.to_owned();
+    let missing = parts()
+        .chain([&hollowed])
+        .filter(|file| !folder.join(file).exists());
+    let files: Vec<String> = missing.cloned().collect();
+    if files.is_empty() {
+        Ok(())
+    } else {
+        Err(VerifyError::Missing {
+            folder: folder.to_owned(),
+            files,
+        })
+    }
+}
+
+/// Reads the bytes of a file.
+pub(super) fn read_file(path: &Path) -> Result<Vec<u8>, VerifyError> {
+    std::fs::read(path).map_err(|source| VerifyError::File {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Returns the mesh of a part in nominal size, before it was scaled for the printer.
+pub(super) fn undo_print_scale(mesh: TriMesh, scale_ratio: Option<[f64; 3]>) -> TriMesh {
+    match scale_ratio.map(Vector::from) {
+        Some(scale) => mesh.map_vertices(|p| p.coords.component_div(&scale).into()),
+        None => mesh,
+    }
+}
+
+/// Reads a mesh of the kit, in the units of its file.
+fn read_mesh(path: &Path) -> Result<TriMesh, VerifyError> {
+    read_model(path).map_err(|source| VerifyError::Mesh {
+        path: path.to_owned(),
+        source,
+    })
+}

@@ -1,0 +1,93 @@
+//! The checks of the voids: every one open and clean by the printer's rule.
+
+use super::limits::{OPENING_SLACK_RATIO, SIGHT_TOLERANCE_RATIO};
+use super::{Check, CheckKind, CleaningRule, Limit, Promise, PromisedVoid, VoidFacts};
+
+/// Checks that every void is open and clean by the printer's rule; empty if no cleaning was
+/// ordered.
+pub(super) fn void_checks(promise: &Promise, found: &[VoidFacts]) -> Vec<Check> {
+    let Some(cleaning) = promise.printer.cleaning else {
+        return Vec::new();
+    };
+    let mut checks = Vec::new();
+    for (index, void) in found.iter().enumerate() {
+        let ordered = promise.voids.get(index);
+        let least_mm = ordered
+            .and_then(|void| void.least_opening_mm)
+            .or(promise.printer.minimum_opening_mm);
+        checks.push(opening_check(
+            void,
+            cleaning.pair_opening_mm,
+            least_mm.unwrap_or(0.0),
+        ));
+        let share = match cleaning.rule {
+            CleaningRule::InSight => Some(("in sight of its openings", void.sight_ratio)),
+            CleaningRule::InSightOrSelfSupporting => Some((
+                "in sight of its openings, or printed without support",
+                void.clean_ratio,
+            )),
+            CleaningRule::MeltOut | CleaningRule::PowderEscape => None,
+        };
+        checks.extend(share.map(|(what, ratio)| {
+            let promise = format!("the wall of {} is {what}, to a share of", void.id);
+            let kind = CheckKind::VoidClean {
+                void: void.id.clone(),
+            };
+            Check::new(
+                kind,
+                &promise,
+                Some(ratio),
+                Limit::at_least(cleaning.sight_ratio, ""),
+            )
+        }));
+    }
+    checks.extend(agreement_check(promise, found));
+    checks
+}
+
+/// Checks that every piece of a void has an opening wide enough, or two if two smaller ones do.
+fn opening_check(void: &VoidFacts, pair_mm: Option<f64>, least_mm: f64) -> Check {
+    let by_pair = |openings: &Vec<f64>| {
+        let second_mm = openings.get(1).copied().unwrap_or(0.0);
+        let one_mm = openings.first().copied().unwrap_or(0.0);
+        if pair_mm.is_some_and(|pair_mm| second_mm >= pair_mm) {
+            one_mm.max(least_mm)
+        } else {
+            one_mm
+        }
+    };
+    let narrowest_mm = void.openings_mm.iter().map(by_pair).reduce(f64::min);
+    let promise = format!("every piece of {} opens by", void.id);
+    let limit = Limit::at_least(least_mm * (1.0 - OPENING_SLACK_RATIO), "mm");
+    // A void of dimples alone lies in plain sight.
+    let value = narrowest_mm.or((void.sight_ratio > 0.0).then_some(least_mm));
+    let kind = CheckKind::VoidOpen {
+        void: void.id.clone(),
+    };
+    Check::new(kind, &promise, value, limit)
+}
+
+/// Checks that the sheet lists every void, with the share of its wall in sight; `None` without
+/// voids.
+fn agreement_check(promise: &Promise, found: &[VoidFacts]) -> Option<Check> {
+    if found.is_empty() && promise.voids.is_empty() {
+        return None;
+    }
+    let off = |(void, facts): (&PromisedVoid, &VoidFacts)| {
+        Some((void.sight_ratio? - facts.sight_ratio).abs())
+    };
+    let worst = promise
+        .voids
+        .iter()
+        .zip(found)
+        .filter_map(off)
+        .fold(0.0, f64::max);
+    let is_whole = promise.voids.len() == found.len();
+    let promise = "the sheet states the share of every void's wall in sight, within";
+    Some(Check::new(
+        CheckKind::VoidsAsStated,
+        promise,
+        is_whole.then_some(worst),
+        Limit::at_most(SIGHT_TOLERANCE_RATIO, ""),
+    ))
+}
