@@ -153,8 +153,9 @@
 mod dual;
 mod goals;
 mod golden;
-mod method;
-mod papers;
+mod log;
+#[cfg(feature = "papers")]
+pub mod papers;
 mod problem;
 mod solution;
 mod status;
@@ -168,14 +169,17 @@ use crate::goal::GoalKind;
 pub use goals::ballast::{Ballast, has_spare, least_ballast};
 pub use goals::fill::Fill;
 pub use golden::golden_section;
-pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
-pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
+pub use log::{LogRow, Pass, Stage};
+#[cfg(feature = "papers")]
+pub use papers::{
+    Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,
+};
 pub use problem::{Problem, Settings};
-pub use solution::{Certificate, Figure, LogRow, Pass, Solution, Stage};
+pub use solution::{Certificate, Figure, Solution};
 pub use status::{Obstacle, Status};
 pub use top::course::{TopCourse, top_course};
 
-use dual::answer::Answer;
+use dual::answer::Conversion;
 use dual::work::Work;
 use goals::{balance, float, stand, yoyo};
 
@@ -243,12 +247,12 @@ pub fn bound_over_heights(
         let work = Work::new(problem, settings, watch);
         let ratio = top::bound_near(&work, known.objective, &known.warm)?;
         let moments = work.reach.scale.moments_to_units(&known.moments);
-        Some(Answer::figure_of_ratio(
-            &work,
-            (known.objective, known.certificate.figure),
-            &moments,
-            ratio,
-        ))
+        let conversion = Conversion {
+            work: &work,
+            objective: known.objective,
+            figure: known.certificate.figure,
+        };
+        Some(conversion.figure_of(&moments, ratio))
     })
 }
 

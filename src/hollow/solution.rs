@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::dual::programme::DualPoint;
+use super::log::{LogRow, Pass};
 use super::status::Status;
 use crate::geom::Quadric;
 use crate::goal::Objective;
@@ -58,82 +59,26 @@ pub struct Certificate {
 }
 
 impl Figure {
+    /// The figure that measures how good an interior is for an objective.
+    pub(super) fn of(objective: Objective) -> Self {
+        match objective {
+            Objective::CriticalSpeed => Self::CriticalSpeedRpm,
+            Objective::SpinIt { .. } => Self::SpinIt,
+            Objective::Dominance => Self::DominanceRatio,
+            Objective::TopplingAngle => Self::TopplingAngleRad,
+            Objective::LowestCenter => Self::CenterHeightMm,
+            Objective::MetacentricHeight => Self::MetacentricHeightMm,
+            Objective::LeastRemoved => Self::VolumeMm3,
+            Objective::LeastUnbalance => Self::BalanceGradeMmS,
+        }
+    }
+
     /// The value so that less is better.
     pub fn cost(self, value: f64) -> f64 {
         match self {
             Self::TopplingAngleRad | Self::MetacentricHeightMm | Self::VolumeMm3 => -value,
             _ => value,
         }
-    }
-}
-
-/// Which search an ascent belonged to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// The goal's programme itself.
-    Goal,
-    /// The dominance that decides whether a stable interior exists.
-    Dominance,
-    /// The least or greatest height a top's centre can have.
-    HeightRange,
-    /// A top with its centre at this height.
-    AtHeight {
-        /// The height, mm.
-        height_mm: f64,
-    },
-    /// A top with its centre at this height and of this lever.
-    AtLever {
-        /// The height, mm.
-        height_mm: f64,
-        /// Volume times the height of the centre, mm⁴.
-        lever_mm4: f64,
-    },
-    /// The proof that no other height is better, for heights about this one.
-    Cover {
-        /// The middle of the heights covered, mm.
-        height_mm: f64,
-    },
-}
-
-/// One ascent, in the solver's own units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LogRow {
-    /// What it was for.
-    pub stage: Stage,
-    /// Passes over the columns.
-    pub passes: usize,
-    /// The ratio its interior reaches.
-    pub value: f64,
-    /// The ratio no interior beats.
-    pub bound: f64,
-    /// How far the constraints are from met.
-    pub residual: f64,
-}
-
-/// How far a search had come after a pass over the columns: what the interior at hand reaches, and
-/// what no interior beats. The interior at hand meets the constraints at the end of the search
-/// only.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pass {
-    /// What is reached.
-    pub value: f64,
-    /// What no interior can beat.
-    pub bound: f64,
-}
-
-impl Pass {
-    /// The pass with both numbers changed.
-    pub(super) fn map(self, change: impl Fn(f64) -> f64) -> Self {
-        Self {
-            value: change(self.value),
-            bound: change(self.bound),
-        }
-    }
-
-    /// Whether it is of use to look at.
-    pub(super) fn is_finite(&self) -> bool {
-        self.value.is_finite() && self.bound.is_finite()
     }
 }
 

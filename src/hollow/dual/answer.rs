@@ -1,14 +1,13 @@
 //! From the end of a search to a solution in mm, with its status and certificate.
 
 use super::ascent::{Climb, End};
-use super::programme::index;
-use super::reach::Vector10;
+use super::units::Vector10;
+use super::units::index;
 use super::work::Work;
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
-use crate::hollow::goals::balance;
-use crate::hollow::method::figure_for;
-use crate::hollow::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
+use crate::hollow::log::Pass;
+use crate::hollow::solution::{Certificate, Figure, Solution, Tangent, Warm};
 use crate::hollow::status::{Obstacle, Status};
 
 /// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
@@ -127,26 +126,31 @@ impl Answer {
 
     /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
     pub fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
-        Self::figure_of_ratio(
+        let conversion = Conversion {
             work,
-            (self.objective, figure),
-            &self.climb.best.extreme.s,
-            ratio,
-        )
+            objective: self.objective,
+            figure,
+        };
+        conversion.figure_of(&self.climb.best.extreme.s, ratio)
     }
+}
 
-    /// The same for an interior of these moments.
-    pub fn figure_of_ratio(
-        work: &Work,
-        (objective, figure): (Objective, Figure),
-        s: &Vector10,
-        ratio: f64,
-    ) -> f64 {
-        match figure {
+/// How a ratio of a programme becomes the figure a person knows.
+pub(crate) struct Conversion<'a, 'b> {
+    pub work: &'a Work<'b>,
+    pub objective: Objective,
+    pub figure: Figure,
+}
+
+impl Conversion<'_, '_> {
+    /// The figure of an interior with these moments and this ratio; monotone in the ratio, so a bound stays a bound.
+    pub fn figure_of(&self, s: &Vector10, ratio: f64) -> f64 {
+        let work = self.work;
+        match self.figure {
             Figure::CriticalSpeedRpm => {
                 to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt())
             }
-            Figure::SpinIt => functional(work, objective, s, ratio),
+            Figure::SpinIt => functional(work, self.objective, s, ratio),
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
@@ -155,7 +159,7 @@ impl Answer {
             }
             Figure::VolumeMm3 => -ratio * work.reach.scale.volume_mm3,
             Figure::BalanceGradeMmS => {
-                let grade = |spindle: &Spindle| balance::grade_mm_s(spindle, work.to_mm(ratio));
+                let grade = |spindle: &Spindle| grade_mm_s(spindle, work.to_mm(ratio));
                 work.goal.spindle.as_ref().map_or(f64::NAN, grade)
             }
         }
@@ -174,12 +178,19 @@ pub(crate) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
     gamma_c * lever * lever + gamma_i * ratio * ratio
 }
 
+/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the
+/// two planes' unbalances per mass, times ω; the larger of two vectors is at least their joint
+/// length over √2.
+pub(crate) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
+    std::f64::consts::SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
+}
+
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
     match verdict {
         Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => {
             Figure::DominanceRatio
         }
-        _ => figure_for(objective),
+        _ => Figure::of(objective),
     }
 }
 

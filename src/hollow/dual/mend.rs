@@ -3,7 +3,7 @@
 
 use nalgebra::{Const, SymmetricEigen};
 
-use super::reach::{Extreme, Vector10};
+use super::units::{Extreme, Vector10};
 use crate::interior::Matrix10;
 
 /// Derivatives below this part of the mean count as none: there the map is the identity. Far
@@ -93,7 +93,8 @@ fn of_eigen(eigen: &Eigen10, function: impl Fn(f64) -> f64) -> Matrix10 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::reach::{Reach, Scale};
+    use super::super::reach::Reach;
+    use super::super::units::Scale;
     use super::*;
     use crate::goal::Objective;
     use crate::hollow::worlds;

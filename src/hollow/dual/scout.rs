@@ -18,9 +18,7 @@
 
 use super::ascent::{Climb, End};
 use super::programme::{DualPoint, Programme};
-use super::reach::Vector10;
 use super::work::Work;
-use crate::hollow::top::cover::Post;
 
 /// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a
 /// Newton step; more cost as much as the passes they save.
@@ -31,41 +29,6 @@ const WORTH_A_CLIMB: usize = 3;
 /// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any
 /// more beside a pass over all.
 const GREATEST_STEP: usize = 16;
-/// How exact ascents on thinned columns are: those err by more.
-pub(crate) const ROUGH_TOLERANCE: f64 = 1e-3;
-/// How exact ascents on mended columns are: what is left is for the last Newton steps on all
-/// columns.
-pub(crate) const MENDED_TOLERANCE: f64 = 1e-6;
-
-/// How much less than what a scout sees is claimed of all columns.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Prudence {
-    /// The share of a margin that is claimed where the columns are mended. More, and claims fail;
-    /// less, and more posts are needed.
-    near_ratio: f64,
-}
-
-impl Default for Prudence {
-    fn default() -> Self {
-        Self { near_ratio: 0.92 }
-    }
-}
-
-impl Prudence {
-    /// The prudence after claims have failed.
-    pub fn doubled(self) -> Self {
-        Self {
-            near_ratio: 2.0 * self.near_ratio - 1.0,
-        }
-    }
-
-    /// What to claim of a margin. It grows with the square of the distance from where the columns
-    /// are mended, and what they err by grows with the distance.
-    pub fn claim(self, margin: f64) -> f64 {
-        self.near_ratio * margin / (1.0 + margin.max(0.0).sqrt())
-    }
-}
-
 impl<'a> Work<'a> {
     /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material
     /// is to be had.
@@ -111,18 +74,5 @@ impl<'a> Work<'a> {
         };
         self.climb_from(programme, self.look(programme, ahead.best.point))
             .after(&[here.pass()])
-    }
-
-    /// Whether posts that a scout found stand on all columns; one cheaper pass each.
-    pub fn hold(&self, posts: &[Post]) -> bool {
-        let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
-        let extremes = self.reach.least_of_each(&directions);
-        let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
-        let spares: Vec<f64> = posts.iter().zip(&extremes).map(spare).collect();
-        posts
-            .iter()
-            .zip(&spares)
-            .for_each(|(post, spare)| self.note_post(post, *spare));
-        spares.iter().all(|&spare| spare >= 0.0)
     }
 }

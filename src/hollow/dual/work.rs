@@ -3,17 +3,17 @@
 use std::cell::RefCell;
 
 use super::ascent::{
-    Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb, refusal,
+    Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, WARM_DAMPING, climb, refusal,
 };
 use super::programme::{DualPoint, Programme};
-use super::reach::{Heavy, Reach, Scale};
-use super::scout::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
+use super::prudence::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
+use super::reach::{Heavy, Reach};
+use super::units::Scale;
+use super::visit::{Slack, Visit};
 use crate::base::watch::Watch;
 use crate::goal::Goal;
-use crate::hollow::problem::Problem;
-use crate::hollow::problem::Settings;
-use crate::hollow::solution::{LogRow, Stage};
-use crate::hollow::top::cover::Post;
+use crate::hollow::log::{LogRow, Stage};
+use crate::hollow::problem::{Problem, Settings};
 
 /// What every search of one run shares.
 pub(crate) struct Work<'a> {
@@ -209,11 +209,11 @@ impl<'a> Work<'a> {
     }
 
     /// Logs a post that was held against all columns, and what was to spare.
-    pub fn note_post(&self, post: &Post, spare: f64) {
+    pub fn note_post(&self, at: f64, margin: f64, spare: f64) {
         let stage = Stage::Cover {
-            height_mm: self.to_mm(post.at),
+            height_mm: self.to_mm(at),
         };
-        let (value, bound) = (post.margin + spare, post.margin);
+        let (value, bound) = (margin + spare, margin);
         self.log.borrow_mut().push(LogRow {
             stage,
             passes: 1,

@@ -3,7 +3,7 @@
 use std::f64::consts::SQRT_2;
 
 use crate::goal::{Objective, Spindle};
-use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::answer::{Answer, grade_mm_s};
 use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::work::Work;
@@ -39,13 +39,6 @@ fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> A
     let programme = Programme::balance_unbalance(&work.reach, ends);
     let climb = work.ascend(&programme, start);
     Answer::new(Objective::LeastUnbalance, climb)
-}
-
-/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the
-/// two planes' unbalances per mass, times ω; the larger of two vectors is at least their joint
-/// length over √2.
-pub(crate) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
-    SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
 }
 
 /// The proof that no interior reaches the grade: with τ at what the grade allows, Jᵀy − τ e₁ is

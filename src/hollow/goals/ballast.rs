@@ -8,7 +8,8 @@ use crate::geom::Quadric;
 use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
 use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
-use crate::hollow::dual::reach::{Heavy, Vector10};
+use crate::hollow::dual::reach::Heavy;
+use crate::hollow::dual::units::Vector10;
 use crate::hollow::dual::work::Work;
 use crate::hollow::golden::golden_section;
 use crate::hollow::problem::Problem;
@@ -183,12 +184,7 @@ impl Shop<'_> {
         let best = looks.min_by(Look::by_cost)?;
         let range = [best.height - width, best.height + width];
         let is_better = |left: &Look, right: &Look| Look::by_cost(left, right).is_lt();
-        let [left, right] = golden_section(
-            range,
-            GOLDEN_ROUNDS,
-            at,
-            (|look: &Look| look.height, is_better),
-        );
+        let [left, right] = golden_section(range, GOLDEN_ROUNDS, at, is_better);
         [best, left, right]
             .into_iter()
             .min_by(Look::by_cost)?

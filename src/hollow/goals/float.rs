@@ -4,7 +4,8 @@
 use crate::goal::{Afloat, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::ascent::End;
-use crate::hollow::dual::programme::{DualPoint, Programme, index};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::units::index;
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 

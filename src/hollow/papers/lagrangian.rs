@@ -3,12 +3,11 @@
 
 use nalgebra::DVector;
 
-use super::Accuracy;
 use super::descent::{Function, Limits, descend};
 use super::target::{Target, as_vector10};
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
-use crate::hollow::dual::reach::Vector10;
+use crate::hollow::dual::units::Vector10;
 use crate::interior::Choice;
 
 /// The first penalty, where f and As are of order one. A hundred times less, and the first rounds
@@ -29,6 +28,30 @@ const ROUNDS: usize = 40;
 /// A change of f between rounds, as a part of it, below which it is settled.
 const SETTLED_RATIO: f64 = 1e-7;
 
+/// How exact the optimiser of the papers' methods shall be, and what it may cost.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// The residual of the constraints at which it ends, in units of the solid's volume and radius
+    /// of gyration.
+    pub residual: f64,
+    /// The slope at which it ends: the root mean square over the region of how far a step along the
+    /// gradient moves, where the gradient is of order one. Much below 1e-5 the last fractional
+    /// cells take most of the time.
+    pub slope: f64,
+    /// Evaluations of the moments and their derivative in all.
+    pub evaluations: usize,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self {
+            residual: 1e-6,
+            slope: 1e-4,
+            evaluations: 20_000,
+        }
+    }
+}
+
 /// Where to start from.
 pub(super) struct Start {
     pub x: Vec<f64>,
@@ -47,6 +70,13 @@ impl From<Vec<f64>> for Start {
             smoothing: 0.0,
         }
     }
+}
+
+/// The accuracy asked of the optimiser, and the caller's stop signal.
+#[derive(Clone, Copy)]
+pub(super) struct Effort<'a> {
+    pub accuracy: &'a Accuracy,
+    pub watch: &'a Watch<'a>,
 }
 
 /// Where the rounds came to.
@@ -125,8 +155,9 @@ pub(super) fn minimise(
     target: &Target,
     choice: &dyn Choice,
     start: Start,
-    (accuracy, watch): (&Accuracy, &Watch),
+    effort: Effort,
 ) -> Optimum {
+    let Effort { accuracy, watch } = effort;
     let (multipliers, penalty) = start
         .known
         .unwrap_or_else(|| (DVector::zeros(target.rows().nrows()), FIRST_PENALTY));

@@ -31,75 +31,17 @@
 mod conformance;
 mod descent;
 mod lagrangian;
+mod measure;
+mod method;
 mod octree;
+mod quadric;
 mod rays;
 mod target;
 mod voxels;
 
+pub use lagrangian::Accuracy;
+pub use method::{Found, Method, MethodError, Outcome, Rounding};
 pub use octree::ByOctree;
+pub use quadric::ByQuadric;
 pub use rays::ByRays;
 pub use voxels::ByVoxels;
-
-use crate::hollow::method::{Found, Outcome, figure_for, value_of};
-use crate::hollow::problem::Problem;
-use crate::interior::Choice;
-use lagrangian::Optimum;
-use target::Target;
-
-/// How exact the optimiser of the papers' methods shall be, and what it may cost.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy {
-    /// The residual of the constraints at which it ends, in units of the solid's volume and radius
-    /// of gyration.
-    pub residual: f64,
-    /// The slope at which it ends: the root mean square over the region of how far a step along the
-    /// gradient moves, where the gradient is of order one. Much below 1e-5 the last fractional
-    /// cells take most of the time.
-    pub slope: f64,
-    /// Evaluations of the moments and their derivative in all.
-    pub evaluations: usize,
-}
-
-impl Default for Accuracy {
-    fn default() -> Self {
-        Self {
-            residual: 1e-6,
-            slope: 1e-4,
-            evaluations: 20_000,
-        }
-    }
-}
-
-/// A residual above which the constraints count as missed.
-const MISSED_RESIDUAL: f64 = 1e-3;
-
-/// The answer of a method that needs no rounding.
-fn found(problem: &Problem, target: &Target, choice: &dyn Choice, optimum: &Optimum) -> Found {
-    let moments = problem.fixed - choice.moments(&optimum.x);
-    let residual = target.residual(&moments);
-    Found {
-        outcome: outcome(optimum, residual),
-        figure: figure_for(problem.goal.objective),
-        value: value_of(problem, &moments),
-        moments,
-        residual,
-        variables: choice.count(),
-        iterations: optimum.evaluations,
-        emptied: choice.emptied(&optimum.x),
-        rounding: None,
-    }
-}
-
-fn outcome(optimum: &Optimum, residual: f64) -> Outcome {
-    match optimum {
-        Optimum {
-            is_cancelled: true, ..
-        } => Outcome::Cancelled,
-        _ if residual > MISSED_RESIDUAL => Outcome::ConstraintsMissed,
-        Optimum {
-            has_converged: true,
-            ..
-        } => Outcome::Converged,
-        _ => Outcome::Unfinished,
-    }
-}

@@ -1,12 +1,12 @@
 //! Spin-It's method: a share of every leaf of an octree, split where it is fractional until it is
 //! fine, then rounded.
 
-use super::lagrangian::{Optimum, Start, minimise};
+use super::lagrangian::{Accuracy, Effort, Optimum, Start, minimise};
+use super::measure::{measure, value_of};
+use super::method::{Found, Method, MethodError, Rounding};
 use super::target::Target;
-use super::{Accuracy, found};
 use crate::base::watch::Watch;
-use crate::hollow::method::{Found, Method, MethodError, Rounding, value_of};
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
 use crate::interior::{Choice, Levels, Octree};
 
 /// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform
@@ -57,6 +57,10 @@ impl Method for ByOctree {
     }
 
     fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
+        let effort = Effort {
+            accuracy: &self.accuracy,
+            watch,
+        };
         let target = Target::new(self.name(), problem)?;
         let mut octree = Octree::of(problem.columns, self.levels);
         let mut start = Start {
@@ -65,7 +69,7 @@ impl Method for ByOctree {
         };
         let mut evaluations = 0;
         for _ in 0..SPLITTINGS_A_LEVEL * octree.finest_level() {
-            let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
+            let optimum = minimise(&target, &octree, start, effort);
             evaluations += optimum.evaluations;
             let refined = octree.refined(&optimum.x, FRACTION_TOLERANCE);
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
@@ -86,7 +90,7 @@ impl Method for ByOctree {
             };
             octree = finer;
         }
-        let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
+        let optimum = minimise(&target, &octree, start, effort);
         evaluations += optimum.evaluations;
         Ok(rounded(
             problem,
@@ -114,7 +118,7 @@ fn rounded(problem: &Problem, target: &Target, octree: &Octree, optimum: Optimum
             .sum(),
     };
     let x = optimum.x.iter().map(|x| x.round()).collect();
-    let found = found(problem, target, octree, &Optimum { x, ..optimum });
+    let found = measure(problem, target, octree, &Optimum { x, ..optimum });
     Found {
         rounding: Some(rounding),
         ..found

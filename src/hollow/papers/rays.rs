@@ -1,11 +1,11 @@
 //! Wu, Kramer and Westermann's method: the two ends of the solid segment on every ray.
 
-use super::lagrangian::{Optimum, Start, minimise};
+use super::lagrangian::{Accuracy, Effort, Optimum, Start, minimise};
+use super::measure::measure;
+use super::method::{Found, Method, MethodError};
 use super::target::Target;
-use super::{Accuracy, found};
 use crate::base::watch::Watch;
-use crate::hollow::method::{Found, Method, MethodError};
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
 use crate::interior::{Choice, Rays};
 
 /// How often vanished segments may open again. With none, values ended up to 3e-4 above the best;
@@ -32,16 +32,15 @@ impl Method for ByRays {
     }
 
     fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
+        let effort = Effort {
+            accuracy: &self.accuracy,
+            watch,
+        };
         let (target, rays) = (
             Target::new(self.name(), problem)?,
             Rays::of(problem.columns),
         );
-        let mut optimum = minimise(
-            &target,
-            &rays,
-            Start::from(rays.nothing()),
-            (&self.accuracy, watch),
-        );
+        let mut optimum = minimise(&target, &rays, Start::from(rays.nothing()), effort);
         for _ in 0..REOPENINGS {
             let reopened = rays.reopened(&optimum.x, &optimum.quadric);
             let Some(x) = reopened.filter(|_| !optimum.is_cancelled) else {
@@ -56,13 +55,13 @@ impl Method for ByRays {
                     known,
                     smoothing: 0.0,
                 },
-                (&self.accuracy, watch),
+                effort,
             );
             optimum = Optimum {
                 evaluations: optimum.evaluations + again.evaluations,
                 ..again
             };
         }
-        Ok(found(problem, &target, &rays, &optimum))
+        Ok(measure(problem, &target, &rays, &optimum))
     }
 }

@@ -3,11 +3,13 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::method::MethodError;
 use crate::goal::{Goal, GoalKind, Objective};
-use crate::hollow::dual::programme::{Programme, index};
-use crate::hollow::dual::reach::{Reach, Scale, Vector10};
-use crate::hollow::method::MethodError;
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
+use crate::hollow::dual::programme::Programme;
+use crate::hollow::dual::reach::Reach;
+use crate::hollow::dual::units::index;
+use crate::hollow::dual::units::{Scale, Vector10};
 use crate::mass::Moments;
 
 /// What is added under the root of the λ_max of a 2 × 2 tensor, squared, as a part of the solid's
@@ -166,10 +168,10 @@ fn ratio_at(programme: &Programme, s: &Vector10) -> (f64, Vector10) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::measure::value_of;
     use super::*;
     use crate::base::units::STANDARD_GRAVITY_MM_S2;
     use crate::goal::to_rpm;
-    use crate::hollow::method::value_of;
     use crate::hollow::worlds::{self, World};
 
     fn smooth_worlds() -> Vec<World> {

@@ -2,13 +2,15 @@
 //! by height.
 
 use super::heights::Heights;
+use super::valley::Start;
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::work::Work;
+use crate::hollow::log::Pass;
 use crate::hollow::problem::Problem;
 use crate::hollow::problem::Settings;
-use crate::hollow::solution::{Figure, Pass, Solution};
+use crate::hollow::solution::{Figure, Solution};
 
 /// Heights at which a top's speed is found: fewer draw corners, more cost an ascent each.
 const HEIGHTS: usize = 33;
@@ -55,9 +57,11 @@ fn speeds(heights: &Heights) -> Vec<[f64; 2]> {
     let mut near = None;
     for index in 0..HEIGHTS {
         let height = low + (high - low) * (index as f64 + 0.5) / HEIGHTS as f64;
-        let Some(sample) =
-            heights.sample(height, near.as_ref().map(|point| (point, None)), TOLERANCE)
-        else {
+        let Some(sample) = heights.sample(
+            height,
+            near.as_ref().map(|point| Start { point, lever: None }),
+            TOLERANCE,
+        ) else {
             continue;
         };
         near = Some(sample.climb.best.point.clone());

@@ -1,11 +1,12 @@
 //! The proof over every height: a finite set of intervals in each of which no interior is better.
 
 use super::heights::Heights;
+use super::posts::{Post, Stake};
 use super::valley::Bottom;
-use crate::hollow::dual::ascent::{End, Slack, Visit};
-use crate::hollow::dual::programme::{DualPoint, Programme};
-use crate::hollow::dual::reach::Vector10;
-use crate::hollow::solution::Stage;
+use crate::hollow::dual::ascent::End;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::visit::{Slack, Visit};
+use crate::hollow::log::Stage;
 
 /// Posts at most. A smooth valley takes about twenty.
 const MOST_POSTS: usize = 400;
@@ -55,38 +56,6 @@ pub(crate) enum Doubt {
     Refuted(f64),
     /// It was not found out.
     Open,
-}
-
-/// A dual point at ℓ that speaks for all heights within its reach.
-#[derive(Debug, Clone)]
-pub(crate) struct Post {
-    pub at: f64,
-    /// δ
-    pub margin: f64,
-    /// How far from it the share of the margin is left.
-    pub reach: f64,
-    pub point: DualPoint,
-    /// What it rests on.
-    pub stake: Stake,
-}
-
-/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme
-/// point of K.
-#[derive(Debug, Clone)]
-pub(crate) struct Stake {
-    /// g
-    pub direction: Vector10,
-    pub least: f64,
-}
-
-impl Stake {
-    /// That no interior has a ratio below τ, by the dual point with this τ: D ≥ 0.
-    fn of(programme: &Programme, point: &DualPoint) -> Self {
-        Self {
-            direction: programme.quadric(point),
-            least: programme.rhs.dot(&point.lambda),
-        }
-    }
 }
 
 impl<'a> Cover<'a> {

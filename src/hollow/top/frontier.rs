@@ -1,10 +1,13 @@
 //! The proof over every height and lever, for Spin-It's functional where it weighs the lever.
 
-use super::cover::{Cover, Doubt, Post, Stake};
+use super::cover::{Cover, Doubt};
 use super::heights::Heights;
-use super::lever::Weighed;
+use super::posts::{Post, Stake};
 use super::valley::Bottom;
-use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
+use super::weighed::Weighed;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::table::LEVER_ROW;
+use crate::hollow::dual::units::index;
 
 /// Half the angle of the first side, as a part of √(how far below the value the claim is).
 const FIRST_ANGLE_RATIO: f64 = 0.25;
@@ -253,12 +256,12 @@ impl Frontier<'_> {
             high.posts
                 .iter()
                 .filter(beside)
-                .all(|other| self.is_above_at((low.lever, one), (high.lever, other)))
+                .all(|other| self.is_above_at([low.lever, high.lever], [one, other]))
         })
     }
 
     /// The same for the heights within the reach of two posts.
-    fn is_above_at(&self, (low, one): (f64, &Post), (high, other): (f64, &Post)) -> bool {
+    fn is_above_at(&self, [low, high]: [f64; 2], [one, other]: [&Post; 2]) -> bool {
         let height = (one.at + one.reach)
             .min(other.at + other.reach)
             .min(self.heights.range[1]);

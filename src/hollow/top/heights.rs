@@ -1,11 +1,11 @@
 //! A top's objective as a function of one number: the height at which its tensor is made linear.
 
-use super::lever::{Levers, Weighed};
-use super::valley::{Bottom, Place, Sample, Valley};
+use super::valley::Sample;
+use super::weighed::Weighed;
 use crate::goal::Objective;
-use crate::hollow::dual::answer::Answer;
-use crate::hollow::dual::ascent::{Climb, End, Slack, Visit};
+use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::visit::{Slack, Visit};
 use crate::hollow::dual::work::Work;
 use crate::hollow::solution::Tangent;
 
@@ -18,9 +18,6 @@ const RANGE_SLACK: Slack = Slack {
 /// The least height of a centre, as a part of the greatest, that counts as above the contact. A top
 /// whose centre lies in its contact needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
-
-/// A dual point to start from, and the best lever where it was found.
-pub(crate) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
 
 /// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
 ///
@@ -78,66 +75,6 @@ impl<'a> Heights<'a> {
         (low < high).then_some([low, high])
     }
 
-    /// A visit as the bottom of a valley whose place and curvature are known.
-    pub fn bottom_of(&self, (height, lever): (Tangent, Option<Tangent>), climb: Climb) -> Bottom {
-        Bottom {
-            sample: self.sample_of(height.at, lever, climb),
-            curvature: height.curvature,
-        }
-    }
-
-    /// Whether no other height, and no other lever where that is weighed, promises anything worth
-    /// the while.
-    pub fn is_level(&self, bottom: &Bottom) -> bool {
-        let Sample {
-            slope,
-            lever,
-            climb,
-            ..
-        } = &bottom.sample;
-        let of_lever = Weighed::of(self.objective, self.work)
-            .zip(*lever)
-            .is_none_or(|(weighed, lever)| {
-                bottom.is_level(weighed.slope(lever.at, &climb.best), lever.curvature)
-            });
-        of_lever && bottom.is_level(*slope, bottom.curvature)
-    }
-
-    /// The bottom of the valley that slopes away from a height; none where nothing could be solved.
-    pub fn bottom_from(&self, height: f64) -> Option<Bottom> {
-        self.bottom(Valley::from(height, self.range), None)
-    }
-
-    /// The bottom of a valley, from an answer nearby.
-    pub fn bottom(&self, valley: Valley, known: Start) -> Option<Bottom> {
-        valley.within(self.work.tolerance).bottom(
-            |Place {
-                 at,
-                 near,
-                 tolerance,
-             }| { self.sample(at, near.map(Sample::start).or(known), tolerance) },
-        )
-    }
-
-    /// The objective and its slope; none where the run was stopped or no interior meets the
-    /// constraints.
-    pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
-        if let Some(weighed) = Weighed::of(self.objective, self.work) {
-            return Levers {
-                heights: self,
-                weighed,
-                height,
-            }
-            .best(near, tolerance);
-        }
-        let climb = self.work.climb_near(
-            &self.programme(height),
-            near.map(|(point, _)| point),
-            tolerance,
-        )?;
-        Some(self.sample_of(height, None, climb))
-    }
-
     /// The sample that an ascent at a height, and at the best lever where that is weighed, makes.
     pub fn sample_of(&self, height: f64, lever: Option<Tangent>, climb: Climb) -> Sample {
         let (ratio, [slope, bend]) = (climb.best.value, self.slopes(height, &climb.best));
@@ -189,13 +126,6 @@ impl<'a> Heights<'a> {
         lever.map_or(programme.clone(), |lever| {
             programme.with_lever(&self.work.reach, lever.at)
         })
-    }
-
-    /// What a run that found nothing shows: how far it came at the middle height.
-    pub fn given_up(&self) -> Answer {
-        let programme = self.programme(0.5 * (self.range[0] + self.range[1]));
-        let start = programme.cold_start(&self.work.reach);
-        Answer::new(self.objective, self.work.climb(&programme, start, 0.0))
     }
 }
 

@@ -1,12 +1,12 @@
 //! Spin-It's functional where it weighs the lever: at each height also the best lever has to be
 //! found.
 
-use super::heights::{Heights, Start};
+use super::heights::Heights;
+use super::valley::Start;
 use super::valley::{Place, Sample, Valley};
-use crate::goal::Objective;
-use crate::hollow::dual::ascent::Visit;
-use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
-use crate::hollow::dual::work::Work;
+use super::weighed::Weighed;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::units::index;
 use crate::hollow::solution::Tangent;
 
 /// How exactly the lever that the search begins at is found.
@@ -14,39 +14,6 @@ const ROUGH_TOLERANCE: f64 = 1e-2;
 
 /// The longest step of a lever, as a part of it: far larger, and it leaves what interiors can have.
 const STEP_RATIO: f64 = 0.1;
-
-/// Spin-It's functional k s_z² + γ ρ² where it weighs the lever, in the solver's units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Weighed {
-    /// k = γ_c over the square of the solid's lever.
-    pub lever: f64,
-    /// γ = γ_I, of the square of the inertia's ratio.
-    pub inertia: f64,
-}
-
-impl Weighed {
-    /// The weights; none where only the inertia counts and the lever is free.
-    pub fn of(objective: Objective, work: &Work) -> Option<Self> {
-        let solid = work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
-        match objective {
-            Objective::SpinIt { gamma_c, gamma_i } if gamma_c > 0.0 => Some(Self {
-                lever: gamma_c / (solid * solid),
-                inertia: gamma_i,
-            }),
-            _ => None,
-        }
-    }
-}
-
-impl Weighed {
-    /// The derivative by the lever of the least that it can be: by the envelope theorem the least
-    /// ratio falls by the row's multiplier.
-    pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
-        let falling =
-            2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
-        2.0 * self.lever * lever - falling
-    }
-}
 
 /// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
 ///
@@ -60,9 +27,12 @@ pub(crate) struct Levers<'a> {
 
 impl Levers<'_> {
     /// The least over the lever, and its slope by the height.
-    pub fn best(&self, near: Start, tolerance: f64) -> Option<Sample> {
+    pub fn best(&self, near: Option<Start>, tolerance: f64) -> Option<Sample> {
         let (start, hint) = match near {
-            Some((point, Some(hint))) => (Some(point.clone()), hint),
+            Some(Start {
+                point,
+                lever: Some(hint),
+            }) => (Some(point.clone()), hint),
             _ => (None, self.unweighed()?),
         };
         let valley = Valley::from_tangent(hint, [0.0, self.greatest()])

@@ -1,21 +1,27 @@
 //! The top: the best height of the centre, whether any is stable, and the proof over all of them.
 
 pub(crate) mod course;
-pub(crate) mod cover;
+mod cover;
 mod frontier;
 pub(crate) mod heights;
 mod lever;
+mod posts;
+mod search;
 mod valley;
+mod weighed;
 
-use self::cover::{Cover, Doubt, Post};
+use self::cover::{Cover, Doubt};
 use self::frontier::Frontier;
 use self::heights::Heights;
-use self::lever::Weighed;
+use self::posts::{Post, hold};
+use self::valley::Start;
 use self::valley::{Bottom, Sample, Valley};
+use self::weighed::Weighed;
 use crate::goal::Objective;
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::ascent::Climb;
-use crate::hollow::dual::programme::{Programme, index};
+use crate::hollow::dual::programme::Programme;
+use crate::hollow::dual::units::index;
 use crate::hollow::dual::work::Work;
 use crate::hollow::solution::Warm;
 use crate::hollow::status::Status;
@@ -79,7 +85,7 @@ fn looked_up<'a>(
         let programme = heights.programme_at(height.at, lever);
         let here = heights.work.look(&programme, seen.point);
         scout = scout.mended(&here);
-        let at = |climb: Climb| heights.bottom_of((height, lever), climb);
+        let at = |climb: Climb| heights.bottom_of(height, lever, climb);
         if heights.is_level(&at(Climb::of(here.clone()))) {
             let bottom = at(heights
                 .work
@@ -96,7 +102,13 @@ fn looked_up<'a>(
             ..*heights
         };
         seen = mended
-            .bottom(Valley::near(height), Some((&here.point, lever)))?
+            .bottom(
+                Valley::near(height),
+                Some(Start {
+                    point: &here.point,
+                    lever,
+                }),
+            )?
             .warm();
     }
     None
@@ -113,7 +125,7 @@ fn planned(heights: &Heights, mut scout: Work, bottom: &Bottom) -> Option<f64> {
             },
             bottom,
         );
-        if heights.work.hold(&proof.ok()?) {
+        if hold(heights.work, &proof.ok()?) {
             return Some(bound);
         }
         scout = scout.doubly_prudent();
@@ -152,7 +164,13 @@ pub(crate) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
         .and_then(|scout| looked_up(&heights, scout, warm.clone()));
     let bottom = match looked {
         Some((bottom, _)) => bottom,
-        None => heights.bottom(Valley::near(hint), Some((&warm.point, warm.lever)))?,
+        None => heights.bottom(
+            Valley::near(hint),
+            Some(Start {
+                point: &warm.point,
+                lever: warm.lever,
+            }),
+        )?,
     };
     let usable = is_stable(work, &bottom.sample) && work.accepts(&bottom.sample.climb);
     usable.then(|| {
@@ -182,7 +200,7 @@ pub(crate) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Opti
     planned(
         &heights,
         scout,
-        &heights.bottom_of((height, warm.lever), Climb::of(here)),
+        &heights.bottom_of(height, warm.lever, Climb::of(here)),
     )
 }
 
@@ -343,7 +361,7 @@ mod tests {
                 )
                 .1
                 .expect("the claim is true");
-                assert!(work.hold(&posts));
+                assert!(hold(work, &posts));
                 for seed in 0..40 {
                     let Quadric(random) = worlds::some_quadric(seed, 12.0);
                     let emptied = moments_where_positive(&world.columns, &Quadric(random));
@@ -375,7 +393,7 @@ mod tests {
             .expect("the claim is true");
             let last = posts.last_mut().expect("there is a post");
             last.stake.direction[index::ONE] -= 0.5 * last.margin;
-            assert!(!work.hold(&posts));
+            assert!(!hold(work, &posts));
         });
     }
 

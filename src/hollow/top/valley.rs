@@ -39,10 +39,20 @@ pub(crate) struct Sample {
     pub lever: Option<Tangent>,
 }
 
+/// The dual point, and the best lever if that is known, that a sample starts from.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'a> {
+    pub point: &'a DualPoint,
+    pub lever: Option<Tangent>,
+}
+
 impl Sample {
     /// What a sample near this one starts from.
-    pub fn start(&self) -> (&DualPoint, Option<Tangent>) {
-        (&self.climb.best.point, self.lever)
+    pub fn start(&self) -> Start<'_> {
+        Start {
+            point: &self.climb.best.point,
+            lever: self.lever,
+        }
     }
 }
 

@@ -1,12 +1,9 @@
 //! One trait for every way to find what to empty, so that they can be compared: the quadric, and
 //! the papers' own.
 
-use super::problem::Problem;
-use super::problem::Settings;
-use super::solution::{Figure, Solution};
-use super::status::Status;
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
+use crate::hollow::{Figure, Problem};
 use crate::interior::Emptied;
 use crate::mass::Moments;
 
@@ -108,70 +105,4 @@ pub enum MethodError {
         /// What was asked for.
         kind: GoalKind,
     },
-}
-
-/// The default: one quadric, with a certificate ([`super::solve`]).
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ByQuadric {
-    /// How exact, at what cost.
-    pub settings: Settings,
-}
-
-impl Method for ByQuadric {
-    fn name(&self) -> &'static str {
-        "quadric"
-    }
-
-    fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
-        let solution = super::solve(problem, &self.settings, watch);
-        Ok(Found {
-            outcome: outcome_of(&solution),
-            figure: solution.certificate.figure,
-            value: solution.certificate.value,
-            moments: solution.moments,
-            residual: solution.certificate.residual,
-            variables: solution.quadric.0.len(),
-            iterations: solution.passes,
-            emptied: Emptied::where_positive(problem.columns, &solution.quadric),
-            rounding: None,
-        })
-    }
-}
-
-fn outcome_of(solution: &Solution) -> Outcome {
-    match solution.status {
-        Status::Solved => Outcome::Optimal,
-        Status::AlmostSolved | Status::IterationLimit { .. } => Outcome::Unfinished,
-        Status::Cancelled => Outcome::Cancelled,
-        _ => Outcome::Impossible,
-    }
-}
-
-/// The figure that tells how good an interior is for an objective.
-pub(super) fn figure_for(objective: Objective) -> Figure {
-    match objective {
-        Objective::CriticalSpeed => Figure::CriticalSpeedRpm,
-        Objective::SpinIt { .. } => Figure::SpinIt,
-        Objective::Dominance => Figure::DominanceRatio,
-        Objective::TopplingAngle => Figure::TopplingAngleRad,
-        Objective::LowestCenter => Figure::CenterHeightMm,
-        Objective::MetacentricHeight => Figure::MetacentricHeightMm,
-        Objective::LeastRemoved => Figure::VolumeMm3,
-        Objective::LeastUnbalance => Figure::BalanceGradeMmS,
-    }
-}
-
-/// That figure of a body of these moments, by the goal's own formulas; not a number where it has
-/// none, or where the goal is one that the papers' methods refuse: only they ask.
-pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
-    let figures = crate::goal::figures(problem.goal, moments);
-    let value = match problem.goal.objective {
-        Objective::CriticalSpeed => figures.critical_speed_rpm,
-        Objective::SpinIt { .. } => figures.spin_it,
-        Objective::Dominance => Some(figures.dominance_ratio),
-        Objective::TopplingAngle => figures.toppling_angle_rad,
-        Objective::LowestCenter => Some(figures.center_height_mm),
-        Objective::MetacentricHeight | Objective::LeastRemoved | Objective::LeastUnbalance => None,
-    };
-    value.unwrap_or(f64::NAN)
 }
