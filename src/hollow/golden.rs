@@ -1,13 +1,13 @@
-//! The golden section: the best of a quantity with one peak, in as few looks as its order allows.
+//! The golden-section search for the peak of a unimodal quantity.
 
 /// (√5 − 1)/2, the share of a range that each round keeps.
 const SHARE: f64 = 0.618_033_988_749_894_9;
 
-/// Returns the looks at the two inner places of the range that `rounds` of golden section leave.
+/// Searches a range for a peak by golden section; returns the last two samples.
 ///
-/// `is_better(left, right)` says whether the best lies on the left one's side. Each round costs one
-/// look and leaves 0.618 of the range. If the quantity has a single peak, the peak stays inside
-/// (Kiefer, Proc. AMS 4, 1953).
+/// Costs `rounds` + 2 calls of `look`, and each round leaves 0.618 of the range. `is_better`
+/// compares two samples. If the quantity has a single peak, it stays in the range (Kiefer, Proc.
+/// AMS 4, 1953).
 pub fn golden_section<T>(
     [mut low, mut high]: [f64; 2],
     rounds: usize,

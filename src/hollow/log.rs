@@ -1,32 +1,32 @@
-//! The record of a search: one row an ascent, and value and bound pass by pass.
+//! The record of a search: one row per ascent, and value and bound pass by pass.
 
 use serde::{Deserialize, Serialize};
 
-/// Which search an ascent belonged to.
+/// The search an ascent belonged to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stage {
     /// The goal's programme itself.
     Goal,
-    /// The dominance that decides whether a stable interior exists.
+    /// The least dominance ratio, which decides whether a stable interior exists.
     Dominance,
-    /// The least or greatest height a top's centre can have.
+    /// The least or greatest height of a top's centre.
     HeightRange,
-    /// A top with its centre at this height.
+    /// A top with its tensor made linear at this height of the centre.
     AtHeight {
-        /// The height, mm.
+        /// Height, mm.
         height_mm: f64,
     },
-    /// A top with its centre at this height and of this lever.
+    /// A top at this height, restricted to interiors with this lever.
     AtLever {
-        /// The height, mm.
+        /// Height, mm.
         height_mm: f64,
         /// Volume times the height of the centre, mm⁴.
         lever_mm4: f64,
     },
-    /// The proof that no other height is better, for heights about this one.
+    /// The proof that no height around this one is better.
     Cover {
-        /// The middle of the heights covered, mm.
+        /// Middle of the covered heights, mm.
         height_mm: f64,
     },
 }
@@ -34,31 +34,31 @@ pub enum Stage {
 /// One ascent, in the solver's own units.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct LogRow {
-    /// What it was for.
+    /// Search it belonged to.
     pub stage: Stage,
     /// Passes over the columns.
     pub passes: usize,
-    /// The ratio its interior reaches.
+    /// Ratio reached by its interior.
     pub value: f64,
-    /// The ratio no interior beats.
+    /// Lower bound of the ratio over all interiors.
     pub bound: f64,
-    /// How far the constraints are from met.
+    /// Constraint residual.
     pub residual: f64,
 }
 
-/// How far a search had come after a pass over the columns: what the interior at hand reaches, and
-/// what no interior beats. The interior at hand meets the constraints at the end of the search
-/// only.
+/// Progress of a search after one pass over the columns.
+///
+/// The current interior meets the constraints only at the end of the search.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pass {
-    /// What is reached.
+    /// Value reached by the current interior.
     pub value: f64,
-    /// What no interior can beat.
+    /// Bound that no interior can beat.
     pub bound: f64,
 }
 
 impl Pass {
-    /// The pass with both numbers changed.
+    /// Applies `change` to both numbers.
     pub(crate) fn map(self, change: impl Fn(f64) -> f64) -> Self {
         Self {
             value: change(self.value),
@@ -66,7 +66,7 @@ impl Pass {
         }
     }
 
-    /// Whether it is of use to look at.
+    /// Returns true if both numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.value.is_finite() && self.bound.is_finite()
     }

@@ -260,7 +260,7 @@ fn refined(problem: &Problem, settings: &Settings, known: &Solution, watch: &Wat
     if !known.is_usable() {
         return solve(problem, settings, watch);
     }
-    let work = Work::new(problem, settings, watch).warmed();
+    let work = Work::new(problem, settings, watch).for_warm_start();
     let (objective, start) = (known.objective, Some(&known.warm.point));
     let answer = match problem.goal.kind {
         GoalKind::Top => top::refine(&work, objective, &known.warm),

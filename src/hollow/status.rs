@@ -1,102 +1,101 @@
-//! What a run ended with, as a value and as a sentence.
+//! The outcome of a run, as a value and as a sentence.
 
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind};
 
-/// How a run ended: how far to trust its void, or the proof that none will do.
+/// The outcome of a run: an optimal void, or the proof that none exists.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Status {
-    /// Gap and residual are within the settings' accepted limits: no interior is better.
+    /// Gap and residual are within the accepted limits: no interior is better.
     Solved,
-    /// The constraints are met to a thousandth and the gap is known, but wider than accepted.
+    /// The constraints are met to a thousandth, but the gap is wider than accepted.
     AlmostSolved,
     /// No interior meets the constraints.
     ConstraintsInfeasible {
-        /// What stands in the way.
+        /// Unmet constraint.
         obstacle: Obstacle,
-        /// The least by which any interior misses the constraints, in units of the solid's volume
-        /// and radius of gyration; proved, positive.
+        /// Least residual of any interior, in units of the solid's volume and radius of gyration;
+        /// proved, positive.
         least_miss: f64,
-        /// The proof: Σλᵢ(constraint i), whose integral over every interior is at least
-        /// `least_miss`.
+        /// Proof: Σλᵢ(constraint i), whose integral over every interior is at least `least_miss`.
         separator: Quadric,
     },
-    /// Yo-yo: for every interior some axis across has at least the moment of this one.
+    /// Yo-yo: in every interior some axis across has at least the moment of inertia about the spin
+    /// axis.
     NotDominant {
-        /// I_b/I_c is at least this, at least 1, for every interior; proved.
+        /// Lower bound of I_b/I_c over every interior, at least 1; proved.
         least_ratio: f64,
     },
-    /// Top: no interior and no speed make it spin upright.
+    /// Top: no interior spins upright at any speed.
     UnstableForEveryInterior {
-        /// I_b/I_c is at least this for every interior.
+        /// Lower bound of I_b/I_c over every interior.
         least_ratio: f64,
-        /// Whether that is proved for every height of the centre, or only for those that were
-        /// tried.
+        /// True if the bound is proved for every height of the centre; false if it holds for the
+        /// heights tried.
         proved: bool,
     },
     /// Stand: every interior topples by itself.
     CannotStand {
-        /// The greatest angle any interior reaches, rad; not positive; proved.
+        /// Greatest toppling angle of any interior, rad; not positive; proved.
         greatest_angle_rad: f64,
     },
-    /// Float: even the lightest interior is too heavy for the water displaced at this waterline.
+    /// Float: even the lightest interior is too heavy for this waterline.
     Sinks {
-        /// Its mass over that of the water displaced, above 1; proved.
+        /// Its mass over that of the displaced water, above 1; proved.
         least_ratio: f64,
     },
-    /// Float: even the solid is too light to lie as deep as this waterline.
+    /// Float: even the solid is too light for this waterline.
     RidesHigh {
-        /// Its mass over that of the water displaced, below 1; proved.
+        /// Its mass over that of the displaced water, below 1; proved.
         greatest_ratio: f64,
     },
-    /// Float: no interior of the right mass has its centre over the centre of buoyancy.
+    /// Float: no interior of the right mass has its centre above the centre of buoyancy.
     CannotTrim {
-        /// How far aside it is at least, mm; proved, positive.
+        /// Least horizontal offset of the centre, mm; proved, positive.
         least_offset_mm: f64,
-        /// The proof: its integral over every interior is more than `level_mm3`, and would be that
-        /// at most for one of the right mass and place.
+        /// Proof: its integral over every interior exceeds `level_mm3`. For an interior of the
+        /// right mass and centre it would be `level_mm3` at most.
         separator: Quadric,
-        /// mm³.
+        /// Level of the proof, mm³.
         level_mm3: f64,
     },
-    /// Float: every interior of the right mass and place turns over.
+    /// Float: every interior of the right mass and centre capsizes.
     Capsizes {
-        /// The greatest metacentric height, mm; not positive; proved.
+        /// Greatest metacentric height, mm; not positive; proved.
         greatest_gm_mm: f64,
     },
-    /// Balance: every interior shakes more than the grade allows.
+    /// Balance: the unbalance of every interior exceeds the grade.
     CannotBalance {
-        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked
-        /// for; proved.
+        /// Best grade of any interior at the rotor's speed, mm/s; above the requested one; proved.
         least_grade_mm_s: f64,
-        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass),
-        /// whose integral over every interior is positive.
+        /// Proof: (weights)·(unbalances in the end planes) − (permitted unbalance)·(mass). Its
+        /// integral over every interior is positive.
         separator: Quadric,
     },
     /// The passes were used up before the limits were met.
     IterationLimit {
-        /// The gap that is left, as a part of the value.
+        /// Remaining gap, as a part of the value.
         gap_ratio: f64,
-        /// The residual that is left, in the solver's normalised units.
+        /// Remaining residual, in the solver's normalised units.
         residual: f64,
     },
     /// The caller stopped the run.
     Cancelled,
 }
 
-/// Which constraint no interior meets.
+/// The constraint that no interior meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Obstacle {
-    /// The centre of mass cannot be brought where it must be.
+    /// The centre of mass cannot reach its required place.
     Center,
     /// The axis cannot be made a principal axis.
     PrincipalAxis,
-    /// Each might be met, but not both together.
+    /// Each could be met alone, but not both together.
     Both,
 }
 
 impl Status {
-    /// What happened, in a sentence with its numbers.
+    /// Returns a sentence that explains the outcome, with its numbers.
     pub fn explain(&self, goal: &Goal) -> String {
         match *self {
             Self::Solved => "Solved: no other interior is better.".into(),
@@ -166,7 +165,7 @@ impl Status {
         }
     }
 
-    /// What could be changed to make it possible; nothing where it is.
+    /// Returns changes that may make the goal possible; empty if it is possible.
     pub fn remedies(&self, goal: &Goal) -> &'static [&'static str] {
         match (self, goal.kind) {
             (Self::ConstraintsInfeasible { .. }, GoalKind::Top) => &[
@@ -220,8 +219,8 @@ impl Status {
         }
     }
 
-    /// The quadric whose integral over every interior proves that the goal cannot be met; none
-    /// where the bound of the solution's own quadric does.
+    /// Returns the quadric whose integral over every interior proves that the goal cannot be met.
+    /// `None` if the bound of the solution's own quadric is the proof.
     pub fn separator(&self) -> Option<Quadric> {
         match *self {
             Self::ConstraintsInfeasible { separator, .. }
@@ -231,7 +230,7 @@ impl Status {
         }
     }
 
-    /// Whether this is a proof that the goal cannot be met.
+    /// Returns true if this proves that the goal cannot be met.
     pub fn is_impossible(&self) -> bool {
         matches!(
             self,
@@ -368,7 +367,7 @@ mod tests {
                 ..afloat
             });
             let status = solve(&world.problem(), &Settings::default(), &Watch::silent()).status;
-            // Even in x and y, so that the rows hold where the world itself is.
+            // Even in x and y, so that every interior meets the rows that the world itself meets.
             for seed in 0..400 {
                 let Quadric([c, _, _, z, _, _, _, xx, _, zz]) = worlds::some_quadric(seed, 8.0);
                 let z = if world.goal.kind == GoalKind::Yoyo {
@@ -387,8 +386,7 @@ mod tests {
                     Status::CannotStand { greatest_angle_rad } => {
                         (-figures.toppling_angle_rad.unwrap(), -greatest_angle_rad)
                     }
-                    // Of other masses than the water carries, it may be lower: those are not spoken
-                    // of.
+                    // The bound covers only interiors of the mass that the water carries.
                     Status::Capsizes { greatest_gm_mm }
                         if (moments.volume() - 120.0).abs() < 0.5 =>
                     {

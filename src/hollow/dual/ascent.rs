@@ -4,53 +4,52 @@ use nalgebra::DVector;
 
 use super::programme::{DualPoint, Programme};
 use super::reach::Reach;
-use super::step::{Step, Stride};
+use super::step::{Step, StepControl};
 use super::visit::{Slack, Visit};
 use crate::base::watch::Watch;
 use crate::hollow::log::Pass;
 
-/// The first damping of a search from nothing, as a part of the mean curvature. A tenth of it, and
-/// the first steps overshoot to where the model is worthless; ten times more costs a pass an
-/// ascent.
+/// First damping of a cold start, as a part of the mean curvature. With a tenth of it the first
+/// steps overshoot to where the model is worthless. Ten times more costs one extra pass per ascent.
 pub(crate) const COLD_DAMPING: f64 = 1e-2;
-/// The first damping near a known answer, where the model is good. A hundred times more costs a
-/// pass an ascent.
+/// First damping near a known answer, where the model is good. A hundred times more costs one extra
+/// pass per ascent.
 pub(crate) const WARM_DAMPING: f64 = 1e-4;
-/// The first damping where a scout has been: the model is all but exact there.
+/// First damping after a scout's search, where the model is nearly exact.
 pub(crate) const SCOUTED_DAMPING: f64 = 1e-7;
-/// Multipliers beyond this many times the ratio raise the suspicion that no interior meets the
-/// rows.
+/// Multiple of the ratio beyond which multipliers suggest that no interior meets the rows.
 const SUSPICIOUS_MULTIPLIER: f64 = 20.0;
 
-/// How sharply the least miss of rows that cannot be met is found; any positive bound is a proof.
+/// Relative accuracy of the least residual of rows that cannot be met; any positive bound is a
+/// proof.
 const PROOF_TOLERANCE: f64 = 1e-3;
 
-/// How an ascent ended.
+/// The reason an ascent ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum End {
     /// Residual and gap are within the tolerance.
     Converged,
     /// No step gains any more.
     Stalled,
-    /// These rows cannot be met: at best they are missed by this much, in the solver's units.
+    /// The rows cannot be met; the least residual, in the solver's units.
     Infeasible(f64),
     /// The passes are used up.
     PassLimit,
-    /// The caller has cancelled.
+    /// The caller cancelled.
     Cancelled,
 }
 
-/// Where an ascent came to.
+/// The result of an ascent.
 #[derive(Debug, Clone)]
 pub(crate) struct Climb {
     pub best: Visit,
     pub end: End,
-    /// Value and bound of every point it was at, the last one `best`.
+    /// Value and bound of every accepted point; the last is `best`.
     pub course: Vec<Pass>,
 }
 
 impl Climb {
-    /// No ascent, only a visit.
+    /// Returns a result of no steps, at a dual point that was only evaluated.
     pub fn of(visit: Visit) -> Self {
         Self {
             course: vec![visit.pass()],
@@ -59,35 +58,36 @@ impl Climb {
         }
     }
 
-    /// The same ascent with what it began after.
+    /// Puts the passes made before this ascent at the head of its record.
     pub fn after(mut self, course: &[Pass]) -> Self {
         self.course.splice(0..0, course.iter().copied());
         self
     }
 }
 
-/// What an ascent may cost and whom it obeys.
+/// The tolerance, cost limit and stop signal of an ascent.
 #[derive(Clone, Copy)]
 pub(crate) struct Budget<'a> {
     pub tolerance: f64,
-    /// When the bound is good enough whatever the tolerance; none where it never is.
+    /// Criterion for a bound that is good enough whatever the tolerance; `None` if only the
+    /// tolerance counts.
     pub slack: Option<Slack>,
     pub passes: usize,
     pub first_damping: f64,
     pub watch: &'a Watch,
 }
 
-/// Climbs from a visit until residual and gap are within the budget's tolerance.
+/// Climbs from an evaluated point until residual and gap are within the budget's tolerance.
 ///
-/// D(y, λ, τ) = min_K g·s is concave; {D ≥ 0} is convex and the greatest τ in it is the optimum.
-/// Each pass gives D, its gradient and its curvature, and each step maximises the damped quadratic
-/// model over y ∈ Y and all λ, with τ moved to where D vanishes (Dinkelbach, "On nonlinear
+/// D(y, λ, τ) = min_K g·s is concave. The set {D ≥ 0} is convex, and its greatest τ is the optimum.
+/// Each pass gives D, its gradient and its curvature. Each step maximises the damped quadratic
+/// model over y ∈ Y and all λ, and moves τ to where D vanishes (Dinkelbach, "On nonlinear
 /// fractional programming", Management Science 13, 1967). Damping follows Levenberg and Marquardt.
-/// Near the optimum every step squares the error.
+/// Near the optimum convergence is quadratic.
 pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes.saturating_sub(1);
     let mut here = start;
-    let mut stride = Stride::first(programme, budget.first_damping);
+    let mut control = StepControl::first(programme, budget.first_damping);
     let mut course = vec![here.pass()];
     loop {
         let done = |end| Climb {
@@ -104,14 +104,14 @@ pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
         if reach.passes() >= last_pass {
             return done(End::PassLimit);
         }
-        if stride.is_exhausted() {
+        if control.is_exhausted() {
             return done(End::Stalled);
         }
-        let mut step = Step::from(&here, programme, &stride);
-        let is_settled = stride.leaves_only_the_ratio(&here, &step, programme);
+        let mut step = Step::from(&here, programme, &control);
+        let is_settled = control.must_move_ratio(&here, &step, programme);
         if is_settled {
-            stride = Stride::first(programme, budget.first_damping);
-            step = Step::from(&here, programme, &stride);
+            control = StepControl::first(programme, budget.first_damping);
+            step = Step::from(&here, programme, &control);
         }
         if budget
             .slack
@@ -120,12 +120,12 @@ pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: 
             return done(End::Converged);
         }
         let there = Visit::new(reach, programme, step.to.clone());
-        if is_settled || stride.judge(&here, &there, &step, programme.is_ratio()) {
+        if is_settled || control.judge(&here, &there, &step, programme.is_ratio()) {
             here = there;
             course.push(here.pass());
             if reach.is_free()
                 && is_suspicious(&here, programme)
-                && let Some(proof) = separation(reach, programme, &here, budget)
+                && let Some(proof) = prove_separation(reach, programme, &here, budget)
             {
                 return proof;
             }
@@ -139,9 +139,8 @@ fn is_suspicious(visit: &Visit, programme: &Programme) -> bool {
         && multipliers > SUSPICIOUS_MULTIPLIER * (1.0 + visit.point.tau.abs())
 }
 
-/// The proof that no interior meets the rows, if the multipliers point to one: D > 0 along them
-/// alone.
-fn separation(
+/// Returns the proof that no interior meets the rows, if the multipliers alone give D > 0.
+fn prove_separation(
     reach: &Reach,
     programme: &Programme,
     visit: &Visit,
@@ -161,12 +160,13 @@ fn separation(
     {
         return None;
     }
-    refusal(reach, programme, start, budget)
+    prove_infeasible(reach, programme, start, budget)
 }
 
-/// The same from where the proof is to be looked for: multipliers of the rows, as the weights of
-/// [`Programme::feasibility`].
-pub(crate) fn refusal(
+/// Climbs to a proof that no interior meets the rows; `None` if there is none.
+///
+/// `start` holds multipliers of the rows as the weights of [`Programme::feasibility`].
+pub(crate) fn prove_infeasible(
     reach: &Reach,
     programme: &Programme,
     start: DualPoint,
@@ -195,8 +195,7 @@ mod tests {
     use crate::goal::Objective;
     use crate::hollow::worlds;
 
-    /// A dual point of the egg's dominance where no column is about to be touched or left by the
-    /// quadric.
+    /// Returns a dual point of the egg's dominance at which no column's ends lie on the quadric.
     fn world_and_point() -> (worlds::World, DualPoint) {
         let point = DualPoint {
             y: DVector::from_vec(vec![0.3, -0.2]),

@@ -1,5 +1,4 @@
-//! Every goal as a quasi-convex programme over the ten moments: minimise a convex function over a
-//! positive one.
+//! A goal as a quasi-convex programme over the ten moments, and the points of its dual.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,11 +7,12 @@ use super::set::DualSet;
 use super::units::Vector10;
 use crate::hollow::log::Stage;
 
-/// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY
-/// §3).
+/// The programme: minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b.
+///
+/// The denominator e·s is positive on all of K ([theory §2](crate::guide::theory#2-goals)).
 #[derive(Debug, Clone)]
 pub(crate) struct Programme {
-    /// What it is for.
+    /// Search it belongs to.
     pub stage: Stage,
     /// n
     pub numerator: Vector10,
@@ -22,9 +22,9 @@ pub(crate) struct Programme {
     pub set: DualSet,
     /// e
     pub denominator: Vector10,
-    /// A positive lower bound of e·s over the s that meet the rows.
+    /// Positive lower bound of e·s over the s that meet the rows; zero if there is no denominator.
     pub denominator_floor: f64,
-    /// An upper bound of it.
+    /// Upper bound of e·s.
     pub denominator_ceiling: f64,
     /// A, m × 10
     pub rows: DMatrix<f64>,
@@ -32,7 +32,7 @@ pub(crate) struct Programme {
     pub rhs: DVector<f64>,
 }
 
-/// A point of the dual: the weights y, a multiplier for each row, and the ratio on trial.
+/// A point of the dual: the weights y, a multiplier for each row, and the trial ratio τ.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DualPoint {
     pub y: DVector<f64>,
@@ -41,8 +41,8 @@ pub(crate) struct DualPoint {
 }
 
 impl Programme {
-    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not
-    /// yet bounded.
+    /// Returns a programme over the ball with right-hand sides of zero. Its denominator has no
+    /// bounds yet.
     pub fn new(
         numerator: Vector10,
         directions: DMatrix<f64>,
@@ -66,16 +66,16 @@ impl Programme {
         }
     }
 
-    /// For a denominator that grows with every bit of material: bounded by the shell and by the
-    /// fullest interior.
-    pub fn bounded(mut self, reach: &Reach) -> Self {
+    /// Adds the bounds of a denominator that grows with every bit of material: its values at the
+    /// shell and at the fullest interior.
+    pub fn with_denominator_bounds(mut self, reach: &Reach) -> Self {
         self.denominator_floor = self.denominator.dot(&reach.shell);
         self.denominator_ceiling = self.denominator.dot(&reach.fullest);
         self
     }
 
-    /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that
-    /// none meets them.
+    /// Returns the programme of the least residual, min ‖As‖. A positive value proves that no
+    /// interior meets the rows.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);
         Self::new(
@@ -86,19 +86,19 @@ impl Programme {
         )
     }
 
-    /// The convex numerator at s.
+    /// Returns the convex numerator at s.
     pub fn numerator_at(&self, s: &Vector10) -> f64 {
         self.numerator.dot(s) + self.set.support(&(&self.directions * s))
     }
 
-    /// The quadric g = n + Jᵀy − τe + Aᵀλ whose extreme interior the dual point names.
+    /// Returns the quadric g = n + Jᵀy − τe + Aᵀλ of a dual point.
     pub fn quadric(&self, point: &DualPoint) -> Vector10 {
-        let turning = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
+        let combination = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
         self.numerator - self.denominator * point.tau
-            + Vector10::from_column_slice(turning.as_slice())
+            + Vector10::from_column_slice(combination.as_slice())
     }
 
-    /// The denominator at s, kept from below its floor; one where there is none.
+    /// Returns the denominator at s, at least its floor; 1 if there is no denominator.
     pub fn denominator_at(&self, s: &Vector10) -> f64 {
         if self.is_ratio() {
             self.denominator.dot(s).max(self.denominator_floor)
@@ -107,18 +107,18 @@ impl Programme {
         }
     }
 
-    /// Whether there is a denominator; without one the value is the numerator alone.
+    /// Returns true if there is a denominator; without one the value is the numerator alone.
     pub fn is_ratio(&self) -> bool {
         self.denominator_floor > 0.0
     }
 
-    /// Whether every right-hand side is zero.
+    /// Returns true if every right-hand side is zero.
     pub fn is_homogeneous(&self) -> bool {
         self.rhs.iter().all(|&b| b == 0.0)
     }
 
-    /// J over A: how g turns with (y, λ).
-    pub fn turning(&self) -> DMatrix<f64> {
+    /// Returns J stacked on A, the derivative of g by (y, λ).
+    pub fn jacobian(&self) -> DMatrix<f64> {
         let k = self.directions.nrows();
         DMatrix::from_fn(k + self.rows.nrows(), 10, |i, j| {
             if i < k {
@@ -129,8 +129,11 @@ impl Programme {
         })
     }
 
-    /// The greatest ratio that the dual value D at trial ratio τ proves to be a lower bound: along
-    /// τ, D falls by no less than the floor and no more than the ceiling of the denominator.
+    /// Returns the greatest lower bound of the ratio that the dual value D proves at the trial
+    /// ratio τ.
+    ///
+    /// Along τ, D falls at least at the rate of the denominator's floor and at most at that of its
+    /// ceiling.
     pub fn bound(&self, tau: f64, dual: f64) -> f64 {
         if !self.is_ratio() {
             return dual;
@@ -143,7 +146,7 @@ impl Programme {
             }
     }
 
-    /// A dual point to start from cold: the weights and the ratio of the solid, no multipliers.
+    /// Returns the dual point of a cold start: weights and ratio of the solid, multipliers zero.
     pub fn cold_start(&self, reach: &Reach) -> DualPoint {
         let ratio = self.numerator_at(&reach.solid) / self.denominator.dot(&reach.solid);
         DualPoint {
@@ -153,7 +156,7 @@ impl Programme {
         }
     }
 
-    /// A known dual point, fitted to this programme's rows, or a cold start.
+    /// Fits a known dual point to this programme's rows; returns a cold start if it does not fit.
     pub fn start_near(&self, reach: &Reach, near: Option<&DualPoint>) -> DualPoint {
         let fitting = near.filter(|point| point.y.len() == self.directions.nrows());
         let Some(point) = fitting else {

@@ -1,16 +1,15 @@
-//! How exact a scout is, and how much of what it sees is claimed of all columns.
+//! The accuracy of a scout, and the part of its margins that is claimed of all columns.
 
-/// How exact ascents on thinned columns are: those err by more.
+/// Tolerance of ascents on thinned columns, whose own error is larger.
 pub(crate) const ROUGH_TOLERANCE: f64 = 1e-3;
-/// How exact ascents on mended columns are: what is left is for the last Newton steps on all
-/// columns.
+/// Tolerance of ascents on mended columns; the last Newton steps on all columns do the rest.
 pub(crate) const MENDED_TOLERANCE: f64 = 1e-6;
 
-/// How much less than what a scout sees is claimed of all columns.
+/// The discount on a scout's margins before they are claimed of all columns.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Prudence {
-    /// The share of a margin that is claimed where the columns are mended. More, and claims fail;
-    /// less, and more posts are needed.
+    /// Share of a margin that is claimed where the columns are mended. With more, claims fail; with
+    /// less, more posts are needed.
     near_ratio: f64,
 }
 
@@ -21,15 +20,15 @@ impl Default for Prudence {
 }
 
 impl Prudence {
-    /// The prudence after claims have failed.
+    /// Returns the prudence after claims have failed.
     pub fn doubled(self) -> Self {
         Self {
             near_ratio: 2.0 * self.near_ratio - 1.0,
         }
     }
 
-    /// What to claim of a margin. It grows with the square of the distance from where the columns
-    /// are mended, and what they err by grows with the distance.
+    /// Returns the part of a margin to claim. The margin grows with the square of the distance from
+    /// where the columns are mended, the error with the distance.
     pub fn claim(self, margin: f64) -> f64 {
         self.near_ratio * margin / (1.0 + margin.max(0.0).sqrt())
     }

@@ -1,37 +1,36 @@
-//! One step of the ascent: the damped quadratic model of the dual, and how far it is trusted.
+//! One step of the ascent: a damped quadratic model of the dual, and its step control.
 
 use nalgebra::{DMatrix, DVector};
 
 use super::programme::{DualPoint, Programme};
 use super::visit::Visit;
 
-/// Damping below this part is none; above the greatest the steps are shorter than rounding.
+/// Damping below the least has no effect. Above the greatest, steps are shorter than rounding.
 const LEAST_DAMPING: f64 = 1e-12;
 const GREATEST_DAMPING: f64 = 1e9;
-/// How the damping follows the model's fortune.
+/// Factors by which the damping falls after a good prediction and grows after a bad one.
 const EASE: f64 = 0.1;
 const TIGHTEN: f64 = 8.0;
-/// A step is taken when it gains at least this part of what the model promised; above the second
-/// the damping eases.
+/// Least share of the promised gain for a step to be accepted. Above the second share the damping
+/// falls.
 const LEAST_GAIN_RATIO: f64 = 0.05;
 const GOOD_GAIN_RATIO: f64 = 0.5;
-/// Curvature below which a quadric counts as cutting nothing: the damping then stands on this.
+/// Least mean curvature that the damping scales with; below it a quadric cuts practically nothing.
 const LEAST_CURVATURE: f64 = 1e-4;
-/// Gains below this are rounding: a step that promises no more is judged by whether it comes nearer
-/// to the optimum.
+/// Gain below which rounding decides. Such a step is accepted if it comes nearer to the optimum.
 const ROUNDING_GAIN: f64 = 1e-13;
-/// When no y and λ promise to raise D by more than this part of it, it is τ that has to move, as
-/// Dinkelbach's method always may; larger, and τ moves on a D that is far from its maximum.
+/// Share of D below which the promised gain of y and λ counts as none, so that τ has to move.
+/// Dinkelbach's method always may move it. A larger share moves τ while D is far from its maximum.
 const SETTLED_RATIO: f64 = 0.03;
-/// How boldly the next step goes.
-pub(crate) struct Stride {
+
+/// The step control.
+pub(crate) struct StepControl {
     damping: f64,
-    /// Whether τ moves with the step; it rests while the model is too poor to predict what moving
-    /// it does.
+    /// True if τ moves with the step; it rests while the model predicts badly.
     moves_ratio: bool,
 }
 
-impl Stride {
+impl StepControl {
     pub fn first(programme: &Programme, damping: f64) -> Self {
         Self {
             damping,
@@ -39,18 +38,18 @@ impl Stride {
         }
     }
 
-    /// Whether steps have become shorter than rounding.
+    /// Returns true if steps have become shorter than rounding.
     pub fn is_exhausted(&self) -> bool {
         self.damping > GREATEST_DAMPING
     }
 
-    /// Whether D is all but maximal at a resting τ, so that τ has to move whatever the model says
-    /// of it.
-    pub fn leaves_only_the_ratio(&self, here: &Visit, step: &Step, programme: &Programme) -> bool {
+    /// Returns true if D is nearly maximal at a fixed τ, so that τ has to move.
+    pub fn must_move_ratio(&self, here: &Visit, step: &Step, programme: &Programme) -> bool {
         programme.is_ratio() && !self.moves_ratio && step.gain() <= SETTLED_RATIO * here.dual.abs()
     }
 
-    /// Whether `there` is to be taken; adapts the damping to how well the model foresaw it.
+    /// Returns true if the step to `there` is accepted; adapts the damping to the quality of the
+    /// prediction.
     pub fn judge(&mut self, here: &Visit, there: &Visit, step: &Step, is_ratio: bool) -> bool {
         let promised = step.gain();
         let gained = there.dual - step.standing;
@@ -74,45 +73,48 @@ impl Stride {
     }
 }
 
-/// A step, and what the model says of it.
+/// A step, and the model's prediction for it.
 pub(crate) struct Step {
     pub to: DualPoint,
-    /// The model's D at `to`.
+    /// D predicted at `to`.
     promised: f64,
-    /// The model's D at the old y and λ, with τ moved.
+    /// D predicted at the old y and λ, with τ moved.
     standing: f64,
 }
 
 impl Step {
-    /// What the model promises the step to gain over standing still.
+    /// Returns the predicted gain over leaving y and λ unchanged.
     pub fn gain(&self) -> f64 {
         self.promised - self.standing
     }
 
     /// Maximises D + r·d − ½ dᵀ(H + μI)d over the step d = (dy, dλ) with y + dy ∈ Y.
-    pub fn from(here: &Visit, programme: &Programme, stride: &Stride) -> Self {
-        let turning = programme.turning();
+    pub fn from(here: &Visit, programme: &Programme, control: &StepControl) -> Self {
+        let jacobian = programme.jacobian();
         let w = &here.extreme.w;
-        let ratio_step = if stride.moves_ratio {
+        let ratio_step = if control.moves_ratio {
             here.dual / here.denominator
         } else {
             0.0
         };
-        let eased = w * programme.denominator * ratio_step;
-        let mut slope = &turning * here.extreme.s;
+        let bend = w * programme.denominator * ratio_step;
+        let mut slope = &jacobian * here.extreme.s;
         slope
             .rows_mut(programme.directions.nrows(), programme.rhs.len())
             .copy_from(&here.misses);
         let model = Model {
-            slope: slope + &turning * eased,
-            curvature: &turning * w * turning.transpose(),
+            slope: slope + &jacobian * bend,
+            curvature: &jacobian * w * jacobian.transpose(),
         };
-        let (y, lambda) = model.maximiser(&here.point, programme, stride.damping);
+        let (y, lambda) = model.maximiser(&here.point, programme, control.damping);
 
-        let (dy, dl) = (&y - &here.point.y, &lambda - &here.point.lambda);
-        let step = DVector::from_iterator(dy.len() + dl.len(), dy.iter().chain(dl.iter()).copied());
+        let (dy, dlambda) = (&y - &here.point.y, &lambda - &here.point.lambda);
+        let step = DVector::from_iterator(
+            dy.len() + dlambda.len(),
+            dy.iter().chain(dlambda.iter()).copied(),
+        );
         let fall =
-            ratio_step * here.denominator + 0.5 * ratio_step * programme.denominator.dot(&eased);
+            ratio_step * here.denominator + 0.5 * ratio_step * programme.denominator.dot(&bend);
         let standing = here.dual - fall;
         let promised = standing + model.gain(&step);
         Self {
@@ -127,20 +129,20 @@ impl Step {
     }
 }
 
-/// D as a quadratic over (y, λ) about the present point, at the τ of the step.
+/// The quadratic model of D over (y, λ) about the current point, at the τ of the step.
 struct Model {
     slope: DVector<f64>,
     curvature: DMatrix<f64>,
 }
 
 impl Model {
-    /// What the model gains over a step.
+    /// Returns the gain of a step.
     fn gain(&self, step: &DVector<f64>) -> f64 {
         self.slope.dot(step) - 0.5 * step.dot(&(&self.curvature * step))
     }
 
-    /// The y and λ of the damped model's maximum: λ is eliminated, y is found on its set, λ
-    /// follows.
+    /// Returns the y and λ that maximise the damped model. Eliminates λ, minimises over the set of
+    /// y, then substitutes back.
     fn maximiser(
         &self,
         from: &DualPoint,

@@ -6,14 +6,15 @@ use crate::geom::Quadric;
 use crate::interior::Matrix10;
 use crate::mass::Moments;
 
-/// Ten numbers over the monomials of the moments, in the solver's own units.
+/// Ten numbers over the monomials of the moments, in the solver's units.
 pub(crate) type Vector10 = SVector<f64, 10>;
 
-/// The degree of each of the ten monomials.
+/// Degrees of the ten monomials.
 const DEGREES: [i32; 10] = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2];
 
-/// The solver's own units: the solid's volume, and its radius of gyration about the goal's origin.
-/// In them all ten moments are of the order of one, so one tolerance and one damping serve every
+/// The solver's units: the solid's volume, and its radius of gyration about the goal's origin.
+///
+/// In these units all ten moments are of order one. One tolerance and one damping then serve every
 /// row.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Scale {
@@ -30,7 +31,7 @@ impl Scale {
         }
     }
 
-    /// What one unit of each moment is in mm.
+    /// Returns one unit of each moment in mm.
     pub fn units(&self) -> Vector10 {
         Vector10::from_fn(|i, _| self.volume_mm3 * self.length_mm.powi(DEGREES[i]))
     }
@@ -43,13 +44,13 @@ impl Scale {
         Moments(moments.component_mul(&self.units()).into())
     }
 
-    /// The same quadric over mm; its values are left unchanged but for the volume's factor.
+    /// Returns the quadric over mm; its values change only by the factor of the volume.
     pub fn quadric_to_mm(&self, quadric: &Vector10) -> Quadric {
         Quadric(quadric.component_div(&self.units()).into())
     }
 }
 
-/// Where the ten moments stand.
+/// Indices of the ten moments.
 pub(crate) mod index {
     pub const ONE: usize = 0;
     pub const X: usize = 1;
@@ -63,13 +64,13 @@ pub(crate) mod index {
     pub const ZZ: usize = 9;
 }
 
-/// The point of K least along a direction g: the interior with { g·m > 0 } emptied.
+/// The point of K that minimises a direction g: the interior with { g·m > 0 } emptied.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Extreme {
-    /// Its moments.
+    /// Moments of the interior.
     pub s: Vector10,
     /// −∂s/∂g, positive semidefinite.
     pub w: Matrix10,
-    /// What its heavy material costs.
+    /// Price of its heavy material.
     pub cost: f64,
 }

@@ -1,4 +1,4 @@
-//! One look at a dual point: its interior, and what the two prove.
+//! The evaluation of the dual at one point: the extreme interior and the bound.
 
 use nalgebra::DVector;
 
@@ -7,22 +7,22 @@ use super::reach::Reach;
 use super::units::{Extreme, Vector10, index};
 use crate::hollow::log::Pass;
 
-/// A dual point, its quadric's extreme interior, and what they prove.
+/// A dual point, the extreme interior of its quadric, and the bound they prove.
 #[derive(Debug, Clone)]
 pub(crate) struct Visit {
     pub point: DualPoint,
-    /// The quadric's coefficients in the solver's units.
+    /// Coefficients of the quadric in the solver's units.
     pub quadric: Vector10,
     pub extreme: Extreme,
-    /// D = min over K at this point.
+    /// Dual value D = min over K at this point.
     pub dual: f64,
-    /// As − b
+    /// Residuals As − b of the rows.
     pub misses: DVector<f64>,
-    /// The ratio of the extreme interior, which meets the rows up to `misses`.
+    /// Ratio of the extreme interior, which meets the rows up to `misses`.
     pub value: f64,
-    /// No interior that meets the rows has a smaller ratio.
+    /// Lower bound of the ratio over all interiors that meet the rows.
     pub bound: f64,
-    /// The denominator of the extreme interior.
+    /// Denominator of the extreme interior.
     pub denominator: f64,
 }
 
@@ -44,7 +44,7 @@ impl Visit {
         }
     }
 
-    /// Its ratio and its bound.
+    /// Returns its ratio and its bound.
     pub fn pass(&self) -> Pass {
         Pass {
             value: self.value,
@@ -52,32 +52,33 @@ impl Visit {
         }
     }
 
-    /// How far the rows are from met, in the solver's units.
+    /// Returns the largest residual of the rows, in the solver's units.
     pub fn residual(&self) -> f64 {
         self.misses.amax()
     }
 
-    /// Value over bound, as a part of the value (of one where it is smaller than a thousandth).
+    /// Returns the gap between value and bound as a part of the value, with 1e-3 as the least
+    /// divisor.
     pub fn gap_ratio(&self) -> f64 {
         (self.value - self.bound) / self.value.abs().max(1e-3)
     }
 
-    /// The extreme interior's mass.
+    /// Returns the mass of the extreme interior.
     pub fn mass(&self) -> f64 {
         self.extreme.s[index::ONE]
     }
 
-    /// Its lever s_z.
+    /// Returns the lever s_z of the extreme interior.
     pub fn lever(&self) -> f64 {
         self.extreme.s[index::Z]
     }
 
-    /// The height of the extreme interior's centre.
+    /// Returns the height of the extreme interior's centre.
     pub fn center_height(&self) -> f64 {
         self.extreme.s[index::Z] / self.extreme.s[index::ONE]
     }
 
-    /// Whether the bound is good enough, where the next step promises this gain in D.
+    /// Returns true if the bound is good enough, given the gain in D that the next step promises.
     pub fn suffices(&self, gain: f64, slack: Slack) -> bool {
         let promised = self.point.tau + (self.dual + gain) / self.denominator;
         promised - self.bound <= slack.share * promised.abs() || self.bound >= slack.enough
@@ -92,11 +93,11 @@ impl Visit {
     }
 }
 
-/// When a bound is good enough.
+/// The criterion for a bound that is good enough.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slack {
-    /// It may still rise by this share of itself,
+    /// Share of itself by which it may still rise.
     pub share: f64,
-    /// or it is this much.
+    /// Bound that suffices in any case.
     pub enough: f64,
 }

@@ -78,7 +78,7 @@ pub fn least_ballast(
     watch: &Watch,
 ) -> Option<Ballast> {
     let bench = |price| {
-        Work::new(problem, settings, watch).with(Heavy {
+        Work::new(problem, settings, watch).with_heavy(Heavy {
             density_ratio,
             price,
         })
@@ -163,7 +163,7 @@ impl Shop<'_> {
         Some(Ballast {
             volume_mm3: volume_mm3(bought.cost),
             bound_mm3: volume_mm3(bought.bound),
-            filled: reach.filled_by(quadric)?,
+            filled: reach.heavy_quadric(quadric)?,
             emptied: reach.scale.quadric_to_mm(quadric),
         })
     }

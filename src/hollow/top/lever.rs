@@ -1,5 +1,4 @@
-//! Spin-It's functional where it weighs the lever: at each height also the best lever has to be
-//! found.
+//! Spin-It's functional with a weighed lever: the search for the best lever at each height.
 
 use super::heights::Heights;
 use super::valley::Start;
@@ -9,16 +8,16 @@ use crate::hollow::dual::programme::DualPoint;
 use crate::hollow::dual::units::index;
 use crate::hollow::solution::Tangent;
 
-/// How exactly the lever that the search begins at is found.
+/// Tolerance of the ascent that gives the first lever.
 const ROUGH_TOLERANCE: f64 = 1e-2;
 
-/// The longest step of a lever, as a part of it: far larger, and it leaves what interiors can have.
+/// Longest step of a lever, as a part of it. Far longer steps leave the range of possible levers.
 const STEP_RATIO: f64 = 0.1;
 
-/// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
+/// The function k s_z² + γ τ² of the lever s_z, with the tensor linear at one height.
 ///
-/// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant
-/// and the second is.
+/// The sum of two squares is not quasi-convex. With the lever fixed, the first square is a constant
+/// and the second is quasi-convex.
 pub(crate) struct Levers<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
@@ -26,19 +25,19 @@ pub(crate) struct Levers<'a> {
 }
 
 impl Levers<'_> {
-    /// The least over the lever, and its slope by the height.
+    /// Minimises over the lever; the sample has the slope by the height.
     pub fn best(&self, near: Option<Start>, tolerance: f64) -> Option<Sample> {
         let (start, hint) = match near {
             Some(Start {
                 point,
                 lever: Some(hint),
             }) => (Some(point.clone()), hint),
-            _ => (None, self.unweighed()?),
+            _ => (None, self.lever_without_weight()?),
         };
         let valley = Valley::from_tangent(hint, [0.0, self.greatest()])
             .in_steps_of(STEP_RATIO)
             .within(tolerance);
-        let bottom = valley.bottom(|place: Place| {
+        let bottom = valley.find_bottom(|place: Place| {
             let near = place
                 .near
                 .map(|sample| &sample.climb.best.point)
@@ -51,8 +50,8 @@ impl Levers<'_> {
         )
     }
 
-    /// The lever of the interior whose inertia alone is best: the best one is less.
-    fn unweighed(&self) -> Option<Tangent> {
+    /// Returns the lever of the interior with the best inertia alone; the best lever is smaller.
+    fn lever_without_weight(&self) -> Option<Tangent> {
         let free = self.heights.work.climb_near(
             &self.heights.programme(self.height),
             None,
@@ -64,7 +63,7 @@ impl Levers<'_> {
         })
     }
 
-    /// No interior has a greater lever.
+    /// Returns an upper bound of the lever of any interior.
     fn greatest(&self) -> f64 {
         self.heights.range[1] * self.heights.work.reach.fullest[index::ONE]
     }

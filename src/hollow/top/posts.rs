@@ -1,33 +1,32 @@
-//! The posts of a proof over heights, and the passes over all columns that settle them.
+//! The posts of a proof over heights, and their check on all columns.
 
 use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::units::Vector10;
 use crate::hollow::dual::work::Work;
 
-/// A dual point at ℓ that speaks for all heights within its reach.
+/// A dual point at ℓ that proves the claim for all heights within its reach.
 #[derive(Debug, Clone)]
 pub(crate) struct Post {
     pub at: f64,
-    /// δ
+    /// Margin δ.
     pub margin: f64,
-    /// How far from it the share of the margin is left.
+    /// Distance up to which the required share of the margin is left.
     pub reach: f64,
     pub point: DualPoint,
-    /// What it rests on.
+    /// Inequality it rests on.
     pub stake: Stake,
 }
 
-/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme
-/// point of K.
+/// A linear inequality for every interior: g·s ≥ least. One extreme point of K decides it.
 #[derive(Debug, Clone)]
 pub(crate) struct Stake {
-    /// g
+    /// Direction g.
     pub direction: Vector10,
     pub least: f64,
 }
 
 impl Stake {
-    /// That no interior has a ratio below τ, by the dual point with this τ: D ≥ 0.
+    /// Returns the inequality D ≥ 0: no interior has a ratio below the τ of the dual point.
     pub fn of(programme: &Programme, point: &DualPoint) -> Self {
         Self {
             direction: programme.quadric(point),
@@ -36,8 +35,9 @@ impl Stake {
     }
 }
 
-/// Whether all columns bear the posts that a scout found; one cheaper pass each.
-pub(crate) fn hold(work: &Work, posts: &[Post]) -> bool {
+/// Checks a scout's posts on all columns and logs them; one cheaper pass each. Returns true if all
+/// check_posts.
+pub(crate) fn check_posts(work: &Work, posts: &[Post]) -> bool {
     let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
     let extremes = work.reach.least_of_each(&directions);
     let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
@@ -45,6 +45,6 @@ pub(crate) fn hold(work: &Work, posts: &[Post]) -> bool {
     posts
         .iter()
         .zip(&spares)
-        .for_each(|(post, spare)| work.note_post(post.at, post.margin, *spare));
+        .for_each(|(post, spare)| work.log_post(post.at, post.margin, *spare));
     spares.iter().all(|&spare| spare >= 0.0)
 }

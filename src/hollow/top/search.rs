@@ -9,7 +9,7 @@ use crate::hollow::dual::ascent::Climb;
 use crate::hollow::solution::Tangent;
 
 impl Heights<'_> {
-    /// A visit as the bottom of a valley whose place and curvature are known.
+    /// Turns an ascent into the bottom of a valley whose place and curvature are known.
     pub fn bottom_of(&self, height: Tangent, lever: Option<Tangent>, climb: Climb) -> Bottom {
         Bottom {
             sample: self.sample_of(height.at, lever, climb),
@@ -17,8 +17,7 @@ impl Heights<'_> {
         }
     }
 
-    /// Whether no other height, and no other lever where that is weighed, promises anything worth
-    /// the while.
+    /// Returns true if no other height promises a gain, and no other lever if that is weighed.
     pub fn is_level(&self, bottom: &Bottom) -> bool {
         let Sample {
             slope,
@@ -34,14 +33,14 @@ impl Heights<'_> {
         of_lever && bottom.is_level(*slope, bottom.curvature)
     }
 
-    /// The bottom of the valley that slopes away from a height; none where nothing could be solved.
-    pub fn bottom_from(&self, height: f64) -> Option<Bottom> {
-        self.bottom(Valley::from(height, self.range), None)
+    /// Finds the bottom of the valley that a height lies in; `None` if nothing could be solved.
+    pub fn find_bottom_from(&self, height: f64) -> Option<Bottom> {
+        self.find_bottom(Valley::from(height, self.range), None)
     }
 
-    /// The bottom of a valley, from an answer nearby.
-    pub fn bottom(&self, valley: Valley, known: Option<Start>) -> Option<Bottom> {
-        valley.within(self.work.tolerance).bottom(
+    /// Finds the bottom of a valley, starting from a nearby answer.
+    pub fn find_bottom(&self, valley: Valley, known: Option<Start>) -> Option<Bottom> {
+        valley.within(self.work.tolerance).find_bottom(
             |Place {
                  at,
                  near,
@@ -50,7 +49,7 @@ impl Heights<'_> {
         )
     }
 
-    /// The objective and its slope; none where the run was stopped or no interior meets the
+    /// Samples the objective and its slope; `None` if cancelled or if no interior meets the
     /// constraints.
     pub fn sample(&self, height: f64, near: Option<Start>, tolerance: f64) -> Option<Sample> {
         if let Some(weighed) = Weighed::of(self.objective, self.work) {
@@ -69,8 +68,8 @@ impl Heights<'_> {
         Some(self.sample_of(height, None, climb))
     }
 
-    /// What a run that found nothing shows: how far it came at the middle height.
-    pub fn given_up(&self) -> Answer {
+    /// Returns the answer of a run that found nothing: an ascent at the middle height.
+    pub fn report_failure(&self) -> Answer {
         let programme = self.programme(0.5 * (self.range[0] + self.range[1]));
         let start = programme.cold_start(&self.work.reach);
         Answer::new(self.objective, self.work.climb(&programme, start, 0.0))

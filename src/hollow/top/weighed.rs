@@ -6,17 +6,17 @@ use crate::hollow::dual::units::index;
 use crate::hollow::dual::visit::Visit;
 use crate::hollow::dual::work::Work;
 
-/// Spin-It's functional k s_z² + γ ρ² where it weighs the lever, in the solver's units.
+/// Spin-It's functional k s_z² + γ ρ² with a weighed lever, in the solver's units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Weighed {
-    /// k = γ_c over the square of the solid's lever.
+    /// k: γ_c over the square of the solid's lever.
     pub lever: f64,
-    /// γ = γ_I, of the square of the inertia's ratio.
+    /// γ: γ_I, the weight of the squared inertia ratio.
     pub inertia: f64,
 }
 
 impl Weighed {
-    /// The weights; none where only the inertia counts and the lever is free.
+    /// Returns the weights; `None` if only the inertia counts.
     pub fn of(objective: Objective, work: &Work) -> Option<Self> {
         let solid = work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
         match objective {
@@ -28,8 +28,8 @@ impl Weighed {
         }
     }
 
-    /// The derivative by the lever of the least that it can be: by the envelope theorem the least
-    /// ratio falls by the row's multiplier.
+    /// Returns the derivative of the least functional by the lever. By the envelope theorem the
+    /// least ratio falls by the row's multiplier.
     pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
         let falling =
             2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
