@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 /// The search an ascent belonged to.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Stage {
     /// The goal's programme itself.
     Goal,

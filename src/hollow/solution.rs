@@ -14,6 +14,7 @@ use crate::mass::Moments;
 /// Smaller is better, except for the toppling angle, the metacentric height and the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Figure {
     /// Least stable speed of a top, rpm.
     CriticalSpeedRpm,

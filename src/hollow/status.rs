@@ -5,6 +5,7 @@ use crate::goal::{Goal, GoalKind};
 
 /// The outcome of a run: an optimal void, or the proof that none exists.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Status {
     /// Gap and residual are within the accepted limits: no interior is better.
     Solved,
@@ -99,27 +100,44 @@ impl Status {
     pub fn explain(&self, goal: &Goal) -> String {
         match *self {
             Self::Solved => "Solved: no other interior is better.".into(),
-            Self::AlmostSolved => "Solved, though the proof of the last digits is missing.".into(),
+            Self::AlmostSolved => "Solved, but the last digits are not proved.".into(),
+            Self::IterationLimit {
+                gap_ratio,
+                residual,
+            } => format!(
+                "Not solved within the allowed passes: the gap is {gap_ratio:.1e} and the \
+                 constraints are missed by {residual:.1e}. Allow more passes."
+            ),
+            Self::Cancelled => "Stopped before the end.".into(),
+            _ => format!("Impossible: {}", self.reason(goal)),
+        }
+    }
+
+    /// Returns the reason why the goal cannot be met; empty if it can be.
+    fn reason(&self, goal: &Goal) -> String {
+        match *self {
             Self::ConstraintsInfeasible {
                 obstacle,
                 least_miss,
                 ..
             } => format!(
-                "Impossible: no hollowing with this wall can {}; every interior misses it by at least {:.2} % of the \
-                 solid's own size in these moments.",
+                "no hollowing with this wall can {}; every interior misses it by at least {:.2} % \
+                 of the solid's own size in these moments.",
                 obstacle.task(goal.kind),
                 100.0 * least_miss
             ),
             Self::NotDominant { least_ratio } => format!(
-                "Impossible: whatever is hollowed out, the moment of inertia across the axis is at least \
-                 {least_ratio:.3} times the one about it, so the spin about this axis is not stable."
+                "with any hollowing, the moment of inertia across the axis is at least \
+                 {least_ratio:.3} times the one about it, so the spin about this axis is not \
+                 stable."
             ),
             Self::UnstableForEveryInterior {
                 least_ratio,
                 proved,
             } => format!(
-                "Impossible: upright it is too tall. Whatever is hollowed out, the moment of inertia across the axis is \
-                 at least {least_ratio:.3} times the one about it, so no speed makes it stable ({}).",
+                "upright it is too tall. With any hollowing, the moment of inertia across the axis \
+                 is at least {least_ratio:.3} times the one about it, so no speed makes it stable \
+                 ({}).",
                 if proved {
                     "proved for every height of the centre"
                 } else {
@@ -127,41 +145,44 @@ impl Status {
                 }
             ),
             Self::CannotStand { greatest_angle_rad } => format!(
-                "Impossible: whatever is hollowed out, the centre of mass stays outside the support; it leans over by \
-                 at least {:.3}°.",
+                "with any hollowing, the centre of mass stays outside the support; it leans over \
+                 by at least {:.3}°.",
                 -greatest_angle_rad.to_degrees()
             ),
+            _ => self.reason_afloat_or_turning(),
+        }
+    }
+
+    /// Returns the reason for an object that floats or a rotor.
+    fn reason_afloat_or_turning(&self) -> String {
+        match *self {
             Self::Sinks { least_ratio } => format!(
-                "Impossible: emptied of all it may lose, it weighs {least_ratio:.3} times the water it displaces at this waterline."
+                "even fully hollowed it weighs {least_ratio:.3} times the water it displaces at \
+                 this waterline."
             ),
             Self::RidesHigh { greatest_ratio } => format!(
-                "Impossible: even solid it weighs only {greatest_ratio:.3} of the water it displaces at this waterline."
+                "even solid it weighs only {greatest_ratio:.3} times the water it displaces at \
+                 this waterline."
             ),
             Self::CannotTrim {
                 least_offset_mm, ..
             } => format!(
-                "Impossible: at this waterline the centre of mass stays at least {least_offset_mm:.3} mm beside the centre of \
-                 buoyancy, whatever is hollowed out, so it would not float upright."
+                "at this waterline, with any hollowing, the centre of mass stays at least \
+                 {least_offset_mm:.3} mm beside the centre of buoyancy, so it would not float \
+                 upright."
             ),
             Self::Capsizes { greatest_gm_mm } => format!(
-                "Impossible: at this waterline the centre of mass stays at least {:.3} mm above the metacentre, whatever is \
-                 hollowed out, so it would turn over.",
+                "at this waterline, with any hollowing, the centre of mass stays at least {:.3} mm \
+                 above the metacentre, so it would turn over.",
                 -greatest_gm_mm
             ),
             Self::CannotBalance {
                 least_grade_mm_s, ..
             } => format!(
-                "Impossible: whatever is hollowed out, at its speed the rotor's balance grade stays at G {least_grade_mm_s:.1} \
-                 or above."
+                "with any hollowing, at its speed the rotor's balance grade stays at G \
+                 {least_grade_mm_s:.1} or above."
             ),
-            Self::IterationLimit {
-                gap_ratio,
-                residual,
-            } => format!(
-                "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
-                 {residual:.1e}. Allow more passes."
-            ),
-            Self::Cancelled => "Stopped before the end.".into(),
+            _ => String::new(),
         }
     }
 
@@ -188,7 +209,7 @@ impl Status {
             ],
             (Self::CannotStand { .. }, _) => &[
                 "turn the model, or stand it on another part",
-                "give it a larger foot, or ballast in it",
+                "give it a larger foot, or put ballast in it",
                 "make the model larger with the same wall, or the wall thinner",
             ],
             (Self::Sinks { .. }, _) => &[
@@ -198,7 +219,7 @@ impl Status {
             ],
             (Self::RidesHigh { .. }, _) => &[
                 "let it ride higher, or leave the waterline free (waterline auto)",
-                "use a denser material, or ballast in it",
+                "use a denser material, or put ballast in it",
             ],
             (Self::CannotTrim { .. }, _) => &[
                 "turn the model, or leave the waterline free (waterline auto)",
@@ -207,7 +228,7 @@ impl Status {
             ],
             (Self::Capsizes { .. }, _) => &[
                 "leave the waterline free (waterline auto), or turn the model",
-                "put ballast in it, as low as it goes",
+                "put ballast in it, as low as possible",
                 "make the model larger with the same wall, or the wall thinner",
             ],
             (Self::CannotBalance { .. }, _) => &[
@@ -276,10 +297,9 @@ mod tests {
     use crate::goal::{Afloat, Objective, figures};
     use crate::interior::moments_where_positive;
 
-    #[test]
-    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
-        let goal = worlds::egg(Objective::Dominance).goal;
-        let proofs = [
+    /// Every impossibility, with the number that its sentence has to contain.
+    fn impossibilities() -> [(Status, &'static str); 9] {
+        [
             (
                 Status::NotDominant {
                     least_ratio: 1.0637,
@@ -340,8 +360,13 @@ mod tests {
                 },
                 "1.69 %",
             ),
-        ];
-        for (status, number) in proofs {
+        ]
+    }
+
+    #[test]
+    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
+        let goal = worlds::egg(Objective::Dominance).goal;
+        for (status, number) in impossibilities() {
             assert!(status.is_impossible());
             assert!(
                 status.explain(&goal).contains(number),

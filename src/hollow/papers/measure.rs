@@ -1,4 +1,4 @@
-//! The answer of a method, measured on the interior it chose.
+//! The measured result of a method: moments, residual and figure of the interior it chose.
 
 use super::lagrangian::Optimum;
 use super::method::{Found, Outcome};
@@ -8,10 +8,10 @@ use crate::hollow::{Figure, Problem};
 use crate::interior::Choice;
 use crate::mass::Moments;
 
-/// A residual above which the constraints count as missed.
+/// Residual above which the constraints count as missed.
 const MISSED_RESIDUAL: f64 = 1e-3;
 
-/// The answer of a method that needs no rounding.
+/// Returns the result of an optimum, without rounding.
 pub(super) fn measure(
     problem: &Problem,
     target: &Target,
@@ -47,8 +47,9 @@ fn outcome(optimum: &Optimum, residual: f64) -> Outcome {
     }
 }
 
-/// That figure of a body of these moments, by the goal's own formulas; not a number where it has
-/// none, or where the goal is one that the papers' methods refuse: only they ask.
+/// Returns the figure of a body with these moments, by the goal's own formulas.
+///
+/// NaN if it has none, or if the papers' methods refuse the goal.
 pub(super) fn value_of(problem: &Problem, moments: &Moments) -> f64 {
     let figures = crate::goal::figures(problem.goal, moments);
     let value = match problem.goal.objective {

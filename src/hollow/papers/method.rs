@@ -1,5 +1,4 @@
-//! One trait for every way to find what to empty, so that they can be compared: the quadric, and
-//! the papers' own.
+//! The trait of all methods that choose a void, for their comparison.
 
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
@@ -7,102 +6,104 @@ use crate::hollow::{Figure, Problem};
 use crate::interior::Emptied;
 use crate::mass::Moments;
 
-/// A way to find what to empty.
+/// A method that chooses a void.
 pub trait Method: Sync {
-    /// A word for it.
+    /// Returns its name.
     fn name(&self) -> &'static str;
 
-    /// What it finds for a problem. Cancelling `watch` ends it after the step at hand.
+    /// Solves a problem. Cancelling `watch` ends it after the current step.
     fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError>;
 }
 
-/// What a method found.
+/// The result of a method.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
-    /// How far to trust it.
+    /// Reason it ended.
     pub outcome: Outcome,
-    /// What `value` is.
+    /// Quantity in `value`.
     pub figure: Figure,
-    /// The figure of the chosen interior; not a number where it has none (an unstable top's
-    /// critical speed).
+    /// Figure of the chosen interior; NaN if it has none (an unstable top's critical speed).
     pub value: f64,
-    /// The moments of the material that is left, goal frame, mm; exact for what is emptied.
+    /// Moments of the material that stays, goal frame, mm; exact for `emptied`.
     pub moments: Moments,
-    /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
+    /// Constraint residual, in units of the solid's volume and radius of gyration.
     pub residual: f64,
-    /// How many numbers the method chose.
+    /// Number of variables.
     pub variables: usize,
-    /// How often it evaluated the moments with their derivative (the quadric: passes over the
-    /// columns).
+    /// Evaluations of the moments with their derivative; for the quadric, passes over the columns.
     pub iterations: usize,
-    /// What is emptied, on the problem's columns.
+    /// Emptied region, on the problem's columns.
     pub emptied: Emptied,
-    /// What rounding cost, where the method rounds.
+    /// Cost of rounding, if the method rounds.
     pub rounding: Option<Rounding>,
 }
 
-/// An answer before its shares were rounded to 0 and 1, which cannot be printed in between.
+/// A result before its shares were rounded to 0 or 1; shares between cannot be printed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rounding {
-    /// The figure with the shares as they were.
+    /// Figure with the unrounded shares.
     pub value_before: f64,
-    /// The residual with them.
+    /// Residual with the unrounded shares.
     pub residual_before: f64,
-    /// The share of the region whose share was neither 0 nor 1, to a thousandth.
+    /// Part of the region whose share was neither 0 nor 1, to a thousandth.
     pub fractional_ratio: f64,
 }
 
-/// How a method ended.
+/// The reason a method ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Outcome {
-    /// No interior is better, which is proved.
+    /// Proved: no interior is better.
     Optimal,
-    /// The constraints are met, and no small change is better to first order, within the method's
-    /// tolerance, or thirty steps together gain less than 1e-8 of the value. It proves nothing
-    /// about interiors further off.
+    /// The constraints are met and the method has converged. No small change is better to first
+    /// order within its tolerance, or thirty steps together gain less than 1e-8 of the value. It
+    /// proves nothing about interiors further off.
     Converged,
-    /// The evaluations were used up, or no step gained any more, before that; the constraints are
-    /// met to a thousandth.
+    /// The evaluations were used up, or no step gained any more. The constraints are met to a
+    /// thousandth.
     Unfinished,
-    /// The constraints are missed by more than a thousandth. Only the quadric can prove that they
-    /// must be.
+    /// The constraint residual exceeds a thousandth. Only the quadric can prove that it must.
     ConstraintsMissed,
-    /// It is proved that no interior does what is asked for.
+    /// Proved: no interior meets the goal.
     Impossible,
     /// The caller stopped the run.
     Cancelled,
 }
 
-/// Why a method was not begun.
+/// The reason a method refused a problem.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MethodError {
     /// The method needs a gradient that the objective does not have.
     #[error(
-        "{method} cannot optimise `{objective}`: the largest of several functions has no gradient where two of them \
-         are equal, which is where the best is found; use the quadric solver, or the objective `lowest-center`"
+        "{method} cannot optimise `{objective}`: the largest of several functions has no gradient \
+         where two of them are equal, and the best lies there; use the quadric solver, or the \
+         objective `lowest-center`"
     )]
     NotSmooth {
-        /// The method's word.
+        /// Name of the method.
         method: &'static str,
-        /// What was asked for.
+        /// Requested objective.
         objective: Objective,
     },
-    /// There is nothing to choose.
+    /// The interior is empty.
     #[error(
-        "nothing may be emptied, so {method} has nothing to choose; make the model larger or the wall thinner"
+        "nothing may be emptied, so {method} has nothing to choose; make the model larger or the wall \
+         thinner"
     )]
     NothingToEmpty {
-        /// The method's word.
+        /// Name of the method.
         method: &'static str,
     },
-    /// The method was not made for the goal.
+    /// The method does not support the goal.
     #[error(
-        "{method} knows tops, yo-yos and what stands, but not the goal `{kind}`; use the quadric solver"
+        "{method} supports tops, yo-yos and standing objects, but not the goal `{kind}`; use the quadric \
+         solver"
     )]
     NotItsGoal {
-        /// The method's word.
+        /// Name of the method.
         method: &'static str,
-        /// What was asked for.
+        /// Requested goal.
         kind: GoalKind,
     },
 }

@@ -5,10 +5,10 @@ use crate::base::watch::Watch;
 use crate::hollow::{Problem, Settings, Solution, Status, solve};
 use crate::interior::Emptied;
 
-/// The default: one quadric, with a certificate ([`solve`]).
+/// The solver of this program: one quadric, with a certificate ([`solve`]).
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByQuadric {
-    /// How exact, at what cost.
+    /// Accuracy and cost limits.
     pub settings: Settings,
 }
 

@@ -8,21 +8,21 @@ use crate::base::watch::Watch;
 use crate::hollow::Problem;
 use crate::interior::{Choice, Rays};
 
-/// How often vanished segments may open again. With none, values ended up to 3e-4 above the best;
-/// the gain soon falls.
+/// Limit on reopening vanished segments. Without it, values ended up to 3e-4 above the best; the
+/// gain soon falls.
 const REOPENINGS: usize = 4;
 
 /// The ray-rep: z₀ and z₁ on every stretch of every column, with z̲ ≤ z₀ ≤ z₁ ≤ z̄ ([`Rays`], their
 /// eq. 11, 13, 14).
 ///
-/// The moments are at most cubic in them, so the programme is smooth but not convex: a segment that
-/// has vanished does not feel that material is wanted elsewhere on its ray. After each solution
-/// such segments open again there ([`Rays::reopened`]; an interior point method, whose segments
-/// never quite vanish, need not be told). λ_max (critical speed, dominance) is smoothed by 1e-4 of
-/// the solid's moments.
+/// The moments are at most cubic in them, so the programme is smooth but not convex. A vanished
+/// segment has no gradient towards material elsewhere on its ray. So after each solution such
+/// segments open again where material is wanted ([`Rays::reopened`]). An interior-point method does
+/// not need this, as its segments never quite vanish. λ_max (critical speed, dominance) is smoothed
+/// by 1e-4 of the solid's moments.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByRays {
-    /// How exact, at what cost.
+    /// Accuracy and cost limits.
     pub accuracy: Accuracy,
 }
 

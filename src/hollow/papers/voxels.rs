@@ -1,4 +1,4 @@
-//! The voxel form that Wu, Kramer and Westermann compare with: a share of every voxel.
+//! The voxel method that Wu, Kramer and Westermann compare with: a share of every voxel.
 
 use super::lagrangian::{Accuracy, Effort, Start, minimise};
 use super::measure::measure;
@@ -8,11 +8,12 @@ use crate::base::watch::Watch;
 use crate::hollow::Problem;
 use crate::interior::{Choice, Voxels};
 
-/// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing
-/// is rounded: the voxels that the surface of the void cuts keep their shares.
+/// One number between 0 and 1 per voxel ([`Voxels`]), which is as high as a column is wide.
+///
+/// Nothing is rounded: voxels cut by the void's surface keep their shares.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByVoxels {
-    /// How exact, at what cost.
+    /// Accuracy and cost limits.
     pub accuracy: Accuracy,
 }
 

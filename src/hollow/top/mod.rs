@@ -31,8 +31,8 @@ use crate::hollow::status::Status;
 const COVER_RATIO: f64 = 5e-7;
 /// Limit on how often the proof may find a lower valley.
 const MOST_VALLEYS: usize = 16;
-/// Limit on the proofs prove_with_scout on a scout that fail on all columns. The second claims so much less
-/// that few fail.
+/// Limit on the proofs planned with a scout that fail on all columns. The second claims so much
+/// less that few fail.
 const MOST_PLANS: usize = 2;
 /// Limit on the passes over all columns that mend a scout; three are typical.
 const MOST_LOOKS: usize = 8;
@@ -56,10 +56,10 @@ fn solve_with_scout(work: &Work, objective: Objective) -> Option<Answer> {
         ..heights
     };
     let solid = &work.reach.solid;
-    let seen = rough
+    let guess = rough
         .find_bottom_from(solid[index::Z] / solid[index::ONE])?
         .warm();
-    let (bottom, scout) = find_bottom(&heights, scout, seen)?;
+    let (bottom, scout) = find_bottom(&heights, scout, guess)?;
     let bound_over_heights = Some(prove_with_scout(&heights, scout, &bottom)?);
     Some(
         Lowest {
@@ -77,13 +77,13 @@ fn solve_with_scout(work: &Work, objective: Objective) -> Option<Answer> {
 fn find_bottom<'a>(
     heights: &Heights,
     mut scout: Work<'a>,
-    mut seen: Warm,
+    mut guess: Warm,
 ) -> Option<(Bottom, Work<'a>)> {
     let mut course = Vec::new();
     for _ in 0..MOST_LOOKS {
-        let (height, lever) = (seen.height?, seen.lever);
+        let (height, lever) = (guess.height?, guess.lever);
         let programme = heights.programme_at(height.at, lever);
-        let here = heights.work.look(&programme, seen.point);
+        let here = heights.work.look(&programme, guess.point);
         scout = scout.mend_at(&here);
         let at = |climb: Climb| heights.bottom_of(height, lever, climb);
         if heights.is_level(&at(Climb::of(here.clone()))) {
@@ -101,7 +101,7 @@ fn find_bottom<'a>(
             work: &scout,
             ..*heights
         };
-        seen = mended
+        guess = mended
             .find_bottom(
                 Valley::near(height),
                 Some(Start {
@@ -407,13 +407,13 @@ mod tests {
             objective,
             range,
         };
-        let seen = Heights {
+        let guess = Heights {
             work: &scout,
             ..heights
         }
         .find_bottom_from(range[1])
         .expect("there is a valley");
-        let (bottom, scout) = find_bottom(&heights, scout, seen.warm()).expect("it is stable");
+        let (bottom, scout) = find_bottom(&heights, scout, guess.warm()).expect("it is stable");
         (heights, bottom, scout)
     }
 }

@@ -35,8 +35,8 @@ impl Stake {
     }
 }
 
-/// Checks a scout's posts on all columns and logs them; one cheaper pass each. Returns true if all
-/// check_posts.
+/// Checks a scout's posts on all columns and logs them; one cheaper pass each. Returns true if each
+/// of them holds.
 pub(crate) fn check_posts(work: &Work, posts: &[Post]) -> bool {
     let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
     let extremes = work.reach.least_of_each(&directions);
