@@ -9,13 +9,13 @@
 //! Mass, centre and inertia tensor of a body are functions of ten integrals, its moments
 //!
 //! ```text
-//! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)      (Spin-It eq. 4; the density cancels)
+//! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)        (Spin-It eq. 4)
 //! ```
 //!
-//! and so is every goal here. The moments that some hollowing reaches form a set K in ten
-//! dimensions. K is convex, since emptying is s_fixed − ∫ β m dV, linear in the removed share β(x)
-//! ∈ [0, 1]. Shares between 0 and 1 cannot be printed, and they are not needed. Every point of K is
-//! also reached by removing each grain wholly or not at all (Lyapunov).
+//! and so is every goal here; the density cancels. The moments that some hollowing reaches form a
+//! set K in ten dimensions. K is convex, since emptying is s_fixed − ∫ β m dV, linear in the
+//! removed share β(x) ∈ [0, 1]. Shares between 0 and 1 cannot be printed, and they are not needed.
+//! Every point of K is also reached by removing each grain wholly or not at all (Lyapunov).
 //!
 //! # Ten coefficients out
 //! A linear function g·s is least over K if exactly those grains are removed that make it larger.
@@ -39,24 +39,25 @@
 //!
 //! | goal | rows | ratio |
 //! |---|---|---|
-//! | yo-yo, functional | s_x, s_y, s_xz, s_yz, s_z | ‖(I_xx, √2 I_xy, I_yy)‖ / I_zz (Spin-It eq. 2, 5, 6: its root) |
+//! | yo-yo, functional | s_x, s_y, s_xz, s_yz, s_z | ‖(I_xx, √2 I_xy, I_yy)‖ / I_zz (eq. 2, 5, 6) |
 //! | yo-yo, dominance | the same | λ_max(I) / I_zz = I_b/I_c |
 //! | top, critical speed | s_x, s_y, s_xz, s_yz | (λ_max(I′) − I_zz) / s_z = −g/ω² (eq. 1) |
-//! | top, functional | the same, and s_z if γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
-//! | stand, tilt | none | max over the support's edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
+//! | top, functional | the same, s_z if γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
+//! | stand, tilt | none | max over edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
 //! | stand, lowest centre | s_x, s_y | s_z / s₁ |
 //! | float | s_x − x_b s₁, s_y − y_b s₁, s₁ = ρ_w V_b | s_z (no ratio; Wu et al. eq. 3 to 5) |
 //! | balance, least removed | s_x, s_y, s_xz, s_yz | −s₁ (no ratio) |
-//! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the planes at the two ends |
+//! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the two end planes |
 //!
-//! λ_max is that of the 2 × 2 tensor across the axis: half the trace plus the length of a 2-vector.
-//! Y is the unit ball for the norms, the unit disc for λ_max, and the simplex for the largest over
-//! the edges.
+//! Equation numbers are those of Spin-It unless stated otherwise. Its functional is the square of
+//! the ratio. Here λ_max is that of the 2 × 2 tensor across the axis: half the trace plus the
+//! length of a 2-vector. Y is the unit ball for the norms, the unit disc for λ_max, and the simplex
+//! for the largest over the edges of the support.
 //!
 //! # The one number that breaks convexity
-//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. s_z²/s₁ is convex, so the
-//! objective is convex *less* convex. But let h = s_z/s₁ be the height of the centre. Then for
-//! every number ℓ
+//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. The term s_z²/s₁ is
+//! convex, so the objective is convex *less* convex. But let h = s_z/s₁ be the height of the
+//! centre. Then for every number ℓ
 //!
 //! ```text
 //! s_z²/s₁ = (2ℓ s_z − ℓ² s₁) + s₁ (h − ℓ)²
@@ -121,15 +122,26 @@
 //!
 //! # Use
 //! ```
-//! # use equipoise::{geom::Point, goal, hollow, interior::Columns, mesh::{Solid, TriMesh}, base::watch::Watch};
+//! # use equipoise::{base::watch::Watch, geom::Point, goal, hollow, interior::Columns};
+//! # use equipoise::mesh::{Solid, TriMesh};
 //! # let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -10.0 } else { 10.0 });
-//! # let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//! # let faces =
+//! #     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 //! # let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
 //! # let mesh = TriMesh::new((0..8).map(|i| Point::from(corner(i))).collect(), triangles)?;
 //! # let solid = Solid::new(mesh)?;
-//! # let columns = Columns { pitch_mm: [18.0, 18.0], centers: vec![[0.0, 0.0]], starts: vec![0, 1], intervals: vec![[1.0, 19.0]] };
+//! # let columns = Columns {
+//! #     pitch_mm: [18.0, 18.0],
+//! #     centers: vec![[0.0, 0.0]],
+//! #     starts: vec![0, 1],
+//! #     intervals: vec![[1.0, 19.0]],
+//! # };
 //! let placed = goal::place(&solid, 1.0, &goal::Request::new(goal::GoalKind::Stand))?;
-//! let problem = hollow::Problem { goal: &placed.goal, fixed: placed.goal.solid, columns: &columns };
+//! let problem = hollow::Problem {
+//!     goal: &placed.goal,
+//!     fixed: placed.goal.solid,
+//!     columns: &columns,
+//! };
 //! let solution = hollow::solve(&problem, &hollow::Settings::default(), &Watch::silent());
 //! assert_eq!(solution.status, hollow::Status::Solved);
 //! assert!(solution.certificate.gap_ratio.abs() < 1e-6);
@@ -181,6 +193,7 @@ use goals::{balance, float, stand, yoyo};
 /// dozen more without derivative, or about two hundred if the lever is weighed. Other goals take
 /// five to ten passes. Cancelling `watch` ends the run after the current pass, with
 /// [`Status::Cancelled`].
+#[must_use]
 pub fn solve(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| solve_for_goal(problem, Work::new(problem, settings, watch)))
 }
@@ -189,6 +202,7 @@ pub fn solve(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution 
 ///
 /// One set of columns then serves every goal placed in the model. A pass costs the same. The cells
 /// are exact in any frame, but not upright in the goal's.
+#[must_use]
 pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| {
         solve_for_goal(
@@ -216,6 +230,7 @@ fn solve_for_goal(problem: &Problem, work: Work) -> Solution {
 /// Takes three to seven passes. The certificate is for these columns and moments, without a top's
 /// bound over all heights ([`bound_over_heights`] proves that). If `known` does not help, it solves
 /// from a cold start.
+#[must_use]
 pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
     rayon::scope(|_| refine_known(problem, settings, known, watch))
 }
@@ -229,6 +244,7 @@ pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, watch: &
 ///
 /// Costs one pass, and one without derivative per post: a dozen, or two hundred if Spin-It's
 /// functional weighs the lever.
+#[must_use]
 pub fn bound_over_heights(
     problem: &Problem,
     settings: &Settings,
@@ -240,7 +256,7 @@ pub fn bound_over_heights(
     }
     rayon::scope(|_| {
         let work = Work::new(problem, settings, watch);
-        let ratio = top::bound_near(&work, known.objective, &known.warm)?;
+        let ratio = top::prove_bound_near(&work, known.objective, &known.warm)?;
         let moments = work.reach.scale.moments_to_units(&known.moments);
         let conversion = Conversion {
             work: &work,

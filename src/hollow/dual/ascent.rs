@@ -81,9 +81,10 @@ pub(crate) struct Budget<'a> {
 ///
 /// D(y, λ, τ) = min_K g·s is concave. The set {D ≥ 0} is convex, and its greatest τ is the optimum.
 /// Each pass gives D, its gradient and its curvature. Each step maximises the damped quadratic
-/// model over y ∈ Y and all λ, and moves τ to where D vanishes (Dinkelbach, "On nonlinear
-/// fractional programming", Management Science 13, 1967). Damping follows Levenberg and Marquardt.
-/// Near the optimum convergence is quadratic.
+/// model over y ∈ Y and all λ, and moves τ to where D vanishes. Near the optimum convergence is
+/// quadratic. Damping follows Levenberg and Marquardt.
+///
+/// Source: Dinkelbach, "On nonlinear fractional programming", Management Science 13, 1967.
 pub(crate) fn climb(reach: &Reach, programme: &Programme, start: Visit, budget: Budget) -> Climb {
     let last_pass = reach.passes() + budget.passes.saturating_sub(1);
     let mut here = start;

@@ -15,12 +15,10 @@ type Eigen10 = SymmetricEigen<f64, Const<10>>;
 /// The map s ↦ Ts + b, with a symmetric positive definite T.
 ///
 /// Take a convex set with the support function h(g) = min g·s. Its image has h(Tg) + b·g, so it is
-/// convex as well. Its extreme point along g is T s(Tg) + b, with the derivative T W(Tg) T. So for
-/// a given g it has the extreme point and the derivative of another set if T W(g) T = W′(g), Tg = g
-/// and b = s′ − Ts. Exactly one T that meets the first condition is symmetric and positive. It is
-/// the map of optimal transport between the Gaussians of covariance W and W′ (Olkin and Pukelsheim,
-/// "The distance between two random vectors with given dispersion matrices", Linear Algebra and its
-/// Applications 48, 1982):
+/// convex as well. Its extreme point along g is T s(Tg) + b, with the derivative T W(Tg) T. For a
+/// given g these equal s′ and W′ of another set if T W(g) T = W′, Tg = g and b = s′ − Ts. Exactly
+/// one T that meets the first condition is symmetric and positive. It is the map of optimal
+/// transport between the Gaussians of covariance W and W′:
 ///
 /// ```text
 /// T = W^(−½) (W^½ W′ W^½)^½ W^(−½)
@@ -28,6 +26,9 @@ type Eigen10 = SymmetricEigen<f64, Const<10>>;
 ///
 /// It leaves g unchanged, as both derivatives vanish along g: extreme points do not depend on its
 /// length.
+///
+/// Source: Olkin and Pukelsheim, "The distance between two random vectors with given dispersion
+/// matrices", Linear Algebra and its Applications 48, 1982.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mend {
     stretch: Matrix10,

@@ -21,9 +21,10 @@ pub(crate) struct Heavy {
 }
 
 /// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns, and a count of the passes made over
-/// it ([theory §1](crate::guide::theory#1-the-reachable-set)).
+/// it.
 ///
-/// With a heavy material, β may be negative, as far as its density allows.
+/// With a heavy material, β may be negative, as far as its density allows. See [theory
+/// §1](crate::guide::theory#1-the-reachable-set).
 pub(crate) struct Reach<'a> {
     columns: Cow<'a, Columns>,
     /// Map of moments from the columns' coordinates to the goal's; `None` if they are the same.

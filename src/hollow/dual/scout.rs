@@ -8,12 +8,15 @@
 //!   the same two, so that it osculates the true set ([`Mend`](super::mend::Mend)). The error of an
 //!   ascent on the mended set is of second order in the distance from that point, as after a Newton
 //!   step. Its factor is smaller, the more alike the two sets are, and it covers heights and levers
-//!   as well. After one to three such rounds, Newton's method on all columns finishes. Correcting a
-//!   coarse model by a linear map is the "manifold mapping" of Echeverría and Hemker ("Space
-//!   mapping and defect correction", Computational Methods in Applied Mathematics 5, 2005).
+//!   as well. After one to three such rounds, Newton's method on all columns finishes.
 //! * **The proof over all heights.** A dual bound holds at any multipliers. Good multipliers are
 //!   found on the mended set. Each bound is then checked on all columns, in one pass without
 //!   derivative, all of them in parallel.
+//!
+//! Correcting a coarse model by a linear map is known as manifold mapping.
+//!
+//! Source: Echeverría and Hemker, "Space mapping and defect correction", Computational Methods in
+//! Applied Mathematics 5, 2005.
 
 use super::ascent::{Climb, End};
 use super::programme::{DualPoint, Programme};
@@ -66,14 +69,14 @@ impl<'a> Work<'a> {
     /// Climbs from near the answer: one pass, an ascent on the columns mended there, then Newton's
     /// method.
     fn ascend_with(&self, scout: Self, programme: &Programme, near: DualPoint) -> Climb {
-        let here = self.look(programme, near);
+        let here = self.evaluate(programme, near);
         let ahead = scout
             .mend_at(&here)
             .climb_near(programme, Some(&here.point), 0.0);
         let Some(ahead) = ahead else {
             return self.climb_from(programme, here);
         };
-        self.climb_from(programme, self.look(programme, ahead.best.point))
+        self.climb_from(programme, self.evaluate(programme, ahead.best.point))
             .after(&[here.pass()])
     }
 }

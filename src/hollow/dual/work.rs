@@ -153,7 +153,7 @@ impl<'a> Work<'a> {
     }
 
     fn climb_within(&self, programme: &Programme, start: DualPoint, aim: Aim) -> Climb {
-        let visit = self.look(programme, start);
+        let visit = self.evaluate(programme, start);
         self.climb_on(programme, visit, aim)
     }
 
@@ -202,7 +202,7 @@ impl<'a> Work<'a> {
     }
 
     /// Evaluates a dual point; one pass.
-    pub fn look(&self, programme: &Programme, point: DualPoint) -> Visit {
+    pub fn evaluate(&self, programme: &Programme, point: DualPoint) -> Visit {
         let visit = Visit::new(&self.reach, programme, point);
         self.log_ascent(programme.stage, 1, &visit);
         visit

@@ -9,9 +9,9 @@ use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 
-/// Finds the balanced interior with the most material. If none is balanced, finds the least
-/// unbalanced one, with the proof if none reaches the grade.
+/// Finds the balanced interior with the most material.
 ///
+/// If none is balanced, finds the least unbalanced one, with the proof if none reaches the grade.
 /// Both objectives share this order. Zero unbalance is the least, and among balanced interiors the
 /// one with the most material is as good as any.
 pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {

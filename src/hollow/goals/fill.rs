@@ -67,6 +67,7 @@ impl Fill {
     ///
     /// The solution is in the print's own moments. Its void is where the quadric is positive, as
     /// with air. The certificate is for this filling.
+    #[must_use]
     pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);
@@ -106,7 +107,7 @@ mod tests {
     use crate::goal::{Objective, figures};
     use crate::hollow::worlds::{self, World};
 
-    fn filled(world: &World, density_ratio: f64) -> Solution {
+    fn solve_filled(world: &World, density_ratio: f64) -> Solution {
         let fill = Fill::new(density_ratio).unwrap();
         fill.solve(&world.problem(), None, &Watch::silent())
     }
@@ -118,7 +119,7 @@ mod tests {
             gamma_i: 1.0,
         });
         let air = solve(&world.problem(), &Settings::default(), &Watch::silent());
-        assert_eq!(filled(&world, 0.0), air);
+        assert_eq!(solve_filled(&world, 0.0), air);
         assert_eq!(
             Fill::AIR
                 .solve(&world.problem(), Some(&air), &Watch::silent())
@@ -134,7 +135,7 @@ mod tests {
                 gamma_c: 0.0,
                 gamma_i: 1.0,
             });
-            let solution = filled(&world, density_ratio);
+            let solution = solve_filled(&world, density_ratio);
             assert!(solution.is_usable(), "{:?}", solution.status);
             let fill = Fill::new(density_ratio).unwrap();
             let moments = fill.filled(world.fixed, &world.columns, &solution.quadric);
@@ -151,7 +152,7 @@ mod tests {
     fn of_all_65536_ways_to_fill_sixteen_blocks_none_stands_better_than_the_bound() {
         for density_ratio in [0.5, 4.0] {
             let world = worlds::blocks_on_a_slope();
-            let solution = filled(&world, density_ratio);
+            let solution = solve_filled(&world, density_ratio);
             assert!(solution.is_usable() && solution.certificate.gap_ratio.abs() < 1e-6);
             let relief = 1.0 - density_ratio;
             let (mut best, mut least) = (f64::NEG_INFINITY, f64::INFINITY);

@@ -150,8 +150,8 @@ mod tests {
         else {
             panic!()
         };
-        // Put the 80 of the 16 × 10 on one side: their centre is at 1, that of the whole at 80/120,
-        // 0.8333 short.
+        // With the 80 of the 16 × 10 on one side, their centre is at 1, and that of the whole at
+        // 80/120. It is 0.8333 short.
         assert!(
             (least_offset_mm - (1.5 - 80.0 / 120.0)).abs() < 1e-4,
             "{least_offset_mm}"

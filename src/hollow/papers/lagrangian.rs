@@ -103,7 +103,7 @@ impl Function for Lagrangian<'_> {
     }
 
     fn evaluate(&self, x: &[f64], slope: &mut [f64]) -> f64 {
-        let s = self.target.left(&self.choice.moments(x));
+        let s = self.target.remaining(&self.choice.moments(x));
         let (value, gradient) = self.target.at(&s);
         let misses = self.target.misses(&s);
         self.choice
@@ -178,7 +178,7 @@ pub(super) fn minimise(
         let place = descend(&lagrangian, x, &limits);
         evaluations += place.evaluations;
         x = place.x;
-        let s = target.left(&choice.moments(&x));
+        let s = target.remaining(&choice.moments(&x));
         let (misses, value) = (target.misses(&s), target.at(&s).0);
         let residual = misses.amax();
         let is_settled =
@@ -194,7 +194,7 @@ pub(super) fn minimise(
         (last_residual, last_value) = (residual, value);
         slope *= SLOPE_REDUCTION;
     }
-    let s = target.left(&choice.moments(&x));
+    let s = target.remaining(&choice.moments(&x));
     Optimum {
         quadric: lagrangian.quadric(target.at(&s).1, &target.misses(&s)),
         x,

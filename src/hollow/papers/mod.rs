@@ -1,11 +1,10 @@
 //! The papers' own methods: many variables and one general optimiser (feature `papers`).
 //!
-//! Each describes the void by numbers between 0 and 1 ([`Choice`](crate::interior::Choice)). They
-//! are the ends of a solid segment on every ray ([`ByRays`]), a share of every voxel
-//! ([`ByVoxels`]), or a share of every leaf of an octree ([`ByOctree`]). All use the same columns
-//! as the quadric. So each result is an interior that the quadric's bound covers, and the
-//! comparison is exact. They minimise the goal's own formula f(s) subject to As = 0 by an augmented
-//! Lagrangian,
+//! Each describes the void by numbers between 0 and 1 ([`Choice`](crate::interior::Choice)).
+//! [`ByRays`] has the ends of a solid segment on every ray. [`ByVoxels`] has a share of every
+//! voxel, and [`ByOctree`] one of every leaf of an octree. All use the same columns as the quadric.
+//! So each result is an interior that the quadric's bound covers, and the comparison is exact. They
+//! minimise the goal's own formula f(s) subject to As = 0 by an augmented Lagrangian,
 //!
 //! ```text
 //! minimise over 0 ≤ x ≤ 1:  f(s(x)) + λ·As(x) + ½ρ ‖As(x)‖²,    then λ ← λ + ρAs

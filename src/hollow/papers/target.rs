@@ -94,7 +94,7 @@ impl<'a> Target<'a> {
     }
 
     /// Returns the moments of the material that stays when `emptied` is removed.
-    pub fn left(&self, emptied: &Moments) -> Vector10 {
+    pub fn remaining(&self, emptied: &Moments) -> Vector10 {
         self.scale().moments_to_units(&(self.fixed - *emptied))
     }
 

@@ -212,11 +212,11 @@ impl Frontier<'_> {
         let reach = &self.heights.work.reach;
         let [least, greatest] =
             [&reach.shell, &reach.fullest].map(|s| fall * (s[index::XX] + s[index::YY]));
-        let speaks = |post: &Post| match side {
+        let covers = |post: &Post| match side {
             1.0 => multiplier(post) >= greatest,
             _ => multiplier(post) <= least + level(post) / self.heights.range[1],
         };
-        last.posts.iter().all(speaks)
+        last.posts.iter().all(covers)
     }
 
     /// Returns the lever at the end of the ellipse: that of an interior without inertia.

@@ -106,8 +106,9 @@ impl<'a> Heights<'a> {
         [bend * (height - best.center_height()), bend]
     }
 
-    /// Returns κ, the multiple of s_z²/s₁ in the numerator: one for λ_max, two weights of y for
-    /// y·(I_xx, √2 I_xy, I_yy).
+    /// Returns κ, the multiple of s_z²/s₁ in the numerator.
+    ///
+    /// It is one for λ_max, and the sum of two weights for y·(I_xx, √2 I_xy, I_yy).
     pub fn weight(&self, point: &DualPoint) -> f64 {
         match self.objective {
             Objective::SpinIt { .. } => point.y[0] + point.y[2],

@@ -83,7 +83,7 @@ fn find_bottom<'a>(
     for _ in 0..MOST_LOOKS {
         let (height, lever) = (guess.height?, guess.lever);
         let programme = heights.programme_at(height.at, lever);
-        let here = heights.work.look(&programme, guess.point);
+        let here = heights.work.evaluate(&programme, guess.point);
         scout = scout.mend_at(&here);
         let at = |climb: Climb| heights.bottom_of(height, lever, climb);
         if heights.is_level(&at(Climb::of(here.clone()))) {
@@ -184,7 +184,7 @@ pub(crate) fn refine(work: &Work, objective: Objective, warm: &Warm) -> Option<A
 
 /// Proves a lower bound of the ratio over all heights and levers, on all columns, near a known
 /// answer. `None` if the proof fails.
-pub(crate) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
+pub(crate) fn prove_bound_near(work: &Work, objective: Objective, warm: &Warm) -> Option<f64> {
     let scout = work.scout()?;
     let heights = Heights {
         work,
@@ -192,7 +192,7 @@ pub(crate) fn bound_near(work: &Work, objective: Objective, warm: &Warm) -> Opti
         range: Heights::range_from_scout(work, &scout)?,
     };
     let height = warm.height?;
-    let here = work.look(
+    let here = work.evaluate(
         &heights.programme_at(height.at, warm.lever),
         warm.point.clone(),
     );
