@@ -341,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn of_all_65536_ways_to_empty_sixteen_blocks_none_stands_better_than_the_bound() {
+    fn none_of_65536_ways_to_empty_blocks_stands_better_than_the_bound() {
         let world = worlds::blocks_on_a_slope();
         let solution = solve_well(&world);
         let mut best = f64::NEG_INFINITY;

@@ -102,7 +102,7 @@ mod tests {
     use crate::hollow::worlds;
 
     #[test]
-    fn thinned_columns_osculate_all_of_them_where_they_are_mended_and_still_make_a_convex_set() {
+    fn mended_columns_osculate_all_of_them_and_still_make_a_convex_set() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let all = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
         let along = |seed| Vector10::from(worlds::some_quadric(seed, 1.0).0);

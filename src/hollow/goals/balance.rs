@@ -120,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn of_all_65536_ways_to_empty_sixteen_blocks_none_is_less_unbalanced_than_the_bound() {
+    fn none_of_65536_ways_to_empty_blocks_is_less_unbalanced_than_the_bound() {
         let world = worlds::blocks_on_an_axis();
         let spindle = world.goal.spindle.unwrap();
         let got = solution(&world);

@@ -113,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_is_brought_over_a_centre_of_buoyancy_aside_and_again_in_few_passes() {
+    fn the_centre_moves_above_the_centre_of_buoyancy_and_again_in_few_passes() {
         let mut world = worlds::tank(130.0, [0.3, -0.2]);
         let got = solution(&world);
         assert_eq!(got.status, Status::Solved, "{:?}", got.log);

@@ -327,7 +327,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_do_not_touch_each_other_end_as_low_as_their_middles_cut_off_at_the_bounds() {
+    fn uncoupled_variables_end_at_their_minima_clamped_to_the_bounds() {
         let bowl = Bowl::new(203, 0.0);
         let place = descend_into(&bowl);
         let cut: Vec<f64> = bowl

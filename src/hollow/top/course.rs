@@ -81,7 +81,7 @@ mod tests {
     use crate::hollow::{solve, worlds};
 
     #[test]
-    fn the_optimum_is_the_least_of_the_curve_over_heights_and_where_the_ascent_ends() {
+    fn the_optimum_is_the_minimum_of_the_curve_and_the_end_of_the_ascent() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let (problem, settings) = (world.problem(), Settings::default());
         let known = solve(&problem, &settings, &Watch::silent());
