@@ -73,7 +73,7 @@ impl From<Vec<f64>> for Start {
 #[derive(Clone, Copy)]
 pub(super) struct Effort<'a> {
     pub accuracy: &'a Accuracy,
-    pub watch: &'a Watch<'a>,
+    pub watch: &'a Watch,
 }
 
 /// The result of an optimisation.
