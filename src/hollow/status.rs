@@ -98,92 +98,66 @@ pub enum Obstacle {
 impl Status {
     /// Returns a sentence that explains the outcome, with its numbers.
     pub fn explain(&self, goal: &Goal) -> String {
-        match *self {
-            Self::Solved => "Solved: no other interior is better.".into(),
-            Self::AlmostSolved => "Solved, but the last digits are not proved.".into(),
+        let why = match *self {
+            Self::Solved => return "Solved: no other interior is better.".into(),
+            Self::AlmostSolved => return "Solved, but the last digits are not proved.".into(),
+            Self::Cancelled => return "Stopped before the end.".into(),
             Self::IterationLimit {
-                gap_ratio,
+                gap_ratio: gap,
                 residual,
-            } => format!(
-                "Not solved within the allowed passes: the gap is {gap_ratio:.1e} and the \
-                 constraints are missed by {residual:.1e}. Allow more passes."
-            ),
-            Self::Cancelled => "Stopped before the end.".into(),
-            _ => format!("Impossible: {}", self.reason(goal)),
-        }
-    }
-
-    /// Returns the reason why the goal cannot be met; empty if it can be.
-    fn reason(&self, goal: &Goal) -> String {
-        match *self {
+            } => return explain_limit(gap, residual),
             Self::ConstraintsInfeasible {
                 obstacle,
                 least_miss,
                 ..
             } => format!(
                 "no hollowing with this wall can {}; every interior misses it by at least {:.2} % \
-                 of the solid's own size in these moments.",
+                 of the solid's own size in these moments",
                 obstacle.task(goal.kind),
                 100.0 * least_miss
             ),
             Self::NotDominant { least_ratio } => format!(
-                "with any hollowing, the moment of inertia across the axis is at least \
-                 {least_ratio:.3} times the one about it, so the spin about this axis is not \
-                 stable."
+                "{}, so the spin about this axis is not stable",
+                compare_moments(least_ratio)
             ),
             Self::UnstableForEveryInterior {
                 least_ratio,
                 proved,
-            } => format!(
-                "upright it is too tall. With any hollowing, the moment of inertia across the axis \
-                 is at least {least_ratio:.3} times the one about it, so no speed makes it stable \
-                 ({}).",
-                if proved {
-                    "proved for every height of the centre"
-                } else {
-                    "at every height that was tried"
-                }
-            ),
+            } => explain_instability(least_ratio, proved),
             Self::CannotStand { greatest_angle_rad } => format!(
                 "with any hollowing, the centre of mass stays outside the support; it leans over \
-                 by at least {:.3}°.",
+                 by at least {:.3}°",
                 -greatest_angle_rad.to_degrees()
             ),
-            _ => self.reason_afloat_or_turning(),
-        }
-    }
-
-    /// Returns the reason for an object that floats or a rotor.
-    fn reason_afloat_or_turning(&self) -> String {
-        match *self {
             Self::Sinks { least_ratio } => format!(
                 "even fully hollowed it weighs {least_ratio:.3} times the water it displaces at \
-                 this waterline."
+                 this waterline"
             ),
             Self::RidesHigh { greatest_ratio } => format!(
                 "even solid it weighs only {greatest_ratio:.3} times the water it displaces at \
-                 this waterline."
+                 this waterline"
             ),
             Self::CannotTrim {
-                least_offset_mm, ..
+                least_offset_mm: offset,
+                ..
             } => format!(
                 "at this waterline, with any hollowing, the centre of mass stays at least \
-                 {least_offset_mm:.3} mm beside the centre of buoyancy, so it would not float \
-                 upright."
+                 {offset:.3} mm beside the centre of buoyancy, so it would not float upright"
             ),
-            Self::Capsizes { greatest_gm_mm } => format!(
+            Self::Capsizes { greatest_gm_mm: gm } => format!(
                 "at this waterline, with any hollowing, the centre of mass stays at least {:.3} mm \
-                 above the metacentre, so it would turn over.",
-                -greatest_gm_mm
+                 above the metacentre, so it would turn over",
+                -gm
             ),
             Self::CannotBalance {
-                least_grade_mm_s, ..
+                least_grade_mm_s: grade,
+                ..
             } => format!(
-                "with any hollowing, at its speed the rotor's balance grade stays at G \
-                 {least_grade_mm_s:.1} or above."
+                "with any hollowing, at its speed the rotor's balance grade stays at G {grade:.1} \
+                 or above"
             ),
-            _ => String::new(),
-        }
+        };
+        format!("Impossible: {why}.")
     }
 
     /// Returns changes that may make the goal possible; empty if it is possible.
@@ -266,6 +240,32 @@ impl Status {
                 | Self::CannotBalance { .. }
         )
     }
+}
+
+fn explain_limit(gap_ratio: f64, residual: f64) -> String {
+    format!(
+        "Not solved within the allowed passes: the gap is {gap_ratio:.1e} and the constraints are \
+         missed by {residual:.1e}. Allow more passes."
+    )
+}
+
+fn explain_instability(least_ratio: f64, proved: bool) -> String {
+    let scope = if proved {
+        "proved for every height of the centre"
+    } else {
+        "at every height that was tried"
+    };
+    format!(
+        "upright it is too tall; {}, so no speed makes it stable ({scope})",
+        compare_moments(least_ratio)
+    )
+}
+
+fn compare_moments(least_ratio: f64) -> String {
+    format!(
+        "with any hollowing, the moment of inertia across the axis is at least {least_ratio:.3} \
+         times the one about it"
+    )
 }
 
 impl Obstacle {

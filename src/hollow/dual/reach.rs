@@ -28,7 +28,7 @@ pub(crate) struct Heavy {
 pub(crate) struct Reach<'a> {
     columns: Cow<'a, Columns>,
     /// Map of moments from the columns' coordinates to the goal's; `None` if they are the same.
-    turn: Option<Matrix10>,
+    transform: Option<Matrix10>,
     heavy: Option<Heavy>,
     mend: Option<Mend>,
     pub scale: Scale,
@@ -44,11 +44,11 @@ pub(crate) struct Reach<'a> {
 impl<'a> Reach<'a> {
     pub fn new(columns: &'a Columns, fixed: &Moments, scale: Scale) -> Self {
         let solid = scale.moments_to_units(fixed);
-        let (turn, heavy, mend, passes) = (None, None, None, Cell::new(0));
+        let (transform, heavy, mend, passes) = (None, None, None, Cell::new(0));
         let columns = Cow::Borrowed(columns);
         Self {
             columns,
-            turn,
+            transform,
             heavy,
             mend,
             scale,
@@ -99,9 +99,9 @@ impl<'a> Reach<'a> {
     pub fn of_model_columns(self, frame: &Frame) -> Self {
         let transformed =
             |i: usize| Vector10::from(Moments(Vector10::ith(i, 1.0).into()).in_frame(frame).0);
-        let turn = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(transformed));
+        let transform = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(transformed));
         Self {
-            turn: Some(turn),
+            transform: Some(transform),
             ..self
         }
         .with_outermost()
@@ -174,8 +174,9 @@ impl<'a> Reach<'a> {
     /// Ignores the heavy material.
     pub fn least_of_each(&self, directions: &[Vector10]) -> Vec<Vector10> {
         self.passes.set(self.passes.get() + directions.len());
-        let (columns, turn, scale, solid) = (&self.columns, self.turn, self.scale, self.solid);
-        let over_columns = |g: &Vector10| over_columns(turn.as_ref(), &scale.quadric_to_mm(g));
+        let (columns, transform, scale, solid) =
+            (&self.columns, self.transform, self.scale, self.solid);
+        let over_columns = |g: &Vector10| over_columns(transform.as_ref(), &scale.quadric_to_mm(g));
         let emptied = |g: &Vector10| moments_where_positive(columns, &over_columns(g));
         let emptied: Vec<Moments> = directions.par_iter().map(emptied).collect();
         emptied
@@ -211,11 +212,13 @@ impl<'a> Reach<'a> {
     /// derivative by it; one pass.
     fn region(&self, quadric: &Quadric) -> (Vector10, Matrix10) {
         self.passes.set(self.passes.get() + 1);
-        let (moments, derivative) =
-            moments_and_derivative(&self.columns, &over_columns(self.turn.as_ref(), quadric));
-        let derivative = self
-            .turn
-            .map_or(derivative, |turn| turn * derivative * turn.transpose());
+        let (moments, derivative) = moments_and_derivative(
+            &self.columns,
+            &over_columns(self.transform.as_ref(), quadric),
+        );
+        let derivative = self.transform.map_or(derivative, |transform| {
+            transform * derivative * transform.transpose()
+        });
         let unit = self.scale.units().map(f64::recip);
         let w = derivative.zip_map(&(unit * unit.transpose()), |entry, factor| entry * factor);
         (self.to_units(moments), w)
@@ -226,16 +229,16 @@ impl<'a> Reach<'a> {
         self.passes.set(self.passes.get() + 1);
         self.to_units(moments_where_positive(
             &self.columns,
-            &over_columns(self.turn.as_ref(), quadric),
+            &over_columns(self.transform.as_ref(), quadric),
         ))
     }
 
     /// Converts moments from the columns' coordinates to the solver's.
     fn to_units(&self, moments: Moments) -> Vector10 {
-        let turned = self.turn.map_or(moments, |turn| {
-            Moments((turn * Vector10::from(moments.0)).into())
+        let transformed = self.transform.map_or(moments, |transform| {
+            Moments((transform * Vector10::from(moments.0)).into())
         });
-        self.scale.moments_to_units(&turned)
+        self.scale.moments_to_units(&transformed)
     }
 
     /// Returns the number of passes made over the columns.
@@ -245,9 +248,9 @@ impl<'a> Reach<'a> {
 }
 
 /// Converts a quadric from the goal's coordinates to the columns' own.
-fn over_columns(turn: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
-    turn.map_or(*quadric, |turn| {
-        Quadric(turn.tr_mul(&Vector10::from(quadric.0)).into())
+fn over_columns(transform: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
+    transform.map_or(*quadric, |transform| {
+        Quadric(transform.tr_mul(&Vector10::from(quadric.0)).into())
     })
 }
 
