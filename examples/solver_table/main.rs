@@ -3,7 +3,7 @@
 //! machine:
 //!
 //! ```text
-//! cargo run --release --example solver_table
+//! cargo run --release --features papers --example solver_table
 //! ```
 //!
 //! `EQUIPOISE_MODELS` names a folder with the larger models; those that are not there are left out.

@@ -11,10 +11,10 @@
 //!   Procedures and tolerances for rotors with rigid behaviour".
 //! * **Dinkelbach**: W. Dinkelbach, "On nonlinear fractional programming", Management Science
 //!   13(7), 1967.
-//! * **Coarse models mended** (the solver's scout): D. Echeverría, P. W. Hemker, "Space mapping and
-//!   defect correction", Computational Methods in Applied Mathematics 5, 2005; I. Olkin, F.
-//!   Pukelsheim, "The distance between two random vectors with given dispersion matrices", Linear
-//!   Algebra and its Applications 48, 1982.
+//! * **Coarse models mended** (the solver's search on a few columns): D. Echeverría, P. W. Hemker,
+//!   "Space mapping and defect correction", Computational Methods in Applied Mathematics 5, 2005;
+//!   I. Olkin, F. Pukelsheim, "The distance between two random vectors with given dispersion
+//!   matrices", Linear Algebra and its Applications 48, 1982.
 //! * **Augmented Lagrangian** (the papers' methods): M. R. Hestenes, "Multiplier and gradient
 //!   methods", Journal of Optimization Theory and Applications 4, 1969.
 //! * **Projected quasi-Newton**: J. Nocedal, "Updating quasi-Newton matrices with limited storage",

@@ -9,30 +9,29 @@
 //! Mass, centre and inertia tensor of a body are functions of ten integrals, its moments
 //!
 //! ```text
-//! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)      (Spin-It eq. 4; the density cancels)
+//! s = ∫ m(x) dV,    m(x) = (1, x, y, z, xy, yz, xz, x², y², z²)        (Spin-It eq. 4)
 //! ```
 //!
-//! and so is every goal here. The moments that some hollowing reaches form a set K in ten
-//! dimensions, and K is convex: emptying is s_fixed − ∫ β m dV, linear in the share β(x) ∈ [0, 1]
-//! that is removed. Shares between 0 and 1 cannot be printed, but need not be: every point of K is
-//! also reached by removing each grain wholly or not at all (Lyapunov).
+//! and so is every goal here; the density cancels. The moments that some hollowing reaches form a
+//! set K in ten dimensions. K is convex, since emptying is s_fixed − ∫ β m dV, linear in the
+//! removed share β(x) ∈ [0, 1]. Shares between 0 and 1 cannot be printed, and they are not needed.
+//! Every point of K is also reached by removing each grain wholly or not at all (Lyapunov).
 //!
 //! # Ten coefficients out
-//! A linear function g·s is least over K when every grain is removed that makes it larger, and no
-//! other. The grain at x contributes g·m(x), so the void is
+//! A linear function g·s is least over K if exactly those grains are removed that make it larger.
+//! The grain at x contributes g·m(x), so the void is
 //!
 //! ```text
 //! { x in the interior : q(x) > 0 },    q(x) = g·m(x)
 //! ```
 //!
 //! the interior on one side of a single quadric surface. One pass over the interior's columns finds
-//! that point of K, exactly in z, together with its derivative W = −∂s/∂g
-//! ([`crate::interior::moments_and_derivative`]). Whatever the resolution, the unknown is g: no
-//! variable per voxel, no rounding at the end.
+//! this point of K, exactly in z, and its derivative W = −∂s/∂g
+//! ([`crate::interior::moments_and_derivative`]). At any resolution the unknown is g: there is no
+//! variable per voxel and no final rounding.
 //!
 //! # Every goal is a quasi-convex programme
-//! A goal asks for the least of a convex function of s over a positive linear one, subject to
-//! linear rows:
+//! A goal minimises a convex function of s over a positive linear one, subject to linear rows:
 //!
 //! ```text
 //! minimise (n·s + max over y ∈ Y of yᵀJs) / (e·s)    over s ∈ K with As = b
@@ -40,41 +39,42 @@
 //!
 //! | goal | rows | ratio |
 //! |---|---|---|
-//! | yo-yo, functional | s_x, s_y, s_xz, s_yz, s_z | ‖(I_xx, √2 I_xy, I_yy)‖ / I_zz (Spin-It eq. 2, 5, 6: its root) |
+//! | yo-yo, functional | s_x, s_y, s_xz, s_yz, s_z | ‖(I_xx, √2 I_xy, I_yy)‖ / I_zz (eq. 2, 5, 6) |
 //! | yo-yo, dominance | the same | λ_max(I) / I_zz = I_b/I_c |
 //! | top, critical speed | s_x, s_y, s_xz, s_yz | (λ_max(I′) − I_zz) / s_z = −g/ω² (eq. 1) |
-//! | top, functional | the same, and s_z where γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
-//! | stand, tilt | none | max over the support's edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
+//! | top, functional | the same, s_z if γ_c > 0 | ‖(I′_xx, √2 I′_xy, I′_yy)‖ / I_zz (eq. 3, 7) |
+//! | stand, tilt | none | max over edges of (d s₁ − n·s_xy) / s_z = −tan(toppling angle) |
 //! | stand, lowest centre | s_x, s_y | s_z / s₁ |
 //! | float | s_x − x_b s₁, s_y − y_b s₁, s₁ = ρ_w V_b | s_z (no ratio; Wu et al. eq. 3 to 5) |
 //! | balance, least removed | s_x, s_y, s_xz, s_yz | −s₁ (no ratio) |
-//! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the planes at the two ends |
+//! | balance, least unbalance | none | ‖(U_A, U_B)‖ / s₁, the unbalances in the two end planes |
 //!
-//! λ_max is of the 2 × 2 tensor across the axis. Y is the unit ball for the norms; for λ_max of a 2
-//! × 2 matrix, half the trace plus the length of a 2-vector, it is the unit disc; for the largest
-//! over edges it is the simplex.
+//! Equation numbers are those of Spin-It unless stated otherwise. Its functional is the square of
+//! the ratio. Here λ_max is that of the 2 × 2 tensor across the axis: half the trace plus the
+//! length of a 2-vector. Y is the unit ball for the norms, the unit disc for λ_max, and the simplex
+//! for the largest over the edges of the support.
 //!
-//! # The one number that spoils convexity
-//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. s_z²/s₁ is convex, so that
-//! what is minimised is convex *less* convex. But with h = s_z/s₁ the height of the centre, for
-//! every number ℓ
+//! # The one number that breaks convexity
+//! A top's tensor is about its centre, I′ = I − s_z²/s₁ across the axis. The term s_z²/s₁ is
+//! convex, so the objective is convex *less* convex. But let h = s_z/s₁ be the height of the
+//! centre. Then for every number ℓ
 //!
 //! ```text
 //! s_z²/s₁ = (2ℓ s_z − ℓ² s₁) + s₁ (h − ℓ)²
 //! ```
 //!
-//! so the tensor that is linear at ℓ is never too small, and right where h = ℓ. Hence
+//! so the tensor linearised at ℓ is never too small, and exact at h = ℓ. Hence:
 //!
-//! * the least over ℓ of the quasi-convex programmes at ℓ *is* the optimum over all interiors of
-//!   whatever height, without a row for the height; the search over that one number is smooth, with
-//!   the slope for nothing (`heights`);
-//! * if every interior is above a target at ℓ by a margin of δ s₁, every interior with its centre
-//!   within √(δ/κ) of ℓ is above it in truth, κ the share of s_z²/s₁ in the numerator. About twelve
-//!   such ℓ prove 1e-6 over all heights (`cover`).
+//! * The least over ℓ of the quasi-convex programmes at ℓ *is* the optimum over all interiors of
+//!   any height, without a row for the height. The search over that one number is smooth, and its
+//!   slope is free (`heights`).
+//! * Suppose that every interior is above a target at ℓ by a margin of δ s₁. Then every interior
+//!   with its centre within √(δ/κ) of ℓ is truly above it, κ being the share of s_z²/s₁ in the
+//!   numerator. About twelve such ℓ prove 1e-6 over all heights (`cover`).
 //!
-//! Spin-It's γ_c adds a second such number, the lever s_z: its functional k s_z² + γρ² is no ratio,
-//! but at a given lever it is, and along a polygon around the ellipse k s_z² + γρ² = V two levers
-//! prove all between them (`frontier`).
+//! Spin-It's γ_c adds a second such number, the lever s_z. Its functional k s_z² + γρ² is no ratio,
+//! but at a given lever it is. Along a polygon around the ellipse k s_z² + γρ² = V two levers prove
+//! the bound for all between them (`frontier`).
 //!
 //! # The dual has at most ten variables
 //! For weights y ∈ Y, multipliers λ and a trial ratio τ put g = n + Jᵀy − τe + Aᵀλ. Then
@@ -83,61 +83,65 @@
 //! D(y, λ, τ) = min over K of g·s − b·λ
 //! ```
 //!
-//! is concave, is found by one pass, and D ≥ 0 proves that no interior has a ratio below τ. Its
-//! gradient is (Js, As − b) and its curvature −[J; A] W [J; A]ᵀ, so Newton's method climbs it: each
-//! step maximises the quadratic model over Y and all λ, damped where the model deceives, and moves
-//! τ to where D vanishes (Dinkelbach). From nothing about ten passes, from a solution on coarser
-//! columns about four: g is as good there.
+//! is concave and costs one pass. D ≥ 0 proves that no interior has a ratio below τ. Its gradient
+//! is (Js, As − b) and its curvature −[J; A] W [J; A]ᵀ, so Newton's method climbs it. Each step
+//! maximises the quadratic model over Y and all λ, damped where the model predicts badly. It also
+//! moves τ to where D vanishes (Dinkelbach). A cold start takes about ten passes. A start from
+//! coarser columns takes about four, as g is equally good there.
 //!
 //! # Most passes need only a few of the columns
-//! Where to ask can be found out on every fourth column of every fourth row, whose set K, moved and
-//! stretched so that it osculates the true one, is a convex set as well. All columns are asked for
-//! what the answer and its proof rest on: seven to fifteen times for a top's search, and once,
-//! without W, for each height that the proof stands on (`mend`, `scout`).
+//! Every fourth column of every fourth row suffices to find the dual points worth a pass. The set K
+//! of these columns, mapped so that it osculates the true one, is convex as well. All columns are
+//! needed only for the answer and its proof. That is seven to fifteen passes for a top's search,
+//! and one without W for each height in the proof (`mend`, `scout`).
 //!
 //! # What is proved
-//! * **How good the answer is.** The same g gives the interior and the bound, so a [`Certificate`]
-//!   holds both; they meet within 1e-9 or so. A top's bound is also carried to every other height
-//!   of its centre, and is then 5e-7 lower.
+//! * **The quality of the answer.** The same g gives the interior and the bound, so a
+//!   [`Certificate`] holds both; they meet within about 1e-9. A top's bound is also extended to
+//!   every other height of its centre, and is then 5e-7 lower.
 //! * **That the constraints cannot be met.** If D grows without bound along λ, the quadric (Aᵀλ)·m
-//!   has a positive integral over every interior, while it would be zero if one met the rows.
-//! * **That no interior is stable, stands, runs true or rights itself.** The bound itself is on the
-//!   wrong side: I_b/I_c ≥ 1, an angle ≤ 0, a grade above the one asked for, a metacentric height ≤
-//!   0.
+//!   has a positive integral over every interior. For one that meets the rows it would be zero.
+//! * **That no interior is stable, stands, is balanced or rights itself.** The bound itself is on
+//!   the wrong side: I_b/I_c ≥ 1, an angle ≤ 0, a grade above the requested one, a metacentric
+//!   height ≤ 0.
 //!
 //! Each is an answer, not an error: a [`Status`], with a sentence and remedies.
 //!
-//! # The files, in reading order
-//! `reach` K and its extreme points · `programme` the table above · `set` the ball and the simplex
-//! · `ascent` Newton's climb · `yoyo`, `stand`, `float`, `balance` one programme or two each ·
-//! `top`, `heights`, `valley`, `lever` the search over heights · `cover`, `frontier` the proof over
-//! all of them · `mend`, `scout` the look ahead on a few columns · `answer` back to mm, with a
-//! status · `ballast` the least of a denser material where hollowing is not enough · `course` how
-//! it came about · `fill` voids that are filled · `method` one trait for this solver and the
-//! papers' own, which live in `papers`.
+//! # Files
+//! In reading order:
 //!
-//! # The papers' own methods
-//! Spin-It's octree ([`ByOctree`]) and Wu, Kramer and Westermann's rays and voxels ([`ByRays`],
-//! [`ByVoxels`]) run on the same [`Problem`] as [`ByQuadric`] and give the same [`Found`]. One
-//! suite holds all four together. With q the optimal quadric, the regret of what a method empties,
-//! R = ∫|q| over where it differs from the best, is never negative, and the volume by which it
-//! differs is at most √(2R Σ area/|∂q/∂z|) to first order (measured: half of that to all of it).
-//! Where cells are h high, R is at most twice L = Σ area |∂q/∂z| h²/8 over the surface for voxels
-//! (measured: L/10 to L/3) and eight times L for the octree, which merges and rounds (measured: 1.5
-//! L to 2 L); rays end at R < 1e-5 of the solid's volume, or 1e-4 more where λ_max is smoothed for
-//! them. `benches/README.md` has their times.
+//! * `dual/`: `reach` K and its extreme points · `programme`, `table` the table above · `set` the
+//!   ball and the simplex · `visit`, `step`, `ascent` Newton's climb · `work` the state of a run ·
+//!   `mend`, `scout` the search on a few columns · `answer` back to mm, with a status.
+//! * `goals/`: `yoyo`, `stand`, `float`, `balance` with one programme or two each · `ballast` the
+//!   least of a denser material if hollowing is not enough · `fill` filled voids.
+//! * `top/`: `heights`, `valley`, `lever`, `search` the search over heights · `posts`, `cover`,
+//!   `frontier` the proof over all of them · `course` the data of the plots.
+//! * `papers/` (feature `papers`): Spin-It's octree and Wu, Kramer and Westermann's rays and voxels
+//!   on the same [`Problem`], behind one trait with this solver.
 //!
 //! # Use
 //! ```
-//! # use equipoise::{geom::Point, goal, hollow, interior::Columns, mesh::{Solid, TriMesh}, base::watch::Watch};
+//! # use equipoise::{base::watch::Watch, geom::Point, goal, hollow, interior::Columns};
+//! # use equipoise::mesh::{Solid, TriMesh};
 //! # let corner = |i: usize| [0, 1, 2].map(|axis| if i >> axis & 1 == 0 { -10.0 } else { 10.0 });
-//! # let faces = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+//! # let faces =
+//! #     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 //! # let triangles = faces.iter().flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]]).collect();
 //! # let mesh = TriMesh::new((0..8).map(|i| Point::from(corner(i))).collect(), triangles)?;
 //! # let solid = Solid::new(mesh)?;
-//! # let columns = Columns { pitch_mm: [18.0, 18.0], centers: vec![[0.0, 0.0]], starts: vec![0, 1], intervals: vec![[1.0, 19.0]] };
+//! # let columns = Columns {
+//! #     pitch_mm: [18.0, 18.0],
+//! #     centers: vec![[0.0, 0.0]],
+//! #     starts: vec![0, 1],
+//! #     intervals: vec![[1.0, 19.0]],
+//! # };
 //! let placed = goal::place(&solid, 1.0, &goal::Request::new(goal::GoalKind::Stand))?;
-//! let problem = hollow::Problem { goal: &placed.goal, fixed: placed.goal.solid, columns: &columns };
+//! let problem = hollow::Problem {
+//!     goal: &placed.goal,
+//!     fixed: placed.goal.solid,
+//!     columns: &columns,
+//! };
 //! let solution = hollow::solve(&problem, &hollow::Settings::default(), &Watch::silent());
 //! assert_eq!(solution.status, hollow::Status::Solved);
 //! assert!(solution.certificate.gap_ratio.abs() < 1e-6);
@@ -153,8 +157,9 @@
 mod dual;
 mod goals;
 mod golden;
-mod method;
-mod papers;
+mod log;
+#[cfg(feature = "papers")]
+pub mod papers;
 mod problem;
 mod solution;
 mod status;
@@ -168,40 +173,46 @@ use crate::goal::GoalKind;
 pub use goals::ballast::{Ballast, has_spare, least_ballast};
 pub use goals::fill::Fill;
 pub use golden::golden_section;
-pub use method::{ByQuadric, Found, Method, MethodError, Outcome, Rounding};
-pub use papers::{Accuracy, ByOctree, ByRays, ByVoxels};
+pub use log::{LogRow, Pass, Stage};
+#[cfg(feature = "papers")]
+pub use papers::{
+    Accuracy, ByOctree, ByQuadric, ByRays, ByVoxels, Found, Method, MethodError, Outcome, Rounding,
+};
 pub use problem::{Problem, Settings};
-pub use solution::{Certificate, Figure, LogRow, Pass, Solution, Stage};
+pub use solution::{Certificate, Figure, Solution};
 pub use status::{Obstacle, Status};
 pub use top::course::{TopCourse, top_course};
 
-use dual::answer::Answer;
+use dual::answer::Conversion;
 use dual::work::Work;
 use goals::{balance, float, stand, yoyo};
 
-/// The best interior, or the proof that none will do, from nothing.
+/// Finds the best interior, or the proof that none meets the goal, from a cold start.
 ///
-/// At 100 columns a side: a top takes seven to fifteen passes, and for its proof over all heights a
-/// dozen more that need no derivative, one whose lever is weighed too about two hundred of those;
-/// the others take five to ten. Cancelling `watch` ends it after the pass at hand, with
+/// At 100 columns a side a top takes seven to fifteen passes. Its proof over all heights takes a
+/// dozen more without derivative, or about two hundred if the lever is weighed. Other goals take
+/// five to ten passes. Cancelling `watch` ends the run after the current pass, with
 /// [`Status::Cancelled`].
+#[must_use]
 pub fn solve(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
-    rayon::scope(|_| answer_of(problem, Work::new(problem, settings, watch)))
+    rayon::scope(|_| solve_for_goal(problem, Work::new(problem, settings, watch)))
 }
 
-/// The same on columns given in model coordinates instead of the goal's: one set of columns then
-/// serves every goal that may be placed in the model. A pass costs as much; the cells are exact in
-/// any frame, but no longer upright in it.
+/// Solves on columns given in model coordinates instead of the goal's.
+///
+/// One set of columns then serves every goal placed in the model. A pass costs the same. The cells
+/// are exact in any frame, but not upright in the goal's.
+#[must_use]
 pub fn solve_on_model_columns(problem: &Problem, settings: &Settings, watch: &Watch) -> Solution {
     rayon::scope(|_| {
-        answer_of(
+        solve_for_goal(
             problem,
             Work::new(problem, settings, watch).on_model_columns(),
         )
     })
 }
 
-fn answer_of(problem: &Problem, work: Work) -> Solution {
+fn solve_for_goal(problem: &Problem, work: Work) -> Solution {
     let objective = problem.goal.objective;
     let answer = match problem.goal.kind {
         GoalKind::Top => top::solve(&work, objective),
@@ -213,23 +224,27 @@ fn answer_of(problem: &Problem, work: Work) -> Solution {
     answer.into_solution(work)
 }
 
-/// The same from a known solution of the same goal on coarser columns, or with slightly different
+/// Solves from a known solution of the same goal on coarser columns, or with slightly different
 /// fixed moments.
 ///
-/// Takes three to seven passes. Its certificate is for these columns and moments; a top's bound
-/// over all heights is not proved anew ([`bound_over_heights`] does that). Where `known` is of no
-/// use it solves from nothing.
+/// Takes three to seven passes. The certificate is for these columns and moments, without a top's
+/// bound over all heights ([`bound_over_heights`] proves that). If `known` does not help, it solves
+/// from a cold start.
+#[must_use]
 pub fn refine(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
-    rayon::scope(|_| refined(problem, settings, known, watch))
+    rayon::scope(|_| refine_known(problem, settings, known, watch))
 }
 
-/// What no interior of a top can beat, whatever the height of its centre, on columns for which a
-/// solution is known: in the figure of its certificate, a part of 1e-6 from its value or less. None
-/// for other goals, for fewer than 1200 columns ([`solve`] proves it there), or where the proof
-/// does not succeed.
+/// Proves a bound on a top whatever the height of its centre, on columns for which a solution is
+/// known.
 ///
-/// Costs one pass, and as many that need no derivative as there are posts: a dozen, or two hundred
-/// where Spin-It's functional weighs the lever.
+/// Returns it in the figure of the known certificate; it is within 1e-6 of the value, relative.
+/// `None` for other goals, for fewer than 1200 columns ([`solve`] proves it there), or if the proof
+/// fails.
+///
+/// Costs one pass, and one without derivative per post: a dozen, or two hundred if Spin-It's
+/// functional weighs the lever.
+#[must_use]
 pub fn bound_over_heights(
     problem: &Problem,
     settings: &Settings,
@@ -241,29 +256,34 @@ pub fn bound_over_heights(
     }
     rayon::scope(|_| {
         let work = Work::new(problem, settings, watch);
-        let ratio = top::bound_near(&work, known.objective, &known.warm)?;
+        let ratio = top::prove_bound_near(&work, known.objective, &known.warm)?;
         let moments = work.reach.scale.moments_to_units(&known.moments);
-        Some(Answer::figure_of_ratio(
-            &work,
-            (known.objective, known.certificate.figure),
-            &moments,
-            ratio,
-        ))
+        let conversion = Conversion {
+            work: &work,
+            objective: known.objective,
+            figure: known.certificate.figure,
+        };
+        Some(conversion.figure_of(&moments, ratio))
     })
 }
 
-fn refined(problem: &Problem, settings: &Settings, known: &Solution, watch: &Watch) -> Solution {
+fn refine_known(
+    problem: &Problem,
+    settings: &Settings,
+    known: &Solution,
+    watch: &Watch,
+) -> Solution {
     if !known.is_usable() {
         return solve(problem, settings, watch);
     }
-    let work = Work::new(problem, settings, watch).warmed();
+    let work = Work::new(problem, settings, watch).for_warm_start();
     let (objective, start) = (known.objective, Some(&known.warm.point));
     let answer = match problem.goal.kind {
         GoalKind::Top => top::refine(&work, objective, &known.warm),
         GoalKind::Yoyo => Some(yoyo::solve(&work, objective, start)),
         GoalKind::Stand => Some(stand::solve(&work, objective, start)),
         GoalKind::Float => Some(float::solve(&work, objective, start)),
-        // What could not be balanced on coarser columns may be on these.
+        // A goal that could not be balanced on coarser columns may be on these.
         GoalKind::Balance => Some(balance::solve(&work, problem.goal.objective, start)),
     };
     answer.map_or_else(
@@ -281,7 +301,7 @@ mod tests {
     use crate::interior::moments_where_positive;
     use crate::mass::Moments;
 
-    fn solved(world: &World) -> Solution {
+    fn solve_well(world: &World) -> Solution {
         let solution = solve(&world.problem(), &Settings::default(), &Watch::silent());
         assert_eq!(solution.status, Status::Solved, "{:?}", solution.log);
         assert!(
@@ -296,7 +316,7 @@ mod tests {
             gamma_c: 0.0,
             gamma_i: 1.0,
         });
-        let solution = solved(&world);
+        let solution = solve_well(&world);
         let emptied = moments_where_positive(&world.columns, &solution.quadric);
         for (got, want) in solution.moments.0.iter().zip((world.fixed - emptied).0) {
             assert!(
@@ -308,29 +328,29 @@ mod tests {
 
     #[test]
     fn a_bottle_has_its_lowest_centre_when_filled_up_to_it() {
-        // A light bottle with its own mass m₀ centred at h₀, of inner area A: filled to t the
-        // centre is at (m₀h₀ + At²/2)/(m₀ + At), least where t is that height itself: t = (√(m₀² +
-        // 2Am₀h₀) − m₀)/A.
+        // A light bottle has the mass m₀ centred at h₀, and the inner area A. Filled to t its
+        // centre is at (m₀h₀ + At²/2)/(m₀ + At). That is least if t equals that height: t = (√(m₀²
+        // + 2Am₀h₀) − m₀)/A.
         let world = worlds::bottle();
         let (m0, h0, area) = (40.0, 9.0, 16.0);
         let filled = (f64::sqrt(m0 * m0 + 2.0 * area * m0 * h0) - m0) / area;
-        let solution = solved(&world);
+        let solution = solve_well(&world);
         assert!((solution.certificate.value / filled - 1.0).abs() < 1e-9);
         let level = -solution.quadric.0[0] / solution.quadric.0[3];
         assert!((level / filled - 1.0).abs() < 1e-6);
     }
 
     #[test]
-    fn of_all_65536_ways_to_empty_sixteen_blocks_none_stands_better_than_the_bound() {
+    fn none_of_65536_ways_to_empty_blocks_stands_better_than_the_bound() {
         let world = worlds::blocks_on_a_slope();
-        let solution = solved(&world);
+        let solution = solve_well(&world);
         let mut best = f64::NEG_INFINITY;
         worlds::each_choice(&world, &worlds::single_blocks(16), |moments| {
             best = best.max(figures(&world.goal, moments).toppling_angle_rad.unwrap());
         });
         assert!(best <= solution.certificate.bound + 1e-12);
-        // Sixteen whole blocks come close to the one plane that is free to cut them; the solid is
-        // far off.
+        // Sixteen whole blocks come close to the best plane, which may cut them; the solid is far
+        // off.
         let solid = figures(&world.goal, &world.fixed)
             .toppling_angle_rad
             .unwrap();
@@ -350,7 +370,7 @@ mod tests {
             Objective::Dominance,
         ] {
             let world = worlds::mirrored_blocks(objective);
-            let solution = solved(&world);
+            let solution = solve_well(&world);
             let mut best = f64::INFINITY;
             worlds::each_choice(&world, &worlds::mirrored_groups(), |moments| {
                 let figures = figures(&world.goal, moments);
@@ -377,7 +397,7 @@ mod tests {
         };
         for objective in [Objective::CriticalSpeed, spin_it(0.0), spin_it(0.9)] {
             let world = worlds::rings(objective);
-            let solution = solved(&world);
+            let solution = solve_well(&world);
             let mut best = f64::INFINITY;
             worlds::each_choice(&world, &worlds::ring_groups(&world), |moments| {
                 let figures = figures(&world.goal, moments);
@@ -405,7 +425,7 @@ mod tests {
     #[test]
     fn a_solution_keeps_what_its_rows_promise() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
-        let figures = figures(&world.goal, &solved(&world).moments);
+        let figures = figures(&world.goal, &solve_well(&world).moments);
         assert!(
             figures.off_axis_mm < 1e-6 && figures.axis_tilt_rad < 1e-6,
             "{figures:?}"
@@ -420,7 +440,7 @@ mod tests {
                 gamma_c,
                 gamma_i: 1.3,
             });
-            let solution = solved(&world);
+            let solution = solve_well(&world);
             let value = figures(&world.goal, &solution.moments).spin_it.unwrap();
             assert!(
                 (value / solution.certificate.value - 1.0).abs() < 1e-7,
@@ -436,13 +456,13 @@ mod tests {
                 gamma_c,
                 gamma_i: 1.0,
             });
-            solved(&world).moments
+            solve_well(&world).moments
         };
         let (free, weighed) = (of(0.0), of(1.0));
         assert!(weighed.0[3] < 0.9 * free.0[3]);
     }
 
-    /// The passes that were not made for the proof over all heights.
+    /// Returns the number of passes of the search, without the proof over all heights.
     fn passes_of_search(solution: &Solution) -> usize {
         let is_of_search = |row: &&LogRow| !matches!(row.stage, Stage::Cover { .. });
         solution
@@ -457,7 +477,7 @@ mod tests {
     fn finer_columns_take_few_passes_from_a_coarse_answer() {
         let coarse = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let fine = worlds::egg_on_its_side_at(Objective::CriticalSpeed, 0.25);
-        let known = solved(&coarse);
+        let known = solve_well(&coarse);
         let refined = refine(
             &fine.problem(),
             &Settings::default(),
@@ -466,7 +486,7 @@ mod tests {
         );
         assert_eq!(refined.status, Status::Solved);
         assert!(passes_of_search(&refined) <= 8, "{:?}", refined.log);
-        let fresh = solved(&fine);
+        let fresh = solve_well(&fine);
         assert!((refined.certificate.value / fresh.certificate.value - 1.0).abs() < 1e-7);
     }
 
@@ -482,7 +502,7 @@ mod tests {
             let coarse = worlds::egg_on_its_side(objective);
             let fine = worlds::egg_on_its_side_at(objective, 0.25);
             let (problem, settings) = (fine.problem(), Settings::default());
-            let refined = refine(&problem, &settings, &solved(&coarse), &Watch::silent());
+            let refined = refine(&problem, &settings, &solve_well(&coarse), &Watch::silent());
             assert_eq!(refined.certificate.bound_over_heights, None);
             let bound =
                 bound_over_heights(&problem, &settings, &refined, &Watch::silent()).unwrap();
@@ -497,7 +517,7 @@ mod tests {
     #[test]
     fn a_correction_of_the_fixed_moments_is_met_in_few_passes() {
         let mut world = worlds::egg_on_its_side(Objective::CriticalSpeed);
-        let known = solved(&world);
+        let known = solve_well(&world);
         let pin = Moments(Moments::monomials(9.0, 4.0, 6.0)) * (2e-4 * world.fixed.0[0]);
         world.fixed += pin;
         let corrected = refine(
@@ -595,7 +615,7 @@ mod tests {
             starts: vec![0],
             ..Default::default()
         };
-        let solution = solved(&world);
+        let solution = solve_well(&world);
         let solid = figures(&world.goal, &world.fixed)
             .critical_speed_rpm
             .unwrap();
@@ -604,8 +624,8 @@ mod tests {
 
     #[test]
     fn columns_of_the_model_and_of_the_goal_give_the_same_answer() {
-        // The same points seen from a frame that is moved and turned by a quarter, so that cells
-        // stay cells.
+        // The same points in a frame that is moved and turned by a quarter, so that cells stay
+        // cells.
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let quarter = crate::geom::Matrix::new(0.0, -1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0);
         let frame = crate::geom::Frame {
@@ -630,7 +650,7 @@ mod tests {
             ..world.problem()
         };
         let turned = solve_on_model_columns(&problem, &Settings::default(), &Watch::silent());
-        let straight = solved(&world);
+        let straight = solve_well(&world);
         assert_eq!(turned.status, Status::Solved);
         assert!((turned.certificate.value / straight.certificate.value - 1.0).abs() < 1e-7);
         assert!(
@@ -685,7 +705,7 @@ mod tests {
             gamma_c: 0.0,
             gamma_i: 1.0,
         });
-        let bound = solved(&world).certificate.bound;
+        let bound = solve_well(&world).certificate.bound;
         for seed in 0..300 {
             let Quadric([c, _, _, _, _, _, _, xx, yy, zz]) = worlds::some_quadric(seed, 6.0);
             let even = Quadric([c, 0., 0., 0., 0., 0., 0., xx, yy, zz]);

@@ -1,33 +1,35 @@
-//! What is to be solved: a goal, what is fixed, and what may be emptied.
+//! The problem to solve, and the solver's settings.
 
 use crate::goal::Goal;
 use crate::interior::Columns;
 use crate::mass::Moments;
 
-/// A goal on an interior.
+/// A goal, the moments of the solid body, and the region that may be emptied.
 #[derive(Debug, Clone, Copy)]
 pub struct Problem<'a> {
-    /// What the object shall do.
+    /// The goal for the object.
     pub goal: &'a Goal,
-    /// The moments with nothing emptied, goal frame, mm: the solid's ([`Goal::solid`]), plus
-    /// whatever the printed object differs by (THEORY §4, defect correction).
+    /// Moments with nothing emptied, goal frame, mm.
+    ///
+    /// These are the solid's ([`Goal::solid`]) plus the measured difference of the printed object
+    /// (defect correction, [theory §9](crate::guide::theory#9-from-the-solution-to-the-print)).
     pub fixed: Moments,
-    /// What may be emptied, goal frame.
+    /// Region that may be emptied, goal frame.
     pub columns: &'a Columns,
 }
 
-/// How exact the answer shall be, and what it may cost.
+/// Accuracy and cost limits of the solver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// The gap (as a part of the value) and the residual of the constraints (in the solver's
-    /// normalised units) at which an ascent is finished. Above 1e-7 the centre of mass strays by
-    /// micrometres; below 1e-12 rounding stalls it.
+    /// Gap (as a part of the value) and constraint residual (in the solver's normalised units) at
+    /// which an ascent ends. Above 1e-7 the centre of mass strays by micrometres. Below 1e-12
+    /// rounding stalls the ascent.
     pub tolerance: f64,
-    /// The gap at which an unfinished ascent still counts as solved.
+    /// Gap at which an unfinished ascent still counts as solved.
     pub accepted_gap_ratio: f64,
-    /// The residual at which an unfinished ascent still counts as solved.
+    /// Residual at which an unfinished ascent still counts as solved.
     pub accepted_residual: f64,
-    /// The passes over the columns one ascent may take; a cold start takes about 15.
+    /// Passes over the columns allowed per ascent; a cold start takes about 15.
     pub passes_per_ascent: usize,
 }
 

@@ -1,64 +1,82 @@
-//! What the solver gives: the quadric, how far to trust it, and how it was found.
+//! The result of a run: the quadric, its certificate, and the record of the search.
 
 use serde::{Deserialize, Serialize};
 
 use super::dual::programme::DualPoint;
+use super::log::{LogRow, Pass};
 use super::status::Status;
 use crate::geom::Quadric;
 use crate::goal::Objective;
 use crate::mass::Moments;
 
-/// The quantity a certificate speaks of; smaller is better but for the toppling angle, the
-/// metacentric height and the volume.
+/// The quantity a certificate measures.
+///
+/// Smaller is better, except for the toppling angle, the metacentric height and the volume.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Figure {
-    /// Turns a minute of a top's least stable speed.
+    /// Least stable speed of a top, rpm.
     CriticalSpeedRpm,
     /// Spin-It's functional, no unit.
     SpinIt,
     /// I_b/I_c, no unit.
     DominanceRatio,
-    /// The tilt at which the object topples, rad.
+    /// Tilt at which the object topples, rad.
     TopplingAngleRad,
-    /// The height of the centre of mass, mm.
+    /// Height of the centre of mass, mm.
     CenterHeightMm,
-    /// The height of the metacentre over the centre of mass, mm; more is better.
+    /// Height of the metacentre above the centre of mass, mm; more is better.
     MetacentricHeightMm,
-    /// The material that stays, mm³; more is better.
+    /// Volume of the material that stays, mm³; more is better.
     VolumeMm3,
-    /// A lower bound of a rotor's balance grade at its speed, mm/s: exact where both end planes are
+    /// Lower bound of a rotor's balance grade at its speed, mm/s; exact if both end planes are
     /// equally unbalanced.
     BalanceGradeMmS,
 }
 
-/// What was reached, and the proof of how much better anything else could be.
+/// The value that was reached, and a proven bound on anything better.
 ///
-/// Valid for the columns at hand: no choice of what to empty in them that meets the constraints is
-/// better than `bound`. A top's bound is for its centre at the solution's height (and lever, where
-/// that is weighed); `bound_over_heights` is for every height and lever.
+/// Valid for the given columns: no choice of what to empty in them that meets the constraints is
+/// better than `bound`. A top's `bound` holds for the height of the solution's centre, and for its
+/// lever if that is weighed. Its `bound_over_heights` holds for every height and lever.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Certificate {
-    /// What is measured.
+    /// Measured quantity.
     pub figure: Figure,
-    /// What the solution reaches; not a number where it has no such figure (an unstable top's
-    /// critical speed).
+    /// Value of the solution; NaN if it has no such figure (an unstable top's critical speed).
     pub value: f64,
-    /// What no interior can beat.
+    /// Value that no interior can beat.
     pub bound: f64,
-    /// The distance between the two as a part of the value of the programme that was solved.
+    /// Distance between the two, as a part of the value of the programme that was solved.
     pub gap_ratio: f64,
-    /// How far the constraints are from met, in units of the solid's volume and radius of gyration.
+    /// Constraint residual, in units of the solid's volume and radius of gyration.
     pub residual: f64,
-    /// Tops: what no interior can beat, whatever the height of its centre; a part of 1e-6 from the
-    /// value or less. None where that was not proved in this run: refined solutions are not
-    /// ([`bound_over_heights`](super::bound_over_heights) proves it for them), nor tops that no
+    /// Tops: value that no interior can beat, whatever the height of its centre; within 1e-6 of the
+    /// value, relative.
+    ///
+    /// `None` if this was not proved in this run. It is not for refined solutions
+    /// ([`bound_over_heights`](super::bound_over_heights) proves it for them), nor for tops that no
     /// speed makes stable.
     pub bound_over_heights: Option<f64>,
 }
 
 impl Figure {
-    /// The value so that less is better.
+    /// Returns the figure that measures an interior for an objective.
+    pub(super) fn of(objective: Objective) -> Self {
+        match objective {
+            Objective::CriticalSpeed => Self::CriticalSpeedRpm,
+            Objective::SpinIt { .. } => Self::SpinIt,
+            Objective::Dominance => Self::DominanceRatio,
+            Objective::TopplingAngle => Self::TopplingAngleRad,
+            Objective::LowestCenter => Self::CenterHeightMm,
+            Objective::MetacentricHeight => Self::MetacentricHeightMm,
+            Objective::LeastRemoved => Self::VolumeMm3,
+            Objective::LeastUnbalance => Self::BalanceGradeMmS,
+        }
+    }
+
+    /// Returns the value with its sign chosen so that less is better.
     pub fn cost(self, value: f64) -> f64 {
         match self {
             Self::TopplingAngleRad | Self::MetacentricHeightMm | Self::VolumeMm3 => -value,
@@ -67,108 +85,37 @@ impl Figure {
     }
 }
 
-/// Which search an ascent belonged to.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stage {
-    /// The goal's programme itself.
-    Goal,
-    /// The dominance that decides whether a stable interior exists.
-    Dominance,
-    /// The least or greatest height a top's centre can have.
-    HeightRange,
-    /// A top with its centre at this height.
-    AtHeight {
-        /// The height, mm.
-        height_mm: f64,
-    },
-    /// A top with its centre at this height and of this lever.
-    AtLever {
-        /// The height, mm.
-        height_mm: f64,
-        /// Volume times the height of the centre, mm⁴.
-        lever_mm4: f64,
-    },
-    /// The proof that no other height is better, for heights about this one.
-    Cover {
-        /// The middle of the heights covered, mm.
-        height_mm: f64,
-    },
-}
-
-/// One ascent, in the solver's own units.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-pub struct LogRow {
-    /// What it was for.
-    pub stage: Stage,
-    /// Passes over the columns.
-    pub passes: usize,
-    /// The ratio its interior reaches.
-    pub value: f64,
-    /// The ratio no interior beats.
-    pub bound: f64,
-    /// How far the constraints are from met.
-    pub residual: f64,
-}
-
-/// How far a search had come after a pass over the columns: what the interior at hand reaches, and
-/// what no interior beats. The interior at hand meets the constraints at the end of the search
-/// only.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Pass {
-    /// What is reached.
-    pub value: f64,
-    /// What no interior can beat.
-    pub bound: f64,
-}
-
-impl Pass {
-    /// The pass with both numbers changed.
-    pub(super) fn map(self, change: impl Fn(f64) -> f64) -> Self {
-        Self {
-            value: change(self.value),
-            bound: change(self.bound),
-        }
-    }
-
-    /// Whether it is of use to look at.
-    pub(super) fn is_finite(&self) -> bool {
-        self.value.is_finite() && self.bound.is_finite()
-    }
-}
-
 /// The optimal void and its proof.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Solution {
-    /// How far to trust it.
+    /// Outcome of the run.
     pub status: Status,
-    /// What was optimised: the goal's objective, or the one that had to replace it to be stable.
+    /// Optimised objective: the goal's, or the one that had to replace it for a stable result.
     pub objective: Objective,
-    /// The void is where this is positive; goal frame, mm.
+    /// Quadric that is positive in the void; goal frame, mm.
     pub quadric: Quadric,
-    /// Value, bound, gap.
+    /// Value, bound and gap.
     pub certificate: Certificate,
-    /// The moments with the void emptied, goal frame, mm.
+    /// Moments with the void emptied, goal frame, mm.
     pub moments: Moments,
-    /// The passes over all columns that were made; those over a few of them, to find out where to
-    /// ask, are not counted.
+    /// Passes over all columns; passes over a sample of them are not counted.
     pub passes: usize,
-    /// One row an ascent.
+    /// One row per ascent.
     pub log: Vec<LogRow>,
-    /// The last ascent pass by pass, in the certificate's figure; passes without one, such as a
-    /// top's that no speed holds up, are left out.
+    /// The last ascent pass by pass, in the certificate's figure. Passes without a finite figure
+    /// are left out, such as those of a top that no speed makes stable.
     pub course: Vec<Pass>,
     pub(super) warm: Warm,
 }
 
 impl Solution {
-    /// Whether there is a void worth making.
+    /// Returns true if there is a void worth making.
     pub fn is_usable(&self) -> bool {
         matches!(self.status, Status::Solved | Status::AlmostSolved)
     }
 
-    /// The solution of the same problem with all moments stretched by `factor`; where `is_turned`,
-    /// its void is where the quadric was negative.
+    /// Returns the solution of the same problem with all moments multiplied by `factor`. If
+    /// `is_turned`, the void moves to the other side of the quadric.
     pub(super) fn stretched(self, factor: f64, is_turned: bool) -> Self {
         let Certificate {
             figure,
@@ -199,24 +146,24 @@ impl Solution {
         }
     }
 
-    /// The multipliers of the constraints in the solver's units, in the order of the table of rows
-    /// in [`super`].
+    /// Returns the multipliers of the constraints in the solver's units, in the order of the table
+    /// of rows in [`super`].
     pub fn multipliers(&self) -> Vec<f64> {
         self.warm.point.lambda.iter().copied().collect()
     }
 }
 
-/// What a later run on finer or corrected moments starts from.
+/// The start of a later run on finer columns or corrected moments.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Warm {
     pub point: DualPoint,
-    /// A top's height, in the solver's units, and how the slope of the objective grows with it.
+    /// A top's height, in the solver's units, and the derivative of the objective's slope there.
     pub height: Option<Tangent>,
-    /// A top's lever where Spin-It's functional weighs it.
+    /// A top's lever, if Spin-It's functional weighs it.
     pub lever: Option<Tangent>,
 }
 
-/// Where a slope was last seen to vanish, and its derivative there.
+/// The last known zero of a slope, and the slope's derivative there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Tangent {
     pub at: f64,

@@ -1,172 +1,166 @@
-//! What a run ended with, as a value and as a sentence.
+//! The outcome of a run, as a value and as a sentence.
 
 use crate::geom::Quadric;
 use crate::goal::{Goal, GoalKind};
 
-/// How a run ended: how far to trust its void, or the proof that none will do.
+/// The outcome of a run: an optimal void, or the proof that none exists.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
 pub enum Status {
-    /// Gap and residual are within the settings' accepted limits: no interior is better.
+    /// Gap and residual are within the accepted limits: no interior is better.
     Solved,
-    /// The constraints are met to a thousandth and the gap is known, but wider than accepted.
+    /// The constraints are met to a thousandth, but the gap is wider than accepted.
     AlmostSolved,
     /// No interior meets the constraints.
     ConstraintsInfeasible {
-        /// What stands in the way.
+        /// Unmet constraint.
         obstacle: Obstacle,
-        /// The least by which any interior misses the constraints, in units of the solid's volume
-        /// and radius of gyration; proved, positive.
+        /// Least residual of any interior, in units of the solid's volume and radius of gyration;
+        /// proved, positive.
         least_miss: f64,
-        /// The proof: Σλᵢ(constraint i), whose integral over every interior is at least
-        /// `least_miss`.
+        /// Proof: Σλᵢ(constraint i), whose integral over every interior is at least `least_miss`.
         separator: Quadric,
     },
-    /// Yo-yo: for every interior some axis across has at least the moment of this one.
+    /// Yo-yo: in every interior some axis across has at least the moment of inertia about the spin
+    /// axis.
     NotDominant {
-        /// I_b/I_c is at least this, at least 1, for every interior; proved.
+        /// Lower bound of I_b/I_c over every interior, at least 1; proved.
         least_ratio: f64,
     },
-    /// Top: no interior and no speed make it spin upright.
+    /// Top: no interior spins upright at any speed.
     UnstableForEveryInterior {
-        /// I_b/I_c is at least this for every interior.
+        /// Lower bound of I_b/I_c over every interior.
         least_ratio: f64,
-        /// Whether that is proved for every height of the centre, or only for those that were
-        /// tried.
+        /// True if the bound is proved for every height of the centre; false if it holds for the
+        /// heights tried.
         proved: bool,
     },
     /// Stand: every interior topples by itself.
     CannotStand {
-        /// The greatest angle any interior reaches, rad; not positive; proved.
+        /// Greatest toppling angle of any interior, rad; not positive; proved.
         greatest_angle_rad: f64,
     },
-    /// Float: even the lightest interior is too heavy for the water displaced at this waterline.
+    /// Float: even the lightest interior is too heavy for this waterline.
     Sinks {
-        /// Its mass over that of the water displaced, above 1; proved.
+        /// Its mass over that of the displaced water, above 1; proved.
         least_ratio: f64,
     },
-    /// Float: even the solid is too light to lie as deep as this waterline.
+    /// Float: even the solid is too light for this waterline.
     RidesHigh {
-        /// Its mass over that of the water displaced, below 1; proved.
+        /// Its mass over that of the displaced water, below 1; proved.
         greatest_ratio: f64,
     },
-    /// Float: no interior of the right mass has its centre over the centre of buoyancy.
+    /// Float: no interior of the right mass has its centre above the centre of buoyancy.
     CannotTrim {
-        /// How far aside it is at least, mm; proved, positive.
+        /// Least horizontal offset of the centre, mm; proved, positive.
         least_offset_mm: f64,
-        /// The proof: its integral over every interior is more than `level_mm3`, and would be that
-        /// at most for one of the right mass and place.
+        /// Proof: its integral over every interior exceeds `level_mm3`. For an interior of the
+        /// right mass and centre it would be `level_mm3` at most.
         separator: Quadric,
-        /// mm³.
+        /// Level of the proof, mm³.
         level_mm3: f64,
     },
-    /// Float: every interior of the right mass and place turns over.
+    /// Float: every interior of the right mass and centre capsizes.
     Capsizes {
-        /// The greatest metacentric height, mm; not positive; proved.
+        /// Greatest metacentric height, mm; not positive; proved.
         greatest_gm_mm: f64,
     },
-    /// Balance: every interior shakes more than the grade allows.
+    /// Balance: the unbalance of every interior exceeds the grade.
     CannotBalance {
-        /// The grade no interior is better than at the rotor's speed, mm/s; above the one asked
-        /// for; proved.
+        /// Best grade of any interior at the rotor's speed, mm/s; above the requested one; proved.
         least_grade_mm_s: f64,
-        /// The proof: (weights)·(unbalances in the end planes) − (what the grade allows)·(mass),
-        /// whose integral over every interior is positive.
+        /// Proof: (weights)·(unbalances in the end planes) − (permitted unbalance)·(mass). Its
+        /// integral over every interior is positive.
         separator: Quadric,
     },
     /// The passes were used up before the limits were met.
     IterationLimit {
-        /// The gap that is left, as a part of the value.
+        /// Remaining gap, as a part of the value.
         gap_ratio: f64,
-        /// The residual that is left, in the solver's normalised units.
+        /// Remaining residual, in the solver's normalised units.
         residual: f64,
     },
     /// The caller stopped the run.
     Cancelled,
 }
 
-/// Which constraint no interior meets.
+/// The constraint that no interior meets.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Obstacle {
-    /// The centre of mass cannot be brought where it must be.
+    /// The centre of mass cannot reach its required place.
     Center,
     /// The axis cannot be made a principal axis.
     PrincipalAxis,
-    /// Each might be met, but not both together.
+    /// Each could be met alone, but not both together.
     Both,
 }
 
 impl Status {
-    /// What happened, in a sentence with its numbers.
+    /// Returns a sentence that explains the outcome, with its numbers.
     pub fn explain(&self, goal: &Goal) -> String {
-        match *self {
-            Self::Solved => "Solved: no other interior is better.".into(),
-            Self::AlmostSolved => "Solved, though the proof of the last digits is missing.".into(),
+        let why = match *self {
+            Self::Solved => return "Solved: no other interior is better.".into(),
+            Self::AlmostSolved => return "Solved, but the last digits are not proved.".into(),
+            Self::Cancelled => return "Stopped before the end.".into(),
+            Self::IterationLimit {
+                gap_ratio: gap,
+                residual,
+            } => return explain_limit(gap, residual),
             Self::ConstraintsInfeasible {
                 obstacle,
                 least_miss,
                 ..
             } => format!(
-                "Impossible: no hollowing with this wall can {}; every interior misses it by at least {:.2} % of the \
-                 solid's own size in these moments.",
+                "no hollowing with this wall can {}; every interior misses it by at least {:.2} % \
+                 of the solid's own size in these moments",
                 obstacle.task(goal.kind),
                 100.0 * least_miss
             ),
             Self::NotDominant { least_ratio } => format!(
-                "Impossible: whatever is hollowed out, the moment of inertia across the axis is at least \
-                 {least_ratio:.3} times the one about it, so the spin about this axis is not stable."
+                "{}, so the spin about this axis is not stable",
+                compare_moments(least_ratio)
             ),
             Self::UnstableForEveryInterior {
                 least_ratio,
                 proved,
-            } => format!(
-                "Impossible: upright it is too tall. Whatever is hollowed out, the moment of inertia across the axis is \
-                 at least {least_ratio:.3} times the one about it, so no speed makes it stable ({}).",
-                if proved {
-                    "proved for every height of the centre"
-                } else {
-                    "at every height that was tried"
-                }
-            ),
+            } => explain_instability(least_ratio, proved),
             Self::CannotStand { greatest_angle_rad } => format!(
-                "Impossible: whatever is hollowed out, the centre of mass stays outside the support; it leans over by \
-                 at least {:.3}°.",
+                "with any hollowing, the centre of mass stays outside the support; it leans over \
+                 by at least {:.3}°",
                 -greatest_angle_rad.to_degrees()
             ),
             Self::Sinks { least_ratio } => format!(
-                "Impossible: emptied of all it may lose, it weighs {least_ratio:.3} times the water it displaces at this waterline."
+                "even fully hollowed it weighs {least_ratio:.3} times the water it displaces at \
+                 this waterline"
             ),
             Self::RidesHigh { greatest_ratio } => format!(
-                "Impossible: even solid it weighs only {greatest_ratio:.3} of the water it displaces at this waterline."
+                "even solid it weighs only {greatest_ratio:.3} times the water it displaces at \
+                 this waterline"
             ),
             Self::CannotTrim {
-                least_offset_mm, ..
+                least_offset_mm: offset,
+                ..
             } => format!(
-                "Impossible: at this waterline the centre of mass stays at least {least_offset_mm:.3} mm beside the centre of \
-                 buoyancy, whatever is hollowed out, so it would not float upright."
+                "at this waterline, with any hollowing, the centre of mass stays at least \
+                 {offset:.3} mm beside the centre of buoyancy, so it would not float upright"
             ),
-            Self::Capsizes { greatest_gm_mm } => format!(
-                "Impossible: at this waterline the centre of mass stays at least {:.3} mm above the metacentre, whatever is \
-                 hollowed out, so it would turn over.",
-                -greatest_gm_mm
+            Self::Capsizes { greatest_gm_mm: gm } => format!(
+                "at this waterline, with any hollowing, the centre of mass stays at least {:.3} mm \
+                 above the metacentre, so it would turn over",
+                -gm
             ),
             Self::CannotBalance {
-                least_grade_mm_s, ..
+                least_grade_mm_s: grade,
+                ..
             } => format!(
-                "Impossible: whatever is hollowed out, at its speed the rotor's balance grade stays at G {least_grade_mm_s:.1} \
-                 or above."
+                "with any hollowing, at its speed the rotor's balance grade stays at G {grade:.1} \
+                 or above"
             ),
-            Self::IterationLimit {
-                gap_ratio,
-                residual,
-            } => format!(
-                "Not solved within the passes allowed: the gap is {gap_ratio:.1e} and the constraints are missed by \
-                 {residual:.1e}. Allow more passes."
-            ),
-            Self::Cancelled => "Stopped before the end.".into(),
-        }
+        };
+        format!("Impossible: {why}.")
     }
 
-    /// What could be changed to make it possible; nothing where it is.
+    /// Returns changes that may make the goal possible; empty if it is possible.
     pub fn remedies(&self, goal: &Goal) -> &'static [&'static str] {
         match (self, goal.kind) {
             (Self::ConstraintsInfeasible { .. }, GoalKind::Top) => &[
@@ -189,7 +183,7 @@ impl Status {
             ],
             (Self::CannotStand { .. }, _) => &[
                 "turn the model, or stand it on another part",
-                "give it a larger foot, or ballast in it",
+                "give it a larger foot, or put ballast in it",
                 "make the model larger with the same wall, or the wall thinner",
             ],
             (Self::Sinks { .. }, _) => &[
@@ -199,7 +193,7 @@ impl Status {
             ],
             (Self::RidesHigh { .. }, _) => &[
                 "let it ride higher, or leave the waterline free (waterline auto)",
-                "use a denser material, or ballast in it",
+                "use a denser material, or put ballast in it",
             ],
             (Self::CannotTrim { .. }, _) => &[
                 "turn the model, or leave the waterline free (waterline auto)",
@@ -208,7 +202,7 @@ impl Status {
             ],
             (Self::Capsizes { .. }, _) => &[
                 "leave the waterline free (waterline auto), or turn the model",
-                "put ballast in it, as low as it goes",
+                "put ballast in it, as low as possible",
                 "make the model larger with the same wall, or the wall thinner",
             ],
             (Self::CannotBalance { .. }, _) => &[
@@ -220,8 +214,8 @@ impl Status {
         }
     }
 
-    /// The quadric whose integral over every interior proves that the goal cannot be met; none
-    /// where the bound of the solution's own quadric does.
+    /// Returns the quadric whose integral over every interior proves that the goal cannot be met.
+    /// `None` if the bound of the solution's own quadric is the proof.
     pub fn separator(&self) -> Option<Quadric> {
         match *self {
             Self::ConstraintsInfeasible { separator, .. }
@@ -231,7 +225,7 @@ impl Status {
         }
     }
 
-    /// Whether this is a proof that the goal cannot be met.
+    /// Returns true if this proves that the goal cannot be met.
     pub fn is_impossible(&self) -> bool {
         matches!(
             self,
@@ -246,6 +240,32 @@ impl Status {
                 | Self::CannotBalance { .. }
         )
     }
+}
+
+fn explain_limit(gap_ratio: f64, residual: f64) -> String {
+    format!(
+        "Not solved within the allowed passes: the gap is {gap_ratio:.1e} and the constraints are \
+         missed by {residual:.1e}. Allow more passes."
+    )
+}
+
+fn explain_instability(least_ratio: f64, proved: bool) -> String {
+    let scope = if proved {
+        "proved for every height of the centre"
+    } else {
+        "at every height that was tried"
+    };
+    format!(
+        "upright it is too tall; {}, so no speed makes it stable ({scope})",
+        compare_moments(least_ratio)
+    )
+}
+
+fn compare_moments(least_ratio: f64) -> String {
+    format!(
+        "with any hollowing, the moment of inertia across the axis is at least {least_ratio:.3} \
+         times the one about it"
+    )
 }
 
 impl Obstacle {
@@ -277,10 +297,9 @@ mod tests {
     use crate::goal::{Afloat, Objective, figures};
     use crate::interior::moments_where_positive;
 
-    #[test]
-    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
-        let goal = worlds::egg(Objective::Dominance).goal;
-        let proofs = [
+    /// Every impossibility, with the number that its sentence has to contain.
+    fn impossibilities() -> [(Status, &'static str); 9] {
+        [
             (
                 Status::NotDominant {
                     least_ratio: 1.0637,
@@ -341,8 +360,13 @@ mod tests {
                 },
                 "1.69 %",
             ),
-        ];
-        for (status, number) in proofs {
+        ]
+    }
+
+    #[test]
+    fn every_impossibility_is_explained_with_its_number_and_a_remedy() {
+        let goal = worlds::egg(Objective::Dominance).goal;
+        for (status, number) in impossibilities() {
             assert!(status.is_impossible());
             assert!(
                 status.explain(&goal).contains(number),
@@ -368,7 +392,7 @@ mod tests {
                 ..afloat
             });
             let status = solve(&world.problem(), &Settings::default(), &Watch::silent()).status;
-            // Even in x and y, so that the rows hold where the world itself is.
+            // Even in x and y, so that every interior meets the rows that the world itself meets.
             for seed in 0..400 {
                 let Quadric([c, _, _, z, _, _, _, xx, _, zz]) = worlds::some_quadric(seed, 8.0);
                 let z = if world.goal.kind == GoalKind::Yoyo {
@@ -387,8 +411,7 @@ mod tests {
                     Status::CannotStand { greatest_angle_rad } => {
                         (-figures.toppling_angle_rad.unwrap(), -greatest_angle_rad)
                     }
-                    // Of other masses than the water carries, it may be lower: those are not spoken
-                    // of.
+                    // The bound covers only interiors of the mass that the water carries.
                     Status::Capsizes { greatest_gm_mm }
                         if (moments.volume() - 120.0).abs() < 0.5 =>
                     {

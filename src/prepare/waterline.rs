@@ -90,7 +90,7 @@ impl Search<'_> {
             range_mm,
             ROUNDS,
             |waterline_mm| self.rate(waterline_mm),
-            (|rated: &Rated| rated.afloat.waterline_mm, Rated::is_better),
+            Rated::is_better,
         );
         fine.into_iter().fold(best, better).afloat
     }

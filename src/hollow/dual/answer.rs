@@ -1,38 +1,37 @@
-//! From the end of a search to a solution in mm, with its status and certificate.
+//! The conversion of a search's result into a solution in mm, with status and certificate.
 
 use super::ascent::{Climb, End};
-use super::programme::index;
-use super::reach::Vector10;
+use super::units::Vector10;
+use super::units::index;
 use super::work::Work;
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::goal::{GoalKind, Objective, Spindle, to_rpm};
-use crate::hollow::goals::balance;
-use crate::hollow::method::figure_for;
-use crate::hollow::solution::{Certificate, Figure, Pass, Solution, Tangent, Warm};
+use crate::hollow::log::Pass;
+use crate::hollow::solution::{Certificate, Figure, Solution, Tangent, Warm};
 use crate::hollow::status::{Obstacle, Status};
 
-/// Part of the separating multipliers beyond which one kind of constraint alone stands in the way.
+/// Share of the separating multipliers beyond which one kind of constraint is the sole obstacle.
 const SOLE_OBSTACLE_RATIO: f64 = 0.95;
-/// A residual up to which an unfinished answer is worth having: a thousandth of the solid's radius
-/// of gyration.
+/// Residual up to which an unfinished answer is usable: a thousandth of the solid's radius of
+/// gyration.
 const USABLE_RESIDUAL: f64 = 1e-3;
-/// A gap up to which it is.
+/// Gap up to which an unfinished answer is usable.
 const USABLE_GAP_RATIO: f64 = 1e-2;
 
-/// What a search found, in the solver's units.
+/// The result of a search, in the solver's units.
 #[derive(Debug, Clone)]
 pub(crate) struct Answer {
-    /// What was minimised in the end.
+    /// Objective minimised in the end.
     pub objective: Objective,
-    /// The ascent that gave it.
+    /// Ascent that gave the result.
     pub climb: Climb,
-    /// The proof that it will not do, if there is one.
+    /// Proof that the goal cannot be met, if there is one.
     pub verdict: Option<Status>,
-    /// A top's height, and its slope's growth.
+    /// A top's height, and the derivative of the slope there.
     pub height: Option<Tangent>,
-    /// A top's lever, where it matters.
+    /// A top's lever, if it is weighed.
     pub lever: Option<Tangent>,
-    /// A lower bound of the ratio over all heights.
+    /// Lower bound of the ratio over all heights.
     pub bound_over_heights: Option<f64>,
 }
 
@@ -55,7 +54,7 @@ impl Answer {
         }
     }
 
-    /// The solution in mm.
+    /// Converts the result to mm.
     pub fn into_solution(self, work: Work) -> Solution {
         let scale = work.reach.scale;
         let best = &self.climb.best;
@@ -115,7 +114,7 @@ impl Answer {
         }
     }
 
-    /// Its ascent, pass by pass, in a figure.
+    /// Returns the passes of the ascent, converted to a figure.
     pub fn course(&self, work: &Work, figure: Figure) -> Vec<Pass> {
         let passes = self
             .climb
@@ -125,28 +124,34 @@ impl Answer {
         passes.filter(Pass::is_finite).collect()
     }
 
-    /// A ratio of the programme as the figure a person knows; monotone, so a bound stays a bound.
+    /// Converts a ratio of the programme to a figure.
     pub fn in_figure(&self, work: &Work, figure: Figure, ratio: f64) -> f64 {
-        Self::figure_of_ratio(
+        let conversion = Conversion {
             work,
-            (self.objective, figure),
-            &self.climb.best.extreme.s,
-            ratio,
-        )
+            objective: self.objective,
+            figure,
+        };
+        conversion.figure_of(&self.climb.best.extreme.s, ratio)
     }
+}
 
-    /// The same for an interior of these moments.
-    pub fn figure_of_ratio(
-        work: &Work,
-        (objective, figure): (Objective, Figure),
-        s: &Vector10,
-        ratio: f64,
-    ) -> f64 {
-        match figure {
+/// The conversion of a programme's ratio to the figure that people know.
+pub(crate) struct Conversion<'a, 'b> {
+    pub work: &'a Work<'b>,
+    pub objective: Objective,
+    pub figure: Figure,
+}
+
+impl Conversion<'_, '_> {
+    /// Returns the figure of an interior with these moments and this ratio. It is monotone in the
+    /// ratio, so a bound stays a bound.
+    pub fn figure_of(&self, s: &Vector10, ratio: f64) -> f64 {
+        let work = self.work;
+        match self.figure {
             Figure::CriticalSpeedRpm => {
                 to_rpm((STANDARD_GRAVITY_MM_S2 / -work.to_mm(ratio)).sqrt())
             }
-            Figure::SpinIt => functional(work, objective, s, ratio),
+            Figure::SpinIt => functional(work, self.objective, s, ratio),
             Figure::DominanceRatio => ratio,
             Figure::TopplingAngleRad => -ratio.atan(),
             Figure::CenterHeightMm => work.to_mm(ratio),
@@ -155,14 +160,14 @@ impl Answer {
             }
             Figure::VolumeMm3 => -ratio * work.reach.scale.volume_mm3,
             Figure::BalanceGradeMmS => {
-                let grade = |spindle: &Spindle| balance::grade_mm_s(spindle, work.to_mm(ratio));
+                let grade = |spindle: &Spindle| grade_mm_s(spindle, work.to_mm(ratio));
                 work.goal.spindle.as_ref().map_or(f64::NAN, grade)
             }
         }
     }
 }
 
-/// Spin-It's functional of an interior with these moments and this inertia ratio.
+/// Returns Spin-It's functional of an interior with these moments and this inertia ratio.
 pub(crate) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio: f64) -> f64 {
     let Objective::SpinIt { gamma_c, gamma_i } = objective else {
         return ratio * ratio;
@@ -174,12 +179,20 @@ pub(crate) fn functional(work: &Work, objective: Objective, s: &Vector10, ratio:
     gamma_c * lever * lever + gamma_i * ratio * ratio
 }
 
+/// Returns the least balance grade, mm/s, of a rotor with the unbalance ratio ‖(U_A, U_B)‖/M, mm.
+///
+/// The grade is twice the larger of the two planes' unbalances per mass, times ω. The larger of two
+/// vectors is at least their joint length over √2.
+pub(crate) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
+    std::f64::consts::SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
+}
+
 fn figure_of(objective: Objective, verdict: Option<Status>) -> Figure {
     match verdict {
         Some(Status::UnstableForEveryInterior { .. } | Status::NotDominant { .. }) => {
             Figure::DominanceRatio
         }
-        _ => figure_for(objective),
+        _ => Figure::of(objective),
     }
 }
 
@@ -192,7 +205,7 @@ fn infeasible(work: &Work, climb: &Climb, least_miss: f64) -> Status {
     }
 }
 
-/// Which constraints the separating quadric is made of.
+/// Returns the constraints that make up the separating quadric.
 fn obstacle(separator: &Vector10) -> Obstacle {
     let squared = |moments: &[usize]| {
         moments

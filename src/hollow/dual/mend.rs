@@ -1,32 +1,34 @@
-//! An affine map of the moments that makes the reachable set of a few columns osculate that of all
-//! columns.
+//! An affine map that makes the reachable set of a few columns osculate that of all columns.
 
 use nalgebra::{Const, SymmetricEigen};
 
-use super::reach::{Extreme, Vector10};
+use super::units::{Extreme, Vector10};
 use crate::interior::Matrix10;
 
-/// Derivatives below this part of the mean count as none: there the map is the identity. Far
-/// larger, and directions that hardly turn the extreme point are not mended; far smaller, and it
-/// stretches what is only noise.
+/// Noise floor of the derivatives, as a part of their mean; below it the map is the identity. A far
+/// larger floor leaves directions unmended that hardly turn the extreme point. A far smaller one
+/// amplifies noise.
 const NOISE_RATIO: f64 = 1e-5;
 
 type Eigen10 = SymmetricEigen<f64, Const<10>>;
 
-/// s ↦ Ts + b, with a symmetric positive definite T.
+/// The map s ↦ Ts + b, with a symmetric positive definite T.
 ///
-/// Of a convex set with support function h(g) = min g·s the image has h(Tg) + b·g: again a convex
-/// set, whose extreme point along g is T s(Tg) + b with the derivative T W(Tg) T. So for a given g
-/// it has the extreme point and the derivative of another set if T W(g) T = W′(g), Tg = g and b =
-/// s′ − Ts. Of all T of the first kind one is symmetric and positive, the map of optimal transport
-/// between the Gaussians of covariance W and W′ (Olkin and Pukelsheim, "The distance between two
-/// random vectors with given dispersion matrices", Linear Algebra and its Applications 48, 1982):
+/// Take a convex set with the support function h(g) = min g·s. Its image has h(Tg) + b·g, so it is
+/// convex as well. Its extreme point along g is T s(Tg) + b, with the derivative T W(Tg) T. For a
+/// given g these equal s′ and W′ of another set if T W(g) T = W′, Tg = g and b = s′ − Ts. Exactly
+/// one T that meets the first condition is symmetric and positive. It is the map of optimal
+/// transport between the Gaussians of covariance W and W′:
 ///
 /// ```text
 /// T = W^(−½) (W^½ W′ W^½)^½ W^(−½)
 /// ```
 ///
-/// and it leaves g alone, as both derivatives do: extreme points do not feel g's length.
+/// It leaves g unchanged, as both derivatives vanish along g: extreme points do not depend on its
+/// length.
+///
+/// Source: Olkin and Pukelsheim, "The distance between two random vectors with given dispersion
+/// matrices", Linear Algebra and its Applications 48, 1982.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mend {
     stretch: Matrix10,
@@ -34,8 +36,8 @@ pub(crate) struct Mend {
 }
 
 impl Mend {
-    /// The map that gives the set with the extreme points `few` the extreme point and the
-    /// derivative `all` along g.
+    /// Returns the map that gives the set of `few` the extreme point and the derivative of `all`
+    /// along g.
     pub fn new(g: &Vector10, all: &Extreme, few: impl Fn(&Vector10) -> Extreme) -> Self {
         let stretch = transport(&across(g, &few(g).w), &across(g, &all.w));
         Self {
@@ -44,17 +46,17 @@ impl Mend {
         }
     }
 
-    /// The direction in the set that is mapped, for one in the image.
+    /// Returns the direction in the original set for a direction in the image.
     pub fn direction(&self, g: &Vector10) -> Vector10 {
         self.stretch * g
     }
 
-    /// The image of a point.
+    /// Maps a point.
     pub fn point(&self, s: &Vector10) -> Vector10 {
         self.stretch * s + self.shift
     }
 
-    /// The image of an extreme point.
+    /// Maps an extreme point.
     pub fn extreme(&self, extreme: &Extreme) -> Extreme {
         let w = self.stretch * extreme.w * self.stretch;
         Extreme {
@@ -65,14 +67,14 @@ impl Mend {
     }
 }
 
-/// A derivative without what it has along g. It should have nothing there, but the means it has for
-/// upright surfaces do.
+/// Removes the component along g from a derivative. It should be zero, but the averages used for
+/// vertical surfaces leave some.
 fn across(g: &Vector10, w: &Matrix10) -> Matrix10 {
     let across = Matrix10::identity() - g * g.transpose() / g.norm_squared();
     across * w * across
 }
 
-/// The symmetric positive T with T W T = W′, both but for the noise.
+/// Returns the symmetric positive T with T W T = W′, both with the noise floor added.
 fn transport(few: &Matrix10, all: &Matrix10) -> Matrix10 {
     let noise = Matrix10::identity() * (NOISE_RATIO * 0.1 * all.trace()).max(f64::MIN_POSITIVE);
     let eigen = (few + noise).symmetric_eigen();
@@ -84,7 +86,7 @@ fn transport(few: &Matrix10, all: &Matrix10) -> Matrix10 {
     inverse * middle * inverse
 }
 
-/// A function of a symmetric positive matrix, by its eigenvalues.
+/// Applies a function to a symmetric positive matrix, by its eigenvalues.
 fn of_eigen(eigen: &Eigen10, function: impl Fn(f64) -> f64) -> Matrix10 {
     let least = f64::EPSILON * eigen.eigenvalues.max();
     let values = eigen.eigenvalues.map(|value| function(value.max(least)));
@@ -93,13 +95,14 @@ fn of_eigen(eigen: &Eigen10, function: impl Fn(f64) -> f64) -> Matrix10 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::reach::{Reach, Scale};
+    use super::super::reach::Reach;
+    use super::super::units::Scale;
     use super::*;
     use crate::goal::Objective;
     use crate::hollow::worlds;
 
     #[test]
-    fn thinned_columns_osculate_all_of_them_where_they_are_mended_and_still_make_a_convex_set() {
+    fn mended_columns_osculate_all_of_them_and_still_make_a_convex_set() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let all = Reach::new(&world.columns, &world.fixed, Scale::of(&world.fixed));
         let along = |seed| Vector10::from(worlds::some_quadric(seed, 1.0).0);
@@ -111,10 +114,11 @@ mod tests {
         );
         for g in directions {
             let there = all.extreme(&g);
-            let (few, mended) = (all.thinned(3), all.thinned(3).mended(&g, &there));
+            let (few, mended) = (all.thin(3), all.thin(3).mend_at(&g, &there));
             let [plain, image] = [few.extreme(&g), mended.extreme(&g)];
             assert!((image.s - there.s).amax() < 1e-12);
-            // What is left is the noise, 1e-5 of the mean, times how far T is from the identity.
+            // The remaining error is the noise, 1e-5 of the mean, times the distance of T from the
+            // identity.
             let error =
                 |w: &Matrix10| (across(&g, w) - across(&g, &there.w)).norm() / there.w.norm();
             assert!(

@@ -1,33 +1,18 @@
-//! Every goal as a quasi-convex programme over the ten moments: minimise a convex function over a
-//! positive one.
+//! A goal as a quasi-convex programme over the ten moments, and the points of its dual.
 
 use nalgebra::{DMatrix, DVector};
 
-use super::reach::{Reach, Vector10};
+use super::reach::Reach;
 use super::set::DualSet;
-use crate::goal::{Afloat, Goal, support_edges};
-use crate::hollow::solution::Stage;
+use super::units::Vector10;
+use crate::hollow::log::Stage;
 
-/// Where the ten moments stand.
-pub(crate) mod index {
-    pub const ONE: usize = 0;
-    pub const X: usize = 1;
-    pub const Y: usize = 2;
-    pub const Z: usize = 3;
-    pub const XY: usize = 4;
-    pub const YZ: usize = 5;
-    pub const XZ: usize = 6;
-    pub const XX: usize = 7;
-    pub const YY: usize = 8;
-    pub const ZZ: usize = 9;
-}
-use index::*;
-
-/// Minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b; e·s > 0 on all of K (THEORY
-/// §3).
+/// The programme: minimise (n·s + max_{y∈Y} yᵀJs) / (e·s) over the s ∈ K with As = b.
+///
+/// The denominator e·s is positive on all of K ([theory §2](crate::guide::theory#2-goals)).
 #[derive(Debug, Clone)]
 pub(crate) struct Programme {
-    /// What it is for.
+    /// Search it belongs to.
     pub stage: Stage,
     /// n
     pub numerator: Vector10,
@@ -37,9 +22,9 @@ pub(crate) struct Programme {
     pub set: DualSet,
     /// e
     pub denominator: Vector10,
-    /// A positive lower bound of e·s over the s that meet the rows.
+    /// Positive lower bound of e·s over the s that meet the rows; zero if there is no denominator.
     pub denominator_floor: f64,
-    /// An upper bound of it.
+    /// Upper bound of e·s.
     pub denominator_ceiling: f64,
     /// A, m × 10
     pub rows: DMatrix<f64>,
@@ -47,7 +32,7 @@ pub(crate) struct Programme {
     pub rhs: DVector<f64>,
 }
 
-/// A point of the dual: the weights y, a multiplier for each row, and the ratio on trial.
+/// A point of the dual: the weights y, a multiplier for each row, and the trial ratio τ.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct DualPoint {
     pub y: DVector<f64>,
@@ -55,58 +40,10 @@ pub(crate) struct DualPoint {
     pub tau: f64,
 }
 
-/// The ten numbers with these entries, zero elsewhere.
-fn row(entries: &[(usize, f64)]) -> Vector10 {
-    let mut row = Vector10::zeros();
-    entries.iter().for_each(|&(at, value)| row[at] += value);
-    row
-}
-
-fn stack(rows: &[Vector10]) -> DMatrix<f64> {
-    DMatrix::from_fn(rows.len(), 10, |i, j| rows[i][j])
-}
-
-/// I_xx, I_yy and I_zz as functions of the moments.
-const I_XX: [(usize, f64); 2] = [(YY, 1.0), (ZZ, 1.0)];
-const I_YY: [(usize, f64); 2] = [(XX, 1.0), (ZZ, 1.0)];
-const I_ZZ: [(usize, f64); 2] = [(XX, 1.0), (YY, 1.0)];
-
-/// s_z²/s₁, which is linear where s_z = height·s₁: 2·height·s_z − height²·s₁.
-fn steiner(height: f64) -> Vector10 {
-    row(&[(Z, 2.0 * height), (ONE, -height * height)])
-}
-
-/// (I_xx, √2 I_xy, I_yy) about the centre at this height: the rows of Spin-It's functional (eq. 2).
-fn functional_rows(height: f64) -> DMatrix<f64> {
-    let lowered = steiner(height);
-    let cross = row(&[(XY, -std::f64::consts::SQRT_2)]);
-    stack(&[row(&I_XX) - lowered, cross, row(&I_YY) - lowered])
-}
-
-/// λ_max of the upper 2 × 2 of the tensor is mean + ‖these rows‖; shifting the tensor leaves them
-/// alone.
-fn spread_rows() -> DMatrix<f64> {
-    stack(&[row(&[(YY, 0.5), (XX, -0.5)]), row(&[(XY, 1.0)])])
-}
-
-/// Half the trace of the upper 2 × 2 of the tensor about the centre at this height.
-fn mean_across(height: f64) -> Vector10 {
-    (row(&I_XX) + row(&I_YY)) * 0.5 - steiner(height)
-}
-
-/// Which row of a top's programme fixes its lever s_z, where there is one.
-pub(crate) const LEVER_ROW: usize = 4;
-
-/// The rows that put the centre on the axis and make the axis principal.
-fn axis_rows() -> DMatrix<f64> {
-    let row_of = |moment| row(&[(moment, 1.0)]);
-    stack(&[X, Y, XZ, YZ].map(row_of))
-}
-
 impl Programme {
-    /// A programme over the ball whose rows all vanish, for the goal itself; its denominator is not
-    /// yet bounded.
-    fn new(
+    /// Returns a programme over the ball with right-hand sides of zero. Its denominator has no
+    /// bounds yet.
+    pub fn new(
         numerator: Vector10,
         directions: DMatrix<f64>,
         denominator: Vector10,
@@ -129,182 +66,16 @@ impl Programme {
         }
     }
 
-    /// For a denominator that grows with every bit of material: bounded by the shell and by the
-    /// fullest interior.
-    fn bounded(mut self, reach: &Reach) -> Self {
+    /// Adds the bounds of a denominator that grows with every bit of material: its values at the
+    /// shell and at the fullest interior.
+    pub fn with_denominator_bounds(mut self, reach: &Reach) -> Self {
         self.denominator_floor = self.denominator.dot(&reach.shell);
         self.denominator_ceiling = self.denominator.dot(&reach.fullest);
         self
     }
 
-    fn at_height(mut self, reach: &Reach, height: f64) -> Self {
-        self.stage = Stage::AtHeight {
-            height_mm: height * reach.scale.length_mm,
-        };
-        self
-    }
-
-    fn for_stage(self, stage: Stage) -> Self {
-        Self { stage, ..self }
-    }
-
-    /// Yo-yo, Spin-It eq. 2, 5, 6: ‖(I_xx, √2 I_xy, I_yy)‖/I_zz, the square root of the functional.
-    pub fn yoyo_functional(reach: &Reach) -> Self {
-        Self::new(
-            Vector10::zeros(),
-            functional_rows(0.0),
-            row(&I_ZZ),
-            yoyo_rows(),
-        )
-        .bounded(reach)
-    }
-
-    /// Yo-yo: λ_max of the tensor across the axis over I_zz.
-    pub fn yoyo_dominance(reach: &Reach) -> Self {
-        Self::new(mean_across(0.0), spread_rows(), row(&I_ZZ), yoyo_rows())
-            .bounded(reach)
-            .for_stage(Stage::Dominance)
-    }
-
-    /// Top by the tensor that is linear at a height ℓ: (λ_max(I′) − I_zz)/s_z = −g/ω² (Spin-It eq.
-    /// 1).
-    ///
-    /// The centre of every interior that meets the rows has its height in `range`, which bounds s_z
-    /// by the mass.
-    pub fn top_critical_speed(reach: &Reach, height: f64, [lowest, highest]: [f64; 2]) -> Self {
-        let numerator = mean_across(height) - row(&I_ZZ);
-        let mut programme = Self::new(numerator, spread_rows(), row(&[(Z, 1.0)]), axis_rows());
-        programme.denominator_floor = lowest * reach.shell[ONE];
-        programme.denominator_ceiling = highest * reach.fullest[ONE];
-        programme.at_height(reach, height)
-    }
-
-    /// Top by the tensor that is linear at a height: λ_max(I′)/I_zz, below 1 only where some speed
-    /// is enough.
-    pub fn top_dominance(reach: &Reach, height: f64) -> Self {
-        Self::new(mean_across(height), spread_rows(), row(&I_ZZ), axis_rows())
-            .bounded(reach)
-            .at_height(reach, height)
-    }
-
-    /// Top by the tensor that is linear at a height: the inertia part of Spin-It's functional (eq.
-    /// 7), its square root.
-    pub fn top_functional(reach: &Reach, height: f64) -> Self {
-        Self::new(
-            Vector10::zeros(),
-            functional_rows(height),
-            row(&I_ZZ),
-            axis_rows(),
-        )
-        .bounded(reach)
-        .at_height(reach, height)
-    }
-
-    /// The same programme for interiors of this lever s_z only.
-    pub fn with_lever(mut self, reach: &Reach, lever: f64) -> Self {
-        let last = self.rows.nrows();
-        self.rows = self.rows.insert_row(last, 0.0);
-        self.rows[(last, Z)] = 1.0;
-        self.rhs = self.rhs.insert_row(last, lever);
-        if let Stage::AtHeight { height_mm } = self.stage {
-            let lever_mm4 = lever * reach.scale.volume_mm3 * reach.scale.length_mm;
-            self.stage = Stage::AtLever {
-                height_mm,
-                lever_mm4,
-            };
-        }
-        self
-    }
-
-    /// By how much an interior's ratio exceeds `target`, times denominator over mass: (n·s + max
-    /// yᵀJs − target·e·s)/s₁.
-    pub fn margin(mut self, reach: &Reach, target: f64) -> Self {
-        self.numerator -= self.denominator * target;
-        self.denominator = row(&[(ONE, 1.0)]);
-        self.bounded(reach)
-    }
-
-    /// Top: the least (sense 1) or greatest (sense −1) height of the centre that an interior can
-    /// have, as a ratio.
-    pub fn top_height(reach: &Reach, sense: f64) -> Self {
-        let nothing = DMatrix::zeros(0, 10);
-        Self::new(row(&[(Z, sense)]), nothing, row(&[(ONE, 1.0)]), axis_rows())
-            .bounded(reach)
-            .for_stage(Stage::HeightRange)
-    }
-
-    /// Stand: −tan of the toppling angle, the largest over the support's edges of (d s₁ −
-    /// n·s_xy)/s_z.
-    pub fn stand_toppling(reach: &Reach, goal: &Goal) -> Self {
-        let length = reach.scale.length_mm;
-        let edge = |(n, d): &([f64; 2], f64)| row(&[(ONE, d / length), (X, -n[0]), (Y, -n[1])]);
-        let edges: Vec<Vector10> = support_edges(&goal.support).iter().map(edge).collect();
-        let none = DMatrix::zeros(0, 10);
-        let mut programme =
-            Self::new(Vector10::zeros(), stack(&edges), row(&[(Z, 1.0)]), none).bounded(reach);
-        programme.set = DualSet::Simplex;
-        programme
-    }
-
-    /// Stand: the height of the centre, which is over the middle of the support.
-    pub fn stand_lowest_center(reach: &Reach) -> Self {
-        let (height, mass) = (row(&[(Z, 1.0)]), row(&[(ONE, 1.0)]));
-        let rows = stack(&[row(&[(X, 1.0)]), row(&[(Y, 1.0)])]);
-        Self::new(height, DMatrix::zeros(0, 10), mass, rows).bounded(reach)
-    }
-
-    /// Float: the height of the centre, for interiors as heavy as the water displaced, with their
-    /// centre over that of buoyancy; no ratio.
-    pub fn float_lowest_center(reach: &Reach, afloat: &Afloat) -> Self {
-        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
-        let [x, y] = over_buoyancy(reach, afloat);
-        let rows = stack(&[x, y, row(&[(ONE, 1.0)])]);
-        let height = row(&[(Z, 1.0 / mass)]);
-        let mut programme = Self::new(height, DMatrix::zeros(0, 10), Vector10::zeros(), rows);
-        programme.rhs[2] = mass;
-        programme
-    }
-
-    /// Float: how far the centre of an interior of the right mass is from its place; no ratio.
-    pub fn float_offset(reach: &Reach, afloat: &Afloat) -> Self {
-        let mass = afloat.material_mm3 / reach.scale.volume_mm3;
-        let offset = stack(&over_buoyancy(reach, afloat)) / mass;
-        let mut programme = Self::new(
-            Vector10::zeros(),
-            offset,
-            Vector10::zeros(),
-            stack(&[row(&[(ONE, 1.0)])]),
-        );
-        programme.rhs[0] = mass;
-        programme
-    }
-
-    /// The least (sense 1) or greatest (sense −1) mass of any interior; no ratio.
-    pub fn extreme_mass(sense: f64) -> Self {
-        let none = DMatrix::zeros(0, 10);
-        Self::new(row(&[(ONE, sense)]), none.clone(), Vector10::zeros(), none)
-    }
-
-    /// Balance: the least material removed, as the most that stays; no ratio.
-    pub fn balance_least_removed() -> Self {
-        let kept = row(&[(ONE, -1.0)]);
-        Self::new(kept, DMatrix::zeros(0, 10), Vector10::zeros(), axis_rows())
-    }
-
-    /// Balance: ‖(U_A, U_B)‖/s₁ with the unbalances U in the planes at the two ends a, b along the
-    /// axis, which together have the static unbalance and the couple of the body: U_A + U_B = s_xy,
-    /// a U_A + b U_B = (s_xz, s_yz).
-    pub fn balance_unbalance(reach: &Reach, [a, b]: [f64; 2]) -> Self {
-        let span = b - a;
-        let at_a = |first, product| row(&[(first, b / span), (product, -1.0 / span)]);
-        let at_b = |first, product| row(&[(first, -a / span), (product, 1.0 / span)]);
-        let planes = [at_a(X, XZ), at_a(Y, YZ), at_b(X, XZ), at_b(Y, YZ)];
-        let none = DMatrix::zeros(0, 10);
-        Self::new(Vector10::zeros(), stack(&planes), row(&[(ONE, 1.0)]), none).bounded(reach)
-    }
-
-    /// How far from met the rows are for the best interior: min ‖As‖. Positive is the proof that
-    /// none meets them.
+    /// Returns the programme of the least residual, min ‖As‖. A positive value proves that no
+    /// interior meets the rows.
     pub fn feasibility(&self) -> Self {
         let rows = DMatrix::zeros(0, 10);
         Self::new(
@@ -315,19 +86,19 @@ impl Programme {
         )
     }
 
-    /// The convex numerator at s.
+    /// Returns the convex numerator at s.
     pub fn numerator_at(&self, s: &Vector10) -> f64 {
         self.numerator.dot(s) + self.set.support(&(&self.directions * s))
     }
 
-    /// The quadric g = n + Jᵀy − τe + Aᵀλ whose extreme interior the dual point names.
+    /// Returns the quadric g = n + Jᵀy − τe + Aᵀλ of a dual point.
     pub fn quadric(&self, point: &DualPoint) -> Vector10 {
-        let turning = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
+        let combination = self.directions.tr_mul(&point.y) + self.rows.tr_mul(&point.lambda);
         self.numerator - self.denominator * point.tau
-            + Vector10::from_column_slice(turning.as_slice())
+            + Vector10::from_column_slice(combination.as_slice())
     }
 
-    /// The denominator at s, kept from below its floor; one where there is none.
+    /// Returns the denominator at s, at least its floor; 1 if there is no denominator.
     pub fn denominator_at(&self, s: &Vector10) -> f64 {
         if self.is_ratio() {
             self.denominator.dot(s).max(self.denominator_floor)
@@ -336,18 +107,18 @@ impl Programme {
         }
     }
 
-    /// Whether there is a denominator; without one the value is the numerator alone.
+    /// Returns true if there is a denominator; without one the value is the numerator alone.
     pub fn is_ratio(&self) -> bool {
         self.denominator_floor > 0.0
     }
 
-    /// Whether every right-hand side is zero.
+    /// Returns true if every right-hand side is zero.
     pub fn is_homogeneous(&self) -> bool {
         self.rhs.iter().all(|&b| b == 0.0)
     }
 
-    /// J over A: how g turns with (y, λ).
-    pub fn turning(&self) -> DMatrix<f64> {
+    /// Returns J stacked on A, the derivative of g by (y, λ).
+    pub fn jacobian(&self) -> DMatrix<f64> {
         let k = self.directions.nrows();
         DMatrix::from_fn(k + self.rows.nrows(), 10, |i, j| {
             if i < k {
@@ -358,8 +129,11 @@ impl Programme {
         })
     }
 
-    /// The greatest ratio that the dual value D at trial ratio τ proves to be a lower bound: along
-    /// τ, D falls by no less than the floor and no more than the ceiling of the denominator.
+    /// Returns the greatest lower bound of the ratio that the dual value D proves at the trial
+    /// ratio τ.
+    ///
+    /// Along τ, D falls at least at the rate of the denominator's floor and at most at that of its
+    /// ceiling.
     pub fn bound(&self, tau: f64, dual: f64) -> f64 {
         if !self.is_ratio() {
             return dual;
@@ -372,7 +146,7 @@ impl Programme {
             }
     }
 
-    /// A dual point to start from cold: the weights and the ratio of the solid, no multipliers.
+    /// Returns the dual point of a cold start: weights and ratio of the solid, multipliers zero.
     pub fn cold_start(&self, reach: &Reach) -> DualPoint {
         let ratio = self.numerator_at(&reach.solid) / self.denominator.dot(&reach.solid);
         DualPoint {
@@ -382,7 +156,7 @@ impl Programme {
         }
     }
 
-    /// A known dual point, fitted to this programme's rows, or a cold start.
+    /// Fits a known dual point to this programme's rows; returns a cold start if it does not fit.
     pub fn start_near(&self, reach: &Reach, near: Option<&DualPoint>) -> DualPoint {
         let fitting = near.filter(|point| point.y.len() == self.directions.nrows());
         let Some(point) = fitting else {
@@ -395,21 +169,4 @@ impl Programme {
             ..point.clone()
         }
     }
-}
-
-/// Mass times the offset of the centre from above that of buoyancy, along x and y.
-fn over_buoyancy(reach: &Reach, afloat: &Afloat) -> [Vector10; 2] {
-    let place = afloat.buoyancy / reach.scale.length_mm;
-    [
-        row(&[(X, 1.0), (ONE, -place.x)]),
-        row(&[(Y, 1.0), (ONE, -place.y)]),
-    ]
-}
-
-fn yoyo_rows() -> DMatrix<f64> {
-    let rows = axis_rows();
-    let last = rows.nrows();
-    let mut rows = rows.insert_row(last, 0.0);
-    rows[(last, Z)] = 1.0;
-    rows
 }

@@ -1,109 +1,54 @@
-//! The reachable set K of moments: for any direction, the extreme interior and how it turns with
-//! the direction.
+//! The reachable set K of moments: its extreme point along any direction, and the derivative.
 
 use std::borrow::Cow;
 use std::cell::Cell;
 
-use nalgebra::SVector;
 use rayon::prelude::*;
 
 use super::mend::Mend;
-use super::programme::index;
+use super::units::{Extreme, Scale, Vector10, index};
 use crate::geom::{Frame, Quadric};
 use crate::interior::{Columns, Matrix10, moments_and_derivative, moments_where_positive};
 use crate::mass::Moments;
 
-/// Ten numbers over the monomials of the moments, in the solver's own units.
-pub(crate) type Vector10 = SVector<f64, 10>;
-
-/// The degree of each of the ten monomials.
-const DEGREES: [i32; 10] = [0, 1, 1, 1, 2, 2, 2, 2, 2, 2];
-
-/// The solver's own units: the solid's volume, and its radius of gyration about the goal's origin.
-/// In them all ten moments are of the order of one, so one tolerance and one damping serve every
-/// row.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Scale {
-    pub volume_mm3: f64,
-    pub length_mm: f64,
-}
-
-impl Scale {
-    pub fn of(solid: &Moments) -> Self {
-        let squares = solid.second().trace();
-        Self {
-            volume_mm3: solid.volume(),
-            length_mm: (squares / solid.volume()).sqrt(),
-        }
-    }
-
-    /// What one unit of each moment is in mm.
-    fn units(&self) -> Vector10 {
-        Vector10::from_fn(|i, _| self.volume_mm3 * self.length_mm.powi(DEGREES[i]))
-    }
-
-    pub fn moments_to_units(&self, moments: &Moments) -> Vector10 {
-        Vector10::from(moments.0).component_div(&self.units())
-    }
-
-    pub fn moments_to_mm(&self, moments: &Vector10) -> Moments {
-        Moments(moments.component_mul(&self.units()).into())
-    }
-
-    /// The same quadric over mm; its values are left unchanged but for the volume's factor.
-    pub fn quadric_to_mm(&self, quadric: &Vector10) -> Quadric {
-        Quadric(quadric.component_div(&self.units()).into())
-    }
-}
-
-/// A denser material that may take the place of the printed one, at a price.
+/// A denser material that may replace the printed one, at a price.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Heavy {
-    /// Its density over that of the printed material; above 1.
+    /// Density over that of the printed material; above 1.
     pub density_ratio: f64,
-    /// What as much of it as the solid's volume costs, in the units of the programme's value.
+    /// Price of the solid's volume of it, in the units of the programme's value.
     pub price: f64,
 }
 
-/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns (THEORY §2), and a count of the
-/// passes made over it; with a heavy material, β may also be as far below zero as its density
-/// allows.
+/// The set K = { s_fixed − ∫β m : 0 ≤ β ≤ 1 } over the columns, and a count of the passes made over
+/// it.
+///
+/// With a heavy material, β may be negative, as far as its density allows. See [theory
+/// §1](crate::guide::theory#1-the-reachable-set).
 pub(crate) struct Reach<'a> {
     columns: Cow<'a, Columns>,
-    /// From moments in the columns' coordinates to moments in the goal's; none where they are the
-    /// same.
-    turn: Option<Matrix10>,
+    /// Map of moments from the columns' coordinates to the goal's; `None` if they are the same.
+    transform: Option<Matrix10>,
     heavy: Option<Heavy>,
     mend: Option<Mend>,
     pub scale: Scale,
-    /// The moments with nothing emptied.
+    /// Moments with nothing emptied.
     pub solid: Vector10,
-    /// The moments with everything emptied: the least of all squares and of the volume.
+    /// Moments with everything emptied: the least volume and second moments.
     pub shell: Vector10,
-    /// The moments with everything as heavy as may be: the greatest of them.
+    /// Moments with everything as heavy as possible: the greatest volume and second moments.
     pub fullest: Vector10,
     passes: Cell<usize>,
-}
-
-/// The point of K least along a direction g: the interior with { g·m > 0 } emptied.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Extreme {
-    /// Its moments.
-    pub s: Vector10,
-    /// −∂s/∂g, positive semidefinite.
-    pub w: Matrix10,
-    /// What its heavy material costs.
-    pub cost: f64,
 }
 
 impl<'a> Reach<'a> {
     pub fn new(columns: &'a Columns, fixed: &Moments, scale: Scale) -> Self {
         let solid = scale.moments_to_units(fixed);
-        let (turn, heavy, mend, passes) = (None, None, None, Cell::new(0));
+        let (transform, heavy, mend, passes) = (None, None, None, Cell::new(0));
         let columns = Cow::Borrowed(columns);
         Self {
             columns,
-            turn,
+            transform,
             heavy,
             mend,
             scale,
@@ -112,22 +57,22 @@ impl<'a> Reach<'a> {
             fullest: solid,
             passes,
         }
-        .bounded()
+        .with_outermost()
     }
 
-    /// Whether there is a heavy material to be had.
+    /// Returns true if there is a heavy material.
     pub fn has_heavy(&self) -> bool {
         self.heavy.is_some()
     }
 
-    /// How many columns a pass goes over.
+    /// Returns the number of columns in a pass.
     pub fn columns(&self) -> usize {
         self.columns.len()
     }
 
-    /// The set as a `step`² times smaller number of its columns shows it, with the outermost
-    /// moments of all of them.
-    pub fn thinned(&self, step: usize) -> Self {
+    /// Returns the set over every `step`-th column of every `step`-th row. Keeps the outermost
+    /// moments of all columns.
+    pub fn thin(&self, step: usize) -> Self {
         let columns = Cow::Owned(self.columns.thinned(step));
         Self {
             columns,
@@ -137,9 +82,8 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// The same set, mapped so that it has the extreme point and the derivative that all columns
-    /// have along g.
-    pub fn mended(self, g: &Vector10, all: &Extreme) -> Self {
+    /// Maps the set so that its extreme point and derivative along g are those of all columns.
+    pub fn mend_at(self, g: &Vector10, all: &Extreme) -> Self {
         let mend = Mend::new(g, all, |g| self.plain_extreme(g));
         Self {
             mend: Some(mend),
@@ -147,33 +91,33 @@ impl<'a> Reach<'a> {
         }
     }
 
-    /// The same for columns given in model coordinates, while everything else is in the coordinates
-    /// of `frame`.
+    /// Takes the columns as given in model coordinates; all else stays in the coordinates of
+    /// `frame`.
     ///
-    /// Moments turn linearly with the frame, s = T s_columns, so the quadric turns with Tᵀ and its
-    /// derivative with both.
+    /// Moments transform linearly with the frame, s = T s_columns. So the quadric transforms with
+    /// Tᵀ, and its derivative with both.
     pub fn of_model_columns(self, frame: &Frame) -> Self {
-        let seen =
+        let transformed =
             |i: usize| Vector10::from(Moments(Vector10::ith(i, 1.0).into()).in_frame(frame).0);
-        let turn = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(seen));
+        let transform = Matrix10::from_columns(&std::array::from_fn::<_, 10, _>(transformed));
         Self {
-            turn: Some(turn),
+            transform: Some(transform),
             ..self
         }
-        .bounded()
+        .with_outermost()
     }
 
-    /// The same with a heavy material to be had.
-    pub fn with(self, heavy: Heavy) -> Self {
+    /// Adds a heavy material.
+    pub fn with_heavy(self, heavy: Heavy) -> Self {
         Self {
             heavy: Some(heavy),
             ..self
         }
-        .bounded()
+        .with_outermost()
     }
 
-    /// The same with its outermost moments.
-    fn bounded(mut self) -> Self {
+    /// Computes the outermost moments of the set.
+    fn with_outermost(mut self) -> Self {
         let interior = self.moments_of(&self.scale.quadric_to_mm(&Vector10::ith(index::ONE, 1.0)));
         self.shell = self.solid - interior;
         self.fullest =
@@ -181,7 +125,7 @@ impl<'a> Reach<'a> {
         self
     }
 
-    /// The extreme point along g and its derivative; one pass, two where there is a heavy material.
+    /// Returns the extreme point along g and its derivative; one pass, two with a heavy material.
     pub fn extreme(&self, g: &Vector10) -> Extreme {
         let Some(mend) = self.mend else {
             return self.plain_extreme(g);
@@ -200,16 +144,16 @@ impl<'a> Reach<'a> {
         let Some(heavy) = self.heavy else {
             return lightest;
         };
-        let (filled, turning) = self.region(&self.filled(&quadric, heavy));
+        let (filled, derivative) = self.region(&self.heavy_region(&quadric, heavy));
         let excess = heavy.density_ratio - 1.0;
         Extreme {
             s: lightest.s + filled * excess,
-            w: lightest.w + turning * excess,
+            w: lightest.w + derivative * excess,
             cost: heavy.price * filled[index::ONE],
         }
     }
 
-    /// The extreme point along g alone; cheaper passes.
+    /// Returns the extreme point along g alone; the passes are cheaper.
     pub fn least(&self, g: &Vector10) -> Vector10 {
         let Some(mend) = self.mend else {
             return self.plain_least(g);
@@ -221,87 +165,92 @@ impl<'a> Reach<'a> {
         let quadric = self.scale.quadric_to_mm(g);
         let emptied = self.solid - self.moments_of(&quadric);
         let filled = |heavy: Heavy| {
-            self.moments_of(&self.filled(&quadric, heavy)) * (heavy.density_ratio - 1.0)
+            self.moments_of(&self.heavy_region(&quadric, heavy)) * (heavy.density_ratio - 1.0)
         };
         self.heavy.map_or(emptied, |heavy| emptied + filled(heavy))
     }
 
-    /// The extreme points along many directions, where there is no heavy material; a cheaper pass
-    /// each, side by side.
+    /// Returns the extreme points along many directions, in parallel; one cheaper pass each.
+    /// Ignores the heavy material.
     pub fn least_of_each(&self, directions: &[Vector10]) -> Vec<Vector10> {
         self.passes.set(self.passes.get() + directions.len());
-        let (columns, turn, scale, solid) = (&self.columns, self.turn, self.scale, self.solid);
-        let over_columns = |g: &Vector10| over_columns(turn.as_ref(), &scale.quadric_to_mm(g));
+        let (columns, transform, scale, solid) =
+            (&self.columns, self.transform, self.scale, self.solid);
+        let over_columns = |g: &Vector10| over_columns(transform.as_ref(), &scale.quadric_to_mm(g));
         let emptied = |g: &Vector10| moments_where_positive(columns, &over_columns(g));
         let emptied: Vec<Moments> = directions.par_iter().map(emptied).collect();
         emptied
             .iter()
-            .map(|moments| solid - self.seen(*moments))
+            .map(|moments| solid - self.to_units(*moments))
             .collect()
     }
 
-    /// Where the heavy material is worth its price: the quadric of g must be so far below zero that
-    /// what it gains more than the printed one pays for it.
-    fn filled(&self, quadric: &Quadric, heavy: Heavy) -> Quadric {
+    /// Returns the quadric that is positive where the heavy material is worth its price.
+    ///
+    /// There the quadric of g is so far below zero that the gain over the printed material exceeds
+    /// the price.
+    fn heavy_region(&self, quadric: &Quadric, heavy: Heavy) -> Quadric {
         let mut filled = quadric.0.map(|coefficient| -coefficient);
         filled[index::ONE] -= heavy.price / (self.scale.volume_mm3 * (heavy.density_ratio - 1.0));
         Quadric(filled)
     }
 
-    /// The quadric, mm, that is positive where the extreme interior of g has the heavy material;
-    /// none without one.
-    pub fn filled_by(&self, g: &Vector10) -> Option<Quadric> {
+    /// Returns the quadric, mm, that is positive where the extreme interior of g has the heavy
+    /// material; `None` if there is no heavy material.
+    pub fn heavy_quadric(&self, g: &Vector10) -> Option<Quadric> {
         self.heavy
-            .map(|heavy| self.filled(&self.scale.quadric_to_mm(g), heavy))
+            .map(|heavy| self.heavy_region(&self.scale.quadric_to_mm(g), heavy))
     }
 
-    /// Whether nothing has to be paid for, so that a dual value that grows without bound is a
-    /// proof.
+    /// Returns true if no material has a price. Only then does a dual value that grows without
+    /// bound prove anything.
     pub fn is_free(&self) -> bool {
         self.heavy.is_none_or(|heavy| heavy.price == 0.0)
     }
 
-    /// The moments of the columns where a quadric of the goal's coordinates is positive, and their
+    /// Returns the moments where a quadric in the goal's coordinates is positive, and their
     /// derivative by it; one pass.
     fn region(&self, quadric: &Quadric) -> (Vector10, Matrix10) {
         self.passes.set(self.passes.get() + 1);
-        let (moments, derivative) =
-            moments_and_derivative(&self.columns, &over_columns(self.turn.as_ref(), quadric));
-        let derivative = self
-            .turn
-            .map_or(derivative, |turn| turn * derivative * turn.transpose());
+        let (moments, derivative) = moments_and_derivative(
+            &self.columns,
+            &over_columns(self.transform.as_ref(), quadric),
+        );
+        let derivative = self.transform.map_or(derivative, |transform| {
+            transform * derivative * transform.transpose()
+        });
         let unit = self.scale.units().map(f64::recip);
         let w = derivative.zip_map(&(unit * unit.transpose()), |entry, factor| entry * factor);
-        (self.seen(moments), w)
+        (self.to_units(moments), w)
     }
 
-    /// The moments alone; one cheaper pass.
+    /// Returns these moments alone; one cheaper pass.
     fn moments_of(&self, quadric: &Quadric) -> Vector10 {
         self.passes.set(self.passes.get() + 1);
-        self.seen(moments_where_positive(
+        self.to_units(moments_where_positive(
             &self.columns,
-            &over_columns(self.turn.as_ref(), quadric),
+            &over_columns(self.transform.as_ref(), quadric),
         ))
     }
 
-    /// Moments in the columns' coordinates as the solver's.
-    fn seen(&self, moments: Moments) -> Vector10 {
-        let turned = self.turn.map_or(moments, |turn| {
-            Moments((turn * Vector10::from(moments.0)).into())
+    /// Converts moments from the columns' coordinates to the solver's.
+    fn to_units(&self, moments: Moments) -> Vector10 {
+        let transformed = self.transform.map_or(moments, |transform| {
+            Moments((transform * Vector10::from(moments.0)).into())
         });
-        self.scale.moments_to_units(&turned)
+        self.scale.moments_to_units(&transformed)
     }
 
-    /// How many passes over the columns have been made.
+    /// Returns the number of passes made over the columns.
     pub fn passes(&self) -> usize {
         self.passes.get()
     }
 }
 
-/// A quadric of the goal's coordinates over the columns' own.
-fn over_columns(turn: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
-    turn.map_or(*quadric, |turn| {
-        Quadric(turn.tr_mul(&Vector10::from(quadric.0)).into())
+/// Converts a quadric from the goal's coordinates to the columns' own.
+fn over_columns(transform: Option<&Matrix10>, quadric: &Quadric) -> Quadric {
+    transform.map_or(*quadric, |transform| {
+        Quadric(transform.tr_mul(&Vector10::from(quadric.0)).into())
     })
 }
 

@@ -1,87 +1,52 @@
-//! A look ahead on a few of the columns, so that few passes over all of them do.
+//! A search on a few of the columns, which saves most passes over all of them.
 //!
-//! Every `step`-th column of every `step`-th row shows the reachable set to a per cent or so, at
-//! 1/step² of the cost. Two uses are made of that, and neither rests on it:
+//! Every `step`-th column of every `step`-th row gives the reachable set to about a per cent, at
+//! 1/step² of the cost. It has two uses, and no result depends on it:
 //!
-//! * **The search.** An ascent on the thinned columns ends near the answer. A look at all columns
-//!   there gives an extreme point and its derivative; the affine map that gives the thinned set the
-//!   same two ([`Mend`](super::mend::Mend)) makes it osculate the true one. What an ascent on the
-//!   set so mended errs by is of the second order in the distance from the look, as after a step of
-//!   Newton's method, but with a factor that is smaller by as much as the two sets are alike, and
-//!   it finds its way through heights and levers too. One to three looks, and Newton's method on
-//!   all columns ends it. Correcting a coarse model by a linear map is the "manifold mapping" of
-//!   Echeverría and Hemker ("Space mapping and defect correction", Computational Methods in Applied
-//!   Mathematics 5, 2005).
-//! * **The proof over all heights.** A dual bound holds at any multipliers. Which are wanted is
-//!   found out on the mended set; each is then held against all columns in one pass that needs no
-//!   derivative, all of them side by side.
+//! * **The search.** An ascent on the thinned columns ends near the answer. One pass over all
+//!   columns there gives an extreme point and its derivative. An affine map gives the thinned set
+//!   the same two, so that it osculates the true set ([`Mend`](super::mend::Mend)). The error of an
+//!   ascent on the mended set is of second order in the distance from that point, as after a Newton
+//!   step. Its factor is smaller, the more alike the two sets are, and it covers heights and levers
+//!   as well. After one to three such rounds, Newton's method on all columns finishes.
+//! * **The proof over all heights.** A dual bound holds at any multipliers. Good multipliers are
+//!   found on the mended set. Each bound is then checked on all columns, in one pass without
+//!   derivative, all of them in parallel.
+//!
+//! Correcting a coarse model by a linear map is known as manifold mapping.
+//!
+//! Source: Echeverría and Hemker, "Space mapping and defect correction", Computational Methods in
+//! Applied Mathematics 5, 2005.
 
 use super::ascent::{Climb, End};
 use super::programme::{DualPoint, Programme};
-use super::reach::Vector10;
 use super::work::Work;
-use crate::hollow::top::cover::Post;
 
-/// About how many columns a scout sees at least. Fewer, and their mended dual is no better than a
-/// Newton step; more cost as much as the passes they save.
+/// Least number of columns of a scout, approximately. With fewer, their mended dual is no better
+/// than a Newton step. More cost as much as the passes they save.
 const FEW_COLUMNS: usize = 300;
-/// The distance of a scout's columns, in columns, from which one programme alone is worth it: where
-/// a pass over its columns costs a fifth of a pass over all. A search over heights is from two on.
+/// Least spacing of a scout's columns, in columns, that pays for a single programme. A pass over
+/// them then costs a fifth of one over all. For a search over heights two is enough.
 const WORTH_A_CLIMB: usize = 3;
-/// The greatest distance of the columns a scout sees, in columns. Beyond, they cost nothing any
-/// more beside a pass over all.
+/// Greatest spacing of a scout's columns, in columns. Beyond, their cost beside a pass over all is
+/// nil.
 const GREATEST_STEP: usize = 16;
-/// How exact ascents on thinned columns are: those err by more.
-pub(crate) const ROUGH_TOLERANCE: f64 = 1e-3;
-/// How exact ascents on mended columns are: what is left is for the last Newton steps on all
-/// columns.
-pub(crate) const MENDED_TOLERANCE: f64 = 1e-6;
-
-/// How much less than what a scout sees is claimed of all columns.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Prudence {
-    /// The share of a margin that is claimed where the columns are mended. More, and claims fail;
-    /// less, and more posts are needed.
-    near_ratio: f64,
-}
-
-impl Default for Prudence {
-    fn default() -> Self {
-        Self { near_ratio: 0.92 }
-    }
-}
-
-impl Prudence {
-    /// The prudence after claims have failed.
-    pub fn doubled(self) -> Self {
-        Self {
-            near_ratio: 2.0 * self.near_ratio - 1.0,
-        }
-    }
-
-    /// What to claim of a margin. It grows with the square of the distance from where the columns
-    /// are mended, and what they err by grows with the distance.
-    pub fn claim(self, margin: f64) -> f64 {
-        self.near_ratio * margin / (1.0 + margin.max(0.0).sqrt())
-    }
-}
-
 impl<'a> Work<'a> {
-    /// A bench with a few of the columns; none where a pass over all is cheap, or a heavy material
-    /// is to be had.
+    /// Returns a workspace with a few of the columns. `None` if a pass over all is cheap, or if
+    /// there is a heavy material.
     pub fn scout(&self) -> Option<Self> {
         self.scout_from(2)
     }
 
-    /// The same where the columns it sees are at least so far apart.
+    /// Returns a scout with at least this spacing of the columns.
     fn scout_from(&self, least_step: usize) -> Option<Self> {
         let step = ((self.reach.columns() / FEW_COLUMNS) as f64).sqrt() as usize;
         (step >= least_step && !self.reach.has_heavy())
-            .then(|| self.thinned(self.reach.thinned(step.min(GREATEST_STEP))))
+            .then(|| self.on_thinned(self.reach.thin(step.min(GREATEST_STEP))))
     }
 
-    /// Climbs to the settings' tolerance from a known dual point, or from nothing; by way of a
-    /// scout where one helps.
+    /// Climbs to the settings' tolerance from a known dual point or a cold start, with a scout if
+    /// that helps.
     pub fn ascend(&self, programme: &Programme, known: Option<&DualPoint>) -> Climb {
         let start = programme.start_near(&self.reach, known);
         let straight = || self.climb(programme, start.clone(), 0.0);
@@ -93,36 +58,25 @@ impl<'a> Work<'a> {
         }
         let Climb { best, end, .. } = scout.climb(programme, start.clone(), 0.0);
         match end {
-            End::Infeasible(_) => self.refusal(programme, best.point).unwrap_or_else(straight),
+            End::Infeasible(_) => self
+                .prove_infeasible(programme, best.point)
+                .unwrap_or_else(straight),
             End::Cancelled => straight(),
             _ => self.ascend_with(scout, programme, best.point),
         }
     }
 
-    /// Climbs from near the answer: one look, an ascent on what is mended by it, and Newton's
-    /// method to the end.
+    /// Climbs from near the answer: one pass, an ascent on the columns mended there, then Newton's
+    /// method.
     fn ascend_with(&self, scout: Self, programme: &Programme, near: DualPoint) -> Climb {
-        let here = self.look(programme, near);
+        let here = self.evaluate(programme, near);
         let ahead = scout
-            .mended(&here)
+            .mend_at(&here)
             .climb_near(programme, Some(&here.point), 0.0);
         let Some(ahead) = ahead else {
             return self.climb_from(programme, here);
         };
-        self.climb_from(programme, self.look(programme, ahead.best.point))
+        self.climb_from(programme, self.evaluate(programme, ahead.best.point))
             .after(&[here.pass()])
-    }
-
-    /// Whether posts that a scout found stand on all columns; one cheaper pass each.
-    pub fn hold(&self, posts: &[Post]) -> bool {
-        let directions: Vec<_> = posts.iter().map(|post| post.stake.direction).collect();
-        let extremes = self.reach.least_of_each(&directions);
-        let spare = |(post, s): (&Post, &Vector10)| post.stake.direction.dot(s) - post.stake.least;
-        let spares: Vec<f64> = posts.iter().zip(&extremes).map(spare).collect();
-        posts
-            .iter()
-            .zip(&spares)
-            .for_each(|(post, spare)| self.note_post(post, *spare));
-        spares.iter().all(|&spare| spare >= 0.0)
     }
 }

@@ -1,20 +1,19 @@
-//! The sets Y of dual weights, and the least of a small convex quadratic over them.
+//! The sets Y of dual weights, and minimisation of a small convex quadratic over them.
 
 use nalgebra::{DMatrix, DVector};
 
-/// Rounds of the secular equation: it converges quadratically from one side, so ten are plenty.
+/// Round limit of the secular equation, which converges quadratically from one side within about
+/// ten.
 const SECULAR_ROUNDS: usize = 60;
-/// How nearly a point reaches the sphere; below 1e-15 rounding decides.
+/// Distance to the sphere at which the secular equation ends; below 1e-15 rounding decides.
 const SECULAR_TOLERANCE: f64 = 1e-14;
-/// A weight of the simplex whose derivative is below this part of the largest slope is not worth
-/// adding.
+/// Least derivative of a weight worth adding, as a part of the largest slope.
 const ACTIVE_TOLERANCE: f64 = 1e-13;
 
-/// The set the dual weights y live in; its support function is the convex part of a goal's
-/// numerator.
+/// The set of the dual weights y; its support function is the convex part of a goal's numerator.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum DualSet {
-    /// ‖y‖ ≤ 1: the numerator has a Euclidean norm; in two dimensions also the λ_max of a 2 × 2
+    /// ‖y‖ ≤ 1: the numerator has a Euclidean norm, or in two dimensions the λ_max of a 2 × 2
     /// tensor.
     Ball,
     /// y ≥ 0, Σy = 1: the numerator is the largest of several linear functions.
@@ -22,7 +21,7 @@ pub(crate) enum DualSet {
 }
 
 impl DualSet {
-    /// max yᵀv over the set.
+    /// Returns the support function max yᵀv.
     pub fn support(self, v: &DVector<f64>) -> f64 {
         match self {
             Self::Ball => v.norm(), // zero where there are no weights
@@ -30,7 +29,7 @@ impl DualSet {
         }
     }
 
-    /// A y at which the support is reached; where every y does, one of them.
+    /// Returns a y at which the support is reached.
     pub fn maximiser(self, v: &DVector<f64>) -> DVector<f64> {
         match self {
             Self::Ball if v.norm() > 0.0 => v.normalize(),
@@ -39,8 +38,8 @@ impl DualSet {
         }
     }
 
-    /// The y in the set with the least ½ yᵀSy − cᵀy, for a positive definite S; `from` is a point
-    /// of the set.
+    /// Minimises ½ yᵀSy − cᵀy over the set, for a positive definite S; `from` is a point of the
+    /// set.
     pub fn minimise(self, s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>) -> DVector<f64> {
         match self {
             Self::Ball if c.is_empty() => from.clone(),
@@ -50,13 +49,14 @@ impl DualSet {
     }
 }
 
-/// The corner of the simplex that puts everything on one weight.
+/// Returns the vertex of the simplex with all weight on one entry.
 fn vertex(count: usize, at: usize) -> DVector<f64> {
     DVector::from_fn(count, |i, _| if i == at { 1.0 } else { 0.0 })
 }
 
-/// The secular equation: (S + νI) y = c with the ν ≥ 0 that brings y into the ball (Moré and
-/// Sorensen, "Computing a trust region step", SIAM J. Sci. Stat. Comput. 4, 1983).
+/// Solves the secular equation (S + νI) y = c for the ν ≥ 0 that brings y into the ball.
+///
+/// Moré and Sorensen, "Computing a trust region step", SIAM J. Sci. Stat. Comput. 4, 1983.
 fn minimise_over_ball(s: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     let eigen = s.clone().symmetric_eigen();
     let along = eigen.eigenvectors.tr_mul(c);
@@ -79,13 +79,15 @@ fn minimise_over_ball(s: &DMatrix<f64>, c: &DVector<f64>) -> DVector<f64> {
     if norm > 1.0 { y / norm } else { y }
 }
 
-/// Primal active set: go to the least over the weights in use, drop those that reach zero, take in
-/// the one with the steepest descent, until none descends.
+/// Minimises over the simplex by a primal active-set method.
+///
+/// Each round minimises over the active weights and drops those that reach zero. Then it adds the
+/// weight with the steepest descent, until none descends.
 fn minimise_over_simplex(s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>) -> DVector<f64> {
     let mut y = from.clone();
     let mut active: Vec<usize> = (0..y.len()).filter(|&i| y[i] > 0.0).collect();
-    // Each round lowers the value, and no set of active weights comes twice; the limit only guards
-    // against rounding.
+    // Each round lowers the value, so no active set repeats; the limit only guards against
+    // rounding.
     for _ in 0..10 * y.len() + 10 {
         while !step_within(s, c, &mut y, &mut active) {}
         let slope = s * &y - c;
@@ -100,8 +102,8 @@ fn minimise_over_simplex(s: &DMatrix<f64>, c: &DVector<f64>, from: &DVector<f64>
     y
 }
 
-/// Moves y to the least over the active weights, or up to the first that reaches zero and drops it;
-/// says whether the least was reached.
+/// Moves y to the minimum over the active weights, or to the first weight that reaches zero, which
+/// is dropped. Returns true if the minimum was reached.
 fn step_within(
     s: &DMatrix<f64>,
     c: &DVector<f64>,
@@ -128,7 +130,7 @@ fn step_within(
     blocking.is_none()
 }
 
-/// The least of the quadratic over the active weights with sum one, of any sign.
+/// Minimises the quadratic over the active weights of any sign with sum one.
 fn least_with_sum_one(
     s: &DMatrix<f64>,
     c: &DVector<f64>,
@@ -146,7 +148,7 @@ fn least_with_sum_one(
 mod tests {
     use super::*;
 
-    /// A fixed positive definite matrix and a slope.
+    /// Returns a fixed positive definite matrix and a slope.
     fn quadratic(n: usize, seed: f64) -> (DMatrix<f64>, DVector<f64>) {
         let root = DMatrix::from_fn(n, n, |i, j| ((i * 7 + j * 3 + 1) as f64 * seed).sin());
         (
@@ -189,7 +191,7 @@ mod tests {
             let (s, c) = quadratic(n, seed);
             let y = DualSet::Simplex.minimise(&s, &c, &vertex(n, 0));
             assert!((y.sum() - 1.0).abs() < 1e-12 && y.min() >= 0.0);
-            // First order: no vertex descends, which for a convex function means no point does.
+            // First-order condition: no vertex descends, so by convexity no point does.
             let slope = &s * &y - &c;
             assert!(
                 slope.min() >= slope.dot(&y) - 1e-10 * slope.amax(),

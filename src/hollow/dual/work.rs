@@ -1,35 +1,35 @@
-//! One run's bench: the reachable set, the settings, the caller's wishes and the log.
+//! The workspace of one run: the reachable set, the settings, the stop signal and the log.
 
 use std::cell::RefCell;
 
 use super::ascent::{
-    Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, Slack, Visit, WARM_DAMPING, climb, refusal,
+    Budget, COLD_DAMPING, Climb, End, SCOUTED_DAMPING, WARM_DAMPING, climb, prove_infeasible,
 };
 use super::programme::{DualPoint, Programme};
-use super::reach::{Heavy, Reach, Scale};
-use super::scout::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
+use super::prudence::{MENDED_TOLERANCE, Prudence, ROUGH_TOLERANCE};
+use super::reach::{Heavy, Reach};
+use super::units::Scale;
+use super::visit::{Slack, Visit};
 use crate::base::watch::Watch;
 use crate::goal::Goal;
-use crate::hollow::problem::Problem;
-use crate::hollow::problem::Settings;
-use crate::hollow::solution::{LogRow, Stage};
-use crate::hollow::top::cover::Post;
+use crate::hollow::log::{LogRow, Stage};
+use crate::hollow::problem::{Problem, Settings};
 
-/// What every search of one run shares.
+/// The state that all searches of one run share.
 pub(crate) struct Work<'a> {
     pub goal: &'a Goal,
     pub reach: Reach<'a>,
     pub settings: &'a Settings,
     watch: &'a Watch,
     first_damping: f64,
-    /// How exact ascents are at most.
+    /// Finest tolerance of the ascents.
     pub tolerance: f64,
-    /// How much of the margins found here is claimed; none where all of it is.
+    /// Share of the margins found here that is claimed; `None` if all of it is.
     pub prudence: Option<Prudence>,
     log: RefCell<Vec<LogRow>>,
 }
 
-/// What one ascent is to reach.
+/// The target of one ascent.
 struct Aim {
     tolerance: f64,
     slack: Option<Slack>,
@@ -55,8 +55,8 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// A bench like this with thinned columns.
-    pub fn thinned(&self, reach: Reach<'a>) -> Self {
+    /// Returns a workspace for the same goal on thinned columns.
+    pub fn on_thinned(&self, reach: Reach<'a>) -> Self {
         let Self {
             goal,
             settings,
@@ -80,21 +80,21 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The same bench, its columns given in model coordinates.
+    /// Takes the columns as given in model coordinates.
     pub fn on_model_columns(self) -> Self {
         let reach = self.reach.of_model_columns(&self.goal.frame);
         Self { reach, ..self }
     }
 
-    /// The same bench with a heavy material to be had.
-    pub fn with(self, heavy: Heavy) -> Self {
-        let reach = self.reach.with(heavy);
+    /// Adds a heavy material.
+    pub fn with_heavy(self, heavy: Heavy) -> Self {
+        let reach = self.reach.with_heavy(heavy);
         Self { reach, ..self }
     }
 
-    /// The same bench, its thinned columns mended by what all of them have at the point of a visit.
-    pub fn mended(self, visit: &Visit) -> Self {
-        let reach = self.reach.mended(&visit.quadric, &visit.extreme);
+    /// Mends the thinned columns so that they agree with all columns at an evaluated point.
+    pub fn mend_at(self, visit: &Visit) -> Self {
+        let reach = self.reach.mend_at(&visit.quadric, &visit.extreme);
         Self {
             reach,
             tolerance: self.settings.tolerance.max(MENDED_TOLERANCE),
@@ -102,21 +102,21 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The same bench claiming less of what it sees.
-    pub fn doubly_prudent(self) -> Self {
+    /// Doubles the part of the margins that is not claimed.
+    pub fn with_double_prudence(self) -> Self {
         let prudence = self.prudence.map(Prudence::doubled);
         Self { prudence, ..self }
     }
 
-    /// The same bench for a search that starts near its answer.
-    pub fn warmed(self) -> Self {
+    /// Starts ascents with the damping for a point near the answer.
+    pub fn for_warm_start(self) -> Self {
         Self {
             first_damping: WARM_DAMPING,
             ..self
         }
     }
 
-    /// Climbs to the settings' tolerance, or to a looser one, and logs how it went.
+    /// Climbs to the settings' tolerance, or to a looser one, and logs the ascent.
     pub fn climb(&self, programme: &Programme, start: DualPoint, tolerance: f64) -> Climb {
         self.climb_within(
             programme,
@@ -129,7 +129,7 @@ impl<'a> Work<'a> {
         )
     }
 
-    /// The same from a visit to where a scout has been.
+    /// Climbs from an evaluated point that a scout found.
     pub fn climb_from(&self, programme: &Programme, visit: Visit) -> Climb {
         self.climb_on(
             programme,
@@ -142,7 +142,7 @@ impl<'a> Work<'a> {
         )
     }
 
-    /// The same until the bound is good enough, whatever the constraints are missed by.
+    /// Climbs until the bound is good enough, whatever the residual.
     pub fn climb_to_bound(&self, programme: &Programme, start: DualPoint, slack: Slack) -> Climb {
         let aim = Aim {
             tolerance: 0.0,
@@ -153,16 +153,16 @@ impl<'a> Work<'a> {
     }
 
     fn climb_within(&self, programme: &Programme, start: DualPoint, aim: Aim) -> Climb {
-        let visit = self.look(programme, start);
+        let visit = self.evaluate(programme, start);
         self.climb_on(programme, visit, aim)
     }
 
-    /// Climbs from a visit that is the last in the log, and logs how it went instead.
+    /// Climbs from the point evaluated last, and replaces its row in the log by that of the ascent.
     fn climb_on(&self, programme: &Programme, visit: Visit, aim: Aim) -> Climb {
         let before = self.reach.passes();
         let climb = climb(&self.reach, programme, visit, self.budget(aim));
         self.log.borrow_mut().pop();
-        self.note(
+        self.log_ascent(
             programme.stage,
             1 + self.reach.passes() - before,
             &climb.best,
@@ -170,7 +170,7 @@ impl<'a> Work<'a> {
         climb
     }
 
-    /// The bound that a dual point proves, where there is no heavy material; one cheaper pass.
+    /// Returns the bound that a dual point proves without a heavy material; one cheaper pass.
     pub fn bound_at(&self, programme: &Programme, point: &DualPoint) -> f64 {
         let direction = programme.quadric(point);
         let dual = direction.dot(&self.reach.least(&direction)) - programme.rhs.dot(&point.lambda);
@@ -187,33 +187,33 @@ impl<'a> Work<'a> {
         }
     }
 
-    /// The proof that no interior meets the rows, if there is one near the multipliers with which a
-    /// scout found its own.
-    pub fn refusal(&self, programme: &Programme, seen: DualPoint) -> Option<Climb> {
+    /// Climbs to a proof that no interior meets the rows, from the multipliers of a scout's proof.
+    /// `None` if there is none near.
+    pub fn prove_infeasible(&self, programme: &Programme, start: DualPoint) -> Option<Climb> {
         let before = self.reach.passes();
         let aim = Aim {
             tolerance: 0.0,
             slack: None,
             damping: SCOUTED_DAMPING,
         };
-        let proof = refusal(&self.reach, programme, seen, self.budget(aim))?;
-        self.note(programme.stage, self.reach.passes() - before, &proof.best);
+        let proof = prove_infeasible(&self.reach, programme, start, self.budget(aim))?;
+        self.log_ascent(programme.stage, self.reach.passes() - before, &proof.best);
         Some(proof)
     }
 
-    /// One pass at a dual point.
-    pub fn look(&self, programme: &Programme, point: DualPoint) -> Visit {
+    /// Evaluates a dual point; one pass.
+    pub fn evaluate(&self, programme: &Programme, point: DualPoint) -> Visit {
         let visit = Visit::new(&self.reach, programme, point);
-        self.note(programme.stage, 1, &visit);
+        self.log_ascent(programme.stage, 1, &visit);
         visit
     }
 
-    /// Logs a post that was held against all columns, and what was to spare.
-    pub fn note_post(&self, post: &Post, spare: f64) {
+    /// Logs a post that was checked on all columns, and the margin to spare.
+    pub fn log_post(&self, at: f64, margin: f64, spare: f64) {
         let stage = Stage::Cover {
-            height_mm: self.to_mm(post.at),
+            height_mm: self.to_mm(at),
         };
-        let (value, bound) = (post.margin + spare, post.margin);
+        let (value, bound) = (margin + spare, margin);
         self.log.borrow_mut().push(LogRow {
             stage,
             passes: 1,
@@ -223,7 +223,7 @@ impl<'a> Work<'a> {
         });
     }
 
-    fn note(&self, stage: Stage, passes: usize, best: &Visit) {
+    fn log_ascent(&self, stage: Stage, passes: usize, best: &Visit) {
         let (value, bound, residual) = (best.value, best.bound, best.residual());
         self.log.borrow_mut().push(LogRow {
             stage,
@@ -234,7 +234,7 @@ impl<'a> Work<'a> {
         });
     }
 
-    /// The same from a near dual point; none where it was stopped or the rows cannot be met.
+    /// Climbs from a known dual point; `None` if cancelled or if the rows cannot be met.
     pub fn climb_near(
         &self,
         programme: &Programme,
@@ -249,14 +249,14 @@ impl<'a> Work<'a> {
         (!matches!(climb.end, End::Infeasible(_) | End::Cancelled)).then_some(climb)
     }
 
-    /// Whether an ascent is good enough to stand as an answer.
+    /// Returns true if an ascent is accurate enough to stand as an answer.
     pub fn accepts(&self, climb: &Climb) -> bool {
         !matches!(climb.end, End::Infeasible(_))
             && climb.best.residual() <= self.settings.accepted_residual
             && climb.best.gap_ratio().abs() <= self.settings.accepted_gap_ratio
     }
 
-    /// A height in the solver's units, in mm.
+    /// Converts a height from the solver's units to mm.
     pub fn to_mm(&self, height: f64) -> f64 {
         height * self.reach.scale.length_mm
     }

@@ -1,19 +1,19 @@
-//! The rotor: nothing removed but what balances it, or the least unbalance any interior leaves.
+//! The rotor: the least removal that balances it, or the least unbalance of any interior.
 
 use std::f64::consts::SQRT_2;
 
 use crate::goal::{Objective, Spindle};
-use crate::hollow::dual::answer::Answer;
+use crate::hollow::dual::answer::{Answer, grade_mm_s};
 use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 
-/// The balanced interior with the most material, or, where none is balanced, the least unbalanced
-/// one; with the proof that none reaches the grade, where none does.
+/// Finds the balanced interior with the most material.
 ///
-/// Whichever was asked for: no unbalance at all is the least, and of the interiors that have none
-/// the one with the most material is as good as any.
+/// If none is balanced, finds the least unbalanced one, with the proof if none reaches the grade.
+/// Both objectives share this order. Zero unbalance is the least, and among balanced interiors the
+/// one with the most material is as good as any.
 pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_least_removed();
     let climb = work.ascend(&programme, start);
@@ -22,35 +22,29 @@ pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
         return Answer::new(Objective::LeastRemoved, climb);
     }
     let Some(spindle) = &work.goal.spindle else {
-        return least_unbalanced(work, [-1.0, 1.0], start);
+        return minimise_unbalance(work, [-1.0, 1.0], start);
     };
-    let answer = least_unbalanced(
+    let answer = minimise_unbalance(
         work,
         spindle.ends_mm.map(|end| end / work.to_mm(1.0)),
         start,
     );
-    match cannot_balance(work, spindle, &answer.climb) {
+    match prove_unbalanceable(work, spindle, &answer.climb) {
         Some(proof) => answer.with_verdict(proof),
         None => answer,
     }
 }
 
-fn least_unbalanced(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> Answer {
+fn minimise_unbalance(work: &Work, ends: [f64; 2], start: Option<&DualPoint>) -> Answer {
     let programme = Programme::balance_unbalance(&work.reach, ends);
     let climb = work.ascend(&programme, start);
     Answer::new(Objective::LeastUnbalance, climb)
 }
 
-/// The balance grade at least reached with this ratio ‖(U_A, U_B)‖/M, mm/s: twice the larger of the
-/// two planes' unbalances per mass, times ω; the larger of two vectors is at least their joint
-/// length over √2.
-pub(crate) fn grade_mm_s(spindle: &Spindle, ratio_mm: f64) -> f64 {
-    SQRT_2 * ratio_mm * spindle.rotor.omega_rad_s()
-}
-
-/// The proof that no interior reaches the grade: with τ at what the grade allows, Jᵀy − τ e₁ is
-/// positive over all of K.
-fn cannot_balance(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Status> {
+/// Proves that no interior reaches the grade; `None` if there is no proof.
+///
+/// With τ at the value that the grade permits, Jᵀy − τ e₁ is positive over all of K.
+fn prove_unbalanceable(work: &Work, spindle: &Spindle, climb: &Climb) -> Option<Status> {
     let least_grade_mm_s = grade_mm_s(spindle, work.to_mm(climb.best.bound));
     if least_grade_mm_s <= spindle.rotor.grade_mm_s {
         return None;
@@ -78,7 +72,7 @@ mod tests {
         solved(&world.problem(), &Settings::default(), &Watch::silent())
     }
 
-    /// ‖(U_A, U_B)‖/M in mm, from the definition.
+    /// Returns ‖(U_A, U_B)‖/M in mm, from the definition.
     fn unbalance_mm(moments: &Moments, [a, b]: [f64; 2]) -> f64 {
         let [mass, x, y, _, _, yz, xz, ..] = moments.0;
         let planes = [x * b - xz, y * b - yz, xz - x * a, yz - y * a].map(|u| u / (b - a));
@@ -87,9 +81,9 @@ mod tests {
 
     #[test]
     fn a_pure_couple_is_taken_away_by_the_two_corners_that_lie_farthest() {
-        // The void is { xz > k } in a box of half sizes A = 4, B = 2, H = 3: its s_xz is 4B ((A²H²
+        // The void is { xz > k } in a box of half sizes A = 4, B = 2, H = 3. Its s_xz is 4B ((A²H²
         // − k²)/4 − k²/2 ln(AH/k)), its volume 4B (AH − k − k ln(AH/k)). A column an eighth wide
-        // sees x at its middle: errors of p²/x² ≈ 1e-3.
+        // sees x at its middle, with errors of p²/x² ≈ 1e-3.
         let (k, edge) = (4.0_f64, 12.0_f64);
         let couple = 8.0 * ((edge * edge - k * k) / 4.0 - 0.5 * k * k * (edge / k).ln());
         let removed = 8.0 * (edge - k - k * (edge / k).ln());
@@ -126,7 +120,7 @@ mod tests {
     }
 
     #[test]
-    fn of_all_65536_ways_to_empty_sixteen_blocks_none_is_less_unbalanced_than_the_bound() {
+    fn none_of_65536_ways_to_empty_blocks_is_less_unbalanced_than_the_bound() {
         let world = worlds::blocks_on_an_axis();
         let spindle = world.goal.spindle.unwrap();
         let got = solution(&world);
@@ -140,7 +134,7 @@ mod tests {
         assert!(best < solid, "the blocks can improve on {solid}");
     }
 
-    /// The leaning egg as a rotor whose axis lies this far beside its middle.
+    /// Returns the leaning egg as a rotor with its axis this far from its middle.
     fn egg_aside(aside_mm: f64) -> World {
         let mut world = worlds::egg(Objective::Dominance).turning(6.0);
         let shift = crate::geom::Vector::new(-aside_mm, 0.0, 0.0);
@@ -171,7 +165,7 @@ mod tests {
             panic!("{:?}", got.status)
         };
         assert!(least_grade_mm_s > 2.5 && got.status.is_impossible());
-        // Midpoint sums of a kinked function: 200 steps of a column leave 1e-4 of it.
+        // Midpoint sums of a kinked function have an error of 1e-4 with 200 steps per column.
         let least = worlds::least_integral(&world, &separator, 200);
         assert!(least > 0.0, "{least}");
         let spindle = world.goal.spindle.unwrap();

@@ -1,5 +1,5 @@
-//! The least ballast: how much of a denser material inside makes a goal possible that hollowing
-//! alone does not meet.
+//! The least ballast: the least volume of a denser material inside that makes an otherwise
+//! impossible goal possible.
 
 use nalgebra::DMatrix;
 
@@ -8,7 +8,9 @@ use crate::geom::Quadric;
 use crate::goal::{Afloat, Goal, GoalKind, Objective, Spindle, figures};
 use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
-use crate::hollow::dual::reach::{Heavy, Vector10};
+use crate::hollow::dual::reach::Heavy;
+use crate::hollow::dual::set::DualSet;
+use crate::hollow::dual::units::Vector10;
 use crate::hollow::dual::work::Work;
 use crate::hollow::golden::golden_section;
 use crate::hollow::problem::Problem;
@@ -16,97 +18,102 @@ use crate::hollow::problem::Settings;
 use crate::hollow::solution::{Figure, Solution};
 use crate::hollow::top::heights::Heights;
 
-/// The price of as much ballast as the solid's volume. Far larger, multipliers outgrow what an
-/// ascent starts with; far smaller, the cost is lost beside the tolerance of its value.
+/// Price of the solid's volume of ballast. With a far larger price the multipliers outgrow the
+/// start of an ascent. With a far smaller one the cost is lost in the tolerance of the value.
 const PRICE: f64 = 0.1;
-/// I_b/I_c that counts as stable: a per cent below the border, where the least speed would be
+/// I_b/I_c that counts as stable. It is one per cent below the limit, where the least speed grows
 /// without bound.
 const STABLE_RATIO: f64 = 0.99;
-/// The toppling angle that counts as standing, rad: half a degree.
+/// Toppling angle that counts as standing, rad: half a degree.
 const STANDING_RAD: f64 = 0.0087;
-/// How far below the metacentre a floating body's centre of mass has to lie, mm.
+/// Least depth of a floating body's centre of mass below the metacentre, mm.
 const RIGHTING_MM: f64 = 0.5;
-/// The share of the unbalance that a rotor's grade permits which may be left.
+/// Share of the permitted unbalance of a rotor's grade that may be left.
 const GRADE_SHARE: f64 = 0.9;
-/// Heights of a top's centre that are looked at before the best is refined.
+/// Number of heights of a top's centre sampled before the best is refined.
 const HEIGHTS: usize = 9;
-/// Rounds of golden section about the best height: six leave a ninth of the two looks around it.
+/// Rounds of golden section about the best height; six leave a ninth of the interval of two samples
+/// around it.
 const GOLDEN_ROUNDS: usize = 6;
-/// Growth of the weight of a limit until it is kept, and how often it may grow.
+/// Growth of the limit's weight until the limit is met, and the greatest number of growths.
 const WEIGHT_GROWTH: f64 = 4.0;
 const MOST_GROWTHS: usize = 14;
-/// How nearly the least ballast is found: the proved bound is this near, as a part of it.
+/// Relative distance of the proved bound at which the search ends.
 const PRECISION_RATIO: f64 = 5e-3;
-/// Bisections of the weight's logarithm at most.
+/// Limit on the bisections of the weight's interval.
 const MOST_BISECTIONS: usize = 12;
-/// How exact the ascents are, with the price as the unit of their value.
+/// Tolerance of the ascents, with the price as the unit of their value.
 const TOLERANCE: f64 = 1e-6;
-/// The residual of the rows up to which an interior is one: a hundredth of the solid's radius of
-/// gyration. Where the level sets stand upright, whole slabs of columns change hands at once and no
-/// ascent does better; then only the bound is exact.
+/// Accepted residual of the rows: a hundredth of the solid's radius of gyration.
+///
+/// If the level sets are vertical, whole slabs of columns change at once, and no ascent does
+/// better. Then only the bound is exact.
 const ACCEPTED_RESIDUAL: f64 = 1e-2;
 
-/// The least ballast, and where it goes.
+/// The least ballast, and its place.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ballast {
-    /// Its volume, mm³.
+    /// Volume, mm³.
     pub volume_mm3: f64,
-    /// No ballast of less volume meets the goal, at the height of a top's centre that was found
-    /// best, mm³; proved.
+    /// Proved lower bound of the volume, mm³. For a top it holds at the best height of the centre
+    /// that was found.
     pub bound_mm3: f64,
-    /// The ballast is where this is positive; goal frame, mm.
+    /// Quadric that is positive in the ballast; goal frame, mm.
     pub filled: Quadric,
-    /// The void is where this is positive; goal frame, mm.
+    /// Quadric that is positive in the void; goal frame, mm.
     pub emptied: Quadric,
 }
 
-/// The least volume of a material `density_ratio` times as dense as the printed one with which the
-/// goal is possible, with a per cent to spare; none where even unlimited ballast inside does not
-/// help, or for goals it is not known for.
+/// Finds the least volume of a denser material that makes the goal possible, with a per cent to
+/// spare.
 ///
-/// With ballast at hand every grain of the interior may be emptied, kept or replaced, and the
-/// reachable moments are again a convex set. Of the programme "least cost subject to the rows and
-/// to a limit on the goal's ratio" the dual prices the limit with one weight; for given multipliers
-/// a grain is emptied where the quadric q > 0 and replaced where q is so far below zero that the
-/// gain pays, q < −price/(ratio − 1): two level sets of one quadric. So two passes find the extreme
-/// interior and everything else is the ascent of [`crate::hollow::solve`].
+/// `density_ratio` is its density over that of the printed material. Returns `None` if even
+/// unlimited ballast inside does not help, or if the goal lacks the data for it.
+///
+/// With ballast every grain of the interior may be emptied, kept or replaced, and the reachable
+/// moments are again a convex set. The programme is "least cost subject to the rows and to a limit
+/// on the goal's ratio". Its dual prices the limit with one weight. For given multipliers a grain
+/// is emptied if the quadric q > 0. It is replaced if q < −price/(ratio − 1), so far below zero
+/// that the gain pays. These are two level sets of one quadric. So two passes find the extreme
+/// interior, and the rest is the ascent of [`crate::hollow::solve`].
 pub fn least_ballast(
     problem: &Problem,
     density_ratio: f64,
     settings: &Settings,
     watch: &Watch,
 ) -> Option<Ballast> {
-    let bench = |price| {
-        Work::new(problem, settings, watch).with(Heavy {
+    let work_at = |price| {
+        Work::new(problem, settings, watch).with_heavy(Heavy {
             density_ratio,
             price,
         })
     };
-    let shop = Shop {
-        free: bench(0.0),
-        priced: bench(PRICE),
+    let search = BallastSearch {
+        free: work_at(0.0),
+        priced: work_at(PRICE),
     };
-    let bought = match (problem.goal.kind, problem.goal.objective) {
-        (GoalKind::Top, _) => shop.least_of_heights(),
+    let candidate = match (problem.goal.kind, problem.goal.objective) {
+        (GoalKind::Top, _) => search.least_over_heights(),
         (GoalKind::Yoyo, _) => {
-            shop.least(&|work| Programme::yoyo_dominance(&work.reach), STABLE_RATIO)
+            search.minimise(&|work| Programme::yoyo_dominance(&work.reach), STABLE_RATIO)
         }
-        (GoalKind::Stand, Objective::LowestCenter) => shop.least(
+        (GoalKind::Stand, Objective::LowestCenter) => search.minimise(
             &|work| Programme::stand_lowest_center(&work.reach),
             f64::INFINITY,
         ),
-        (GoalKind::Stand, _) => shop.least(
+        (GoalKind::Stand, _) => search.minimise(
             &|work| Programme::stand_toppling(&work.reach, problem.goal),
             -STANDING_RAD.tan(),
         ),
-        (GoalKind::Float, _) => shop.least_to_float(problem.goal.afloat?),
-        (GoalKind::Balance, _) => shop.least_to_balance(&problem.goal.spindle?),
+        (GoalKind::Float, _) => search.least_to_float(problem.goal.afloat?),
+        (GoalKind::Balance, _) => search.least_to_balance(&problem.goal.spindle?),
     }?;
-    shop.ballast(&bought)
+    search.ballast(&candidate)
 }
 
-/// Whether a solution is possible with as much to spare as [`least_ballast`] asks for: at the very
-/// border of the possible a top has no least speed, and what stands falls over when breathed at.
+/// Returns true if a solution has the margin that [`least_ballast`] asks for.
+///
+/// At the limit of the possible a top has no least speed, and a standing object falls at a touch.
 pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
     let value = solution.certificate.value;
     let is_enough = match (goal.kind, solution.certificate.figure) {
@@ -123,190 +130,188 @@ pub fn has_spare(goal: &Goal, solution: &Solution) -> bool {
     solution.is_usable() && is_enough
 }
 
-/// The interior with the least ballast that was found.
-struct Bought {
+/// The cheapest interior found.
+struct Candidate {
     climb: Climb,
-    /// Its cost.
+    /// Price of its ballast.
     cost: f64,
-    /// The least cost that is proved.
+    /// Proved lower bound of the price.
     bound: f64,
 }
 
-/// What a height of a top's centre costs.
-struct Look {
+/// The cheapest interior at one height of a top's centre.
+struct Sample {
     height: f64,
-    bought: Option<Bought>,
+    candidate: Option<Candidate>,
 }
 
-impl Look {
+impl Sample {
     fn by_cost(&self, other: &Self) -> std::cmp::Ordering {
-        let cost = |look: &Self| {
-            look.bought
+        let cost = |sample: &Self| {
+            sample
+                .candidate
                 .as_ref()
-                .map_or(f64::INFINITY, |bought| bought.cost)
+                .map_or(f64::INFINITY, |candidate| candidate.cost)
         };
         cost(self).total_cmp(&cost(other))
     }
 }
 
-/// The same interior with ballast for nothing and at a price.
-struct Shop<'a> {
+/// The search for the least ballast, on the same interior with free and with priced ballast.
+struct BallastSearch<'a> {
     free: Work<'a>,
     priced: Work<'a>,
 }
 
-impl Shop<'_> {
-    fn ballast(&self, bought: &Bought) -> Option<Ballast> {
-        let (reach, quadric) = (&self.priced.reach, &bought.climb.best.quadric);
+impl BallastSearch<'_> {
+    fn ballast(&self, candidate: &Candidate) -> Option<Ballast> {
+        let (reach, quadric) = (&self.priced.reach, &candidate.climb.best.quadric);
         let volume_mm3 = |cost: f64| cost / PRICE * reach.scale.volume_mm3;
         Some(Ballast {
-            volume_mm3: volume_mm3(bought.cost),
-            bound_mm3: volume_mm3(bought.bound),
-            filled: reach.filled_by(quadric)?,
+            volume_mm3: volume_mm3(candidate.cost),
+            bound_mm3: volume_mm3(candidate.bound),
+            filled: reach.heavy_quadric(quadric)?,
             emptied: reach.scale.quadric_to_mm(quadric),
         })
     }
 
-    /// The least over all heights of a top's centre: a look at several, then golden section about
-    /// the best.
-    fn least_of_heights(&self) -> Option<Bought> {
+    /// Minimises over the heights of a top's centre: several samples, then golden section about the
+    /// best.
+    fn least_over_heights(&self) -> Option<Candidate> {
         let [low, high] = Heights::range(&self.free).ok()?;
         let at = |height: f64| {
-            let bought = self.least(
+            let candidate = self.minimise(
                 &|work| Programme::top_dominance(&work.reach, height),
                 STABLE_RATIO,
             );
-            Look { height, bought }
+            Sample { height, candidate }
         };
         let width = (high - low) / HEIGHTS as f64;
-        let looks = (0..HEIGHTS).map(|i| at(low + (i as f64 + 0.5) * width));
-        let best = looks.min_by(Look::by_cost)?;
+        let samples = (0..HEIGHTS).map(|i| at(low + (i as f64 + 0.5) * width));
+        let best = samples.min_by(Sample::by_cost)?;
         let range = [best.height - width, best.height + width];
-        let is_better = |left: &Look, right: &Look| Look::by_cost(left, right).is_lt();
-        let [left, right] = golden_section(
-            range,
-            GOLDEN_ROUNDS,
-            at,
-            (|look: &Look| look.height, is_better),
-        );
+        let is_better = |left: &Sample, right: &Sample| Sample::by_cost(left, right).is_lt();
+        let [left, right] = golden_section(range, GOLDEN_ROUNDS, at, is_better);
         [best, left, right]
             .into_iter()
-            .min_by(Look::by_cost)?
-            .bought
+            .min_by(Sample::by_cost)?
+            .candidate
     }
 
-    /// The least with which it has the right mass and its centre under the metacentre.
-    fn least_to_float(&self, afloat: Afloat) -> Option<Bought> {
+    /// Minimises the ballast that gives the right mass and a centre below the metacentre.
+    fn least_to_float(&self, afloat: Afloat) -> Option<Candidate> {
         let limit = (afloat.metacenter_mm - RIGHTING_MM) / self.free.to_mm(1.0);
-        self.least(
+        self.minimise(
             &|work| Programme::float_lowest_center(&work.reach, &afloat),
             limit,
         )
     }
 
-    /// The least with which a rotor reaches its grade.
-    fn least_to_balance(&self, spindle: &Spindle) -> Option<Bought> {
+    /// Minimises the ballast with which a rotor reaches its grade.
+    fn least_to_balance(&self, spindle: &Spindle) -> Option<Candidate> {
         let length_mm = self.free.to_mm(1.0);
         let ends = spindle.ends_mm.map(|end| end / length_mm);
         let limit =
             GRADE_SHARE * spindle.rotor.permissible_mm() / (std::f64::consts::SQRT_2 * length_mm);
-        self.least(
+        self.minimise(
             &|work| Programme::balance_unbalance(&work.reach, ends),
             limit,
         )
     }
 
-    /// The least ballast with which the rows of a programme are met and its ratio is at most
+    /// Minimises the ballast with which the rows of a programme are met and its ratio is at most
     /// `limit`.
-    fn least(&self, programme: &dyn Fn(&Work) -> Programme, limit: f64) -> Option<Bought> {
-        let wish = programme(&self.free);
-        let best = self.free.climb_near(&wish, None, TOLERANCE)?;
+    fn minimise(&self, programme_of: &dyn Fn(&Work) -> Programme, limit: f64) -> Option<Candidate> {
+        let programme = programme_of(&self.free);
+        let best = self.free.climb_near(&programme, None, TOLERANCE)?;
         if best.best.bound > limit {
             return None;
         }
-        let wish = programme(&self.priced);
-        // Where the rows need no ballast, this ascent has its peak in the kink at no multipliers at
-        // all and finds nothing.
-        let rows_alone = self.bought(&wish, 0.0, limit);
-        let kept = rows_alone.filter(|bought| is_kept(&wish, limit, &bought.climb));
-        kept.or_else(|| self.with_least_weight(&wish, limit))
+        let programme = programme_of(&self.priced);
+        // If the rows need no ballast, this ascent ends in the kink at multipliers of zero and
+        // finds nothing.
+        let rows_alone = self.minimise_cost(&programme, 0.0, limit);
+        let feasible =
+            rows_alone.filter(|candidate| meets_limit(&programme, limit, &candidate.climb));
+        feasible.or_else(|| self.with_least_weight(&programme, limit))
     }
 
-    /// The limit's weight, as small as keeps it.
-    fn with_least_weight(&self, wish: &Programme, limit: f64) -> Option<Bought> {
-        let keeping = |weight: f64| {
-            let bought = self.bought(wish, weight, limit);
-            bought.map(|bought| (is_kept(wish, limit, &bought.climb), bought))
+    /// Searches for the smallest weight of the limit with which the limit is met.
+    fn with_least_weight(&self, programme: &Programme, limit: f64) -> Option<Candidate> {
+        let try_weight = |weight: f64| {
+            let candidate = self.minimise_cost(programme, weight, limit);
+            candidate.map(|candidate| (meets_limit(programme, limit, &candidate.climb), candidate))
         };
         let weights = std::iter::successors(Some(PRICE), |weight| Some(weight * WEIGHT_GROWTH));
         let first = weights
             .take(MOST_GROWTHS)
-            .find_map(|weight| match keeping(weight)? {
-                (true, bought) => Some((weight, bought)),
+            .find_map(|weight| match try_weight(weight)? {
+                (true, candidate) => Some((weight, candidate)),
                 (false, _) => None,
             });
-        let (mut heavy, mut kept) = first?;
+        let (mut heavy, mut feasible) = first?;
         let mut light = if heavy > PRICE {
             heavy / WEIGHT_GROWTH
         } else {
             0.0
         };
         for _ in 0..MOST_BISECTIONS {
-            if kept.cost - kept.bound <= PRECISION_RATIO * kept.cost {
+            if feasible.cost - feasible.bound <= PRECISION_RATIO * feasible.cost {
                 break;
             }
             let middle = 0.5 * (light + heavy);
-            let Some((is_kept, bought)) = keeping(middle) else {
+            let Some((meets_limit, candidate)) = try_weight(middle) else {
                 break;
             };
-            let bound = kept.bound.max(bought.bound);
-            if is_kept {
-                (heavy, kept) = (middle, bought);
+            let bound = feasible.bound.max(candidate.bound);
+            if meets_limit {
+                (heavy, feasible) = (middle, candidate);
             } else {
                 light = middle;
             }
-            kept.bound = bound;
+            feasible.bound = bound;
         }
-        Some(kept)
+        Some(feasible)
     }
 
-    /// The interior of the least cost when the excess over the limit costs `weight` besides; none
-    /// where the ascent fails.
-    fn bought(&self, wish: &Programme, weight: f64, limit: f64) -> Option<Bought> {
-        let programme = priced(wish, weight, limit);
-        let start = programme.cold_start(&self.priced.reach);
+    /// Minimises the cost of the ballast plus `weight` times the excess over the limit; `None` if
+    /// the ascent fails.
+    fn minimise_cost(&self, programme: &Programme, weight: f64, limit: f64) -> Option<Candidate> {
+        let cost_programme = priced_programme(programme, weight, limit);
+        let start = cost_programme.cold_start(&self.priced.reach);
         let climb = self
             .priced
-            .climb(&programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
+            .climb(&cost_programme, DualPoint { tau: 0.0, ..start }, TOLERANCE);
         let is_met = climb.best.residual() <= ACCEPTED_RESIDUAL;
-        // Without a ratio the limit is a constant, which the ascent knows nothing of.
-        let constant = if wish.is_ratio() || weight == 0.0 {
+        // Without a ratio the limit is a constant, which the ascent leaves out.
+        let constant = if programme.is_ratio() || weight == 0.0 {
             0.0
         } else {
             weight * limit
         };
         let (cost, bound) = (climb.best.extreme.cost, climb.best.bound - constant);
-        (is_met && climb.end != End::Cancelled).then_some(Bought { climb, cost, bound })
+        (is_met && climb.end != End::Cancelled).then_some(Candidate { climb, cost, bound })
     }
 }
 
-/// Minimise the cost plus the weighted excess n·s + max yᵀJs − limit·e·s, subject to the rows.
-fn priced(wish: &Programme, weight: f64, limit: f64) -> Programme {
+/// Returns the programme of the cost plus the weighted excess n·s + max yᵀJs − limit·e·s, subject
+/// to the rows.
+fn priced_programme(programme: &Programme, weight: f64, limit: f64) -> Programme {
     let has_limit = weight > 0.0;
     let numerator = if has_limit {
-        (wish.numerator - wish.denominator * limit) * weight
+        (programme.numerator - programme.denominator * limit) * weight
     } else {
         Vector10::zeros()
     };
     let directions = if has_limit {
-        &wish.directions * weight
+        &programme.directions * weight
     } else {
         DMatrix::zeros(0, Vector10::zeros().len())
     };
     let set = if has_limit {
-        wish.set
+        programme.set
     } else {
-        crate::hollow::dual::set::DualSet::Ball
+        DualSet::Ball
     };
     Programme {
         numerator,
@@ -315,14 +320,14 @@ fn priced(wish: &Programme, weight: f64, limit: f64) -> Programme {
         denominator: Vector10::zeros(),
         denominator_floor: 0.0,
         denominator_ceiling: 0.0,
-        ..wish.clone()
+        ..programme.clone()
     }
 }
 
-/// Whether an interior's ratio is at most the limit.
-fn is_kept(wish: &Programme, limit: f64, climb: &Climb) -> bool {
+/// Returns true if an interior's ratio is at most the limit.
+fn meets_limit(programme: &Programme, limit: f64, climb: &Climb) -> bool {
     let s = &climb.best.extreme.s;
-    limit == f64::INFINITY || wish.numerator_at(s) <= limit * wish.denominator_at(s)
+    limit == f64::INFINITY || programme.numerator_at(s) <= limit * programme.denominator_at(s)
 }
 
 #[cfg(test)]
@@ -342,9 +347,9 @@ mod tests {
 
     #[test]
     fn a_beam_is_balanced_by_steel_at_its_far_end() {
-        // A beam of cross-section A from −a to a, and beside it a mass whose first moment about the
-        // middle is F: emptied at x > 0 it gives A a²/2 towards −x, and steel from −a to −t a
-        // further (κ − 1) A (a² − t²)/2.
+        // The beam has the cross-section A from −a to a, and beside it a mass with the first moment
+        // F about the middle. Emptied at x > 0 it gives A a²/2 towards −x. Steel from −a to −t adds
+        // (κ − 1) A (a² − t²)/2.
         let (half, area, first, density_ratio) = (8.0, 4.0, 700.0, 6.0);
         let world = worlds::beam(first);
         let t2 =

@@ -1,11 +1,13 @@
-//! Voids that are filled: what is emptied of the print gets another material in its place.
+//! Filled voids: another material replaces what is emptied of the print.
 //!
-//! A grain that is filled weighs ρ_fill instead of ρ, so the moments are s = s_fixed − κ ∫β m with
-//! the relief κ = 1 − ρ_fill/ρ: the same convex set for air (κ = 1), stretched by κ, and turned
-//! over where the filling is the heavier material (κ < 0). Dividing all moments by |κ| makes it the
-//! very problem of [`crate::hollow::solve`]: ratios and equations without a constant do not change, the
-//! mass of what floats is divided with the rest. Where κ < 0, what the solver empties of the body
-//! filled everywhere is what must not be filled, so the void is where its quadric is negative.
+//! A filled grain weighs ρ_fill instead of ρ. So the moments are s = s_fixed − κ ∫β m with the
+//! relief κ = 1 − ρ_fill/ρ. This is the convex set for air (κ = 1), scaled by κ, and reflected if
+//! the filling is the heavier material (κ < 0).
+//!
+//! Dividing all moments by |κ| gives the problem of [`crate::hollow::solve`]. Ratios and equations
+//! without a constant do not change. The mass of a floating object is divided like the rest. If κ <
+//! 0, the solver starts with the body filled everywhere, and its void is the region not to fill. So
+//! the filled void is where its quadric is negative.
 //!
 //! Source: the second material of Spin-It (Bächer et al. 2014, §6), which they leave to the same
 //! equations.
@@ -17,52 +19,55 @@ use crate::hollow::{Problem, Settings, Solution, refine, solve};
 use crate::interior::{Columns, moments_where_positive};
 use crate::mass::Moments;
 
-/// What is in the voids.
+/// The contents of the voids.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fill {
     density_ratio: f64,
 }
 
-/// A filling this near to the print's density changes nothing: what little it did would take voids
-/// of any size.
+/// Least difference of the densities, as a share of the print's. With a smaller one the effect
+/// would take voids of any size.
 const LEAST_RELIEF: f64 = 0.02;
 
 impl Fill {
-    /// Nothing.
+    /// Air.
     pub const AIR: Self = Self { density_ratio: 0.0 };
 
-    /// A filling `density_ratio` times as dense as the print; none where that is negative, not
-    /// finite, or within two per cent of the print's own density.
+    /// Returns a filling `density_ratio` times as dense as the print. `None` if that is negative,
+    /// not finite, or within two per cent of the print's own density.
     pub fn new(density_ratio: f64) -> Option<Self> {
         let is_filling = density_ratio.is_finite() && density_ratio >= 0.0;
         (is_filling && (density_ratio - 1.0).abs() >= LEAST_RELIEF)
             .then_some(Self { density_ratio })
     }
 
-    /// Its density over the print's.
+    /// Returns the density over that of the print.
     pub fn density_ratio(&self) -> f64 {
         self.density_ratio
     }
 
-    /// Whether it is heavier than the print.
+    /// Returns true if the filling is heavier than the print.
     pub fn is_heavier(&self) -> bool {
         self.density_ratio > 1.0
     }
 
-    /// How much lighter a filled grain is, as a share of a printed one; negative where it is
-    /// heavier.
+    /// Returns the weight saved by filling a grain, as a share of a printed one; negative for a
+    /// heavier filling.
     fn relief(&self) -> f64 {
         1.0 - self.density_ratio
     }
 
-    /// The moments with the void { quadric > 0 } filled, of what has `fixed` with no void.
+    /// Returns the moments of a body with the void { quadric > 0 } filled; `fixed` are its moments
+    /// without a void.
     pub fn filled(&self, fixed: Moments, columns: &Columns, quadric: &Quadric) -> Moments {
         fixed - moments_where_positive(columns, quadric) * self.relief()
     }
 
-    /// The best filled void: [`solve`] from nothing, or [`refine`] from what is known. The solution
-    /// is in the print's own moments and its void is where the quadric is positive, like one with
-    /// air; the certificate is for this filling.
+    /// Finds the best filled void: by [`solve`], or by [`refine`] from a known solution.
+    ///
+    /// The solution is in the print's own moments. Its void is where the quadric is positive, as
+    /// with air. The certificate is for this filling.
+    #[must_use]
     pub fn solve(&self, problem: &Problem, known: Option<&Solution>, watch: &Watch) -> Solution {
         let weight = self.relief().abs();
         let goal = scaled(problem.goal, 1.0 / weight);
@@ -86,7 +91,7 @@ impl Fill {
     }
 }
 
-/// The goal with every moment and mass scaled.
+/// Returns the goal with every moment and mass scaled.
 fn scaled(goal: &Goal, factor: f64) -> Goal {
     let mut goal = goal.clone();
     goal.solid = goal.solid * factor;
@@ -102,7 +107,7 @@ mod tests {
     use crate::goal::{Objective, figures};
     use crate::hollow::worlds::{self, World};
 
-    fn filled(world: &World, density_ratio: f64) -> Solution {
+    fn solve_filled(world: &World, density_ratio: f64) -> Solution {
         let fill = Fill::new(density_ratio).unwrap();
         fill.solve(&world.problem(), None, &Watch::silent())
     }
@@ -114,7 +119,7 @@ mod tests {
             gamma_i: 1.0,
         });
         let air = solve(&world.problem(), &Settings::default(), &Watch::silent());
-        assert_eq!(filled(&world, 0.0), air);
+        assert_eq!(solve_filled(&world, 0.0), air);
         assert_eq!(
             Fill::AIR
                 .solve(&world.problem(), Some(&air), &Watch::silent())
@@ -130,7 +135,7 @@ mod tests {
                 gamma_c: 0.0,
                 gamma_i: 1.0,
             });
-            let solution = filled(&world, density_ratio);
+            let solution = solve_filled(&world, density_ratio);
             assert!(solution.is_usable(), "{:?}", solution.status);
             let fill = Fill::new(density_ratio).unwrap();
             let moments = fill.filled(world.fixed, &world.columns, &solution.quadric);
@@ -147,12 +152,12 @@ mod tests {
     fn of_all_65536_ways_to_fill_sixteen_blocks_none_stands_better_than_the_bound() {
         for density_ratio in [0.5, 4.0] {
             let world = worlds::blocks_on_a_slope();
-            let solution = filled(&world, density_ratio);
+            let solution = solve_filled(&world, density_ratio);
             assert!(solution.is_usable() && solution.certificate.gap_ratio.abs() < 1e-6);
             let relief = 1.0 - density_ratio;
             let (mut best, mut least) = (f64::NEG_INFINITY, f64::INFINITY);
             worlds::each_choice(&world, &worlds::single_blocks(16), |emptied| {
-                // What a choice takes away, times the relief.
+                // The removed moments of a choice, times the relief.
                 let moments = world.fixed + (*emptied - world.fixed) * relief;
                 let angle = figures(&world.goal, &moments).toppling_angle_rad.unwrap();
                 (best, least) = (f64::max(best, angle), f64::min(least, angle));
@@ -161,7 +166,7 @@ mod tests {
                 best <= solution.certificate.bound + 1e-12,
                 "{density_ratio}"
             );
-            // Whole blocks come close to the one plane that is free to cut them.
+            // Whole blocks come close to the best plane, which may cut them.
             assert!(
                 best > least + 0.8 * (solution.certificate.value - least),
                 "{best} {least}"

@@ -1,29 +1,32 @@
-//! What floats: the lowest centre of mass over the centre of buoyancy at the mass that the water
-//! carries.
+//! The floating object: the lowest centre of mass above the centre of buoyancy, at the mass that
+//! the water carries.
 
 use crate::goal::{Afloat, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::ascent::End;
-use crate::hollow::dual::programme::{DualPoint, Programme, index};
+use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::units::index;
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 
-/// A proved distance of the centre of mass from its place below which the constraints count as met,
-/// in the solver's units: the residual that is accepted.
+/// Proved offset of the centre of mass below which the constraints count as met, in the solver's
+/// units: the accepted residual.
 const TRIM_TOLERANCE: f64 = 1e-7;
 
-/// The interior of the right mass, with its centre above that of buoyancy and as low as it can be;
-/// or the proof that at this waterline there is none, or none that rights itself.
+/// Finds the interior of the right mass with its centre above that of buoyancy and as low as
+/// possible.
+///
+/// Otherwise proves that at this waterline there is none, or that every one capsizes.
 pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let afloat = work.goal.afloat.unwrap_or_default();
-    if let Some(answer) = out_of_range(work, objective, &afloat) {
+    if let Some(answer) = prove_out_of_range(work, objective, &afloat) {
         return answer;
     }
     let programme = Programme::float_lowest_center(&work.reach, &afloat);
     let climb = work.ascend(&programme, start);
     if climb.end != End::Cancelled
         && !work.accepts(&climb)
-        && let Some(proof) = cannot_trim(work, objective, &afloat)
+        && let Some(proof) = prove_untrimmable(work, objective, &afloat)
     {
         return proof;
     }
@@ -36,9 +39,9 @@ pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>
     }
 }
 
-/// The proof that the lightest interior is too heavy for the water it displaces, or the solid too
-/// light.
-fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
+/// Proves that the lightest interior is too heavy for the displaced water, or the solid too light;
+/// `None` if neither holds.
+fn prove_out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
     let mass = afloat.material_mm3 / work.reach.scale.volume_mm3;
     let [lightest, heaviest] = [work.reach.shell, work.reach.fullest].map(|s| s[index::ONE]);
     let (sense, verdict) = match mass {
@@ -61,9 +64,9 @@ fn out_of_range(work: &Work, objective: Objective, afloat: &Afloat) -> Option<An
     Some(Answer::new(objective, climb).with_verdict(verdict))
 }
 
-/// The proof that no interior of the right mass has its centre over that of buoyancy, if there is
-/// one.
-fn cannot_trim(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
+/// Proves that no interior of the right mass has its centre above that of buoyancy; `None` if there
+/// is no proof.
+fn prove_untrimmable(work: &Work, objective: Objective, afloat: &Afloat) -> Option<Answer> {
     let programme = Programme::float_offset(&work.reach, afloat);
     let climb = work.climb(&programme, programme.cold_start(&work.reach), 0.0);
     let (best, scale) = (&climb.best, &work.reach.scale);
@@ -91,8 +94,8 @@ mod tests {
 
     #[test]
     fn a_tank_is_filled_from_the_bottom_to_the_mass_the_water_carries() {
-        // A tank of inner area 16 and height 10, 40 of other mass centred at height 9; with 120 in
-        // all it is filled to 5 and the centre lies at (40·9 + 80·2.5)/120.
+        // The tank has an inner area of 16, a height of 10, and 40 of other mass centred at height
+        // 9. With 120 in all it is filled to 5, and the centre lies at (40·9 + 80·2.5)/120.
         let world = worlds::tank(120.0, [0.0; 2]);
         let got = solution(&world);
         assert_eq!(
@@ -110,14 +113,12 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_is_brought_over_a_centre_of_buoyancy_aside_and_again_in_few_passes() {
+    fn the_centre_moves_above_the_centre_of_buoyancy_and_again_in_few_passes() {
         let mut world = worlds::tank(130.0, [0.3, -0.2]);
         let got = solution(&world);
         assert_eq!(got.status, Status::Solved, "{:?}", got.log);
         let center = got.moments.centroid();
         assert!((center.x - 0.3).abs() < 1e-6 && (center.y + 0.2).abs() < 1e-6);
-        // No random choice of the same mass and place is lower: every quadric's interior obeys the
-        // bound's inequality.
         world.fixed.0[1] += 0.5;
         let again = refine(
             &world.problem(),
@@ -135,21 +136,22 @@ mod tests {
     #[test]
     fn too_heavy_too_light_and_too_far_aside_are_each_proved() {
         let of = |mass, aside| solution(&worlds::tank(mass, aside)).status;
-        // Empty it weighs 40, full 200.
+        // It weighs 40 empty and 200 full.
         assert!(
             matches!(of(32.0, [0.0; 2]), Status::Sinks { least_ratio } if (least_ratio - 1.25).abs() < 1e-12)
         );
         assert!(
             matches!(of(250.0, [0.0; 2]), Status::RidesHigh { greatest_ratio } if (greatest_ratio - 0.8).abs() < 1e-12)
         );
-        // With 80 of 120 movable and no further than 2 mm out, the centre moves less than 4/3 mm.
+        // 80 of 120 can move, by 2 mm at most, so the centre moves less than 4/3 mm.
         let Status::CannotTrim {
             least_offset_mm, ..
         } = of(120.0, [1.5, 0.0])
         else {
             panic!()
         };
-        // Of the 16 × 10 the 80 on one side: their centre at 1, the whole at 80/120: 0.8333 short.
+        // With the 80 of the 16 × 10 on one side, their centre is at 1, and that of the whole at
+        // 80/120. It is 0.8333 short.
         assert!(
             (least_offset_mm - (1.5 - 80.0 / 120.0)).abs() < 1e-4,
             "{least_offset_mm}"
@@ -167,7 +169,7 @@ mod tests {
         else {
             panic!()
         };
-        // Midpoint sums of a kinked function: 400 steps of a column leave 1e-5 of it.
+        // Midpoint sums of a kinked function have an error of 1e-5 with 400 steps per column.
         let least = worlds::least_integral(&world, &separator, 400);
         assert!(least > level_mm3, "{least} {level_mm3}");
         for seed in 0..200 {

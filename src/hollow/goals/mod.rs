@@ -1,4 +1,4 @@
-//! The goals that need one programme or two each, the least ballast, and voids that are filled.
+//! The goals with one or two programmes each, the least ballast, and filled voids.
 
 pub(crate) mod balance;
 pub(crate) mod ballast;

@@ -1,5 +1,5 @@
-//! The standing object: the largest tilt before it topples, or the lowest centre over the middle of
-//! its support.
+//! The standing object: the largest toppling angle, or the lowest centre over the middle of its
+//! support.
 
 use crate::goal::Objective;
 use crate::hollow::dual::answer::Answer;
@@ -7,7 +7,7 @@ use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 
-/// The best interior of a standing object, or the proof that none stands.
+/// Finds the best interior of a standing object, or the proof that none stands.
 pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     let programme = match objective {
         Objective::LowestCenter => Programme::stand_lowest_center(&work.reach),

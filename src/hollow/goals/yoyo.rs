@@ -1,5 +1,4 @@
-//! The yo-yo: the functional asked for, and the dominance that decides whether it is worth
-//! anything.
+//! The yo-yo: the requested functional, and the dominance that decides whether it is stable.
 
 use crate::goal::Objective;
 use crate::hollow::dual::answer::Answer;
@@ -8,21 +7,21 @@ use crate::hollow::dual::programme::{DualPoint, Programme};
 use crate::hollow::dual::work::Work;
 use crate::hollow::status::Status;
 
-/// The best interior of a yo-yo, or the proof that its axis cannot be made dominant.
+/// Finds the best interior of a yo-yo, or the proof that its axis cannot be made dominant.
 pub(crate) fn solve(work: &Work, objective: Objective, start: Option<&DualPoint>) -> Answer {
     if objective == Objective::Dominance {
-        return dominance(work, start);
+        return minimise_dominance(work, start);
     }
     let programme = Programme::yoyo_functional(&work.reach);
     let climb = work.ascend(&programme, start);
     if matches!(climb.end, End::Infeasible(_) | End::Cancelled) || is_dominant(work, &climb) {
         return Answer::new(objective, climb);
     }
-    dominance(work, None)
+    minimise_dominance(work, None)
 }
 
-/// The interior whose axis is the most dominant; at a ratio of 1 or more none is stable.
-fn dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
+/// Finds the interior with the most dominant axis; if its ratio is 1 or more, none is stable.
+fn minimise_dominance(work: &Work, start: Option<&DualPoint>) -> Answer {
     let programme = Programme::yoyo_dominance(&work.reach);
     let climb = work.ascend(&programme, start);
     let least_ratio = climb.best.bound;

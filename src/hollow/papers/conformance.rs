@@ -1,11 +1,11 @@
-//! One suite for every method: what each must hold, and how closely all agree.
+//! One suite for all methods: the properties each must have, and their agreement.
 //!
-//! With the optimal quadric q (no unit, positive in the void) the *regret* of an interior is R =
-//! ∫|q| over where it differs from the optimal one: what it loses, as a part of the solid's volume.
-//! Two facts need no tolerance but for rounding. R ≥ 0 for every interior whatsoever. And the
-//! volume V by which it differs is at most √(2RW), W = Σ area/|∂q/∂z| over the void's surface, to
-//! first order: differences cost least in a band along the surface, where a depth d costs
-//! |∂q/∂z|d²/2, and Cauchy and Schwarz do the rest. What remains is how small R is, which each method's cells decide.
+//! Let q be the optimal quadric (no unit, positive in the void). The *regret* of an interior is R =
+//! ∫|q| over the region where it differs from the optimal one. It is the loss, as a part of the
+//! solid's volume. Two facts hold up to rounding. First, R ≥ 0 for every interior. Second, the
+//! volume V of the difference is at most √(2RW), W = Σ area/|∂q/∂z| over the void's surface, to
+//! first order. Differences cost least in a band along the surface, where a depth d costs
+//! |∂q/∂z|d²/2; Cauchy and Schwarz give the rest. The size of R depends on each method's cells.
 
 use super::super::*;
 use crate::geom::Point;
@@ -13,25 +13,23 @@ use crate::goal::Objective;
 use crate::hollow::worlds::{self, World};
 use crate::interior::moments_and_derivative;
 
-/// How many columns of 1 mm the worlds are of does not matter; that a voxel is as high as they are
-/// wide does.
+/// Pitch of the columns. Its size does not matter, but a voxel has to be as high as they are wide.
 const PITCH_MM: f64 = 1.0;
-/// What the optimisers leave undone: their slope is 1e-4 at the end, and the regret is quadratic in
-/// it.
+/// Regret left by the optimisers: their final slope is 1e-4, and the regret is quadratic in it.
 const UNDONE: f64 = 1e-5;
-/// What smoothing λ_max costs besides: the regret is in the numerator's units, and what is smoothed
-/// lies between the numerator and this much above it.
+/// Additional regret from smoothing λ_max. It is in the numerator's units; the smoothed numerator
+/// is too large by this much at most.
 const SMOOTHED: f64 = 1e-4;
-/// The band's first order: on cells of 1 mm in an egg of 12 mm the surface bends by some percent
-/// within a cell.
+/// Allowance for the first-order band: in an egg of 12 mm the surface bends by some per cent within
+/// a cell of 1 mm.
 const BEND: f64 = 1.2;
 
-/// What the optimal quadric says of other interiors.
+/// The optimal quadric as the judge of other interiors.
 struct Judge<'a> {
     world: &'a World,
     best: Solution,
     emptied: crate::interior::Emptied,
-    /// W, mm³
+    /// Density W of the band, mm³.
     density: f64,
 }
 
@@ -52,7 +50,7 @@ impl<'a> Judge<'a> {
         self.world.fixed.volume()
     }
 
-    /// R
+    /// Returns the regret R.
     fn regret(&self, found: &Found) -> f64 {
         let more = found.moments - self.best.moments;
         self.best
@@ -65,8 +63,8 @@ impl<'a> Judge<'a> {
             / self.volume()
     }
 
-    /// What whole cells of this height lose at most: a cell that the surface cuts at a slope k is
-    /// kept or emptied whole, for k·h²/8 per area.
+    /// Returns the greatest loss from whole cells of this height. A cell cut by the surface at a
+    /// slope k is kept or emptied whole, which costs k·h²/8 per area.
     fn loss_of_cells(&self, height_mm: f64) -> f64 {
         let columns = &self.world.columns;
         let is_inside = |column: usize, z: f64| {
@@ -92,7 +90,7 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Every method, and how much its cells may lose beside what the optimiser leaves.
+/// Returns every method with the loss its cells may add, in multiples of the loss of whole cells.
 fn methods() -> Vec<(Box<dyn Method>, f64)> {
     let octree = ByOctree {
         levels: crate::interior::Levels {
@@ -104,11 +102,11 @@ fn methods() -> Vec<(Box<dyn Method>, f64)> {
     vec![
         (Box::new(ByQuadric::default()), 0.0),
         (Box::new(ByRays::default()), 0.0),
-        // Twice the loss of cells at the quadric's own multipliers: the method's are a little
-        // different.
+        // Twice the loss of cells at the quadric's own multipliers, as the method's differ a
+        // little.
         (Box::new(ByVoxels::default()), 2.0),
-        // Leaves of up to twice the width that the surface grazes are not split, and rounding moves
-        // as much again.
+        // Leaves up to twice the width are not split if the surface barely touches them. Rounding
+        // moves as much again.
         (Box::new(octree), 2.0 * 4.0),
     ]
 }

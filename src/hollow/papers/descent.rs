@@ -1,49 +1,50 @@
-//! Descent of a smooth function of many numbers between 0 and 1: projected L-BFGS.
+//! Minimisation of a smooth function of many variables between 0 and 1: projected L-BFGS.
 
 use std::collections::VecDeque;
 
 use crate::base::watch::Watch;
 
-/// Steps whose curvature is remembered. Fewer than 5 slow it down; more than 20 cost more than they
-/// tell.
+/// Number of remembered curvature pairs. Fewer than 5 slow it down; more than 20 cost more than
+/// they gain.
 const MEMORY: usize = 10;
-/// A step is taken when it gains at least this part of what its slope promised (Armijo).
+/// Least share of the gain promised by the slope for a step to be accepted (Armijo).
 const LEAST_GAIN_RATIO: f64 = 1e-4;
-/// A trial that does not is shortened to between these parts of it.
+/// Least and greatest factor by which a rejected trial is shortened.
 const SHORTEST_CUT: f64 = 0.1;
 const LONGEST_CUT: f64 = 0.5;
-/// Trials of one line search; after these the step is a millionth or less.
+/// Trial limit of a line search, whose last step is a millionth or less.
 const TRIALS: usize = 20;
-/// A pair whose curvature is below this part of its lengths is forgotten: the function bends the
-/// wrong way there.
+/// Curvature, as a part of a pair's lengths, below which the pair is dropped: the function bends
+/// the wrong way there.
 const LEAST_CURVATURE_RATIO: f64 = 1e-10;
-/// A number this near to its bound counts as on it (Bertsekas's ε), or the distance a gradient step
-/// moves if that is less.
+/// Distance from a bound within which a variable counts as on it (Bertsekas's ε), unless a gradient
+/// step moves less.
 const NEAR_BOUND: f64 = 1e-6;
-/// The largest change of a number in a first step, of which the curvature is not known.
+/// Largest change of a variable in a first step, before any curvature is known.
 const FIRST_STEP: f64 = 0.3;
-/// Steps over which the gain is watched, and the part of the value below which it counts as none.
-const WATCHED_STEPS: usize = 30;
+/// Number of steps whose joint gain is watched, and the part of the value below which it counts as
+/// none.
+const PROGRESS_STEPS: usize = 30;
 const LEAST_PROGRESS_RATIO: f64 = 1e-8;
 
-/// A function of many numbers between 0 and 1, each with a weight.
+/// A function of many variables between 0 and 1, each with a weight.
 pub(super) trait Function {
-    /// The weights of the inner product in which lengths and slopes are measured; positive.
+    /// Returns the positive weights of the inner product that measures lengths and slopes.
     fn weights(&self) -> &[f64];
-    /// The value, and the derivative by each number over its weight.
+    /// Returns the value; writes the derivative by each variable, over its weight, to `slope`.
     fn evaluate(&self, x: &[f64], slope: &mut [f64]) -> f64;
 }
 
-/// When to end.
+/// The end criteria.
 #[derive(Clone, Copy)]
 pub(super) struct Limits<'a> {
-    /// The projected slope at which to end.
+    /// Projected slope at which it ends.
     pub slope: f64,
     pub evaluations: usize,
     pub watch: &'a Watch,
 }
 
-/// Where a descent came to.
+/// An evaluated point of a descent.
 #[derive(Debug, Clone)]
 pub(super) struct Place {
     pub x: Vec<f64>,
@@ -52,17 +53,17 @@ pub(super) struct Place {
     pub evaluations: usize,
 }
 
-/// A step and the change of the slope along it.
+/// A step, and the change of the slope along it.
 struct Pair {
     step: Vec<f64>,
     turn: Vec<f64>,
 }
 
-/// Goes down from `x` until the projected slope is below the limit, nothing is gained, or the
+/// Descends from `x` until the projected slope is below the limit, nothing is gained, or the
 /// evaluations are used up.
 ///
-/// Each step goes along the quasi-Newton direction of the numbers that are free (Bertsekas 1982),
-/// cut off at the bounds.
+/// Each step follows the quasi-Newton direction of the free variables (Bertsekas 1982), projected
+/// onto the bounds.
 pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> Place {
     let mut place = Place {
         value: 0.0,
@@ -96,17 +97,17 @@ pub(super) fn descend(function: &dyn Function, x: Vec<f64>, limits: &Limits) -> 
     place
 }
 
-/// Whether the last steps together gained next to nothing.
+/// Returns true if the last steps together gained practically nothing.
 fn has_stalled(values: &mut VecDeque<f64>, value: f64) -> bool {
     values.push_back(value);
-    if values.len() <= WATCHED_STEPS {
+    if values.len() <= PROGRESS_STEPS {
         return false;
     }
     let before = values.pop_front().unwrap_or(value);
     before - value <= LEAST_PROGRESS_RATIO * value.abs()
 }
 
-/// The length of the step x → P(x − slope), which vanishes where no small change is better.
+/// Returns the length of the step x → P(x − slope), which is zero at a first-order optimum.
 fn projected_slope(place: &Place, weights: &[f64]) -> f64 {
     let squares = place
         .x
@@ -120,18 +121,19 @@ fn projected_slope(place: &Place, weights: &[f64]) -> f64 {
     squares.sum::<f64>().sqrt()
 }
 
-/// The weights, zero for the numbers that are on a bound and pushed against it.
+/// Returns the weights, zero for variables that are on a bound and pushed against it.
 fn free_weights(place: &Place, weights: &[f64], near: f64) -> Vec<f64> {
-    let is_held =
+    let is_on_bound =
         |x: f64, slope: f64| (x <= near && slope > 0.0) || (x >= 1.0 - near && slope < 0.0);
     let free = place.x.iter().zip(&place.slope).zip(weights);
-    free.map(|((&x, &slope), &weight)| if is_held(x, slope) { 0.0 } else { weight })
+    free.map(|((&x, &slope), &weight)| if is_on_bound(x, slope) { 0.0 } else { weight })
         .collect()
 }
 
-/// −H·slope over the free numbers, zero for the others: the two-loop recursion (Nocedal, "Updating
-/// quasi-Newton matrices with limited storage", Math. Comput. 35, 1980), all products over the free
-/// numbers alone.
+/// Returns −H·slope over the free variables, zero for the others, by the two-loop recursion.
+///
+/// All products are over the free variables alone (Nocedal, "Updating quasi-Newton matrices with
+/// limited storage", Math. Comput. 35, 1980).
 fn newton_direction(slope: &[f64], pairs: &VecDeque<Pair>, free: &[f64]) -> Vec<f64> {
     let mut direction: Vec<f64> = slope
         .iter()
@@ -170,7 +172,8 @@ fn newton_direction(slope: &[f64], pairs: &VecDeque<Pair>, free: &[f64]) -> Vec<
     direction
 }
 
-/// A pair with step·turn and turn·turn over the free numbers, if the function curves up along it.
+/// Returns a pair with step·turn and turn·turn over the free variables; `None` if the function does
+/// not curve up along it.
 fn curvature<'a>(pair: &'a Pair, free: &[f64]) -> Option<(&'a Pair, f64, f64)> {
     let bend = dot(&pair.step, &pair.turn, free);
     let turning = dot(&pair.turn, &pair.turn, free);
@@ -178,8 +181,8 @@ fn curvature<'a>(pair: &'a Pair, free: &[f64]) -> Option<(&'a Pair, f64, f64)> {
     (bend > LEAST_CURVATURE_RATIO * (turning * length).sqrt()).then_some((pair, bend, turning))
 }
 
-/// The first place along a direction, cut off at the bounds, that gains enough; none where no short
-/// step does.
+/// Searches a direction, projected onto the bounds, for the first point that gains enough; `None`
+/// if no step does.
 fn line_search(
     function: &dyn Function,
     from: &Place,
@@ -202,7 +205,7 @@ fn line_search(
         if promised > 0.0 && gain >= LEAST_GAIN_RATIO * promised {
             return Some(next);
         }
-        // The parabola through the value, its slope and the trial has its least here.
+        // The minimum of the parabola through the value, its slope and the trial.
         let least = 0.5 * promised / (promised - gain);
         length *= if least.is_finite() {
             least.clamp(SHORTEST_CUT, LONGEST_CUT)
@@ -213,7 +216,7 @@ fn line_search(
     None
 }
 
-/// What the slope says a move gains.
+/// Returns the gain of a move to first order.
 fn promised_gain(from: &Place, x: &[f64], weights: &[f64]) -> f64 {
     let moves = from.x.iter().zip(x).zip(&from.slope).zip(weights);
     moves
@@ -236,11 +239,10 @@ fn remember(pairs: &mut VecDeque<Pair>, from: &Place, to: &Place) {
     pairs.push_back(pair);
 }
 
-/// Sums that are gathered side by side, so that the processor adds them at once; the order is
-/// always the same.
+/// Number of parallel partial sums, for vector instructions; their order is fixed.
 const LANES: usize = 8;
 
-/// Σ weight·a·b
+/// Returns Σ weight·a·b.
 fn dot(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
     let mut lanes = [0.0; LANES];
     let chunks = a
@@ -261,12 +263,12 @@ fn dot(a: &[f64], b: &[f64], weights: &[f64]) -> f64 {
     lanes.iter().sum::<f64>() + tail.sum::<f64>()
 }
 
-/// a += factor·b
+/// Adds factor·b to a.
 fn add(a: &mut [f64], factor: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += factor * b);
 }
 
-/// out = a − b
+/// Writes a − b to `out`.
 fn subtract(out: &mut [f64], a: &[f64], b: &[f64]) {
     out.iter_mut()
         .zip(a.iter().zip(b))
@@ -277,7 +279,8 @@ fn subtract(out: &mut [f64], a: &[f64], b: &[f64]) {
 mod tests {
     use super::*;
 
-    /// ½(x − c)ᵀD(x − c) + ½k(Σw(x − c))², whose least between the bounds is c cut off where k = 0.
+    /// The function ½(x − c)ᵀD(x − c) + ½k(Σw(x − c))². For k = 0 its minimum between the bounds is
+    /// c clamped to them.
     struct Bowl {
         weights: Vec<f64>,
         middle: Vec<f64>,
@@ -314,7 +317,7 @@ mod tests {
         }
     }
 
-    fn descended(bowl: &Bowl) -> Place {
+    fn descend_into(bowl: &Bowl) -> Place {
         let limits = Limits {
             slope: 1e-9,
             evaluations: 2000,
@@ -324,17 +327,17 @@ mod tests {
     }
 
     #[test]
-    fn numbers_that_do_not_touch_each_other_end_as_low_as_their_middles_cut_off_at_the_bounds() {
+    fn uncoupled_variables_end_at_their_minima_clamped_to_the_bounds() {
         let bowl = Bowl::new(203, 0.0);
-        let place = descended(&bowl);
+        let place = descend_into(&bowl);
         let cut: Vec<f64> = bowl
             .middle
             .iter()
             .map(|middle| middle.clamp(0.0, 1.0))
             .collect();
         let least = bowl.evaluate(&cut, &mut vec![0.0; cut.len()]);
-        // It ends when thirty steps gain 1e-8 of the value; what is left is of the order of a few
-        // times that.
+        // It ends when thirty steps gain 1e-8 of the value; the remaining error is a few times
+        // that.
         assert!(
             place.value >= least && place.value <= least * (1.0 + 1e-6),
             "{} {least}",
@@ -345,11 +348,11 @@ mod tests {
     #[test]
     fn at_the_end_no_small_move_between_the_bounds_gains() {
         let bowl = Bowl::new(203, 40.0);
-        let place = descended(&bowl);
+        let place = descend_into(&bowl);
         assert!(place.evaluations < 1000, "{}", place.evaluations);
         assert!(place.x.iter().all(|x| (0.0..=1.0).contains(x)));
-        // Within δ of the least of a function that curves no more than L, the slope is at most
-        // √(2Lδ); here L ≤ 32 + 2·40 and δ ≤ 1e-6 of a value of order one.
+        // Within δ of the minimum of a function with curvature at most L, the slope is at most
+        // √(2Lδ). Here L ≤ 32 + 2·40, and δ ≤ 1e-6 of a value of order one.
         assert!(
             projected_slope(&place, &bowl.weights) < 0.015,
             "{}",

@@ -1,41 +1,61 @@
-//! The constraints of the papers' methods: an augmented Lagrangian, minimised again and again with
-//! better multipliers.
+//! The constraints of the papers' methods: an augmented Lagrangian with repeated multiplier
+//! updates.
 
 use nalgebra::DVector;
 
-use super::Accuracy;
 use super::descent::{Function, Limits, descend};
 use super::target::{Target, as_vector10};
 use crate::base::watch::Watch;
 use crate::geom::Quadric;
-use crate::hollow::dual::reach::Vector10;
+use crate::hollow::dual::units::Vector10;
 use crate::interior::Choice;
 
-/// The first penalty, where f and As are of order one. A hundred times less, and the first rounds
-/// stray far; a hundred times more, and f hardly shows beside it.
+/// First penalty, with f and As of order one. With a hundredth of it the first rounds stray far. A
+/// hundred times more nearly hides f.
 const FIRST_PENALTY: f64 = 10.0;
-/// A round that does not bring the residual below this part of the one before raises the penalty by
-/// this factor.
-const ENOUGH_RATIO: f64 = 0.25;
-const STIFFEN: f64 = 4.0;
-/// No penalty is greater: beyond, the rows' curvature hides f's from L-BFGS, and the multipliers
+/// Least reduction of the residual per round; otherwise the penalty grows by the second factor.
+const REDUCTION_RATIO: f64 = 0.25;
+const PENALTY_GROWTH: f64 = 4.0;
+/// Greatest penalty. Beyond it the rows' curvature hides that of f from L-BFGS. The multipliers
 /// settle without it.
 const GREATEST_PENALTY: f64 = 1e5;
-/// The slope to which the first round goes, and how much exacter each one after it is.
+/// Slope at which the first round ends, and the factor for each later one.
 const FIRST_SLOPE: f64 = 1e-2;
-const SHARPEN: f64 = 0.2;
-/// Rounds at most; about eight are needed.
+const SLOPE_REDUCTION: f64 = 0.2;
+/// Round limit; about eight are needed.
 const ROUNDS: usize = 40;
-/// A change of f between rounds, as a part of it, below which it is settled.
+/// Relative change of f between rounds below which it has settled.
 const SETTLED_RATIO: f64 = 1e-7;
 
-/// Where to start from.
+/// Accuracy and cost limits of the papers' optimiser.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Constraint residual at which it ends, in units of the solid's volume and radius of gyration.
+    pub residual: f64,
+    /// Slope at which it ends: the root mean square over the region of the move along one gradient
+    /// step, with a gradient of order one. Much below 1e-5 the last fractional cells take most of
+    /// the time.
+    pub slope: f64,
+    /// Limit on the evaluations of the moments and their derivative.
+    pub evaluations: usize,
+}
+
+impl Default for Accuracy {
+    fn default() -> Self {
+        Self {
+            residual: 1e-6,
+            slope: 1e-4,
+            evaluations: 20_000,
+        }
+    }
+}
+
+/// The start of an optimisation.
 pub(super) struct Start {
     pub x: Vec<f64>,
     /// Multipliers and penalty of an earlier run on other cells.
     pub known: Option<(DVector<f64>, f64)>,
-    /// The weight of the roughness ½Σ(xᵢ − xⱼ)² over the pairs of neighbours, as a mean over the
-    /// pairs.
+    /// Weight of the roughness: the mean of ½(xᵢ − xⱼ)² over the pairs of neighbours.
     pub smoothing: f64,
 }
 
@@ -49,10 +69,17 @@ impl From<Vec<f64>> for Start {
     }
 }
 
-/// Where the rounds came to.
+/// The accuracy and the stop signal of the optimiser.
+#[derive(Clone, Copy)]
+pub(super) struct Effort<'a> {
+    pub accuracy: &'a Accuracy,
+    pub watch: &'a Watch,
+}
+
+/// The result of an optimisation.
 pub(super) struct Optimum {
     pub x: Vec<f64>,
-    /// What material adds at each place, without unit; the void is where this is positive.
+    /// Effect of material at each place, without unit; positive in the void.
     pub quadric: Quadric,
     pub multipliers: DVector<f64>,
     pub penalty: f64,
@@ -61,7 +88,7 @@ pub(super) struct Optimum {
     pub is_cancelled: bool,
 }
 
-/// f + λ·As + ½ρ‖As‖² + smoothing·roughness, of a choice's numbers.
+/// The function f + λ·As + ½ρ‖As‖² + smoothing·roughness of a choice's variables.
 struct Lagrangian<'a> {
     target: &'a Target<'a>,
     choice: &'a dyn Choice,
@@ -76,12 +103,12 @@ impl Function for Lagrangian<'_> {
     }
 
     fn evaluate(&self, x: &[f64], slope: &mut [f64]) -> f64 {
-        let s = self.target.left(&self.choice.moments(x));
+        let s = self.target.remaining(&self.choice.moments(x));
         let (value, gradient) = self.target.at(&s);
         let misses = self.target.misses(&s);
         self.choice
             .derivative(x, &self.quadric(gradient, &misses), slope);
-        // Emptying takes moments away, so the quadric enters with the opposite sign.
+        // Emptying removes moments, so the quadric enters with the opposite sign.
         let volume_mm3 = self.target.scale().volume_mm3;
         slope.iter_mut().for_each(|slope| *slope /= -volume_mm3);
         let constraints =
@@ -91,18 +118,18 @@ impl Function for Lagrangian<'_> {
 }
 
 impl Lagrangian<'_> {
-    /// g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: what a grain of material adds to the whole, over
+    /// Returns g = ∇f + Aᵀ(λ + ρAs) over mm, without unit: the effect of a grain of material, over
     /// its volume.
     fn quadric(&self, gradient: Vector10, misses: &DVector<f64>) -> Quadric {
-        let pull = self
+        let row_part = self
             .target
             .rows()
             .tr_mul(&(&self.multipliers + misses * self.penalty));
         let scale = self.target.scale();
-        scale.quadric_to_mm(&((gradient + as_vector10(&pull)) * scale.volume_mm3))
+        scale.quadric_to_mm(&((gradient + as_vector10(&row_part)) * scale.volume_mm3))
     }
 
-    /// The smoothing's part; its derivative, the uniform Laplacian, is added to the slope.
+    /// Returns the smoothing term; adds its derivative, the uniform Laplacian, to the slope.
     fn roughness(&self, x: &[f64], slope: &mut [f64]) -> f64 {
         let pairs = self.choice.neighbours();
         if self.smoothing == 0.0 || pairs.is_empty() {
@@ -120,13 +147,14 @@ impl Lagrangian<'_> {
     }
 }
 
-/// The least of f over a choice subject to the constraints, as far as first-order conditions tell.
+/// Minimises f over a choice subject to the constraints, to first-order optimality.
 pub(super) fn minimise(
     target: &Target,
     choice: &dyn Choice,
     start: Start,
-    (accuracy, watch): (&Accuracy, &Watch),
+    effort: Effort,
 ) -> Optimum {
+    let Effort { accuracy, watch } = effort;
     let (multipliers, penalty) = start
         .known
         .unwrap_or_else(|| (DVector::zeros(target.rows().nrows()), FIRST_PENALTY));
@@ -150,7 +178,7 @@ pub(super) fn minimise(
         let place = descend(&lagrangian, x, &limits);
         evaluations += place.evaluations;
         x = place.x;
-        let s = target.left(&choice.moments(&x));
+        let s = target.remaining(&choice.moments(&x));
         let (misses, value) = (target.misses(&s), target.at(&s).0);
         let residual = misses.amax();
         let is_settled =
@@ -160,13 +188,13 @@ pub(super) fn minimise(
             break;
         }
         lagrangian.multipliers += misses * lagrangian.penalty;
-        if residual > ENOUGH_RATIO * last_residual && residual > accuracy.residual {
-            lagrangian.penalty = (lagrangian.penalty * STIFFEN).min(GREATEST_PENALTY);
+        if residual > REDUCTION_RATIO * last_residual && residual > accuracy.residual {
+            lagrangian.penalty = (lagrangian.penalty * PENALTY_GROWTH).min(GREATEST_PENALTY);
         }
         (last_residual, last_value) = (residual, value);
-        slope *= SHARPEN;
+        slope *= SLOPE_REDUCTION;
     }
-    let s = target.left(&choice.moments(&x));
+    let s = target.remaining(&choice.moments(&x));
     Optimum {
         quadric: lagrangian.quadric(target.at(&s).1, &target.misses(&s)),
         x,

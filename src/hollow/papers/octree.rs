@@ -1,27 +1,28 @@
-//! Spin-It's method: a share of every leaf of an octree, split where it is fractional until it is
-//! fine, then rounded.
+//! Spin-It's method: a share of every leaf of an octree, refined where it is fractional, then
+//! rounded.
 
-use super::lagrangian::{Optimum, Start, minimise};
+use super::lagrangian::{Accuracy, Effort, Optimum, Start, minimise};
+use super::measure::{measure, value_of};
+use super::method::{Found, Method, MethodError, Rounding};
 use super::target::Target;
-use super::{Accuracy, found};
 use crate::base::watch::Watch;
-use crate::hollow::method::{Found, Method, MethodError, Rounding, value_of};
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
 use crate::interior::{Choice, Levels, Octree};
 
-/// The octree of Spin-It §5 ([`Octree`]): the fill of every leaf between 0 and 1, a uniform
-/// Laplacian to keep it smooth, and after each solution fractional leaves split and siblings that
-/// agree merged, until what is fractional is of the finest level, one column wide. At the end every
-/// share is rounded to 0 or 1, which breaks the constraints again: by how much is in
-/// [`Found::rounding`] and [`Found::residual`].
+/// The octree of Spin-It §5 ([`Octree`]), with the fill of every leaf between 0 and 1.
+///
+/// A uniform Laplacian keeps the fill smooth. After each solution fractional leaves split, and
+/// siblings that agree merge. This ends when all fractional leaves are of the finest level, one
+/// column wide. Then every share is rounded to 0 or 1, which violates the constraints again:
+/// [`Found::rounding`] and [`Found::residual`] say by how much.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ByOctree {
-    /// How exact, at what cost; each round of splitting has these evaluations.
+    /// Accuracy and cost limits; each round of splitting has these evaluations.
     pub accuracy: Accuracy,
-    /// Where it begins.
+    /// First levels of the octree.
     pub levels: Levels,
-    /// The weight of the Laplacian: of the mean of ½(βᵢ − βⱼ)² over neighbouring leaves, beside f.
-    /// Above 1e-3 it shapes the void; at 0 leaves that the void's surface only grazes are split for
+    /// Weight of the Laplacian, the mean of ½(βᵢ − βⱼ)² over neighbouring leaves, beside f. Above
+    /// 1e-3 it shapes the void. At 0, leaves that the void's surface barely touches are split for
     /// nothing.
     pub smoothing: f64,
 }
@@ -43,12 +44,12 @@ impl Default for ByOctree {
     }
 }
 
-/// Evaluations of one round; most need a few hundred, and a round that does not end only delays the
-/// next splitting.
+/// Evaluation limit of one round. Most need a few hundred; a round that does not converge only
+/// delays the next splitting.
 const EVALUATIONS_A_ROUND: usize = 4000;
-/// Shares this near to 0 or 1 are not fractional.
+/// Distance from 0 or 1 within which a share is not fractional.
 const FRACTION_TOLERANCE: f64 = 1e-3;
-/// Splittings at most, for each level; siblings that merge may have to be split again.
+/// Limit on the splittings per level; merged siblings may have to be split again.
 const SPLITTINGS_A_LEVEL: u32 = 2;
 
 impl Method for ByOctree {
@@ -57,6 +58,10 @@ impl Method for ByOctree {
     }
 
     fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
+        let effort = Effort {
+            accuracy: &self.accuracy,
+            watch,
+        };
         let target = Target::new(self.name(), problem)?;
         let mut octree = Octree::of(problem.columns, self.levels);
         let mut start = Start {
@@ -65,11 +70,11 @@ impl Method for ByOctree {
         };
         let mut evaluations = 0;
         for _ in 0..SPLITTINGS_A_LEVEL * octree.finest_level() {
-            let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
+            let optimum = minimise(&target, &octree, start, effort);
             evaluations += optimum.evaluations;
             let refined = octree.refined(&optimum.x, FRACTION_TOLERANCE);
             let Some((finer, x)) = refined.filter(|_| !optimum.is_cancelled) else {
-                return Ok(rounded(
+                return Ok(round_shares(
                     problem,
                     &target,
                     &octree,
@@ -86,9 +91,9 @@ impl Method for ByOctree {
             };
             octree = finer;
         }
-        let optimum = minimise(&target, &octree, start, (&self.accuracy, watch));
+        let optimum = minimise(&target, &octree, start, effort);
         evaluations += optimum.evaluations;
-        Ok(rounded(
+        Ok(round_shares(
             problem,
             &target,
             &octree,
@@ -100,8 +105,8 @@ impl Method for ByOctree {
     }
 }
 
-/// The answer with every share rounded, and what that cost.
-fn rounded(problem: &Problem, target: &Target, octree: &Octree, optimum: Optimum) -> Found {
+/// Rounds every share and measures the cost of it.
+fn round_shares(problem: &Problem, target: &Target, octree: &Octree, optimum: Optimum) -> Found {
     let exact = problem.fixed - octree.moments(&optimum.x);
     let is_fractional = |x: f64| x > FRACTION_TOLERANCE && x < 1.0 - FRACTION_TOLERANCE;
     let shares = optimum.x.iter().zip(octree.weights());
@@ -114,7 +119,7 @@ fn rounded(problem: &Problem, target: &Target, octree: &Octree, optimum: Optimum
             .sum(),
     };
     let x = optimum.x.iter().map(|x| x.round()).collect();
-    let found = found(problem, target, octree, &Optimum { x, ..optimum });
+    let found = measure(problem, target, octree, &Optimum { x, ..optimum });
     Found {
         rounding: Some(rounding),
         ..found

@@ -1,22 +1,26 @@
-//! What the papers' methods minimise: a goal's formula as a smooth function of the ten moments, and
-//! its constraints.
+//! The objective of the papers' methods: a goal's formula as a smooth function of the ten moments,
+//! and its constraints.
 
 use nalgebra::{DMatrix, DVector};
 
+use super::method::MethodError;
 use crate::goal::{Goal, GoalKind, Objective};
-use crate::hollow::dual::programme::{Programme, index};
-use crate::hollow::dual::reach::{Reach, Scale, Vector10};
-use crate::hollow::method::MethodError;
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
+use crate::hollow::dual::programme::Programme;
+use crate::hollow::dual::reach::Reach;
+use crate::hollow::dual::units::index;
+use crate::hollow::dual::units::{Scale, Vector10};
 use crate::mass::Moments;
 
-/// What is added under the root of the λ_max of a 2 × 2 tensor, squared, as a part of the solid's
-/// own moments: at equal eigenvalues the root has no gradient. λ_max is at most this much too
-/// large; ten times less, and the optimiser needs three times as many steps where the best interior
-/// has them equal.
+/// Smoothing of the λ_max of a 2 × 2 tensor, as a part of the solid's own moments; its square is
+/// added under the root.
+///
+/// At equal eigenvalues the root has no gradient. λ_max is too large by this much at most. With a
+/// tenth of it the optimiser needs three times as many steps if the best interior has equal
+/// eigenvalues.
 const SMOOTHING: f64 = 1e-4;
 
-/// The formulas that have a gradient.
+/// The formulas with a gradient.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Formula {
     TopFunctional,
@@ -28,8 +32,8 @@ enum Formula {
 }
 
 impl Formula {
-    /// Refuses an objective that has no gradient, and the goals that the papers' methods were not
-    /// made for.
+    /// Selects the formula of a goal. Refuses objectives without a gradient, and goals that the
+    /// papers' methods do not cover.
     fn of(method: &'static str, goal: &Goal) -> Result<Self, MethodError> {
         match (goal.kind, goal.objective) {
             (GoalKind::Top, Objective::SpinIt { .. }) => Ok(Self::TopFunctional),
@@ -48,7 +52,7 @@ impl Formula {
     }
 }
 
-/// f and A, in units of the solid's volume and radius of gyration.
+/// The objective f and the rows A, in units of the solid's volume and radius of gyration.
 pub(super) struct Target<'a> {
     goal: &'a Goal,
     formula: Formula,
@@ -58,7 +62,7 @@ pub(super) struct Target<'a> {
 }
 
 impl<'a> Target<'a> {
-    /// Refuses what [`Formula::of`] refuses, and an interior where there is nothing to choose.
+    /// Builds the objective. Refuses what [`Formula::of`] refuses, and an empty interior.
     pub fn new(method: &'static str, problem: &Problem<'a>) -> Result<Self, MethodError> {
         let formula = Formula::of(method, problem.goal)?;
         if problem.columns.is_empty() {
@@ -84,28 +88,28 @@ impl<'a> Target<'a> {
         &self.reach.scale
     }
 
-    /// A
+    /// Returns the rows A.
     pub fn rows(&self) -> &DMatrix<f64> {
         &self.rows
     }
 
-    /// The moments of the material that is left when these are emptied.
-    pub fn left(&self, emptied: &Moments) -> Vector10 {
+    /// Returns the moments of the material that stays when `emptied` is removed.
+    pub fn remaining(&self, emptied: &Moments) -> Vector10 {
         self.scale().moments_to_units(&(self.fixed - *emptied))
     }
 
-    /// As
+    /// Returns the residuals As.
     pub fn misses(&self, s: &Vector10) -> DVector<f64> {
         &self.rows * s
     }
 
-    /// How far the constraints are from met.
+    /// Returns the largest constraint residual.
     pub fn residual(&self, moments: &Moments) -> f64 {
         self.misses(&self.scale().moments_to_units(moments)).amax()
     }
 
-    /// f and its gradient. Spin-It's functional is the square of the programme's ratio; the others
-    /// are the ratio itself.
+    /// Returns f and its gradient. Spin-It's functional is the square of the programme's ratio; the
+    /// others are the ratio itself.
     pub fn at(&self, s: &Vector10) -> (f64, Vector10) {
         let (ratio, slope) = ratio_at(&self.programme(s), s);
         let Objective::SpinIt { gamma_c, gamma_i } = self.goal.objective else {
@@ -121,9 +125,11 @@ impl<'a> Target<'a> {
         (value + gamma_c * lever * lever, slope + lowering)
     }
 
-    /// The programme whose ratio f is at s. A top's depends on the height ℓ of the centre only
-    /// through 2ℓs_z − ℓ²s₁, whose derivative by ℓ vanishes at ℓ = s_z/s₁; so its gradient there is
-    /// that of the true tensor.
+    /// Returns the programme whose ratio at s is f.
+    ///
+    /// A top's programme depends on the height ℓ of the centre only through 2ℓs_z − ℓ²s₁. The
+    /// derivative of that by ℓ vanishes at ℓ = s_z/s₁. So its gradient there is that of the true
+    /// tensor.
     fn programme(&self, s: &Vector10) -> Programme {
         let height = s[index::Z] / s[index::ONE];
         match self.formula {
@@ -138,26 +144,26 @@ impl<'a> Target<'a> {
         }
     }
 
-    /// The rows of the goal's programme.
+    /// Returns the rows of the goal's programme.
     fn constraints(&self) -> DMatrix<f64> {
         self.programme(&self.reach.solid).rows
     }
 }
 
-/// Ten numbers of a size known only at run time.
+/// Converts ten numbers of dynamic size.
 pub(super) fn as_vector10(vector: &DVector<f64>) -> Vector10 {
     Vector10::from_column_slice(vector.as_slice())
 }
 
-/// (n·s + √(‖Js‖² + ε²))/(e·s) and its gradient.
+/// Returns (n·s + √(‖Js‖² + ε²))/(e·s) and its gradient.
 fn ratio_at(programme: &Programme, s: &Vector10) -> (f64, Vector10) {
     let along = &programme.directions * s;
     let norm = (along.norm_squared() + SMOOTHING * SMOOTHING).sqrt();
-    let turning = programme.directions.tr_mul(&along) / norm;
+    let slope_of_norm = programme.directions.tr_mul(&along) / norm;
     let length = if along.is_empty() { 0.0 } else { norm };
     let denominator = programme.denominator.dot(s);
     let ratio = (programme.numerator.dot(s) + length) / denominator;
-    let rising = programme.numerator + as_vector10(&turning);
+    let rising = programme.numerator + as_vector10(&slope_of_norm);
     (
         ratio,
         (rising - programme.denominator * ratio) / denominator,
@@ -166,10 +172,10 @@ fn ratio_at(programme: &Programme, s: &Vector10) -> (f64, Vector10) {
 
 #[cfg(test)]
 mod tests {
+    use super::super::measure::value_of;
     use super::*;
     use crate::base::units::STANDARD_GRAVITY_MM_S2;
     use crate::goal::to_rpm;
-    use crate::hollow::method::value_of;
     use crate::hollow::worlds::{self, World};
 
     fn smooth_worlds() -> Vec<World> {
@@ -219,8 +225,8 @@ mod tests {
                 _ => f,
             };
             let value = value_of(&problem, &world.fixed);
-            // The smoothing adds at most its own size to λ_max, here of order 0.1 or more, and
-            // speeds are roots of it.
+            // The smoothing adds at most its own size to λ_max, here of order 0.1 or more. Speeds
+            // are square roots of it.
             let agrees = (figure / value - 1.0).abs() < 2e-3 || (figure.is_nan() && value.is_nan());
             assert!(agrees, "{:?} {figure} {value}", world.goal.objective);
         }

@@ -1,18 +1,19 @@
-//! The voxel form that Wu, Kramer and Westermann compare with: a share of every voxel.
+//! The voxel method that Wu, Kramer and Westermann compare with: a share of every voxel.
 
-use super::lagrangian::{Start, minimise};
+use super::lagrangian::{Accuracy, Effort, Start, minimise};
+use super::measure::measure;
+use super::method::{Found, Method, MethodError};
 use super::target::Target;
-use super::{Accuracy, found};
 use crate::base::watch::Watch;
-use crate::hollow::method::{Found, Method, MethodError};
-use crate::hollow::problem::Problem;
+use crate::hollow::Problem;
 use crate::interior::{Choice, Voxels};
 
-/// One number between 0 and 1 a voxel ([`Voxels`]), which is as high as a column is wide. Nothing
-/// is rounded: the voxels that the surface of the void cuts keep their shares.
+/// One number between 0 and 1 per voxel ([`Voxels`]), which is as high as a column is wide.
+///
+/// Nothing is rounded: voxels cut by the void's surface keep their shares.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ByVoxels {
-    /// How exact, at what cost.
+    /// Accuracy and cost limits.
     pub accuracy: Accuracy,
 }
 
@@ -23,12 +24,16 @@ impl Method for ByVoxels {
 
     fn find(&self, problem: &Problem, watch: &Watch) -> Result<Found, MethodError> {
         let height_mm = problem.columns.pitch_mm[0].max(problem.columns.pitch_mm[1]);
+        let effort = Effort {
+            accuracy: &self.accuracy,
+            watch,
+        };
         let (target, voxels) = (
             Target::new(self.name(), problem)?,
             Voxels::of(problem.columns, height_mm),
         );
         let start = Start::from(voxels.nothing());
-        let optimum = minimise(&target, &voxels, start, (&self.accuracy, watch));
-        Ok(found(problem, &target, &voxels, &optimum))
+        let optimum = minimise(&target, &voxels, start, effort);
+        Ok(measure(problem, &target, &voxels, &optimum))
     }
 }

@@ -1,32 +1,35 @@
-//! How an answer came about, for people to look at: value and bound pass by pass, and a top's speed
-//! by height.
+//! The course of a solution, for plots: value and bound pass by pass, and a top's speed by height.
 
 use super::heights::Heights;
+use super::valley::Start;
 use crate::base::watch::Watch;
 use crate::goal::{GoalKind, Objective};
 use crate::hollow::dual::answer::Answer;
 use crate::hollow::dual::work::Work;
+use crate::hollow::log::Pass;
 use crate::hollow::problem::Problem;
 use crate::hollow::problem::Settings;
-use crate::hollow::solution::{Figure, Pass, Solution};
+use crate::hollow::solution::{Figure, Solution};
 
-/// Heights at which a top's speed is found: fewer draw corners, more cost an ascent each.
+/// Number of heights in the curve of a top's speed. Fewer show corners; each costs an ascent.
 const HEIGHTS: usize = 33;
-/// To what share of itself the speed at a height is found: a thousandth of what a plot shows.
+/// Relative accuracy of the speed at a height: a thousandth of the resolution of a plot.
 const TOLERANCE: f64 = 1e-5;
 
-/// A top's best speed by the height of its centre, and the ascent to the best of all.
+/// A top's best speed by the height of its centre, and the ascent to the optimum.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct TopCourse {
-    /// Value and bound pass by pass from nothing, at the height of the answer, rpm.
+    /// Value and bound pass by pass from a cold start, at the height of the solution, rpm.
     pub passes: Vec<Pass>,
-    /// Heights ascending, mm, and the least critical speed of any interior that is balanced there,
-    /// rpm; only where one is stable. The least of it is the optimum.
+    /// Heights in ascending order, mm, each with the least critical speed of any interior balanced
+    /// there, rpm. Only heights with a stable interior; the minimum is the optimum.
     pub speeds: Vec<[f64; 2]>,
 }
 
-/// The course of a top that was solved for its critical speed on these columns; empty for anything
-/// else. It costs some forty ascents, so coarse columns do.
+/// Computes the course of a top solved for its critical speed on these columns; empty for anything
+/// else.
+///
+/// Costs about forty ascents, so coarse columns are advisable.
 pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> TopCourse {
     let is_of_speed = known.certificate.figure == Figure::CriticalSpeedRpm;
     let (GoalKind::Top, true, Some(best)) = (problem.goal.kind, is_of_speed, known.warm.height)
@@ -44,20 +47,22 @@ pub fn top_course(problem: &Problem, settings: &Settings, known: &Solution) -> T
         Answer::new(Objective::CriticalSpeed, climb).course(&work, Figure::CriticalSpeedRpm);
     TopCourse {
         passes,
-        speeds: speeds(&heights),
+        speeds: sample_speeds(&heights),
     }
 }
 
-/// The least speed at heights evenly apart over the range that can be had.
-fn speeds(heights: &Heights) -> Vec<[f64; 2]> {
+/// Returns the least speed at evenly spaced heights over the possible range.
+fn sample_speeds(heights: &Heights) -> Vec<[f64; 2]> {
     let [low, high] = heights.range;
     let mut speeds = Vec::with_capacity(HEIGHTS);
     let mut near = None;
     for index in 0..HEIGHTS {
         let height = low + (high - low) * (index as f64 + 0.5) / HEIGHTS as f64;
-        let Some(sample) =
-            heights.sample(height, near.as_ref().map(|point| (point, None)), TOLERANCE)
-        else {
+        let Some(sample) = heights.sample(
+            height,
+            near.as_ref().map(|point| Start { point, lever: None }),
+            TOLERANCE,
+        ) else {
             continue;
         };
         near = Some(sample.climb.best.point.clone());
@@ -76,7 +81,7 @@ mod tests {
     use crate::hollow::{solve, worlds};
 
     #[test]
-    fn the_optimum_is_the_least_of_the_curve_over_heights_and_where_the_ascent_ends() {
+    fn the_optimum_is_the_minimum_of_the_curve_and_the_end_of_the_ascent() {
         let world = worlds::egg_on_its_side(Objective::CriticalSpeed);
         let (problem, settings) = (world.problem(), Settings::default());
         let known = solve(&problem, &settings, &Watch::silent());
@@ -90,7 +95,7 @@ mod tests {
             .iter()
             .map(|speed| speed[1])
             .fold(f64::INFINITY, f64::min);
-        // No height is better than the bound; one of 33 is within half a step of the best, where
+        // No height is better than the bound. One of 33 is within half a step of the best, where
         // the curve is flat.
         assert!(
             least >= bound * (1.0 - TOLERANCE) && least < 1.05 * value,
@@ -121,7 +126,7 @@ mod tests {
             (last.value, last.bound),
             (known.certificate.value, known.certificate.bound)
         );
-        // Every bound is one: none lies above the optimum by more than rounding.
+        // No bound lies above the optimum by more than rounding.
         assert!(
             known
                 .course

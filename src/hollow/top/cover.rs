@@ -1,96 +1,66 @@
-//! The proof over every height: a finite set of intervals in each of which no interior is better.
+//! The proof over every height: finitely many intervals, in each of which no interior is better.
 
 use super::heights::Heights;
+use super::posts::{Post, Stake};
 use super::valley::Bottom;
-use crate::hollow::dual::ascent::{End, Slack, Visit};
-use crate::hollow::dual::programme::{DualPoint, Programme};
-use crate::hollow::dual::reach::Vector10;
-use crate::hollow::solution::Stage;
+use crate::hollow::dual::ascent::End;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::visit::{Slack, Visit};
+use crate::hollow::log::Stage;
 
-/// Posts at most. A smooth valley takes about twenty.
+/// Limit on the posts; a smooth valley takes about twenty.
 const MOST_POSTS: usize = 400;
-/// The share of a margin that is not worth another pass. A fifth of it doubles the passes a post
-/// takes and saves a tenth of the posts.
+/// Share of a margin that is not worth another pass. A fifth of it doubles the passes per post and
+/// saves a tenth of the posts.
 const MARGIN_SLACK: f64 = 0.5;
-/// How many times the margin that was expected is enough. Where no interior is to be had it grows
-/// without bound, and the multipliers with it.
+/// Multiple of the expected margin that suffices. If no interior is possible there, the margin
+/// grows without bound, and so do the multipliers.
 const CONTENT_RATIO: f64 = 4.0;
-/// How many times the last step the multipliers are followed ahead; further, their line is worse
-/// than their last.
+/// Longest extrapolation of the multipliers, in steps. Beyond, the last multipliers are better than
+/// their line.
 const FARTHEST_AHEAD: f64 = 4.0;
-/// How far a post reaches at first guess, as a part of its distance from the bottom.
+/// First guess of a post's reach, as a part of its distance from the bottom.
 const FIRST_REACH: f64 = 0.6;
-/// The part of the foreseen reach that is counted on. Nearer to one, and posts miss the edge that
-/// they have to overlap.
+/// Share of the predicted reach that is relied on. With a share nearer to one, posts miss the edge
+/// that they have to overlap.
 const COUNTED_REACH: f64 = 0.85;
 
-/// A claim about all heights: no interior, wherever its centre, has a ratio below `target`.
+/// The claim that no interior has a ratio below `target`, whatever the height of its centre.
 ///
-/// Let the tensor be linear at ℓ, and let an interior have its centre at h. Its true numerator is
-/// smaller than the linear one by κs₁(h − ℓ)², since s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)² and κ of
-/// that is taken away (for any weights y of the dual; κ = 1 for λ_max). So if every interior has
+/// Let the tensor be linear at ℓ, and let an interior have its centre at h. Since s_z²/s₁ = 2ℓs_z −
+/// ℓ²s₁ + s₁(h − ℓ)², its true numerator is smaller than the linear one by κs₁(h − ℓ)². This holds
+/// for any weights y of the dual; κ = 1 for λ_max. Suppose that every interior has
 ///
 /// ```text
 /// n_ℓ·s + max yᵀJ_ℓs − target·e·s ≥ δ s₁
 /// ```
 ///
-/// which is one more quasi-convex programme, with a bound from any dual point, then no interior
-/// with its centre within √(δ/κ) of ℓ is below the target. Such a *post* at ℓ needs no row for the
-/// height. With T's bottom at ℓ* and curvature c, δ ≈ ½c(ℓ − ℓ*)²: the reach of a post grows with
-/// its distance from the bottom, and the posts for a precision of ε number about log(1/ε), not
-/// 1/√ε.
+/// This is one more quasi-convex programme, with a bound from any dual point. Then no interior with
+/// its centre within √(δ/κ) of ℓ is below the target. Such a *post* at ℓ needs no row for the
+/// height.
+///
+/// Let T have its bottom at ℓ* with curvature c. Then δ ≈ ½c(ℓ − ℓ*)², so a post's reach grows with
+/// its distance from the bottom. A precision of ε takes about log(1/ε) posts, not 1/√ε.
 pub(crate) struct Cover<'a> {
     pub heights: &'a Heights<'a>,
     pub target: f64,
-    /// The lever of the interiors it is about; none where it is about all.
+    /// Lever of the interiors in the claim; `None` if it covers all levers.
     pub lever: Option<f64>,
-    /// The share of a post's margin that has to remain as far as it reaches.
+    /// Share of a post's margin that has to remain at the end of its reach.
     pub level_ratio: f64,
 }
 
-/// Why a claim was not proved.
+/// The reason a claim was not proved.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Doubt {
     /// An interior below the target has its centre at this height.
     Refuted(f64),
-    /// It was not found out.
+    /// The proof was not completed.
     Open,
 }
 
-/// A dual point at ℓ that speaks for all heights within its reach.
-#[derive(Debug, Clone)]
-pub(crate) struct Post {
-    pub at: f64,
-    /// δ
-    pub margin: f64,
-    /// How far from it the share of the margin is left.
-    pub reach: f64,
-    pub point: DualPoint,
-    /// What it rests on.
-    pub stake: Stake,
-}
-
-/// A linear inequality that every interior has to meet: g·s ≥ least. It is settled by one extreme
-/// point of K.
-#[derive(Debug, Clone)]
-pub(crate) struct Stake {
-    /// g
-    pub direction: Vector10,
-    pub least: f64,
-}
-
-impl Stake {
-    /// That no interior has a ratio below τ, by the dual point with this τ: D ≥ 0.
-    fn of(programme: &Programme, point: &DualPoint) -> Self {
-        Self {
-            direction: programme.quadric(point),
-            least: programme.rhs.dot(&point.lambda),
-        }
-    }
-}
-
 impl<'a> Cover<'a> {
-    /// The claim about interiors of any lever.
+    /// Returns the claim about interiors of any lever.
     pub fn of_all(heights: &'a Heights<'a>, target: f64) -> Self {
         Self {
             heights,
@@ -100,9 +70,9 @@ impl<'a> Cover<'a> {
         }
     }
 
-    /// The posts that prove the claim at every height of the range, from the bottom of a valley up
-    /// and down.
-    pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
+    /// Finds the posts that prove the claim at every height of the range, from the bottom of a
+    /// valley up and down.
+    pub fn prove(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let best = &bottom.sample.climb.best;
         let margin = (best.bound - self.target) * best.denominator / best.mass();
         let start = DualPoint {
@@ -112,8 +82,8 @@ impl<'a> Cover<'a> {
         self.posts(bottom.sample.at, start)
     }
 
-    /// The posts of a claim that holds, the first at `height`, which is best where the margin is
-    /// least.
+    /// Finds the posts of a claim. The first is at `height`, which is best placed at the least
+    /// margin.
     pub fn posts(&self, height: f64, start: DualPoint) -> Result<Vec<Post>, Doubt> {
         let middle = self.post(height, start)?;
         let [low, high] = self.heights.range;
@@ -122,7 +92,7 @@ impl<'a> Cover<'a> {
         Ok(std::iter::once(middle).chain(up).chain(down).collect())
     }
 
-    /// Posts from the middle one to an end of the range, each overlapping the one before.
+    /// Places posts from the middle one to an end of the range, each overlapping the one before.
     fn march(&self, middle: &Post, other: Option<&Post>, end: f64) -> Result<Vec<Post>, Doubt> {
         let side = (end - middle.at).signum();
         let (mut edge, mut reach_ratio) = (middle.reach, FIRST_REACH);
@@ -134,7 +104,7 @@ impl<'a> Cover<'a> {
             let distance = edge / (1.0 - COUNTED_REACH * reach_ratio);
             let at = middle.at + side * distance;
             let margin = margin_at(&last, (middle.at, at), reach_ratio);
-            let post = self.post(at, aimed(&last, before.as_ref(), at, margin))?;
+            let post = self.post(at, extrapolate(&last, before.as_ref(), at, margin))?;
             reach_ratio = (post.reach / distance).min(1.0);
             if distance - post.reach <= edge {
                 edge = edge.max(distance + post.reach);
@@ -145,7 +115,7 @@ impl<'a> Cover<'a> {
         Err(Doubt::Open)
     }
 
-    /// A post at a height, or what its margin says of the claim if that is not positive.
+    /// Places a post at a height; fails if its margin is not positive.
     fn post(&self, at: f64, start: DualPoint) -> Result<Post, Doubt> {
         let work = self.heights.work;
         let mut programme = self.heights.programme(at);
@@ -173,7 +143,7 @@ impl<'a> Cover<'a> {
             prudence.claim(climb.best.bound)
         });
         if margin <= 0.0 {
-            return Err(self.refutation(&climb.best));
+            return Err(self.doubt_about(&climb.best));
         }
         let weight = self.heights.weight(&climb.best.point).max(0.0);
         let reach = ((1.0 - self.level_ratio) * margin / weight).sqrt();
@@ -191,11 +161,12 @@ impl<'a> Cover<'a> {
         })
     }
 
-    /// Whether an interior that all but meets the constraints is below the target.
-    fn refutation(&self, best: &Visit) -> Doubt {
-        let is_one =
+    /// Returns the reason for a margin that is not positive: an interior below the target, or an
+    /// open question.
+    fn doubt_about(&self, best: &Visit) -> Doubt {
+        let is_below =
             best.value < 0.0 && best.residual() <= self.heights.work.settings.accepted_residual;
-        if is_one {
+        if is_below {
             Doubt::Refuted(best.center_height())
         } else {
             Doubt::Open
@@ -203,7 +174,7 @@ impl<'a> Cover<'a> {
     }
 }
 
-/// The margin to expect at a place from the post before: it grows with the square of the distance
+/// Predicts the margin at a place from the post before. It grows with the square of the distance
 /// from the middle.
 fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
     let distance = at - middle;
@@ -213,9 +184,8 @@ fn margin_at(last: &Post, (middle, at): (f64, f64), reach_ratio: f64) -> f64 {
     last.margin * (distance / (last.at - middle)).powi(2)
 }
 
-/// The dual point on the line through the last two, which the multipliers follow as the height
-/// changes.
-fn aimed(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint {
+/// Extrapolates the dual point along the line through the last two posts.
+fn extrapolate(last: &Post, before: Option<&Post>, at: f64, margin: f64) -> DualPoint {
     let mut point = DualPoint {
         tau: margin,
         ..last.point.clone()
@@ -255,7 +225,7 @@ mod tests {
                 (Settings::default(), Watch::silent(), world.problem());
             let work = Work::new(&problem, &settings, &watch);
             let heights = Heights::new(&work, objective).unwrap();
-            let bottom = heights.bottom_from(heights.range[1]).unwrap();
+            let bottom = heights.find_bottom_from(heights.range[1]).unwrap();
             let best = bottom.sample.climb.best.value;
             for (worse, expected) in [
                 (-1e-1, true),
@@ -265,7 +235,7 @@ mod tests {
                 (1e-1, false),
             ] {
                 let cover = Cover::of_all(&heights, best + worse * best.abs());
-                let proof = cover.proof(&bottom);
+                let proof = cover.prove(&bottom);
                 assert_eq!(proof.is_ok(), expected, "{objective:?} {worse}: {proof:?}");
             }
         }

@@ -1,51 +1,55 @@
-//! The proof over every height and lever, for Spin-It's functional where it weighs the lever.
+//! The proof over every height and lever, for Spin-It's functional with a weighed lever.
 
-use super::cover::{Cover, Doubt, Post, Stake};
+use super::cover::{Cover, Doubt};
 use super::heights::Heights;
-use super::lever::Weighed;
+use super::posts::{Post, Stake};
 use super::valley::Bottom;
-use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
+use super::weighed::Weighed;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::table::LEVER_ROW;
+use crate::hollow::dual::units::index;
 
-/// Half the angle of the first side, as a part of √(how far below the value the claim is).
+/// Half the angle of the first side, over the square root of the claim's relative distance from the
+/// value.
 const FIRST_ANGLE_RATIO: f64 = 0.25;
-/// The share of a post's margin that has to remain as far as it reaches, for the sides that meet
-/// there. Less takes more sides, more takes more posts.
+/// Share of a post's margin that has to remain at the end of its reach, for the sides that meet
+/// there. A smaller share takes more sides, a larger one more posts.
 const LEVEL_RATIO: f64 = 0.5;
-/// What is left of an angle that was too wide.
+/// Factor by which an angle that was too wide shrinks.
 const SHRINKAGE: f64 = 0.5;
-/// The widest angle of a side, rad.
+/// Widest angle of a side, rad.
 const WIDEST: f64 = 0.4;
-/// The narrowest, at which the attempt is given up.
+/// Narrowest angle of a side, rad, at which the attempt ends.
 const NARROWEST: f64 = 1e-7;
-/// Sides one way at most.
+/// Limit on the sides in one direction.
 const MOST_SIDES: usize = 80;
 
-/// A claim about all heights and levers: no interior has k s_z² + γ ρ² < V, with ρ the inertia's
+/// The claim that no interior of any height and lever has k s_z² + γ ρ² < V, with ρ the inertia
 /// ratio.
 ///
-/// (s_z, ρ) lies outside of that ellipse if it lies above a polygon drawn around it. Let (σ₁, t₁)
-/// and (σ₂, t₂) be the ends of one of its sides, σ₁ < σ₂. At each end the posts of a [`Cover`] with
-/// the row s_z = σᵢ prove, with the row's multiplier aᵢ, for *every* interior whose centre is at h
-/// within their reach,
+/// (s_z, ρ) lies outside this ellipse if it lies above a polygon drawn around it. Let (σ₁, t₁) and
+/// (σ₂, t₂) be the ends of one of its sides, σ₁ < σ₂. At each end there are the posts of a
+/// [`Cover`] with the row s_z = σᵢ and its multiplier aᵢ. For *every* interior whose centre lies at
+/// a height h within their reach they prove
 ///
 /// ```text
 /// N − tᵢ I_zz ≥ mᵢ s₁ + aᵢ (σᵢ − s_z).
 /// ```
 ///
-/// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. The same mixture of both says that it is
-/// above the side where (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z, which holds for all x if
-/// √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁). What the mixture loses is quadratic in the side's length,
-/// and m grows with the square of the distance from the best lever: so the number of sides, too, is
-/// about the logarithm of the precision.
+/// An interior with s_z = (1 − x)σ₁ + xσ₂ has s₁ = s_z/h. By the same mixture of both inequalities
+/// it is above the side if (1 − x)m₁ + xm₂ ≥ x(1 − x)(σ₂ − σ₁)(a₁ − a₂)h/s_z. This holds for all x
+/// if √m₁ + √m₂ ≥ √((σ₂ − σ₁)(a₁ − a₂)h/σ₁). The loss of the mixture is quadratic in the side's
+/// length. The margin m grows with the square of the distance from the best lever. So the number of
+/// sides, too, is about the logarithm of the precision.
 ///
-/// From a corner (σ, t) on, t changes with the lever along the ellipse by less than |t′| = kσ/(γt)
-/// a unit below σ and by more above it. So the posts of a corner speak for all smaller levers where
-/// a ≥ |t′| times the greatest I_zz, and for all greater ones where a ≤ |t′| times the least I_zz,
+/// Beyond a corner (σ, t), t changes along the ellipse by less than |t′| = kσ/(γt) per unit of
+/// lever below σ, and by more above it. So the posts of a corner cover all smaller levers if a ≥
+/// |t′| times the greatest I_zz. They cover all greater levers if a ≤ |t′| times the least I_zz,
 /// plus m/h.
 pub(crate) struct Frontier<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
-    /// V
+    /// Claimed value V.
     pub target: f64,
 }
 
@@ -57,20 +61,20 @@ struct Corner {
     posts: Vec<Post>,
 }
 
-/// A walk along the polygon.
+/// The state of a walk along the polygon.
 #[derive(Clone, Copy)]
 struct Walk {
-    /// 1 towards smaller levers, −1 towards greater.
+    /// Direction: 1 towards smaller levers, −1 towards greater.
     side: f64,
-    /// Where the last side touches the ellipse, as an angle from the axis of levers.
+    /// Point of contact of the last side with the ellipse, as an angle from the axis of levers.
     touch: f64,
-    /// The angle from there on to the last corner, negative before it.
+    /// Angle from there to the last corner; negative before it.
     offset: f64,
 }
 
 impl Frontier<'_> {
-    /// The posts that prove the claim, from the best height and lever on.
-    pub fn proof(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
+    /// Finds the posts that prove the claim, starting at the best height and lever.
+    pub fn prove(&self, bottom: &Bottom) -> Result<Vec<Post>, Doubt> {
         let sample = &bottom.sample;
         let lever = sample.lever.ok_or(Doubt::Open)?.at;
         let best = &sample.climb.best;
@@ -119,8 +123,8 @@ impl Frontier<'_> {
         Err(Doubt::Open)
     }
 
-    /// Corner after corner along tangents of the ellipse, from the second of two to an end of what
-    /// interiors can have; the posts of the new ones.
+    /// Walks along tangents of the ellipse, from the second of two corners to an end of the
+    /// possible levers. Returns the posts of the new corners.
     fn walk(&self, walk: Walk, (before, last): (&Corner, &Corner)) -> Result<Vec<Post>, Doubt> {
         let Walk {
             side,
@@ -132,7 +136,7 @@ impl Frontier<'_> {
             if self.is_end(&last, side) {
                 return Ok(posts);
             }
-            // From a corner beyond its point of contact another tangent goes on.
+            // A corner beyond its point of contact starts another tangent.
             if offset > 0.0 {
                 touch += 2.0 * side * offset;
                 offset = -offset;
@@ -154,8 +158,8 @@ impl Frontier<'_> {
         Err(Doubt::Open)
     }
 
-    /// The next corner on the same tangent, as far on as all interiors are above the side to it,
-    /// and how far on.
+    /// Finds the next corner on the same tangent, as far as all interiors are above the side to it.
+    /// Returns it with its angle.
     fn step(
         &self,
         walk: Walk,
@@ -167,7 +171,7 @@ impl Frontier<'_> {
             touch,
             offset,
         } = walk;
-        let mut step = self.foreseen((before, last), distance);
+        let mut step = self.predict_angle((before, last), distance);
         let mut failed = Doubt::Open;
         while step > NARROWEST {
             let at = self.at(touch, side * (offset + step));
@@ -178,7 +182,7 @@ impl Frontier<'_> {
                     self.is_above(last, next)
                 }
             };
-            match self.corner(at, &aimed(before, last, at[0])) {
+            match self.corner(at, &extrapolate(before, last, at[0])) {
                 Ok(next) if fits(&next) => return Ok((next, step)),
                 Ok(_) => {}
                 Err(doubt) => failed = doubt,
@@ -188,9 +192,9 @@ impl Frontier<'_> {
         Err(failed)
     }
 
-    /// The angle at which the next side should just be above, from how margin and multiplier went
-    /// before.
-    fn foreseen(&self, (before, last): (&Corner, &Corner), distance: f64) -> f64 {
+    /// Predicts the angle at which the next side is just above, from the last margins and
+    /// multipliers.
+    fn predict_angle(&self, (before, last): (&Corner, &Corner), distance: f64) -> f64 {
         let bend = ((last.multiplier() - before.multiplier()) / (last.lever - before.lever)).abs();
         let loss = (bend * self.heights.range[1] / last.lever).sqrt() * self.greatest();
         let margin = last.level().sqrt();
@@ -198,7 +202,7 @@ impl Frontier<'_> {
         angle.min(WIDEST)
     }
 
-    /// Whether every interior beyond this corner is as the claim says.
+    /// Returns true if the claim holds for every interior beyond this corner.
     fn is_end(&self, last: &Corner, side: f64) -> bool {
         let Weighed {
             lever: k,
@@ -208,20 +212,20 @@ impl Frontier<'_> {
         let reach = &self.heights.work.reach;
         let [least, greatest] =
             [&reach.shell, &reach.fullest].map(|s| fall * (s[index::XX] + s[index::YY]));
-        let speaks = |post: &Post| match side {
+        let covers = |post: &Post| match side {
             1.0 => multiplier(post) >= greatest,
             _ => multiplier(post) <= least + level(post) / self.heights.range[1],
         };
-        last.posts.iter().all(speaks)
+        last.posts.iter().all(covers)
     }
 
-    /// The lever of an interior that has no inertia and is below the claim: the end of the ellipse.
+    /// Returns the lever at the end of the ellipse: that of an interior without inertia.
     fn greatest(&self) -> f64 {
         (self.target / self.weighed.lever).sqrt()
     }
 
-    /// The lever and the ratio at the corner of the tangent at `touch` with the one twice `half`
-    /// further.
+    /// Returns lever and ratio where the tangent at `touch` meets the tangent twice `half` further
+    /// on.
     fn at(&self, touch: f64, half: f64) -> [f64; 2] {
         let angle = touch + half;
         let radius = self.target.sqrt() / half.cos();
@@ -245,7 +249,7 @@ impl Frontier<'_> {
         })
     }
 
-    /// Whether every interior with a lever between those of two corners is above the side between
+    /// Returns true if every interior with a lever between two corners is above the side between
     /// them.
     fn is_above(&self, low: &Corner, high: &Corner) -> bool {
         low.posts.iter().all(|one| {
@@ -253,12 +257,12 @@ impl Frontier<'_> {
             high.posts
                 .iter()
                 .filter(beside)
-                .all(|other| self.is_above_at((low.lever, one), (high.lever, other)))
+                .all(|other| self.is_above_at([low.lever, high.lever], [one, other]))
         })
     }
 
-    /// The same for the heights within the reach of two posts.
-    fn is_above_at(&self, (low, one): (f64, &Post), (high, other): (f64, &Post)) -> bool {
+    /// Returns true if this holds for the heights within the reach of two posts.
+    fn is_above_at(&self, [low, high]: [f64; 2], [one, other]: [&Post; 2]) -> bool {
         let height = (one.at + one.reach)
             .min(other.at + other.reach)
             .min(self.heights.range[1]);
@@ -268,12 +272,12 @@ impl Frontier<'_> {
 }
 
 impl Corner {
-    /// The lever's multiplier at the middle post.
+    /// Returns the lever's multiplier at the middle post.
     fn multiplier(&self) -> f64 {
         multiplier(&self.posts[0])
     }
 
-    /// The margin that is left as far as the middle post reaches.
+    /// Returns the margin left at the end of the middle post's reach.
     fn level(&self) -> f64 {
         level(&self.posts[0])
     }
@@ -283,13 +287,13 @@ fn multiplier(post: &Post) -> f64 {
     post.point.lambda[LEVER_ROW]
 }
 
-/// The margin that is left as far as a post reaches.
+/// Returns the margin left at the end of a post's reach.
 fn level(post: &Post) -> f64 {
     LEVEL_RATIO * post.margin
 }
 
-/// The middle post on the line through two corners' middle posts.
-fn aimed(before: &Corner, last: &Corner, lever: f64) -> Post {
+/// Extrapolates the middle post along the line through two corners' middle posts.
+fn extrapolate(before: &Corner, last: &Corner, lever: f64) -> Post {
     let ahead = (lever - last.lever) / (last.lever - before.lever);
     let (one, other) = (&before.posts[0], &last.posts[0]);
     let mut point = other.point.clone();
@@ -299,7 +303,7 @@ fn aimed(before: &Corner, last: &Corner, lever: f64) -> Post {
     if length > 1.0 {
         point.y /= length;
     }
-    // The square root of the margin grows with the distance from the best lever, evenly.
+    // The square root of the margin grows linearly with the distance from the best lever.
     let root = other.margin.sqrt() + (other.margin.sqrt() - one.margin.sqrt()) * ahead;
     point.tau = root * root;
     Post {
@@ -326,7 +330,7 @@ mod tests {
                 (Settings::default(), Watch::silent(), world.problem());
             let work = Work::new(&problem, &settings, &watch);
             let heights = Heights::new(&work, objective).unwrap();
-            let bottom = heights.bottom_from(heights.range[1]).unwrap();
+            let bottom = heights.find_bottom_from(heights.range[1]).unwrap();
             for (share, expected) in [
                 (0.9, true),
                 (1.0 - 1e-6, true),
@@ -340,7 +344,7 @@ mod tests {
                     weighed,
                     target,
                 }
-                .proof(&bottom);
+                .prove(&bottom);
                 assert_eq!(proof.is_ok(), expected, "{gamma_c} {share}: {proof:?}");
             }
         }
@@ -371,7 +375,8 @@ mod tests {
         };
         let [low, high] = [0.05, -0.08].map(|half| frontier.at(1.1, half));
         let along = |x: f64| [0, 1].map(|i| low[i] + x * (high[i] - low[i]));
-        // Least where it touches, which divides the side as the tangents of the two angles.
+        // Least at the point of contact, which divides the side in the ratio of the tangents of the
+        // two angles.
         let touch = 0.05_f64.tan() / (0.05_f64.tan() + 0.08_f64.tan());
         assert!((value(along(touch)) - 0.9).abs() < 1e-12);
         assert!((0..=50).all(|i| value(along(f64::from(i) / 50.0)) >= 0.9 - 1e-12));

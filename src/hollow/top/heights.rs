@@ -1,44 +1,42 @@
-//! A top's objective as a function of one number: the height at which its tensor is made linear.
+//! A top's objective as a function of the height at which its tensor is made linear.
 
-use super::lever::{Levers, Weighed};
-use super::valley::{Bottom, Place, Sample, Valley};
+use super::valley::Sample;
+use super::weighed::Weighed;
 use crate::goal::Objective;
-use crate::hollow::dual::answer::Answer;
-use crate::hollow::dual::ascent::{Climb, End, Slack, Visit};
+use crate::hollow::dual::ascent::{Climb, End};
 use crate::hollow::dual::programme::{DualPoint, Programme};
+use crate::hollow::dual::visit::{Slack, Visit};
 use crate::hollow::dual::work::Work;
 use crate::hollow::solution::Tangent;
 
-/// By which part of themselves the ends of the range of heights may be too far out. Less costs
-/// passes, and saves the proof none, which steps over what is out of reach in one or two.
+/// Relative accuracy of the ends of the range of heights. A finer one costs passes and saves the
+/// proof none, as its posts cross an unreachable stretch in one or two.
 const RANGE_SLACK: Slack = Slack {
     share: 0.2,
     enough: f64::INFINITY,
 };
-/// The least height of a centre, as a part of the greatest, that counts as above the contact. A top
-/// whose centre lies in its contact needs no spin at all.
+/// Least height of a centre, as a part of the greatest. A top whose centre lies in its contact
+/// needs no spin at all.
 const LEAST_HEIGHT_RATIO: f64 = 1e-4;
 
-/// A dual point to start from, and the best lever where it was found.
-pub(crate) type Start<'a> = Option<(&'a DualPoint, Option<Tangent>)>;
-
-/// A top's objective T(ℓ), the least over all interiors of the ratio whose tensor is linear at ℓ.
+/// The objective T(ℓ) of a top: the least ratio over all interiors, with the tensor linear at ℓ.
 ///
 /// With h the height of an interior's centre, s_z²/s₁ = 2ℓs_z − ℓ²s₁ + s₁(h − ℓ)². So the linear
-/// tensor is never too small and is right where h = ℓ: the least of T over ℓ is the optimum over
-/// all interiors, whatever their heights, and needs no row that fixes them. T is smooth: its slope
-/// is that of s₁(h − ℓ)².
+/// tensor is never too small, and exact at h = ℓ. The minimum of T over ℓ is therefore the optimum
+/// over all interiors of any height, without a row that fixes the height. T is smooth: its slope is
+/// that of s₁(h − ℓ)².
 #[derive(Clone, Copy)]
 pub(crate) struct Heights<'a> {
     pub work: &'a Work<'a>,
     pub objective: Objective,
-    /// No interior that meets the constraints has its centre lower or higher.
+    /// Bounds on the height of the centre of every interior that meets the constraints.
     pub range: [f64; 2],
 }
 
 impl<'a> Heights<'a> {
-    /// The objective over the heights that can be had. Fails with the ascent that proves that there
-    /// is none.
+    /// Returns the objective over the possible heights.
+    ///
+    /// Fails with the ascent that proves that no interior meets the constraints.
     pub fn new(work: &'a Work<'a>, objective: Objective) -> Result<Self, Box<Climb>> {
         Ok(Self {
             work,
@@ -47,8 +45,9 @@ impl<'a> Heights<'a> {
         })
     }
 
-    /// The heights the centre of an interior that meets the constraints can have: outer bounds, so
-    /// that none is missed. Fails with the ascent that proves that no interior meets them.
+    /// Returns outer bounds on the height of the centre of any interior that meets the constraints.
+    ///
+    /// Fails with the ascent that proves that no interior meets them.
     pub fn range(work: &Work) -> Result<[f64; 2], Box<Climb>> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
@@ -63,9 +62,9 @@ impl<'a> Heights<'a> {
         Ok([low.max(LEAST_HEIGHT_RATIO * high), high])
     }
 
-    /// The heights an interior's centre can have, by the multipliers a scout finds and one pass
-    /// over all columns for each end; none where those do not tell.
-    pub fn scouted_range(work: &Work, scout: &Work) -> Option<[f64; 2]> {
+    /// Returns bounds on the height of the centre from a scout's multipliers, with one pass over
+    /// all columns per end. `None` if those multipliers prove no range.
+    pub fn range_from_scout(work: &Work, scout: &Work) -> Option<[f64; 2]> {
         let end = |sense: f64| {
             let programme = Programme::top_height(&work.reach, sense);
             let start = programme.cold_start(&work.reach);
@@ -78,67 +77,7 @@ impl<'a> Heights<'a> {
         (low < high).then_some([low, high])
     }
 
-    /// A visit as the bottom of a valley whose place and curvature are known.
-    pub fn bottom_of(&self, (height, lever): (Tangent, Option<Tangent>), climb: Climb) -> Bottom {
-        Bottom {
-            sample: self.sample_of(height.at, lever, climb),
-            curvature: height.curvature,
-        }
-    }
-
-    /// Whether no other height, and no other lever where that is weighed, promises anything worth
-    /// the while.
-    pub fn is_level(&self, bottom: &Bottom) -> bool {
-        let Sample {
-            slope,
-            lever,
-            climb,
-            ..
-        } = &bottom.sample;
-        let of_lever = Weighed::of(self.objective, self.work)
-            .zip(*lever)
-            .is_none_or(|(weighed, lever)| {
-                bottom.is_level(weighed.slope(lever.at, &climb.best), lever.curvature)
-            });
-        of_lever && bottom.is_level(*slope, bottom.curvature)
-    }
-
-    /// The bottom of the valley that slopes away from a height; none where nothing could be solved.
-    pub fn bottom_from(&self, height: f64) -> Option<Bottom> {
-        self.bottom(Valley::from(height, self.range), None)
-    }
-
-    /// The bottom of a valley, from an answer nearby.
-    pub fn bottom(&self, valley: Valley, known: Start) -> Option<Bottom> {
-        valley.within(self.work.tolerance).bottom(
-            |Place {
-                 at,
-                 near,
-                 tolerance,
-             }| { self.sample(at, near.map(Sample::start).or(known), tolerance) },
-        )
-    }
-
-    /// The objective and its slope; none where the run was stopped or no interior meets the
-    /// constraints.
-    pub fn sample(&self, height: f64, near: Start, tolerance: f64) -> Option<Sample> {
-        if let Some(weighed) = Weighed::of(self.objective, self.work) {
-            return Levers {
-                heights: self,
-                weighed,
-                height,
-            }
-            .best(near, tolerance);
-        }
-        let climb = self.work.climb_near(
-            &self.programme(height),
-            near.map(|(point, _)| point),
-            tolerance,
-        )?;
-        Some(self.sample_of(height, None, climb))
-    }
-
-    /// The sample that an ascent at a height, and at the best lever where that is weighed, makes.
+    /// Turns an ascent at a height, and at the best lever if that is weighed, into a sample.
     pub fn sample_of(&self, height: f64, lever: Option<Tangent>, climb: Climb) -> Sample {
         let (ratio, [slope, bend]) = (climb.best.value, self.slopes(height, &climb.best));
         let (value, chain) = match self.objective {
@@ -157,15 +96,19 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// The derivative of the least ratio by ℓ, 2κs₁(ℓ − h)/(e·s) by the envelope theorem, and what
-    /// it grows with ℓ at most, 2κs₁/(e·s): the rest is what the interior does.
+    /// Returns the derivative of the least ratio by ℓ, and an upper bound of the growth of that
+    /// derivative.
+    ///
+    /// They are 2κs₁(ℓ − h)/(e·s), by the envelope theorem, and 2κs₁/(e·s). The change of the
+    /// interior with ℓ only lowers the growth.
     pub fn slopes(&self, height: f64, best: &Visit) -> [f64; 2] {
         let bend = 2.0 * self.weight(&best.point) * best.mass() / best.denominator;
         [bend * (height - best.center_height()), bend]
     }
 
-    /// κ, how often s_z²/s₁ is taken from the numerator: from λ_max once, from y·(I_xx, √2 I_xy,
-    /// I_yy) by two weights.
+    /// Returns κ, the multiple of s_z²/s₁ in the numerator.
+    ///
+    /// It is one for λ_max, and the sum of two weights for y·(I_xx, √2 I_xy, I_yy).
     pub fn weight(&self, point: &DualPoint) -> f64 {
         match self.objective {
             Objective::SpinIt { .. } => point.y[0] + point.y[2],
@@ -173,7 +116,7 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// The quasi-convex programme whose tensor is linear at this height.
+    /// Returns the quasi-convex programme with the tensor linear at this height.
     pub fn programme(&self, height: f64) -> Programme {
         let reach = &self.work.reach;
         match self.objective {
@@ -183,19 +126,12 @@ impl<'a> Heights<'a> {
         }
     }
 
-    /// The same for interiors of a lever, where there is one.
+    /// Returns the programme at this height, restricted to the given lever if there is one.
     pub fn programme_at(&self, height: f64, lever: Option<Tangent>) -> Programme {
         let programme = self.programme(height);
         lever.map_or(programme.clone(), |lever| {
             programme.with_lever(&self.work.reach, lever.at)
         })
-    }
-
-    /// What a run that found nothing shows: how far it came at the middle height.
-    pub fn given_up(&self) -> Answer {
-        let programme = self.programme(0.5 * (self.range[0] + self.range[1]));
-        let start = programme.cold_start(&self.work.reach);
-        Answer::new(self.objective, self.work.climb(&programme, start, 0.0))
     }
 }
 
@@ -221,8 +157,8 @@ mod tests {
             let (height, step) = (0.6 * low + 0.4 * high, 3e-3 * (high - low));
             let at = |height| heights.sample(height, None, 0.0).unwrap();
             let difference = (at(height + step).value - at(height - step).value) / (2.0 * step);
-            // The bend of the slope costs about 5e-4 at this step (it is quadratic in it), and
-            // values exact to 1e-8 as much.
+            // The bend of the slope costs about 5e-4 at this step (it is quadratic in the step).
+            // Values exact to 1e-8 cost as much.
             let slope = at(height).slope;
             assert!(
                 (slope / difference - 1.0).abs() < 2e-3,

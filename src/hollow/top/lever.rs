@@ -1,57 +1,23 @@
-//! Spin-It's functional where it weighs the lever: at each height also the best lever has to be
-//! found.
+//! Spin-It's functional with a weighed lever: the search for the best lever at each height.
 
-use super::heights::{Heights, Start};
+use super::heights::Heights;
+use super::valley::Start;
 use super::valley::{Place, Sample, Valley};
-use crate::goal::Objective;
-use crate::hollow::dual::ascent::Visit;
-use crate::hollow::dual::programme::{DualPoint, LEVER_ROW, index};
-use crate::hollow::dual::work::Work;
+use super::weighed::Weighed;
+use crate::hollow::dual::programme::DualPoint;
+use crate::hollow::dual::units::index;
 use crate::hollow::solution::Tangent;
 
-/// How exactly the lever that the search begins at is found.
+/// Tolerance of the ascent that gives the first lever.
 const ROUGH_TOLERANCE: f64 = 1e-2;
 
-/// The longest step of a lever, as a part of it: far larger, and it leaves what interiors can have.
+/// Longest step of a lever, as a part of it. Far longer steps leave the range of possible levers.
 const STEP_RATIO: f64 = 0.1;
 
-/// Spin-It's functional k s_z² + γ ρ² where it weighs the lever, in the solver's units.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Weighed {
-    /// k = γ_c over the square of the solid's lever.
-    pub lever: f64,
-    /// γ = γ_I, of the square of the inertia's ratio.
-    pub inertia: f64,
-}
-
-impl Weighed {
-    /// The weights; none where only the inertia counts and the lever is free.
-    pub fn of(objective: Objective, work: &Work) -> Option<Self> {
-        let solid = work.reach.scale.moments_to_units(&work.goal.solid)[index::Z];
-        match objective {
-            Objective::SpinIt { gamma_c, gamma_i } if gamma_c > 0.0 => Some(Self {
-                lever: gamma_c / (solid * solid),
-                inertia: gamma_i,
-            }),
-            _ => None,
-        }
-    }
-}
-
-impl Weighed {
-    /// The derivative by the lever of the least that it can be: by the envelope theorem the least
-    /// ratio falls by the row's multiplier.
-    pub fn slope(&self, lever: f64, best: &Visit) -> f64 {
-        let falling =
-            2.0 * self.inertia * best.value * best.point.lambda[LEVER_ROW] / best.denominator;
-        2.0 * self.lever * lever - falling
-    }
-}
-
-/// k s_z² + γ τ² with the tensor linear at one height, as a function of the lever s_z.
+/// The function k s_z² + γ τ² of the lever s_z, with the tensor linear at one height.
 ///
-/// The sum of the two squares is not quasi-convex, but with the lever fixed the first is a constant
-/// and the second is.
+/// The sum of two squares is not quasi-convex. With the lever fixed, the first square is a constant
+/// and the second is quasi-convex.
 pub(crate) struct Levers<'a> {
     pub heights: &'a Heights<'a>,
     pub weighed: Weighed,
@@ -59,16 +25,19 @@ pub(crate) struct Levers<'a> {
 }
 
 impl Levers<'_> {
-    /// The least over the lever, and its slope by the height.
-    pub fn best(&self, near: Start, tolerance: f64) -> Option<Sample> {
+    /// Minimises over the lever; the sample has the slope by the height.
+    pub fn best(&self, near: Option<Start>, tolerance: f64) -> Option<Sample> {
         let (start, hint) = match near {
-            Some((point, Some(hint))) => (Some(point.clone()), hint),
-            _ => (None, self.unweighed()?),
+            Some(Start {
+                point,
+                lever: Some(hint),
+            }) => (Some(point.clone()), hint),
+            _ => (None, self.lever_without_weight()?),
         };
         let valley = Valley::from_tangent(hint, [0.0, self.greatest()])
             .in_steps_of(STEP_RATIO)
             .within(tolerance);
-        let bottom = valley.bottom(|place: Place| {
+        let bottom = valley.find_bottom(|place: Place| {
             let near = place
                 .near
                 .map(|sample| &sample.climb.best.point)
@@ -81,8 +50,8 @@ impl Levers<'_> {
         )
     }
 
-    /// The lever of the interior whose inertia alone is best: the best one is less.
-    fn unweighed(&self) -> Option<Tangent> {
+    /// Returns the lever of the interior with the best inertia alone; the best lever is smaller.
+    fn lever_without_weight(&self) -> Option<Tangent> {
         let free = self.heights.work.climb_near(
             &self.heights.programme(self.height),
             None,
@@ -94,7 +63,7 @@ impl Levers<'_> {
         })
     }
 
-    /// No interior has a greater lever.
+    /// Returns an upper bound of the lever of any interior.
     fn greatest(&self) -> f64 {
         self.heights.range[1] * self.heights.work.reach.fullest[index::ONE]
     }

@@ -1,28 +1,27 @@
-//! The least of a smooth function of one number whose slope comes free with its value.
+//! Minimisation of a smooth function of one number whose slope comes free with its value.
 
 use crate::hollow::dual::ascent::Climb;
 use crate::hollow::dual::programme::DualPoint;
 use crate::hollow::solution::{Tangent, Warm};
 
-/// Rounds of a descent; the secant needs about six.
+/// Round limit of a descent; the secant needs about six.
 const ROUNDS: usize = 16;
-/// A descent ends when the next step promises less than this part of the value, which is then exact
-/// to twice it.
+/// Promised gain, as a part of the value, at which a descent ends; the value is then exact to twice
+/// it.
 const PROMISE_RATIO: f64 = 1e-8;
-/// Values below this count as this large, lest a value near zero ask for impossible precision.
+/// Least magnitude of a value in relative tolerances; otherwise a value near zero would ask for
+/// impossible accuracy.
 const LEAST_VALUE: f64 = 1e-3;
-/// The longest step from a hint, as a part of its place: on finer or corrected columns the bottom
+/// Longest step from a hint, as a part of its place. On finer or corrected columns the bottom
 /// hardly moves.
 const HINT_RANGE_RATIO: f64 = 0.05;
-/// A bracket narrower than this part of its place cannot be split usefully.
+/// Width of a bracket, as a part of its place, that cannot usefully be split.
 const NARROW_RATIO: f64 = 1e-12;
-/// How exact the first sample is, and the others as a part of how far they are from the one before,
-/// relative to their place. Ten times more, and the secant is led astray; ten times less costs a
-/// pass a sample.
+/// Tolerance of the first sample, and of the others as a part of their relative distance from the
+/// one before. Ten times more misleads the secant. Ten times less costs one more pass per sample.
 const FIRST_TOLERANCE: f64 = 1e-2;
 const TOLERANCE_RATIO: f64 = 0.03;
-/// A slope is trusted to tell where the bottom lies when it is this many times what the tolerance
-/// may make of it.
+/// Ratio of a slope to its uncertainty from which its sign is trusted.
 const TRUSTED_RATIO: f64 = 10.0;
 
 /// The function at one place.
@@ -31,22 +30,32 @@ pub(crate) struct Sample {
     pub at: f64,
     pub value: f64,
     pub slope: f64,
-    /// What the slope grows at most, by a bound; zero where none is known.
+    /// Upper bound on the growth of the slope; zero if none is known.
     pub bend: f64,
-    /// The ascent that gave it.
+    /// Ascent that gave the sample.
     pub climb: Climb,
-    /// The lever the function was least at, where it was minimised over that too.
+    /// Best lever, if the function was minimised over that too.
+    pub lever: Option<Tangent>,
+}
+
+/// The dual point, and the best lever if it is known, at which a sample's ascent starts.
+#[derive(Clone, Copy)]
+pub(crate) struct Start<'a> {
+    pub point: &'a DualPoint,
     pub lever: Option<Tangent>,
 }
 
 impl Sample {
-    /// What a sample near this one starts from.
-    pub fn start(&self) -> (&DualPoint, Option<Tangent>) {
-        (&self.climb.best.point, self.lever)
+    /// Returns the start for a nearby sample.
+    pub fn start(&self) -> Start<'_> {
+        Start {
+            point: &self.climb.best.point,
+            lever: self.lever,
+        }
     }
 }
 
-/// Where the function is to be sampled, how exactly, and the sample before.
+/// A place to sample, the tolerance, and the sample before.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Place<'a> {
     pub at: f64,
@@ -58,12 +67,12 @@ pub(crate) struct Place<'a> {
 #[derive(Debug, Clone)]
 pub(crate) struct Bottom {
     pub sample: Sample,
-    /// The derivative of the slope there.
+    /// Derivative of the slope at the bottom.
     pub curvature: f64,
 }
 
 impl Bottom {
-    /// What a later search of a similar function starts from.
+    /// Returns the start of a later search of a similar function.
     pub fn tangent(&self) -> Tangent {
         Tangent {
             at: self.sample.at,
@@ -71,7 +80,7 @@ impl Bottom {
         }
     }
 
-    /// The same with the dual point.
+    /// Returns the start of a later search, with the dual point.
     pub fn warm(&self) -> Warm {
         let Sample { climb, lever, .. } = &self.sample;
         Warm {
@@ -81,7 +90,7 @@ impl Bottom {
         }
     }
 
-    /// Whether a slope of this curvature promises nothing worth the while, of a value as large as
+    /// Returns true if a slope of this curvature promises no gain worth a step, for a value like
     /// this one's.
     pub fn is_level(&self, slope: f64, curvature: f64) -> bool {
         0.5 * slope * slope <= PROMISE_RATIO * curvature * self.sample.value.abs().max(LEAST_VALUE)
@@ -91,23 +100,22 @@ impl Bottom {
 /// A search for the place where the slope turns from falling to rising.
 #[derive(Debug, Clone)]
 pub(crate) struct Valley {
-    /// The bottom lies between these, as far as trusted samples tell.
+    /// Bracket of the bottom, from the slopes that are trusted.
     low: f64,
     high: f64,
-    /// No step is longer.
+    /// Longest step allowed.
     longest_step: f64,
-    /// Where it begins, and the growth of the slope there, where that is known of a similar
-    /// function.
+    /// First place, and the growth of the slope there if it is known from a similar function.
     start: Tangent,
-    /// It ends when the next step promises less than this part of the value.
+    /// Promised gain, as a part of the value, at which the search ends.
     promise_ratio: f64,
-    /// The last two samples; the secant goes through them.
+    /// The last two samples, which define the secant.
     before: Option<Sample>,
     last: Option<Sample>,
 }
 
 impl Valley {
-    /// A search from a place in a range of which nothing else is known.
+    /// Starts a search at a place in a range, with no other knowledge.
     pub fn from(place: f64, [low, high]: [f64; 2]) -> Self {
         Self::from_tangent(
             Tangent {
@@ -118,7 +126,7 @@ impl Valley {
         )
     }
 
-    /// The same from where the bottom of a similar function was.
+    /// Starts a search at the bottom of a similar function.
     pub fn from_tangent(hint: Tangent, [low, high]: [f64; 2]) -> Self {
         let start = Tangent {
             at: hint.at.max(low).min(high),
@@ -136,7 +144,7 @@ impl Valley {
         }
     }
 
-    /// The same with steps of no more than this part of the place it begins at.
+    /// Limits the steps to this part of the first place.
     pub fn in_steps_of(self, part: f64) -> Self {
         Self {
             longest_step: part * self.start.at,
@@ -144,7 +152,8 @@ impl Valley {
         }
     }
 
-    /// The same for samples of this tolerance: the bottom need not be known better than they are.
+    /// Loosens the end of the search for samples of this tolerance: the bottom need not be more
+    /// exact than they are.
     pub fn within(self, tolerance: f64) -> Self {
         Self {
             promise_ratio: PROMISE_RATIO.max(tolerance * tolerance),
@@ -152,14 +161,19 @@ impl Valley {
         }
     }
 
-    /// A search near the bottom of a similar function.
+    /// Starts a search near the bottom of a similar function.
     pub fn near(hint: Tangent) -> Self {
         Self::from_tangent(hint, [0.0, 2.0 * hint.at]).in_steps_of(HINT_RANGE_RATIO)
     }
 
-    /// The bottom, by a secant on the slope that the samples keep from straying; none where a place
-    /// cannot be sampled. Samples are the more exact the nearer they are to it.
-    pub fn bottom(mut self, mut sample_at: impl FnMut(Place) -> Option<Sample>) -> Option<Bottom> {
+    /// Finds the bottom by a secant on the slope, safeguarded by a bracket. `None` if a place
+    /// cannot be sampled.
+    ///
+    /// The nearer a sample is to the bottom, the more exact it is.
+    pub fn find_bottom(
+        mut self,
+        mut sample_at: impl FnMut(Place) -> Option<Sample>,
+    ) -> Option<Bottom> {
         for _ in 0..ROUNDS {
             let at = self.next_place();
             let tolerance = self.tolerance_at(at);
@@ -178,8 +192,9 @@ impl Valley {
         self.last.map(|sample| Bottom { sample, curvature })
     }
 
-    /// Where the line through the last two slopes vanishes, if that is downhill; never further than
-    /// the longest step, nor more than half way to an end of what is left.
+    /// Returns the zero of the line through the last two slopes if it lies downhill. It is limited
+    /// to the longest step, and replaced by the middle of the rest of the bracket if it leaves
+    /// that.
     fn next_place(&self) -> f64 {
         let Some(last) = &self.last else {
             return self.start.at;
@@ -209,7 +224,7 @@ impl Valley {
         }
     }
 
-    /// How exact a sample has to be: fully where it is the last.
+    /// Returns the tolerance for a sample; zero (full accuracy) for the last one.
     fn tolerance_at(&self, place: f64) -> f64 {
         match &self.last {
             None if self.start.curvature > 0.0 => 0.0,
@@ -228,7 +243,7 @@ impl Valley {
         }
     }
 
-    /// Whether nothing worth the while is to be had by going on to the next place.
+    /// Returns true if the next place promises no gain worth a step.
     fn is_bottom(&self, next: f64) -> bool {
         let Some(last) = &self.last else { return false };
         let promise = 0.5 * (last.slope * (next - last.at)).abs();
@@ -236,8 +251,8 @@ impl Valley {
             || self.high - self.low <= NARROW_RATIO * (self.low.abs() + self.high.abs())
     }
 
-    /// The growth of the slope between the last two samples, where there are two and it is one;
-    /// else what is known of it.
+    /// Returns the growth of the slope between the last two samples if it is positive, else the
+    /// best known value.
     fn curvature(&self) -> f64 {
         let Some(last) = &self.last else {
             return self.start.curvature;
