@@ -278,7 +278,7 @@ impl PrepareArgs {
             hardware: self.hardware.asked(),
             ..default
         };
-        Ok(asked.checked()?)
+        Ok(asked.validate()?)
     }
 }
 
