@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle, Solver};
+pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
 pub use filling::Filling;
 
 use crate::ballast::Order;
@@ -22,6 +22,9 @@ pub const JOB_SCHEMA: u32 = 1;
 
 /// The first line of every written `job.toml`.
 const REMARK: &str = "# Replays the run: equipoise prepare --job job.toml\n\n";
+
+/// The line of a `job.toml` that named the only solver.
+const OLD_SOLVER: &str = "solver = \"quadric\"";
 
 /// Everything that decides the bytes of a kit, apart from the version of the program and of its
 /// built-in profiles.
@@ -38,8 +41,6 @@ pub struct Job {
     pub wall: Option<Length>,
     /// The pitch of the solver's columns; the printer's own if `None`.
     pub pitch: Option<Length>,
-    /// The method that finds the void.
-    pub solver: Solver,
     /// The choice to cut the object.
     pub cut: CutMode,
     /// The pins that align the parts; printed ones if the key is missing.
@@ -184,7 +185,6 @@ impl Job {
             schema: JOB_SCHEMA,
             wall: None,
             pitch: None,
-            solver: Solver::Quadric,
             cut: CutMode::Auto,
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
@@ -209,8 +209,10 @@ impl Job {
 
     /// Reads a job from the text of a `job.toml`; messages call it `file`. Restores the values that
     /// [`Job::to_toml`] wrote, to the bit.
+    ///
+    /// Accepts the line `solver = "quadric"` of older kits, which had no other value.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
-        toml_text::read(file, text)
+        toml_text::read(file, &without_solver(text))
     }
 
     /// Returns the job as the text of a `job.toml`.
@@ -233,6 +235,16 @@ impl Job {
             }
         }
     }
+}
+
+/// Blanks the line that older kits carry for the only solver. The places of other lines stay.
+fn without_solver(text: &str) -> String {
+    let (head, tables) = text.split_at(text.find("\n[").unwrap_or(text.len()));
+    let kept = |line: &str| match line.trim_end() {
+        OLD_SOLVER => line.replacen(OLD_SOLVER, "", 1),
+        _ => line.to_owned(),
+    };
+    head.split_inclusive('\n').map(kept).collect::<String>() + tables
 }
 
 fn default_pins() -> PinStyle {
@@ -334,6 +346,17 @@ mod tests {
     }
 
     #[test]
+    fn a_job_of_an_older_kit_reads_with_its_only_solver() {
+        let text = job().to_toml().unwrap();
+        let older = text.replacen("schema = 1\n", "schema = 1\nsolver = \"quadric\"\n", 1);
+        assert!(!text.contains("solver") && older.contains("solver"));
+        assert_eq!(Job::from_toml("job.toml", &older), Ok(job()));
+        let broken = older.replacen("cut = ", "cuts = ", 1);
+        let error = Job::from_toml("job.toml", &broken).unwrap_err().to_string();
+        assert!(error.starts_with("job.toml:5:1: "), "{error}");
+    }
+
+    #[test]
     fn a_job_reads_as_a_person_would_write_it() {
         let text = job().to_toml().unwrap();
         for line in [
@@ -364,9 +387,9 @@ mod tests {
         ("schema = 1", "schema = 2", ":3:10: schema 2 is not known"),
         ("schema = 1\n", "", "missing field `schema`"),
         (
-            "solver = \"quadric\"",
-            "solver = \"quadrik\"",
-            "did you mean `quadric`",
+            "schema = 1\n",
+            "schema = 1\nsolver = \"octree\"\n",
+            "unknown field `solver`",
         ),
         ("cut = ", "cuts = ", "did you mean `cut`"),
         (

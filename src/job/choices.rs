@@ -29,14 +29,6 @@ impl ModelUnit {
 }
 
 choice! {
-    /// The method that finds the void.
-    Solver, "solver" {
-        /// The design region cut by the one best quadric.
-        Quadric = "quadric",
-    }
-}
-
-choice! {
     /// The choice to cut the object so that its voids can be cleaned.
     CutMode, "cut mode" {
         /// Cut wherever a void would stay closed.
