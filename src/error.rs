@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::ballast::{BallastError, Order};
+use crate::base::setting::{Key, Setting};
 use crate::base::watch::Cancelled;
 use crate::cut::CutError;
 use crate::draw::PictureError;
@@ -75,14 +76,18 @@ pub enum Error {
     #[error(transparent)]
     Ballast(#[from] BallastError),
     /// The ballast that was ordered does not fit.
-    #[error("--ballast={order} has no room inside; remedy: order fewer or smaller parts, or none")]
+    #[error(
+        "`{}` has no room inside; remedy: order fewer or smaller parts, or none",
+        Setting::new(Key::Ballast, order)
+    )]
     NoRoomForBallast {
         /// The order.
         order: Order,
     },
     /// The filling changes nothing.
     #[error(
-        "a filling of {fill} g/cm³ is as dense as the print, {density_g_cm3} g/cm³; remedy: take a lighter or a denser one, or none"
+        "a filling of {fill} g/cm³ is as dense as the print, {density_g_cm3} g/cm³; remedy: take \
+         a lighter or a denser one, or none"
     )]
     FillLikePrint {
         /// The filling asked for.
@@ -92,7 +97,9 @@ pub enum Error {
     },
     /// A filling and ballast were both ordered.
     #[error(
-        "--fill={fill} and --ballast={order} do not go together; remedy: leave one of them out"
+        "`{}` and `{}` do not go together; remedy: leave one of them out",
+        Setting::new(Key::Fill, fill),
+        Setting::new(Key::Ballast, order)
     )]
     FillAndBallast {
         /// The filling.
@@ -102,7 +109,10 @@ pub enum Error {
     },
     /// A heavy filling was ordered for a rotor, which keeps as much material as it can.
     #[error(
-        "--fill={fill} is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in ballast (--ballast=auto)"
+        "`{}` is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in \
+         ballast (`{}`)",
+        Setting::new(Key::Fill, fill),
+        Setting::new(Key::Ballast, Order::Auto)
     )]
     HeavyFillInRotor {
         /// The filling.

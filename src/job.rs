@@ -21,7 +21,7 @@ use crate::goal::Request;
 pub const JOB_SCHEMA: u32 = 1;
 
 /// The first line of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise prepare --job job.toml\n\n";
+const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job.\n\n";
 
 /// The line of a `job.toml` that named the only solver.
 const OLD_SOLVER: &str = "solver = \"quadric\"";
@@ -122,7 +122,8 @@ pub struct PrinterChoice {
 pub enum PlanError {
     /// The file cannot be read.
     #[error(
-        "cannot read the cuts {path}; remedy: give auto, never, or the path of a plan such as a kit's cuts.toml"
+        "cannot read the cuts {path}; remedy: give auto, never, or the path of a plan such as a \
+         kit's cuts.toml"
     )]
     Unreadable {
         /// The file.
@@ -161,7 +162,8 @@ pub enum JobError {
     Text(#[from] TextFault),
     /// The model is not the one that the job was made with.
     #[error(
-        "{path} is not the file this job was made with (SHA-256 {found}, was {expected}); remedy: restore the file, or remove sha256 from the job"
+        "{path} is not the file this job was made with (SHA-256 {found}, was {expected}); remedy: \
+         restore the file, or remove sha256 from the job"
     )]
     ModelChanged {
         /// The model file.
@@ -259,7 +261,8 @@ fn read_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Err
     match u32::deserialize(deserializer)? {
         JOB_SCHEMA => Ok(JOB_SCHEMA),
         other => Err(D::Error::custom(format!(
-            "schema {other} is not known; remedy: use the version of equipoise that wrote it, this one reads schema {JOB_SCHEMA}"
+            "schema {other} is not known; remedy: use the version of equipoise that wrote it, \
+             this one reads schema {JOB_SCHEMA}"
         ))),
     }
 }
@@ -373,7 +376,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_numbers_survive_the_file(x in -1e9..1e9_f64, z in 1e-9..1.0_f64, size in 1e-3..1e6_f64) {
+        fn any_numbers_survive_the_file(
+            x in -1e9..1e9_f64,
+            z in 1e-9..1.0_f64,
+            size in 1e-3..1e6_f64,
+        ) {
             let mut job = job();
             job.goal.up = Up::Along([x, 0.0, z]);
             job.goal.contact = Some(Contact::At([z, x, -size]));

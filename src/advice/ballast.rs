@@ -2,8 +2,9 @@
 
 use super::confirm::least_excess;
 use super::directions::round_to;
-use super::remedy::{Kind, Remedy};
+use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{CONFIRMING_COLUMNS, SampledModel, Trial, problem};
+use crate::base::setting::{Key, Setting};
 use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::base::watch::Watch;
 use crate::geom::{Point, Quadric};
@@ -43,19 +44,18 @@ pub(super) fn remedy(model: &SampledModel) -> Remedy {
     let ball_mm = (6.0 * steel.volume_mm3 / std::f64::consts::PI).cbrt();
     let [x, y, z] = round_to(steel.center.into(), 0);
     let words = format!(
-        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({}, {}, {}) mm; --ballast=auto lays it in as \
-         balls where they fit",
+        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({x}, {y}, \
+         {z}) \
+         mm; `{}` lays it in as balls if they fit",
         show_mm(ball_mm),
-        x,
-        y,
-        z
+        Setting::new(Key::Ballast, "auto")
     );
-    Remedy::found(
-        Kind::LeastBallast,
-        mass_g,
-        [String::new(), words],
-        &steel.trial,
-    )
+    let change = Change {
+        amount: mass_g,
+        settings: Vec::new(),
+        words,
+    };
+    Remedy::helping(Kind::LeastBallast, change, &steel.trial)
 }
 
 /// Returns the least steel, with the least excess that the confirming solve asks for.

@@ -1,8 +1,9 @@
 //! The faces a model can stand on: those of its convex hull.
 
 use super::directions::{is_new, round_direction, with_axis};
-use super::remedy::{Kind, Remedy};
+use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{SampledModel, Trial};
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Point, Vector};
 use crate::goal::Up;
 use crate::mesh::{Csg, TriMesh};
@@ -70,8 +71,12 @@ pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
     };
     let angle_deg = face.angle(up).to_degrees();
     let words = format!("turn it by {angle_deg:.1}° onto another face");
-    let flags = format!("--up={}", Up::Along(face.into()));
-    Remedy::found(Kind::NearestFace, angle_deg, [flags, words], &trial)
+    let change = Change {
+        amount: angle_deg,
+        settings: vec![Setting::new(Key::Up, Up::Along(face.into()))],
+        words,
+    };
+    Remedy::helping(Kind::NearestFace, change, &trial)
 }
 
 /// Returns the confirming solve for a face on which the model stands.

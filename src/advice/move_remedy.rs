@@ -2,8 +2,9 @@
 
 use super::moves::{Moves, Part};
 use super::nearest::{Nearest, find_nearest};
-use super::remedy::{Kind, Remedy};
+use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::SampledModel;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
 use crate::geom::Vector;
 use crate::goal::{Contact, Request};
@@ -49,12 +50,12 @@ fn describe(moves: &Moves, nearest: &Nearest) -> Remedy {
     } else {
         length
     };
-    Remedy::found(
-        kind(moves.part),
+    let change = Change {
         amount,
-        [flags(moves.part, &nearest.request), words(moves, nearest)],
-        &nearest.trial,
-    )
+        settings: settings(moves.part, &nearest.request),
+        words: words(moves, nearest),
+    };
+    Remedy::helping(kind(moves.part), change, &nearest.trial)
 }
 
 fn words(moves: &Moves, nearest: &Nearest) -> String {
@@ -72,12 +73,13 @@ fn words(moves: &Moves, nearest: &Nearest) -> String {
 }
 
 /// Returns the options for a moved part.
-fn flags(part: Part, request: &Request) -> String {
+fn settings(part: Part, request: &Request) -> Vec<Setting> {
+    let up = Setting::new(Key::Up, request.up);
     match (part, request.contact, request.spin_point) {
-        (Part::Contact, Some(contact), _) => format!("--contact={contact}"),
-        (Part::SpinPoint, _, Some(point)) => format!("--spin-point={point}"),
-        (_, Some(Contact::Center), _) => format!("--up={} --contact=center", request.up),
-        _ => format!("--up={}", request.up),
+        (Part::Contact, Some(contact), _) => vec![Setting::new(Key::Contact, contact)],
+        (Part::SpinPoint, _, Some(point)) => vec![Setting::new(Key::SpinPoint, point)],
+        (_, Some(Contact::Center), _) => vec![up, Setting::new(Key::Contact, Contact::Center)],
+        _ => vec![up],
     }
 }
 

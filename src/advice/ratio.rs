@@ -3,9 +3,10 @@
 use super::case::Case;
 use super::confirm::least_excess;
 use super::directions::round_to;
-use super::remedy::{Kind, Remedy};
+use super::remedy::{Change, Kind, Remedy};
 use super::sampled_model::{SampledModel, Trial};
-use crate::base::units::show_mm;
+use crate::base::setting::{Key, Setting};
+use crate::base::units::{Length, show_mm};
 use crate::goal::{Contact, Request, SpinPoint, Waterline};
 
 /// The greatest factor by which a thinner wall or a larger model is advised. Nobody prints an
@@ -34,7 +35,7 @@ pub(super) fn remedies(model: &SampledModel) -> Vec<Remedy> {
             thinner(case, wall_mm, &trial),
         ],
         None => {
-            let words = "no size was found that helps with certainty: the goal stays at the border of the possible";
+            let words = "no size was found that helps with certainty: it stays at the border of the possible";
             vec![Remedy::dead_end(Kind::LeastSize, words.to_owned())]
         }
     }
@@ -80,7 +81,8 @@ fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     let size_mm = size_for(case, greatest_mm, case.wall_mm);
     if size_mm > case.greatest_size_mm {
         let words = format!(
-            "with the wall of {} only {} or larger would do, and a kit for this printer may be {} at most",
+            "with the wall of {} only {} or larger would do, and a kit for this printer may be {} \
+             at most",
             show_mm(case.wall_mm),
             show_mm(size_mm),
             show_mm(case.greatest_size_mm)
@@ -103,31 +105,37 @@ fn larger(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
         thinner.unwrap_or_default()
     );
     let times = size_mm / case.solid.mesh().longest_side_mm();
-    let flags = format!("--size={size_mm}mm{}", scale_places(&case.request, times));
-    Remedy::found(Kind::LeastSize, size_mm, [flags, words], trial)
+    let mut settings = vec![Setting::new(Key::Size, format!("{size_mm}mm"))];
+    settings.extend(scale_places(&case.request, times));
+    let change = Change {
+        amount: size_mm,
+        settings,
+        words,
+    };
+    Remedy::helping(Kind::LeastSize, change, trial)
 }
 
 /// Returns the options that keep places given in mm where they are on a model this many times as
 /// large.
-fn scale_places(request: &Request, times: f64) -> String {
+fn scale_places(request: &Request, times: f64) -> Vec<Setting> {
     let point = |at: [f64; 3]| round_to(at.map(|coordinate| coordinate * times), 4);
+    let length = |length: Length| format!("{:.3}mm", length.mm() * times);
     let contact = match request.contact {
-        Some(Contact::At(at)) => format!(" --contact={}", Contact::At(point(at))),
-        _ => String::new(),
+        Some(Contact::At(at)) => Some(Setting::new(Key::Contact, Contact::At(point(at)))),
+        _ => None,
     };
     let spin_point = match request.spin_point {
-        Some(SpinPoint::At(at)) => format!(" --spin-point={}", SpinPoint::At(point(at))),
-        _ => String::new(),
+        Some(SpinPoint::At(at)) => Some(Setting::new(Key::SpinPoint, SpinPoint::At(point(at)))),
+        _ => None,
     };
     let waterline = match request.water.map(|water| water.waterline) {
-        Some(Waterline::At(line)) => format!(" --waterline={:.3}mm", line.mm() * times),
-        _ => String::new(),
+        Some(Waterline::At(line)) => Some(Setting::new(Key::Waterline, length(line))),
+        _ => None,
     };
     let bore = request.rotor.and_then(|rotor| rotor.bore);
-    let bore = bore.map_or(String::new(), |bore| {
-        format!(" --bore={:.3}mm", bore.mm() * times)
-    });
-    contact + &spin_point + &waterline + &bore
+    let bore = bore.map(|bore| Setting::new(Key::Bore, length(bore)));
+    let places = [contact, spin_point, waterline, bore];
+    places.into_iter().flatten().collect()
 }
 
 /// Returns the size, mm, at which a wall is as thick for the model as `greatest_mm` is at the
@@ -141,19 +149,20 @@ fn thinner(case: &Case, greatest_mm: f64, trial: &Trial) -> Remedy {
     let wall_mm = (steps * case.wall_step_mm * WALLS_PER_MM).floor() / WALLS_PER_MM;
     if wall_mm < case.least_wall_mm {
         let words = format!(
-            "at this size only a wall of {} or thinner would do, and this printer makes none below {}",
+            "at this size only a wall of {} or thinner would do, and this printer makes none \
+             below {}",
             show_mm(greatest_mm),
             show_mm(case.least_wall_mm)
         );
         return Remedy::dead_end(Kind::GreatestWall, words);
     }
     let words = format!("make the wall {} or thinner at this size", show_mm(wall_mm));
-    Remedy::found(
-        Kind::GreatestWall,
-        wall_mm,
-        [format!("--wall={wall_mm}mm"), words],
-        trial,
-    )
+    let change = Change {
+        amount: wall_mm,
+        settings: vec![Setting::new(Key::Wall, format!("{wall_mm}mm"))],
+        words,
+    };
+    Remedy::helping(Kind::GreatestWall, change, trial)
 }
 
 /// Rounds up to three significant digits.
@@ -174,8 +183,9 @@ mod tests {
             contact: Some(Contact::At([1.0, -2.0, 0.5])),
             ..Request::new(GoalKind::Top)
         };
-        assert_eq!(scale_places(&top, 1.5), " --contact=1.5,-3,0.75");
-        assert_eq!(scale_places(&Request::new(GoalKind::Yoyo), 1.5), "");
+        let contact = Setting::new(Key::Contact, "1.5,-3,0.75");
+        assert_eq!(scale_places(&top, 1.5), [contact]);
+        assert_eq!(scale_places(&Request::new(GoalKind::Yoyo), 1.5), []);
     }
 
     #[test]

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use super::reached::Reached;
 use super::sampled_model::{CONFIRMING_COLUMNS, Trial};
+use crate::base::setting::Setting;
 
 /// The kind of change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -73,6 +74,16 @@ impl Confirmation {
     }
 }
 
+/// A change that helps.
+pub(super) struct Change {
+    /// The new value, or the amount of the change.
+    pub amount: f64,
+    /// The options to set in place of those given.
+    pub settings: Vec<Setting>,
+    /// The sentence for the user.
+    pub words: String,
+}
+
 /// One change that makes an impossible goal possible, or the finding that this kind of change does
 /// not.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -84,7 +95,7 @@ pub struct Remedy {
     /// The unit of the amount: mm, ° or g.
     pub unit: &'static str,
     /// The options to set in place of those given; empty if nothing helps, and for ballast.
-    pub flags: String,
+    pub settings: Vec<Setting>,
     /// The sentence for the user.
     pub words: String,
     /// The solve that shows that it helps.
@@ -99,12 +110,7 @@ impl Remedy {
 
     /// Returns a remedy that helps, as `trial` shows. The value then reached, and the warnings of a
     /// new place, are appended to the words.
-    pub(super) fn found(
-        kind: Kind,
-        amount: f64,
-        [flags, words]: [String; 2],
-        trial: &Trial,
-    ) -> Self {
+    pub(super) fn helping(kind: Kind, change: Change, trial: &Trial) -> Self {
         let confirmed = Confirmation::of(trial);
         let warnings = if kind.moves() {
             &trial.placement.warnings[..]
@@ -113,15 +119,16 @@ impl Remedy {
         };
         let appended = warnings.iter().map(|warning| format!("; {warning}"));
         let words = format!(
-            "{words}; it then {}{}",
+            "{}; it then {}{}",
+            change.words,
             confirmed.reached,
             appended.collect::<String>()
         );
         Self {
             kind,
-            amount: Some(amount),
+            amount: Some(change.amount),
             unit: kind.unit(),
-            flags,
+            settings: change.settings,
             words,
             confirmed: Some(confirmed),
         }
@@ -133,7 +140,7 @@ impl Remedy {
             kind,
             amount: None,
             unit: kind.unit(),
-            flags: String::new(),
+            settings: Vec::new(),
             words,
             confirmed: None,
         }

@@ -3,6 +3,7 @@
 
 use super::sampled_model::{CONFIRMING_COLUMNS, SampledModel};
 use super::*;
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Matrix, Point, Vector};
 use crate::goal::{Contact, Objective, Request, SpinPoint, Up, place};
 use crate::hollow::Figure;
@@ -57,6 +58,15 @@ fn of_kind(remedies: &[Remedy], kind: Kind) -> &Remedy {
     remedies.iter().find(|remedy| remedy.kind == kind).unwrap()
 }
 
+/// Returns the value that a remedy gives to its only option.
+fn value(remedy: &Remedy, key: Key) -> &str {
+    let [setting] = &remedy.settings[..] else {
+        panic!("{remedy:?}")
+    };
+    assert_eq!(setting.key, key);
+    setting.value.as_deref().unwrap()
+}
+
 /// Returns a yo-yo whose axis is tilted against the lens's own.
 fn askew_yoyo() -> Request {
     let up = Up::Along([0.5, 0.1, 0.8]);
@@ -99,7 +109,8 @@ fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them(
         &case.request,
         wall.amount.unwrap() / SHORT + 0.1
     ));
-    assert_eq!(wall.flags, format!("--wall={}mm", wall.amount.unwrap()));
+    let thinner = Setting::new(Key::Wall, format!("{}mm", wall.amount.unwrap()));
+    assert_eq!(wall.settings, [thinner]);
     let reached = wall.confirmed.unwrap().reached;
     assert!(reached.figure == Figure::TopplingAngleRad && reached.value > 0.0);
 }
@@ -133,7 +144,7 @@ fn neither_an_unprintable_wall_nor_a_size_that_does_not_fit_is_advised() {
         (Kind::LeastSize, "61.00 mm at most"),
     ] {
         let remedy = of_kind(&found, kind);
-        assert!(!remedy.helps() && remedy.amount.is_none() && remedy.flags.is_empty());
+        assert!(!remedy.helps() && remedy.amount.is_none() && remedy.settings.is_empty());
         assert!(remedy.words.contains(says), "{}", remedy.words);
     }
 }
@@ -144,12 +155,7 @@ fn a_top_spins_on_the_advised_contact_and_on_none_that_is_nearer() {
     let case = case(&lens, top_aside(&lens), 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestContact);
-    let contact: Contact = remedy
-        .flags
-        .strip_prefix("--contact=")
-        .unwrap()
-        .parse()
-        .unwrap();
+    let contact: Contact = value(remedy, Key::Contact).parse().unwrap();
     assert!(is_possible(
         &case,
         &Request {
@@ -179,7 +185,7 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
     let case = case(&lens, askew_yoyo(), 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestAxis);
-    let up: Up = remedy.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    let up: Up = value(remedy, Key::Up).parse().unwrap();
     assert!(is_possible(&case, &Request { up, ..case.request }, 1.5));
     let asked = case.request.up.direction().unwrap();
     let tilt = up.direction().unwrap().angle(&asked);
@@ -208,12 +214,7 @@ fn a_yoyo_about_a_point_out_of_reach_is_advised_one_within() {
     let case = case(&lens, away, 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestSpinPoint);
-    let point: SpinPoint = remedy
-        .flags
-        .strip_prefix("--spin-point=")
-        .unwrap()
-        .parse()
-        .unwrap();
+    let point: SpinPoint = value(remedy, Key::SpinPoint).parse().unwrap();
     assert!(is_possible(
         &case,
         &Request {
@@ -241,14 +242,14 @@ fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
     let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
     let found = remedies(&case);
     let face = of_kind(&found, Kind::NearestFace);
-    let up: Up = face.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    let up: Up = value(face, Key::Up).parse().unwrap();
     assert!(is_possible(&case, &Request { up, ..case.request }, 3.0));
     let steel = of_kind(&found, Kind::LeastBallast);
     // With its lower 15 mm filled, the tower of 19.6 g has its centre 1.9 mm outside the edge.
     // Steel acts on an arm of at most 17 mm, about half of that on average: some grams.
     let mass_g = steel.amount.unwrap();
     assert!(steel.helps() && (1.0..8.0).contains(&mass_g), "{mass_g}");
-    assert!(steel.flags.is_empty() && steel.words.contains("g of steel"));
+    assert!(steel.settings.is_empty() && steel.words.contains("g of steel"));
 }
 
 #[test]

@@ -23,7 +23,8 @@ pub enum StockFault {
     },
     /// A size or mass is not positive and finite.
     #[error(
-        "{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its name ends in"
+        "{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its \
+         name ends in"
     )]
     NotPositive {
         /// The catalogue's file.
@@ -35,7 +36,8 @@ pub enum StockFault {
     },
     /// A part is lighter or heavier than anything of its size.
     #[error(
-        "{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its sizes in mm"
+        "{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its \
+         sizes in mm"
     )]
     Implausible {
         /// The catalogue's file.

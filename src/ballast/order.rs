@@ -38,7 +38,8 @@ impl Order {
 /// A text that is not an order for ballast.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is not an order for ballast; remedy: give auto, none, the id of a stock part such as ball-4, or the id and a number from 1 to \
+    "`{0}` is not an order for ballast; remedy: give auto, none, the id of a stock part such as \
+     ball-4, or the id and a number from 1 to \
      {MOST_PARTS} such as ball-4x3"
 )]
 pub struct OrderError(String);

@@ -31,7 +31,8 @@ pub enum GoalError {
     },
     /// A point far away from the model.
     #[error(
-        "{name} lies more than {FAR_LENGTHS} times the model's length away from it; give a point of the model, in mm of its \
+        "{name} lies more than {FAR_LENGTHS} times the model's length away from it; give a point \
+         of the model, in mm of its \
          final size"
     )]
     FarAway {
@@ -46,7 +47,8 @@ pub enum GoalError {
     Request(#[from] RequestError),
     /// A top that hangs from its contact.
     #[error(
-        "the centre of mass lies {depth_mm:.3} mm below the contact point: that is a pendulum, not a top; choose a contact below the centre, or turn the model over"
+        "the centre of mass lies {depth_mm:.3} mm below the contact point: that is a pendulum, \
+         not a top; choose a contact below the centre, or turn the model over"
     )]
     ContactAboveCenter {
         /// The depth of the centre below the contact, mm.
@@ -54,12 +56,14 @@ pub enum GoalError {
     },
     /// Nothing can hold the tip.
     #[error(
-        "the spin axis passes through no part of the model above the contact point, so that no tip can be put in; give another contact"
+        "the spin axis passes through no part of the model above the contact point, so that no \
+         tip can be put in; give another contact"
     )]
     NoSeat,
     /// A support without area.
     #[error(
-        "the {vertices} lowest vertices of the model support it on a point or a line only; turn it, or give it a flat foot"
+        "the {vertices} lowest vertices of the model support it on a point or a line only; turn \
+         it, or give it a flat foot"
     )]
     NoSupport {
         /// The number of vertices at the support plane.
@@ -67,7 +71,8 @@ pub enum GoalError {
     },
     /// A waterline above the model.
     #[error(
-        "a waterline of {waterline_mm:.3} mm leaves nothing of {height_mm:.3} mm above the water; give a lower one"
+        "a waterline of {waterline_mm:.3} mm leaves nothing of {height_mm:.3} mm above the water; \
+         give a lower one"
     )]
     UnderWater {
         /// The waterline asked for, mm above the lowest point.

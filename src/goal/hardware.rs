@@ -6,6 +6,7 @@ use std::{fmt, str::FromStr};
 use serde::{Deserialize, Serialize};
 
 use super::kind::GoalKind;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::words::{ChoiceError, as_text};
 
@@ -150,7 +151,8 @@ pub struct Hardware {
 pub enum HardwareError {
     /// A string gap, an axle or a mass on it was given for a goal other than a yo-yo.
     #[error(
-        "a string gap, an axle and hardware on it go with the goal yoyo, not with {0}; remedy: leave them out"
+        "a string gap, an axle and hardware on it go with the goal yoyo, not with {0}; remedy: \
+         leave them out"
     )]
     NotAYoyo(GoalKind),
     /// A tip or stem was given for a goal other than a top.
@@ -158,12 +160,15 @@ pub enum HardwareError {
     NotATop(GoalKind),
     /// A gap was given without an axle, or the reverse.
     #[error(
-        "a string gap and an axle go together; remedy: give both, such as --string-gap 3mm --axle 6mm"
+        "a string gap and an axle go together; remedy: give both, such as `{}` and `{}`",
+        Setting::new(Key::StringGap, "3mm"),
+        Setting::new(Key::Axle, "6mm")
     )]
     GapAndAxle,
     /// The axle has a depth, or is no longer than the gap.
     #[error(
-        "an axle of {0} does not bridge the string gap; remedy: give DIAMETERxLENGTH with a length well above the gap, and no depth"
+        "an axle of {0} does not bridge the string gap; remedy: give DIAMETERxLENGTH with a \
+         length well above the gap, and no depth"
     )]
     Axle(Rod),
     /// The mass is not positive.
@@ -171,7 +176,8 @@ pub enum HardwareError {
     Mass(f64),
     /// The tip or stem has no length, or nothing of it is inside or outside.
     #[error(
-        "a {what} of {rod} cannot be held; remedy: give DIAMETERxLENGTHxDEPTH with a depth below the length, such as 4mmx12mmx6mm"
+        "a {what} of {rod} cannot be held; remedy: give DIAMETERxLENGTHxDEPTH with a depth below \
+         the length, such as 4mmx12mmx6mm"
     )]
     Depth {
         /// The kind of rod: tip or stem.
@@ -181,7 +187,8 @@ pub enum HardwareError {
     },
     /// The tip stands out by less than the radius of its round end.
     #[error(
-        "a tip of {0} stands out by less than its radius, so that its end cannot be round; remedy: make it longer or less deep"
+        "a tip of {0} stands out by less than its radius, so that its end cannot be round; \
+         remedy: make it longer or less deep"
     )]
     Blunt(Rod),
 }

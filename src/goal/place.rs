@@ -127,9 +127,10 @@ mod tests {
         };
         let placed = place(&table, 1.0, &request).unwrap();
         assert_eq!(placed.goal.frame.origin.z, 0.0);
-        assert!(
-            matches!(placed.warnings[..], [Warning::ContactInAir { missing_mm }] if (missing_mm - 6.0).abs() < 1e-12)
-        );
+        let [Warning::ContactInAir { missing_mm }] = placed.warnings[..] else {
+            panic!("{:?}", placed.warnings)
+        };
+        assert!((missing_mm - 6.0).abs() < 1e-12);
     }
 
     #[test]
@@ -164,9 +165,10 @@ mod tests {
             ..request(GoalKind::Top)
         };
         let refused = place(&block([0., 0., 0.], [2., 2., 6.]), 1.0, &request);
-        assert!(
-            matches!(refused, Err(GoalError::ContactAboveCenter { depth_mm }) if (depth_mm - 2.0).abs() < 1e-12)
-        );
+        let Err(GoalError::ContactAboveCenter { depth_mm }) = refused else {
+            panic!("{refused:?}")
+        };
+        assert!((depth_mm - 2.0).abs() < 1e-12);
     }
 
     #[test]

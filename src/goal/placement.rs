@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::kind::{GoalKind, Objective};
 use super::rotor::Spindle;
 use super::water::Afloat;
+use crate::base::setting::{Key, Setting};
 use crate::geom::Frame;
 use crate::mass::Moments;
 use crate::shell::Keep;
@@ -46,8 +47,10 @@ pub struct Placement {
 pub enum Warning {
     /// The contact point hangs below the surface.
     #[error(
-        "the contact point is in the air: the model begins {missing_mm:.3} mm above it, so that as printed it cannot spin there; put in a \
-         tip piece (--tip=DIAMETERxLENGTH), or give another --contact"
+        "the contact point is in the air: the model begins {missing_mm:.3} mm above it, so that as \
+         printed it cannot spin there; put in a tip piece (`{}`), or give another contact (`{}`)",
+        any_tip(),
+        Setting::open(Key::Contact)
     )]
     ContactInAir {
         /// The distance from the contact up along the axis to the surface, mm.
@@ -56,9 +59,11 @@ pub enum Warning {
     /// The top stands still on its foot instead of falling over. Its centre of mass is lower than
     /// the contact's radius of curvature.
     #[error(
-        "it stands still on its foot without spinning, and rights itself when tilted by {rights_to_deg:.0}°: its contact moves as \
-         that of a ball of {radius_mm:.0} mm radius, and its centre of mass is only {center_height_mm:.1} mm up; it spins upright as \
-         promised, but rubs, and does not fall when it is slow; for a top that falls put in a tip piece (--tip=DIAMETERxLENGTH)"
+        "it stands still on its foot without spinning, and rights itself when tilted by \
+         {rights_to_deg:.0}°: its contact moves as that of a ball of {radius_mm:.0} mm radius, and \
+         its centre of mass is only {center_height_mm:.1} mm up; it spins upright as promised, but \
+         rubs, and does not fall when it is slow; for a top that falls put in a tip piece (`{}`)",
+        any_tip()
     )]
     FlatFoot {
         /// The radius of curvature of the contact over a tilt of a degree, mm.
@@ -70,15 +75,22 @@ pub enum Warning {
     },
     /// The spin axis does not pass through the model above the contact.
     #[error(
-        "the spin axis passes through no part of the model above the contact point; give another contact"
+        "the spin axis passes through no part of the model above the contact point; give another \
+         contact"
     )]
     AxisMissesModel,
     /// A part of the model lies lower than the contact.
     #[error(
-        "the model reaches {depth_mm:.3} mm below the contact point and will touch a flat floor first"
+        "the model reaches {depth_mm:.3} mm below the contact point and will touch a flat floor \
+         first"
     )]
     BelowContact {
         /// The depth of the lowest point below the contact, mm.
         depth_mm: f64,
     },
+}
+
+/// Returns the setting that puts in a tip.
+fn any_tip() -> Setting {
+    Setting::new(Key::Tip, "DIAMETERxLENGTH")
 }

@@ -51,7 +51,8 @@ pub enum RequestError {
     },
     /// The weights give nothing to minimise.
     #[error(
-        "the weights of {0} cannot be used; remedy: give two finite numbers, the first (low centre) not below 0, the second (flat tensor) above 0"
+        "the weights of {0} cannot be used; remedy: give two finite numbers, the first (low \
+         centre) not below 0, the second (flat tensor) above 0"
     )]
     Weights(Objective),
     /// A contact point was given for a goal other than a top.
@@ -73,7 +74,8 @@ pub enum RequestError {
     Hardware(#[from] HardwareError),
     /// The speed or grade is not positive and finite.
     #[error(
-        "a grade of {grade_mm_s} mm/s at {speed_rpm} rpm cannot be met; remedy: give a speed and a grade above zero"
+        "a grade of {grade_mm_s} mm/s at {speed_rpm} rpm cannot be met; remedy: give a speed and \
+         a grade above zero"
     )]
     Rotor {
         /// The speed asked for.
@@ -198,7 +200,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn a_request_reads_back_from_its_own_words(x in -1e3..1e3_f64, gamma_c in 0.0..9.0_f64, gamma_i in 1e-9..9.0_f64) {
+        fn a_request_reads_back_from_its_own_words(
+            x in -1e3..1e3_f64,
+            gamma_c in 0.0..9.0_f64,
+            gamma_i in 1e-9..9.0_f64,
+        ) {
             let request = Request {
                 up: Up::NegY,
                 contact: Some(Contact::At([x, 2.0, gamma_c])),

@@ -122,7 +122,9 @@ impl fmt::Display for Up {
 
 /// Defines a place that is named by a word or given as a point of the model in mm.
 macro_rules! place {
-    ($(#[$about:meta])* $name:ident, $what:literal { $($(#[$doc:meta])* $value:ident = $word:literal,)+ }) => {
+    ($(#[$about:meta])* $name:ident, $what:literal {
+        $($(#[$doc:meta])* $value:ident = $word:literal,)+
+    }) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
         #[serde(try_from = "String", into = "String")]
@@ -244,7 +246,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_vector_reads_back_to_the_bit(x in -1e9..1e9_f64, y in -1e-9..1e-9_f64, z in proptest::num::f64::NORMAL) {
+        fn any_vector_reads_back_to_the_bit(
+            x in -1e9..1e9_f64,
+            y in -1e-9..1e-9_f64,
+            z in proptest::num::f64::NORMAL,
+        ) {
             let up = Up::Along([x, y, z]);
             prop_assert_eq!(up.to_string().parse::<Up>().unwrap(), up);
             let at = Contact::At([x, y, z]);

@@ -2,6 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
+use super::fitted::Kind;
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Point};
 use crate::mesh::{ClipError, Csg, TriMesh, primitives, winding_number};
 
@@ -26,12 +28,14 @@ const HELD_RATIO: f64 = 0.5;
 pub enum SeatError {
     /// It breaks out of the model, or the wall at its bottom is too thin.
     #[error(
-        "the {what}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; remedy: {}",
-        remedy_for_depth(what, *most_mm)
+        "the {}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; \
+         remedy: {}",
+        rod.word(),
+        remedy_for_depth(*rod, *most_mm)
     )]
     BreaksOut {
         /// The rod it is for.
-        what: &'static str,
+        rod: Kind,
         /// The depth asked for, mm.
         depth_mm: f64,
         /// The wall asked for, mm.
@@ -41,12 +45,13 @@ pub enum SeatError {
     },
     /// Too little of its depth has a wall around it.
     #[error(
-        "the {what}'s socket has a wall of {wall_mm:.2} mm around it over {held_mm:.2} of its {depth_mm:.2} mm only; remedy: choose a deeper or \
-         thinner {what}, or another place for it"
+        "the {rod}'s socket has a wall of {wall_mm:.2} mm around it over {held_mm:.2} of its \
+         {depth_mm:.2} mm only; remedy: choose a deeper or thinner {rod}, or another place for it",
+        rod = rod.word()
     )]
     HardlyHeld {
         /// The rod it is for.
-        what: &'static str,
+        rod: Kind,
         /// The part of its depth that has a wall, mm.
         held_mm: f64,
         /// The depth asked for, mm.
@@ -61,19 +66,29 @@ pub enum SeatError {
 const DEPTHS: usize = 20;
 
 /// Returns the remedy for a socket that breaks out.
-fn remedy_for_depth(what: &str, most_mm: Option<f64>) -> String {
-    match most_mm.map(|mm| (mm * 10.0).floor() / 10.0) {
-        Some(mm) if mm > 0.0 => {
-            format!("make it {mm:.1} mm deep (--{what}=DIAMETERxLENGTHx{mm:.1})")
+fn remedy_for_depth(rod: Kind, most_mm: Option<f64>) -> String {
+    let key = match rod {
+        Kind::Axle | Kind::Ring => None,
+        Kind::Tip => Some(Key::Tip),
+        Kind::Stem => Some(Key::Stem),
+    };
+    let rod = rod.word();
+    match (most_mm.map(|mm| (mm * 10.0).floor() / 10.0), key) {
+        (Some(mm), Some(key)) if mm > 0.0 => {
+            let setting = Setting::new(key, format!("DIAMETERxLENGTHx{mm:.1}"));
+            format!("make it {mm:.1} mm deep (`{setting}`)")
         }
-        _ => format!("no depth there leaves one: choose a thinner {what}, or another place for it"),
+        (Some(mm), None) if mm > 0.0 => {
+            format!("choose a shorter {rod}: {mm:.1} mm of it fit there")
+        }
+        _ => format!("no depth there leaves one: choose a thinner {rod}, or another place for it"),
     }
 }
 
 /// A socket about the z axis of a frame, from its mouth to its bottom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bore {
-    pub what: &'static str,
+    pub rod: Kind,
     pub radius_mm: f64,
     /// The least wall around it and behind its bottom, mm.
     pub wall_mm: f64,
@@ -93,7 +108,7 @@ impl Bore {
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
         self.check_walls(model, frame).map_err(|error| match error {
             SeatError::BreaksOut {
-                what,
+                rod,
                 depth_mm,
                 wall_mm,
                 ..
@@ -106,7 +121,7 @@ impl Bore {
                     .rev()
                     .find(|i| shorter(i).check_walls(model, frame).is_ok());
                 SeatError::BreaksOut {
-                    what,
+                    rod,
                     depth_mm,
                     wall_mm,
                     most_mm: fits.map(|i| self.share(i)),
@@ -128,11 +143,11 @@ impl Bore {
             .map(|z| self.count_walled(model, frame, z) == DIRECTIONS)
             .collect();
         let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
-        let Self { what, wall_mm, .. } = *self;
+        let Self { rod, wall_mm, .. } = *self;
         let depth_mm = self.depth_mm();
         if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
             return Err(SeatError::BreaksOut {
-                what,
+                rod,
                 depth_mm,
                 wall_mm,
                 most_mm: None,
@@ -145,7 +160,7 @@ impl Bore {
             Ok(())
         } else {
             Err(SeatError::HardlyHeld {
-                what,
+                rod,
                 held_mm,
                 depth_mm,
                 wall_mm,
@@ -210,7 +225,7 @@ mod tests {
 
     fn bore(bottom_mm: f64) -> Bore {
         Bore {
-            what: "pin",
+            rod: Kind::Tip,
             radius_mm: 2.0,
             wall_mm: 1.0,
             mouth_mm: 0.0,

@@ -74,9 +74,9 @@ fn bore_socket(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, F
     let radius_mm = workshop.bore_radius_mm(&rod.rod);
     let inward = (rod.inner_mm - rod.outer_mm).signum();
     let mouth_mm = rod.inner_mm - inward * rod.rod.depth_mm();
-    let (what, wall_mm, bottom_mm) = (rod.kind.word(), allowances.wall_mm, rod.inner_mm);
+    let (wall_mm, bottom_mm) = (allowances.wall_mm, rod.inner_mm);
     Bore {
-        what,
+        rod: rod.kind,
         radius_mm,
         wall_mm,
         mouth_mm,

@@ -81,11 +81,10 @@ fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatErr
 
 /// Returns the axle's socket from the cut to a height above or below it.
 fn socket(workshop: &Workshop, axle: &Rod, bottom_mm: f64) -> Bore {
-    let (what, wall_mm) = (Kind::Axle.word(), workshop.allowances.wall_mm);
     Bore {
-        what,
+        rod: Kind::Axle,
         radius_mm: workshop.bore_radius_mm(axle),
-        wall_mm,
+        wall_mm: workshop.allowances.wall_mm,
         mouth_mm: 0.0,
         bottom_mm,
     }

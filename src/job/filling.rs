@@ -25,7 +25,8 @@ impl Filling {
 /// A text that is not a density.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no filling; remedy: give its density in g/cm³, above 0 and at most {GREATEST_G_CM3}, such as 2.3 for plaster"
+    "`{0}` is no filling; remedy: give its density in g/cm³, above 0 and at most \
+     {GREATEST_G_CM3}, such as 2.3 for plaster"
 )]
 pub struct FillingError(String);
 
