@@ -1,10 +1,10 @@
 //! The rest of a top: it may stand still on a foot that is flat, or rounder than it looks.
 //!
-//! A body that rolls on a level floor is in stable equilibrium where its centre of mass is lowest
-//! (Várkonyi and Domokos, "Static equilibria of rigid bodies: dice, pebbles, and the Poincaré–Hopf
-//! theorem", J. Nonlinear Sci. 16, 2006). Over a contact of radius of curvature ρ, tilted by θ,
-//! that height is ρ + (h − ρ) cos θ: least upright if h < ρ. A top made of triangles has no
-//! curvature, so it is tilted by a visible angle instead.
+//! A body that rolls on a level floor rests stably where the height of its centre of mass has a
+//! local minimum. The source is Várkonyi and Domokos, "Static equilibria of rigid bodies: dice,
+//! pebbles, and the Poincaré–Hopf theorem", J. Nonlinear Sci. 16, 2006. Over a contact of radius of
+//! curvature ρ, tilted by θ, that height is ρ + (h − ρ) cos θ: least upright if h < ρ. A top made
+//! of triangles has no curvature, so it is tilted by a visible angle instead.
 
 use crate::geom::Point;
 
