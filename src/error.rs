@@ -1,8 +1,9 @@
-//! The union of the stages' errors: why a run could not reach an answer.
+//! The union of the stages' errors.
 
 use std::path::PathBuf;
 
 use crate::ballast::{BallastError, Order};
+use crate::base::setting::{Key, Setting};
 use crate::base::watch::Cancelled;
 use crate::cut::CutError;
 use crate::draw::PictureError;
@@ -21,8 +22,9 @@ use crate::shell::ShellError;
 use crate::verify::VerifyError;
 use crate::voids::VoidError;
 
-/// Why a run could not reach an answer. An unmet goal is an answer, not an error.
+/// A reason why a run could not reach an answer. An unmet goal is an answer, not an error.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Error {
     /// The model cannot be read.
     #[error(transparent)]
@@ -40,10 +42,10 @@ pub enum Error {
     NotOneBody {
         /// The model's file.
         path: PathBuf,
-        /// Its shells, or where it passes through itself.
+        /// Its shells, or the places where it passes through itself.
         source: Box<NotOneBody>,
     },
-    /// The job is not one, or its model has changed.
+    /// The job cannot be read, or its model has changed.
     #[error(transparent)]
     Job(#[from] JobError),
     /// The printer's profile cannot be used.
@@ -70,28 +72,34 @@ pub enum Error {
     /// The columns cannot be built.
     #[error(transparent)]
     Columns(#[from] BuildError),
-    /// The ballast cannot be had.
+    /// The order for ballast cannot be processed.
     #[error(transparent)]
     Ballast(#[from] BallastError),
     /// The ballast that was ordered does not fit.
-    #[error("--ballast={order} has no room inside; remedy: order fewer or smaller parts, or none")]
+    #[error(
+        "`{}` has no room inside; remedy: order fewer or smaller parts, or none",
+        Setting::new(Key::Ballast, order)
+    )]
     NoRoomForBallast {
-        /// What was ordered.
+        /// The order.
         order: Order,
     },
     /// The filling changes nothing.
     #[error(
-        "a filling of {fill} g/cm³ is as dense as the print, {density_g_cm3} g/cm³; remedy: take a lighter or a denser one, or none"
+        "a filling of {fill} g/cm³ is as dense as the print, {density_g_cm3} g/cm³; remedy: take \
+         a lighter or a denser one, or none"
     )]
     FillLikePrint {
-        /// What was asked for.
+        /// The filling asked for.
         fill: Filling,
         /// The print's density, g/cm³.
         density_g_cm3: f64,
     },
-    /// A filling beside ballast.
+    /// A filling and ballast were both ordered.
     #[error(
-        "--fill={fill} and --ballast={order} do not go together; remedy: leave one of them out"
+        "`{}` and `{}` do not go together; remedy: leave one of them out",
+        Setting::new(Key::Fill, fill),
+        Setting::new(Key::Ballast, order)
     )]
     FillAndBallast {
         /// The filling.
@@ -99,9 +107,12 @@ pub enum Error {
         /// The ballast.
         order: Order,
     },
-    /// A heavy filling where the most material is best.
+    /// A heavy filling was ordered for a rotor, which keeps as much material as it can.
     #[error(
-        "--fill={fill} is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in ballast (--ballast=auto)"
+        "`{}` is heavier than the print, and a rotor keeps as much mass as it can; remedy: lay in \
+         ballast (`{}`)",
+        Setting::new(Key::Fill, fill),
+        Setting::new(Key::Ballast, Order::Auto)
     )]
     HeavyFillInRotor {
         /// The filling.

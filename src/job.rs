@@ -1,4 +1,4 @@
-//! The whole input of a run as plain data: `job.toml` replays the run exactly.
+//! The whole input of a run as plain data. `job.toml` replays the run exactly.
 
 mod choices;
 mod filling;
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Deserializer, Serialize, de::Error as _};
 
-pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle, Solver};
+pub use choices::{CutMode, IdStyle, ModelUnit, PartFormat, PinStyle};
 pub use filling::Filling;
 
 use crate::ballast::Order;
@@ -20,50 +20,51 @@ use crate::goal::Request;
 /// The version of `job.toml` that this program writes and reads.
 pub const JOB_SCHEMA: u32 = 1;
 
-/// The head of every written `job.toml`.
-const REMARK: &str = "# Replays the run: equipoise prepare --job job.toml\n\n";
+/// The first line of every written `job.toml`.
+const REMARK: &str = "# Replays the run: equipoise prepare, with this file as its job.\n\n";
+
+/// The line of a `job.toml` that named the only solver.
+const OLD_SOLVER: &str = "solver = \"quadric\"";
 
 /// Everything that decides the bytes of a kit, apart from the version of the program and of its
 /// built-in profiles.
 ///
-/// The number of threads, the folder written to and what is shown on the way are not part of it:
-/// they decide nothing.
+/// The number of threads, the output folder and the progress display are not part of it: they do
+/// not change the kit.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
-    /// The version of the file's form, [`JOB_SCHEMA`].
-    #[serde(deserialize_with = "known_schema")]
+    /// The version of the file's format, [`JOB_SCHEMA`].
+    #[serde(deserialize_with = "read_schema")]
     pub schema: u32,
-    /// The wall asked for; the profile's minimum where none is.
+    /// The wall asked for; the profile's minimum if `None`.
     pub wall: Option<Length>,
-    /// The pitch of the solver's columns; the printer's own where none is asked for.
+    /// The pitch of the solver's columns; the printer's own if `None`.
     pub pitch: Option<Length>,
-    /// How the void is found.
-    pub solver: Solver,
-    /// Whether the object is cut.
+    /// The choice to cut the object.
     pub cut: CutMode,
-    /// What aligns the parts; printed pins where the key is left out.
-    #[serde(default = "printed", skip_serializing_if = "PinStyle::is_printed")]
+    /// The pins that align the parts; printed ones if the key is missing.
+    #[serde(default = "default_pins", skip_serializing_if = "PinStyle::is_printed")]
     pub pins: PinStyle,
-    /// Whether parts bear their ids; sunk into cut faces where the key is left out.
-    #[serde(default = "engraved", skip_serializing_if = "IdStyle::is_engraved")]
+    /// The marking of parts with their ids; engraved into cut faces if the key is missing.
+    #[serde(default = "default_ids", skip_serializing_if = "IdStyle::is_engraved")]
     pub ids: IdStyle,
     /// The file format of the parts.
     pub format: PartFormat,
-    /// The ballast asked for; none where the key is left out.
+    /// The ballast asked for; none if the key is missing.
     #[serde(default, skip_serializing_if = "Order::is_none")]
     pub ballast: Order,
-    /// What the voids are filled with; air where the key is left out.
+    /// The filling of the voids; air if the key is missing.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<Filling>,
-    /// What is prepared.
+    /// The model.
     pub model: ModelChoice,
-    /// What prints it.
+    /// The printer and its material.
     pub printer: PrinterChoice,
-    /// What it is to do.
-    #[serde(deserialize_with = "possible_goal")]
+    /// The goal.
+    #[serde(deserialize_with = "read_goal")]
     pub goal: Request,
-    /// Cuts and pins that a person ordered, in place of the planner's.
+    /// The cuts and pins that the user ordered, in place of the planner's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plan: Option<CutOrder>,
 }
@@ -74,28 +75,28 @@ pub struct Job {
 pub struct ModelChoice {
     /// The file.
     pub path: PathBuf,
-    /// SHA-256 of the file's bytes in lower-case hexadecimal; none until they have been read.
+    /// The SHA-256 of the file's bytes in lower-case hexadecimal; `None` until they have been read.
     pub sha256: Option<String>,
-    /// From the file's numbers to mm.
+    /// The conversion of the file's numbers to mm.
     pub scaling: Scaling,
 }
 
-/// How the numbers of a model file become mm.
+/// The conversion of a model file's numbers to mm.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Scaling {
-    /// They are in this unit.
+    /// The numbers are in this unit.
     Unit(ModelUnit),
-    /// They are mm when multiplied by this, positive and finite.
-    #[serde(deserialize_with = "positive")]
+    /// The numbers times this factor, positive and finite, are mm.
+    #[serde(deserialize_with = "read_positive")]
     Factor(f64),
-    /// The longest side of the box about the model becomes this.
+    /// The longest side of the model's bounding box becomes this.
     Size(Length),
 }
 
 impl Scaling {
-    /// What the file's numbers are multiplied by, for a model whose longest side is `longest_side`
-    /// of them (positive).
+    /// Returns the factor from the file's numbers to mm, for a model whose longest side is
+    /// `longest_side` in those numbers (positive).
     pub fn factor(self, longest_side: f64) -> f64 {
         match self {
             Self::Unit(unit) => unit.mm(),
@@ -111,21 +112,23 @@ impl Scaling {
 pub struct PrinterChoice {
     /// A built-in printer's id, or the path of a profile.
     pub id: String,
-    /// A material's id; the printer's default where none is asked for.
+    /// A material's id; the printer's default if `None`.
     pub material: Option<String>,
 }
 
-/// Why a plan of cuts cannot be read.
+/// A reason why a plan of cuts cannot be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PlanError {
     /// The file cannot be read.
     #[error(
-        "cannot read the cuts {path}; remedy: give auto, never, or the path of a plan such as a kit's cuts.toml"
+        "cannot read the cuts {path}; remedy: give auto, never, or the path of a plan such as a \
+         kit's cuts.toml"
     )]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The text is not a plan.
@@ -133,7 +136,7 @@ pub enum PlanError {
     Text(#[from] TextFault),
 }
 
-/// The cuts and pins ordered in the file at `path`.
+/// Reads the cuts and pins ordered in the file at `path`.
 pub fn read_plan(path: &Path) -> Result<CutOrder, PlanError> {
     let text = std::fs::read_to_string(path).map_err(|source| PlanError::Unreadable {
         path: path.to_owned(),
@@ -142,23 +145,25 @@ pub fn read_plan(path: &Path) -> Result<CutOrder, PlanError> {
     Ok(CutOrder::from_toml(&path.to_string_lossy(), &text)?)
 }
 
-/// Why a job cannot be read, written or replayed.
+/// A reason why a job cannot be read, written or replayed.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum JobError {
     /// The file cannot be read.
     #[error("cannot read the job {path}; remedy: check the path and its permissions")]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The system's error.
         source: std::io::Error,
     },
     /// The text is not a job.
     #[error(transparent)]
     Text(#[from] TextFault),
-    /// The model is not the one the job was made with.
+    /// The model is not the one that the job was made with.
     #[error(
-        "{path} is not the file this job was made with (SHA-256 {found}, was {expected}); remedy: restore the file, or remove sha256 from the job"
+        "{path} is not the file this job was made with (SHA-256 {found}, was {expected}); remedy: \
+         restore the file, or remove sha256 from the job"
     )]
     ModelChanged {
         /// The model file.
@@ -168,7 +173,7 @@ pub enum JobError {
         /// Its hash in the job.
         expected: String,
     },
-    /// The job cannot be written as TOML, which happens for paths that are not Unicode.
+    /// The job cannot be written as TOML, for instance because a path is not Unicode.
     #[error(
         "the job cannot be written as TOML; remedy: rename the model so that its path is plain text"
     )]
@@ -176,13 +181,12 @@ pub enum JobError {
 }
 
 impl Job {
-    /// The job of default settings.
+    /// Returns the job with default settings.
     pub fn new(model: ModelChoice, printer: PrinterChoice, goal: Request) -> Self {
         Self {
             schema: JOB_SCHEMA,
             wall: None,
             pitch: None,
-            solver: Solver::Quadric,
             cut: CutMode::Auto,
             pins: PinStyle::Printed,
             ids: IdStyle::Engraved,
@@ -196,7 +200,7 @@ impl Job {
         }
     }
 
-    /// The job in the file at `path`.
+    /// Reads the job in the file at `path`.
     pub fn read(path: &Path) -> Result<Self, JobError> {
         let text = std::fs::read_to_string(path).map_err(|source| JobError::Unreadable {
             path: path.to_owned(),
@@ -205,18 +209,20 @@ impl Job {
         Ok(Self::from_toml(&path.to_string_lossy(), &text)?)
     }
 
-    /// The job that `text` says, which messages call `file`. Reads back what [`Job::to_toml`]
-    /// wrote, to the bit.
+    /// Reads a job from the text of a `job.toml`; messages call it `file`. Restores the values that
+    /// [`Job::to_toml`] wrote, to the bit.
+    ///
+    /// Accepts the line `solver = "quadric"` of older kits, which had no other value.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, TextFault> {
-        toml_text::read(file, text)
+        toml_text::read(file, &without_solver(text))
     }
 
-    /// The job as the text of a `job.toml`.
+    /// Returns the job as the text of a `job.toml`.
     pub fn to_toml(&self) -> Result<String, JobError> {
         Ok(format!("{REMARK}{}", toml::to_string(self)?))
     }
 
-    /// The job bound to the bytes of its model file; refused if it was bound to others.
+    /// Binds the job to the bytes of its model file. Refuses if it was bound to others.
     pub fn bound_to(mut self, model_bytes: &[u8]) -> Result<Self, JobError> {
         let found = sha256_hex(&[model_bytes]);
         match self.model.sha256 {
@@ -233,24 +239,35 @@ impl Job {
     }
 }
 
-fn printed() -> PinStyle {
+/// Blanks the line that older kits carry for the only solver. The places of other lines stay.
+fn without_solver(text: &str) -> String {
+    let (head, tables) = text.split_at(text.find("\n[").unwrap_or(text.len()));
+    let kept = |line: &str| match line.trim_end() {
+        OLD_SOLVER => line.replacen(OLD_SOLVER, "", 1),
+        _ => line.to_owned(),
+    };
+    head.split_inclusive('\n').map(kept).collect::<String>() + tables
+}
+
+fn default_pins() -> PinStyle {
     PinStyle::Printed
 }
 
-fn engraved() -> IdStyle {
+fn default_ids() -> IdStyle {
     IdStyle::Engraved
 }
 
-fn known_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+fn read_schema<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
     match u32::deserialize(deserializer)? {
         JOB_SCHEMA => Ok(JOB_SCHEMA),
         other => Err(D::Error::custom(format!(
-            "schema {other} is not known; remedy: use the version of equipoise that wrote it, this one reads schema {JOB_SCHEMA}"
+            "schema {other} is not known; remedy: use the version of equipoise that wrote it, \
+             this one reads schema {JOB_SCHEMA}"
         ))),
     }
 }
 
-fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
+fn read_positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error> {
     match f64::deserialize(deserializer)? {
         factor if factor.is_finite() && factor > 0.0 => Ok(factor),
         factor => Err(D::Error::custom(format!(
@@ -259,9 +276,9 @@ fn positive<'de, D: Deserializer<'de>>(deserializer: D) -> Result<f64, D::Error>
     }
 }
 
-fn possible_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, D::Error> {
+fn read_goal<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Request, D::Error> {
     Request::deserialize(deserializer)?
-        .checked()
+        .validate()
         .map_err(D::Error::custom)
 }
 
@@ -332,6 +349,17 @@ mod tests {
     }
 
     #[test]
+    fn a_job_of_an_older_kit_reads_with_its_only_solver() {
+        let text = job().to_toml().unwrap();
+        let older = text.replacen("schema = 1\n", "schema = 1\nsolver = \"quadric\"\n", 1);
+        assert!(!text.contains("solver") && older.contains("solver"));
+        assert_eq!(Job::from_toml("job.toml", &older), Ok(job()));
+        let broken = older.replacen("cut = ", "cuts = ", 1);
+        let error = Job::from_toml("job.toml", &broken).unwrap_err().to_string();
+        assert!(error.starts_with("job.toml:5:1: "), "{error}");
+    }
+
+    #[test]
     fn a_job_reads_as_a_person_would_write_it() {
         let text = job().to_toml().unwrap();
         for line in [
@@ -348,7 +376,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_numbers_survive_the_file(x in -1e9..1e9_f64, z in 1e-9..1.0_f64, size in 1e-3..1e6_f64) {
+        fn any_numbers_survive_the_file(
+            x in -1e9..1e9_f64,
+            z in 1e-9..1.0_f64,
+            size in 1e-3..1e6_f64,
+        ) {
             let mut job = job();
             job.goal.up = Up::Along([x, 0.0, z]);
             job.goal.contact = Some(Contact::At([z, x, -size]));
@@ -357,14 +389,14 @@ mod tests {
         }
     }
 
-    /// What to replace in a written job, by what, and what the message must say.
+    /// A replacement in a written job, and the words that the message must contain.
     const BROKEN: [(&str, &str, &str); 15] = [
         ("schema = 1", "schema = 2", ":3:10: schema 2 is not known"),
         ("schema = 1\n", "", "missing field `schema`"),
         (
-            "solver = \"quadric\"",
-            "solver = \"quadrik\"",
-            "did you mean `quadric`",
+            "schema = 1\n",
+            "schema = 1\nsolver = \"octree\"\n",
+            "unknown field `solver`",
         ),
         ("cut = ", "cuts = ", "did you mean `cut`"),
         (

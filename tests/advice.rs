@@ -81,13 +81,14 @@ fn a_wall_that_is_advised_gives_a_kit() {
             "{remedy:#}"
         );
     }
-    let flag = remedies[1]["flags"].as_str().unwrap();
-    assert!(flag.starts_with("--wall="), "{flag}");
-    let made = prepare(&thin, &["--goal", "top", flag]);
+    let setting = &remedies[1]["settings"][0];
+    assert_eq!(setting["key"], "wall");
+    let wall = setting["value"].as_str().unwrap();
+    let made = prepare(&thin, &["--goal", "top", "--wall", wall]);
     assert_eq!(
         made.status.code(),
         Some(0),
-        "{flag}: {}",
+        "{wall}: {}",
         text(&made.stdout)
     );
 }

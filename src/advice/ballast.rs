@@ -1,9 +1,10 @@
 //! The least steel inside that makes a goal possible.
 
 use super::confirm::least_excess;
-use super::directions::rounded;
-use super::ground::{CONFIRMING_COLUMNS, Ground, Trial, problem};
-use super::remedy::{Kind, Remedy};
+use super::directions::round_to;
+use super::remedy::{Change, Kind, Remedy};
+use super::sampled_model::{CONFIRMING_COLUMNS, SampledModel, Trial, problem};
+use crate::base::setting::{Key, Setting};
 use crate::base::units::{MM3_PER_CM3, show_mm};
 use crate::base::watch::Watch;
 use crate::geom::{Point, Quadric};
@@ -11,58 +12,59 @@ use crate::goal::Placement;
 use crate::hollow::{Problem, Settings, least_ballast, solve};
 use crate::interior::{Columns, moments_where_positive};
 
-/// Carbon and bearing steel, as balls, nuts and rods are made of, g/cm³; kinds of it lie between
-/// 7.7 and 7.9.
+/// The density of carbon and bearing steel, of which balls, nuts and rods are made, g/cm³. The
+/// kinds lie between 7.7 and 7.9.
 const STEEL_G_CM3: f64 = 7.85;
-/// Columns a side of the search, which takes thousands of passes; the steel found on them is
-/// weighed on finer ones.
+/// The columns a side of the search, which takes thousands of passes. The steel is weighed on finer
+/// ones.
 const SEARCHING_COLUMNS: usize = 60;
-/// Passes an ascent may take: with a price to pay it bends more sharply than without.
+/// The greatest number of passes of an ascent. With the ballast's price the dual bends more
+/// sharply.
 const PASSES: usize = 150;
-/// Halvings of the level at which a region has a given volume; what is left is far below what can
-/// be weighed.
+/// The number of halvings in the search for the level at which a region has a given volume. The
+/// remainder is far too light to weigh.
 const LEVEL_ROUNDS: usize = 40;
 
-/// Steel in the interior, and the solve with it.
-struct Bought {
+/// A region of steel in the interior, and the solve with it.
+struct Steel {
     volume_mm3: f64,
     /// Model coordinates.
     center: Point,
     trial: Trial,
 }
 
-/// How much steel would do, and where; or that no amount of it inside does.
-pub(super) fn remedy(ground: &Ground) -> Remedy {
-    let Some(bought) = bought(ground) else {
+/// Returns the mass and the place of the steel that helps, or a remedy that says that none inside
+/// does.
+pub(super) fn remedy(model: &SampledModel) -> Remedy {
+    let Some(steel) = find_least_steel(model) else {
         let words = "no amount of steel inside was found that helps";
-        return Remedy::nothing(Kind::LeastBallast, words.to_owned());
+        return Remedy::dead_end(Kind::LeastBallast, words.to_owned());
     };
-    let mass_g = bought.volume_mm3 / MM3_PER_CM3 * STEEL_G_CM3;
-    let ball_mm = (6.0 * bought.volume_mm3 / std::f64::consts::PI).cbrt();
-    let [x, y, z] = rounded(bought.center.into(), 0);
+    let mass_g = steel.volume_mm3 / MM3_PER_CM3 * STEEL_G_CM3;
+    let ball_mm = (6.0 * steel.volume_mm3 / std::f64::consts::PI).cbrt();
+    let [x, y, z] = round_to(steel.center.into(), 0);
     let words = format!(
-        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({}, {}, {}) mm; --ballast=auto lays it in as \
-         balls where they fit",
+        "put {mass_g:.1} g of steel or more (as much as a ball of {}) inside, about ({x}, {y}, \
+         {z}) \
+         mm; `{}` lays it in as balls if they fit",
         show_mm(ball_mm),
-        x,
-        y,
-        z
+        Setting::new(Key::Ballast, "auto")
     );
-    Remedy::found(
-        Kind::LeastBallast,
-        mass_g,
-        [String::new(), words],
-        &bought.trial,
-    )
+    let change = Change {
+        amount: mass_g,
+        settings: Vec::new(),
+        words,
+    };
+    Remedy::helping(Kind::LeastBallast, change, &steel.trial)
 }
 
-/// The least steel, confirmed with as little more as it takes.
-fn bought(ground: &Ground) -> Option<Bought> {
-    let excess_ratio = STEEL_G_CM3 / ground.case.density_g_cm3 - 1.0;
+/// Returns the least steel, with the least excess that the confirming solve asks for.
+fn find_least_steel(model: &SampledModel) -> Option<Steel> {
+    let excess_ratio = STEEL_G_CM3 / model.case.density_g_cm3 - 1.0;
     if excess_ratio <= 0.0 {
         return None;
     }
-    let exact = |columns| ground.exact(&ground.case.request, ground.case.wall_mm, columns);
+    let exact = |columns| model.exact_columns(&model.case.request, model.case.wall_mm, columns);
     let (placement, coarse) = exact(SEARCHING_COLUMNS)?;
     let least = |placement: Placement| {
         let question = problem(&placement, &coarse);
@@ -73,30 +75,29 @@ fn bought(ground: &Ground) -> Option<Bought> {
         let ballast = least_ballast(&question, 1.0 + excess_ratio, &settings, &Watch::silent())?;
         Some((placement, ballast))
     };
-    let found = ground
-        .at_its_lines(&placement)
+    let found = model
+        .at_waterlines(&placement)
         .into_iter()
         .filter_map(least);
     let (placement, ballast) = found.min_by(|a, b| a.1.volume_mm3.total_cmp(&b.1.volume_mm3))?;
     let (_, columns) = exact(CONFIRMING_COLUMNS)?;
     least_excess(|excess| {
-        let filled = grown(
+        let filled = raise_to_volume(
             &columns,
             ballast.filled,
             (1.0 + excess) * ballast.volume_mm3,
         )?;
-        confirmed(&placement, &columns, &filled, excess_ratio)
+        confirm(&placement, &columns, &filled, excess_ratio)
     })
 }
 
-/// The plain question with the steel as a part of what is fixed, where nothing may be emptied any
-/// more.
-fn confirmed(
+/// Solves with the steel as part of the fixed mass; its region may not be emptied.
+fn confirm(
     placement: &Placement,
     columns: &Columns,
     filled: &Quadric,
     excess_ratio: f64,
-) -> Option<Bought> {
+) -> Option<Steel> {
     let steel = moments_where_positive(columns, filled);
     let rest = columns.outside(filled);
     let question = problem(placement, &rest);
@@ -111,16 +112,16 @@ fn confirmed(
         columns: rest.len(),
     };
     let center = placement.goal.frame.to_model(&steel.centroid());
-    trial.is_possible().then_some(Bought {
+    trial.is_possible().then_some(Steel {
         volume_mm3: steel.volume(),
         center,
         trial,
     })
 }
 
-/// The region of a quadric at the level at which it has this volume in the columns, mm³; none if
-/// all of them have less.
-fn grown(columns: &Columns, quadric: Quadric, volume_mm3: f64) -> Option<Quadric> {
+/// Returns a quadric raised to the level at which its region has this volume in the columns, mm³.
+/// `None` if all the columns hold less.
+fn raise_to_volume(columns: &Columns, quadric: Quadric, volume_mm3: f64) -> Option<Quadric> {
     let raised = |level: f64| {
         let mut raised = quadric;
         raised.0[0] += level;

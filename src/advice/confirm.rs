@@ -1,12 +1,12 @@
-//! How far beyond what was found on samples the exact columns ask to go.
+//! The excess over an answer from samples that the exact columns ask for.
 
-/// The first excess: a per cent to spare, as what is drawn and cut of a void takes some of it.
+/// The first excess: one per cent, because drawing and cutting the voids costs some of it.
 const FIRST_EXCESS: f64 = 0.01;
-/// The last: a third more. What would need more was found on samples too coarse to mean anything.
+/// The last excess: about a third. If an answer needs more, the samples were too coarse for it.
 const LAST_EXCESS: f64 = 0.32;
 
-/// The least excess that `accepts`, to a per cent, with what it gave; none if a third is not
-/// enough.
+/// Returns the result of the least excess, to a per cent and a half, that `accepts` accepts. `None`
+/// if a third is not enough.
 ///
 /// Excesses double until one is accepted, then the last two are bisected.
 pub(super) fn least_excess<T>(accepts: impl Fn(f64) -> Option<T>) -> Option<T> {
@@ -33,7 +33,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_needed_is_found_to_a_per_cent_and_a_half() {
+    fn the_needed_excess_is_found_to_a_per_cent_and_a_half() {
         for needed in [0.0, 0.013, 0.05, 0.1, 0.31] {
             let found = least_excess(|excess| (excess >= needed).then_some(excess)).unwrap();
             assert!(

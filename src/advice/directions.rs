@@ -1,14 +1,15 @@
-//! Directions over the sphere: an even lattice of them, and how they are told apart and printed.
+//! Directions over the sphere: an even lattice, distinct directions, and their printed decimals.
 
 use crate::geom::Vector;
+use crate::goal::{Request, Up};
 
-/// Decimals of a printed direction: 0.004°, which moves nothing on a model of a metre by a tenth of
-/// a millimetre.
+/// The decimals of a printed direction: 0.004°, less than a tenth of a millimetre on a model of a
+/// metre.
 const DECIMALS: i32 = 4;
 
-/// So many directions spread evenly over the sphere, along a spiral whose turns are the golden
-/// section apart (Vogel, "A better way to construct the sunflower head", Math. Biosci. 44, 1979, on
-/// the sphere).
+/// Returns `count` directions spread evenly over the sphere, along a spiral that turns by the
+/// golden section. Source: Vogel, "A better way to construct the sunflower head", Math. Biosci. 44,
+/// 1979, here on the sphere.
 pub(super) fn lattice(count: usize) -> Vec<Vector> {
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let direction = |i: usize| {
@@ -20,12 +21,12 @@ pub(super) fn lattice(count: usize) -> Vec<Vector> {
     (0..count).map(direction).collect()
 }
 
-/// Whether a unit direction is further from each of the known ones than the angle of this cosine.
+/// Returns true if a unit direction is further from each known one than the angle of this cosine.
 pub(super) fn is_new(known: &[Vector], direction: &Vector, cosine: f64) -> bool {
     known.iter().all(|other| other.dot(direction) < cosine)
 }
 
-/// The directions without those nearer to an earlier one than the angle of this cosine.
+/// Removes the directions that are nearer to an earlier one than the angle of this cosine.
 pub(super) fn distinct(directions: Vec<Vector>, cosine: f64) -> Vec<Vector> {
     let mut kept: Vec<Vector> = Vec::new();
     for direction in directions {
@@ -36,15 +37,24 @@ pub(super) fn distinct(directions: Vec<Vector>, cosine: f64) -> Vec<Vector> {
     kept
 }
 
-/// A unit direction to the decimals it is printed with; of length one to the same.
-pub(super) fn rounded_direction(direction: &Vector) -> Vector {
-    rounded((*direction).into(), DECIMALS).into()
+/// Rounds a unit direction to the decimals it is printed with. Its length stays one to these
+/// decimals.
+pub(super) fn round_direction(direction: &Vector) -> Vector {
+    round_to((*direction).into(), DECIMALS).into()
 }
 
-/// Three numbers to so many decimals, without a negative zero.
-pub(super) fn rounded(numbers: [f64; 3], decimals: i32) -> [f64; 3] {
+/// Rounds three numbers to this many decimals, without a negative zero.
+pub(super) fn round_to(numbers: [f64; 3], decimals: i32) -> [f64; 3] {
     let unit = 10f64.powi(decimals);
     numbers.map(|number| (number * unit).round() / unit + 0.0)
+}
+
+/// Returns the request with this axis.
+pub(super) fn with_axis(request: &Request, axis: &Vector) -> Request {
+    Request {
+        up: Up::Along((*axis).into()),
+        ..*request
+    }
 }
 
 #[cfg(test)]
@@ -71,7 +81,7 @@ mod tests {
 
     #[test]
     fn a_rounded_direction_has_no_negative_zero_and_stays_within_its_decimals() {
-        let rounded = rounded_direction(&Vector::new(-1e-6, 0.6, -0.8));
+        let rounded = round_direction(&Vector::new(-1e-6, 0.6, -0.8));
         assert!(rounded.x == 0.0 && rounded.x.is_sign_positive());
         assert!((rounded - Vector::new(0.0, 0.6, -0.8)).norm() < 1e-4);
     }

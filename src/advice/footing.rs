@@ -1,41 +1,42 @@
 //! The faces a model can stand on: those of its convex hull.
 
-use super::directions::{is_new, rounded_direction};
-use super::ground::{Ground, Trial};
-use super::orientation::along;
-use super::remedy::{Kind, Remedy};
+use super::directions::{is_new, round_direction, with_axis};
+use super::remedy::{Change, Kind, Remedy};
+use super::sampled_model::{SampledModel, Trial};
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Point, Vector};
 use crate::goal::Up;
 use crate::mesh::{Csg, TriMesh};
 
-/// Faces that are tried at most, the largest first. The hull of a scan has thousands, but nothing
-/// stands on a sliver.
+/// The greatest number of faces that are tried, the largest first. The hull of a scan has
+/// thousands, but nothing stands on a sliver.
 const MOST_FACES: usize = 48;
-/// A face smaller than this part of the model's longest side squared is nothing to stand on.
+/// The smallest face to stand on, as a part of the model's longest side squared.
 const LEAST_AREA_RATIO: f64 = 1e-3;
 /// Faces whose normals differ by less than this are one: cos 2°. The support is taken from all
 /// vertices near the floor anyway.
 const SAME_FACE_COSINE: f64 = 0.9994;
 
-/// The directions that are up when the solid rests on a face of its convex hull, the largest face
-/// first, to the decimals they are printed with.
+/// Returns the up directions of a solid that rests on a face of its convex hull, the largest face
+/// first. They are rounded to the decimals they are printed with.
 pub(super) fn resting_directions(mesh: &TriMesh) -> Vec<Vector> {
     let Ok(hull) = Csg::convex_hull(mesh.vertices()).and_then(|hull| hull.to_mesh()) else {
         return Vec::new();
     };
     let least_mm2 = LEAST_AREA_RATIO * mesh.longest_side_mm().powi(2);
-    let mut faces: Vec<(f64, Vector)> = merged_faces(&hull);
+    let mut faces: Vec<(f64, Vector)> = merge_faces(&hull);
     faces.retain(|(area_mm2, _)| *area_mm2 >= least_mm2);
     faces.sort_by(|a, b| b.0.total_cmp(&a.0));
     faces.truncate(MOST_FACES);
     faces
         .into_iter()
-        .map(|(_, normal)| rounded_direction(&-normal))
+        .map(|(_, normal)| round_direction(&-normal))
         .collect()
 }
 
-/// The area and the outward normal of each face, triangles of nearly one normal taken together.
-fn merged_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
+/// Returns the area and the outward normal of each face, triangles of nearly one normal taken
+/// together.
+fn merge_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
     let doubled = |[a, b, c]: [Point; 3]| (b - a).cross(&(c - a));
     let mut triangles: Vec<Vector> = hull.iter_corners().map(doubled).collect();
     triangles.sort_by(|a, b| b.norm().total_cmp(&a.norm()));
@@ -54,32 +55,35 @@ fn merged_faces(hull: &TriMesh) -> Vec<(f64, Vector)> {
         .collect()
 }
 
-/// The face nearest to the one it is to stand on, by the angle the model is turned, that lets it
-/// stand.
-pub(super) fn remedy(ground: &Ground, up: &Vector) -> Remedy {
-    let mut faces = resting_directions(ground.case.solid.mesh());
+/// Returns the nearest face on which the model stands, by the angle by which it is turned.
+pub(super) fn remedy(model: &SampledModel, up: &Vector) -> Remedy {
+    let mut faces = resting_directions(model.case.solid.mesh());
     faces.retain(|face| is_new(&[*up], face, SAME_FACE_COSINE));
     faces.sort_by(|a, b| b.dot(up).total_cmp(&a.dot(up)));
     let found = faces
         .into_iter()
-        .find_map(|face| Some((face, trial(ground, &face)?)));
+        .find_map(|face| Some((face, trial(model, &face)?)));
     let Some((face, trial)) = found else {
-        return Remedy::nothing(
+        return Remedy::dead_end(
             Kind::NearestFace,
             "it stands on no other face either".to_owned(),
         );
     };
     let angle_deg = face.angle(up).to_degrees();
     let words = format!("turn it by {angle_deg:.1}° onto another face");
-    let flags = format!("--up={}", Up::Along(face.into()));
-    Remedy::found(Kind::NearestFace, angle_deg, [flags, words], &trial)
+    let change = Change {
+        amount: angle_deg,
+        settings: vec![Setting::new(Key::Up, Up::Along(face.into()))],
+        words,
+    };
+    Remedy::helping(Kind::NearestFace, change, &trial)
 }
 
-/// The confirming solve for a face, if it lets the model stand.
-fn trial(ground: &Ground, face: &Vector) -> Option<Trial> {
-    let (request, wall_mm) = (along(&ground.case.request, face), ground.case.wall_mm);
-    if ground.allows(&request, wall_mm) {
-        ground.confirmed(&request, wall_mm)
+/// Returns the confirming solve for a face on which the model stands.
+fn trial(model: &SampledModel, face: &Vector) -> Option<Trial> {
+    let (request, wall_mm) = (with_axis(&model.case.request, face), model.case.wall_mm);
+    if model.allows(&request, wall_mm) {
+        model.confirm(&request, wall_mm)
     } else {
         None
     }

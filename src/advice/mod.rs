@@ -1,32 +1,46 @@
-//! Advice: what would make an impossible goal possible, which way up is best, and what a model
-//! could become at all.
+//! Advice: remedies for an impossible goal, the best way up, and the goals that a model could meet.
 //!
 //! # Remedies
-//! Where the solver proves that no hollowing meets a goal, something has to give: the size, the
-//! wall, the contact or spin point, the axis, the face it stands on, or the material, by ballast.
-//! [`remedies`] asks the same solver how little is enough, and confirms every answer by a solve on
-//! exact columns with the very numbers that are printed. A [`Remedy`] carries that number, what to
-//! type, and what the goal then reaches; or says that this way leads nowhere.
+//! If the solver proves that no hollowing meets a goal, something has to change. It may be the
+//! size, the wall, the contact or spin point, the axis, the face it stands on, or the mass, by
+//! ballast. [`remedies`] asks the same solver for the least change that is enough. It confirms
+//! every answer by a solve on exact columns with the numbers that are printed. A [`Remedy`] holds
+//! that number, the options to set, and the value that the goal then reaches. Otherwise it says
+//! that this kind of change does not help.
 //!
 //! # Which way up
-//! [`best_orientation`] tries a lattice of axes over the sphere (for a standing object the faces of
-//! its convex hull) and refines the best; [`prospects`] lists what a model could become along its
-//! own and the coordinate axes.
+//! [`best_orientation`] tries a lattice of axes over the sphere, or the faces of the convex hull
+//! for a standing object, and refines the best. [`prospects`] lists the goals that a model could
+//! meet along its own and the coordinate axes.
 //!
-//! # How it is quick enough
-//! Hundreds of trials cannot each build a wall. One pass samples the depth below the surface; any
-//! wall is a level set of it ([`crate::interior::Depths`]), and any frame is a linear map of the
-//! moments ([`crate::hollow::solve_on_model_columns`]). A trial then costs a few milliseconds.
+//! # Speed
+//! Building a wall for each of hundreds of trials would take too long. So one pass samples the
+//! depth below the surface. Any wall is a level set of the depth ([`crate::interior::Depths`]), and
+//! any frame is a linear map of the moments ([`crate::hollow::solve_on_model_columns`]). A trial
+//! then costs a few milliseconds.
 //!
-//! The files, in reading order: `ground` what a trial is · `ratio` size and wall · `moves`,
-//! `nearest` contact and axis · `footing` the faces to stand on · `ballast` · `remedy` the values
-//! and their words · `orientation` and `prospects`.
+//! The files, in reading order:
+//!
+//! * `case`, `sampled_model`: the question, and the model on which requests are tried
+//!
+//! * `ratio`: size and wall
+//!
+//! * `moves`, `nearest`, `move_remedy`: contact, spin point and axis
+//!
+//! * `footing`: the faces to stand on
+//!
+//! * `ballast`: steel inside
+//!
+//! * `remedy`: the answer and its words
+//!
+//! * `orientation`, `prospects`: the best axis, and the goals a model could meet
 
 mod ballast;
+mod case;
 mod confirm;
 mod directions;
 mod footing;
-mod ground;
+mod move_remedy;
 mod moves;
 mod nearest;
 mod orientation;
@@ -34,85 +48,53 @@ mod prospects;
 mod ratio;
 mod reached;
 mod remedy;
+mod sampled_model;
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 
-use crate::goal::{GoalKind, Request};
-use crate::mesh::Solid;
+use crate::goal::GoalKind;
 
+pub use case::Case;
 pub use orientation::{Orientation, best_orientation};
 pub use prospects::{Prospect, prospects};
 pub use reached::Reached;
 pub use remedy::{Confirmation, Kind, Remedy};
 
-use ground::{FINE_SAMPLES, Ground};
 use moves::Moves;
+use sampled_model::{FINE_SAMPLES, SampledModel};
 
-/// What is wished for, and what the printer allows.
-#[derive(Debug, Clone, Copy)]
-pub struct Case<'a> {
-    /// The model, mm.
-    pub solid: &'a Solid,
-    /// The goal.
-    pub request: Request,
-    /// The wall that is printed, mm.
-    pub wall_mm: f64,
-    /// The thinnest wall the printer makes, mm.
-    pub least_wall_mm: f64,
-    /// Walls are whole multiples of this, mm.
-    pub wall_step_mm: f64,
-    /// The density of what is printed, g/cm³.
-    pub density_g_cm3: f64,
-    /// The longest model whose kit this printer could print, mm.
-    pub greatest_size_mm: f64,
-}
-
-/// What would make an impossible goal possible: a remedy for each way there is, in a fixed order,
-/// also those that lead nowhere. Empty where the goal cannot be placed.
+/// Returns the remedies for an impossible goal: one for each kind of change, in a fixed order, with
+/// those that do not help. Empty if the goal cannot be placed.
 ///
 /// Costs some hundred trials and a few exact solves: about a second on 10 000 triangles, a few on
-/// 100 000. The same remedies for any number of threads.
+/// 100 000. The remedies are the same for any number of threads.
 pub fn remedies(case: &Case) -> Vec<Remedy> {
-    let ground = Ground::new(*case, FINE_SAMPLES);
-    let Some(asked) = ground.trial(&case.request, case.wall_mm) else {
+    let model = SampledModel::new(*case, FINE_SAMPLES);
+    let Some(asked) = model.trial(&case.request, case.wall_mm) else {
         return Vec::new();
     };
     let goal = &asked.placement.goal;
     let moves = Moves::of(case, goal);
     let (mut all, (moved, ballast)): (Vec<Remedy>, (Vec<Remedy>, Remedy)) = rayon::join(
-        || ratio::remedies(&ground),
+        || ratio::remedies(&model),
         || {
             rayon::join(
                 || {
                     moves
                         .par_iter()
-                        .map(|moves| moved(&ground, moves))
+                        .map(|moves| move_remedy::remedy(&model, moves))
                         .collect()
                 },
-                || ballast::remedy(&ground),
+                || ballast::remedy(&model),
             )
         },
     );
     all.extend(moved);
     if goal.kind == GoalKind::Stand {
-        all.push(footing::remedy(&ground, &goal.frame.axis()));
+        all.push(footing::remedy(&model, &goal.frame.axis()));
     }
     all.push(ballast);
     all
-}
-
-/// The nearest step of a kind; where no axis helps, also with the contact below the centre of mass.
-fn moved(ground: &Ground, moves: &Moves) -> Remedy {
-    let found = nearest::nearest(ground, moves);
-    let other = if found.is_none() {
-        moves.over_the_center()
-    } else {
-        None
-    };
-    match other.and_then(|other| Some((nearest::nearest(ground, &other)?, other))) {
-        Some((nearest, other)) => other.remedy(Some(nearest)),
-        None => moves.remedy(found),
-    }
 }

@@ -1,33 +1,33 @@
-//! The nearest step that makes a goal possible: along a ray to the border, then round it by its
-//! tangents.
+//! The nearest step that makes a goal possible: along a ray to the border of the possible, then
+//! along the border by its tangents.
 
 use rayon::prelude::*;
 
 use super::confirm::least_excess;
-use super::directions::{rounded, rounded_direction};
-use super::ground::{Ground, Trial};
+use super::directions::{round_direction, round_to};
 use super::moves::{Moves, Part};
+use super::sampled_model::{SampledModel, Trial};
 use crate::geom::Vector;
 use crate::goal::Request;
 
-/// How far along a ray, as parts of the longest step, it is looked for the first possible place.
+/// The places along a ray that are tried for the first possible one, as parts of the longest step.
 const MARCH: [f64; 8] = [0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0];
-/// How nearly the border is found along a ray.
+/// The relative precision of the border along a ray.
 const PRECISION_RATIO: f64 = 0.01;
-/// A border this near, as a part of the longest step, need not be found more nearly: 0.2° of tilt.
+/// The absolute precision of the border, as a part of the longest step: 0.2° of tilt.
 const PRECISION_OF_LIMIT: f64 = 1e-3;
-/// Tangents that are followed at most; two or three settle it.
+/// The greatest number of tangents that are followed; two or three usually suffice.
 const MOST_TANGENTS: usize = 5;
 /// A tangent that shortens the step by less than this part ends the search.
 const WORTHWHILE_RATIO: f64 = 0.99;
-/// The part of the longest step by which a place is moved to see how the proof changes: small
-/// against any step that is advised, large against rounding.
+/// The step of the finite differences of the proof, as a part of the longest step. It is small
+/// against any advised step and large against rounding.
 const PROBE_OF_LIMIT: f64 = 1e-4;
-/// Decimals of a printed point, in mm: at 1e-3 the rounding of its height already counts as a gap
-/// to the model.
+/// The decimals of a printed point, in mm. With three, the rounding of its height already counts as
+/// a gap to the model.
 const POINT_DECIMALS: i32 = 4;
 
-/// The two ends of a stretch of a ray that the border of the possible crosses.
+/// An interval of a ray that the border of the possible crosses.
 #[derive(Debug, Clone, Copy)]
 struct Border {
     towards: Vector,
@@ -35,7 +35,7 @@ struct Border {
     possible: f64,
 }
 
-/// A step, the request it leads to as it is printed, and the solve that confirmed it.
+/// A step, the printed request it leads to, and the solve that confirm it.
 #[derive(Debug, Clone)]
 pub(super) struct Nearest {
     pub step: Vector,
@@ -43,35 +43,37 @@ pub(super) struct Nearest {
     pub trial: Trial,
 }
 
-/// The shortest step found that makes the goal possible; none where no ray that was followed meets
-/// such a place.
+/// Returns the shortest step found that makes the goal possible. `None` if no ray meets a possible
+/// place.
 ///
-/// The shortest step |u| with φ(u) ≤ 0, where φ is what the proof of impossibility amounts to,
-/// points along −∇φ at its end (Karush, Kuhn and Tucker). The proof is the integral of a quadric
-/// over the interior it is least for; by the envelope theorem that interior may be held fast while
-/// the frame moves, so ∇φ costs no solve: the same moments are seen from frames moved a little. On
-/// the first rays (down the slope, towards where the solid itself is best, towards the nearest
-/// possible one of many places) the border is bisected; then each tangent of the border gives the
-/// ray to its foot, until the step no longer shortens. What is found is shortest among its
-/// neighbours, not proved so among all.
-pub(super) fn nearest(ground: &Ground, moves: &Moves) -> Option<Nearest> {
-    let search = Search { ground, moves };
+/// Let φ(u) be the value of the proof of impossibility at a step u; the goal is possible where φ ≤
+/// 0. The shortest such step points along −∇φ at its end (Karush, Kuhn and Tucker). The proof is
+/// the minimum over interiors of the integral of a quadric. By the envelope theorem the minimising
+/// interior may stay fixed while the frame moves. So ∇φ costs no solve: the same moments are seen
+/// from slightly moved frames.
+///
+/// The border is bisected on the first rays. They lead down the slope, towards the places where the
+/// solid itself is best, and towards the nearest possible one of many places. Then each tangent of
+/// the border gives the ray to its foot, until the step no longer shortens. The result is a local
+/// minimum, not proved to be the global one.
+pub(super) fn find_nearest(model: &SampledModel, moves: &Moves) -> Option<Nearest> {
+    let search = Search { model, moves };
     let near = search.nearest_border();
     let first = search
         .far_border(near.map_or(f64::INFINITY, |border| border.possible))
         .or(near)?;
-    search.confirmed(&search.rounded_by_tangents(first))
+    search.confirm(&search.follow_tangents(first))
 }
 
 struct Search<'a> {
-    ground: &'a Ground<'a>,
+    model: &'a SampledModel<'a>,
     moves: &'a Moves,
 }
 
 impl Search<'_> {
     fn trial(&self, step: &Vector) -> Option<Trial> {
-        self.ground
-            .trial(&self.moves.request(step), self.ground.case.wall_mm)
+        self.model
+            .trial(&self.moves.request(step), self.model.case.wall_mm)
     }
 
     fn allows(&self, step: &Vector) -> bool {
@@ -79,7 +81,7 @@ impl Search<'_> {
             .is_some_and(|trial| trial.is_possible() && trial.meets_the_model())
     }
 
-    /// The nearest border on the rays to the seeds.
+    /// Returns the nearest border on the rays to the seeds.
     fn nearest_border(&self) -> Option<Border> {
         let mut best: Option<Border> = None;
         for seed in self.seeds() {
@@ -89,7 +91,7 @@ impl Search<'_> {
         best
     }
 
-    /// The border on the ray to the first of the far places that is possible, if it is nearer than
+    /// Returns the border on the ray to the first far place that is possible and nearer than
     /// `limit`.
     fn far_border(&self, limit: f64) -> Option<Border> {
         let nearer: Vec<&Vector> = self
@@ -102,17 +104,17 @@ impl Search<'_> {
             .into_par_iter()
             .find_first(|step| self.allows(step))?;
         let (towards, possible) = (place.try_normalize(0.0)?, place.norm());
-        Some(self.bisected(Border {
+        Some(self.bisect(Border {
             towards,
             impossible: 0.0,
             possible,
         }))
     }
 
-    /// Where to look first: down the slope of the proof, then towards the known places.
+    /// Returns the seeds of the search: the known places, then a step down the slope of the proof.
     fn seeds(&self) -> Vec<Vector> {
         let down = self
-            .down(&Vector::zeros())
+            .descent_direction(&Vector::zeros())
             .map(|direction| direction * self.moves.limit);
         let known = self
             .moves
@@ -123,9 +125,9 @@ impl Search<'_> {
         known.chain(down).collect()
     }
 
-    /// The direction in which the proof of impossibility at a step loses most; none where there is
-    /// no proof.
-    fn down(&self, step: &Vector) -> Option<Vector> {
+    /// Returns the direction in which the proof of impossibility at a step decreases fastest.
+    /// `None` if there is no proof.
+    fn descent_direction(&self, step: &Vector) -> Option<Vector> {
         let trial = self
             .trial(step)
             .filter(|trial| trial.solution.status.is_impossible())?;
@@ -133,8 +135,8 @@ impl Search<'_> {
         let moments = trial.solution.moments.from_frame(&here);
         let proof = |step: &Vector| {
             let moved = self
-                .ground
-                .placed(&self.moves.request(step), self.ground.case.wall_mm)?;
+                .model
+                .place(&self.moves.request(step), self.model.case.wall_mm)?;
             let seen = moments.in_frame(&moved.goal.frame);
             Some(
                 trial
@@ -156,7 +158,7 @@ impl Search<'_> {
         (slope.norm() > 0.0).then(|| -slope.normalize())
     }
 
-    /// The first border along the ray to a seed, no further than `limit`.
+    /// Returns the first border along the ray to a seed, no further than `limit`.
     fn first_border(&self, seed: &Vector, limit: f64) -> Option<Border> {
         let (towards, distance) = (seed.normalize(), seed.norm());
         let mut places: Vec<f64> = MARCH.iter().map(|part| part * self.moves.limit).collect();
@@ -165,7 +167,7 @@ impl Search<'_> {
         let mut impossible = 0.0;
         for possible in places.into_iter().filter(|&place| place <= limit) {
             if self.allows(&(towards * possible)) {
-                return Some(self.bisected(Border {
+                return Some(self.bisect(Border {
                     towards,
                     impossible,
                     possible,
@@ -176,7 +178,7 @@ impl Search<'_> {
         None
     }
 
-    fn bisected(&self, mut border: Border) -> Border {
+    fn bisect(&self, mut border: Border) -> Border {
         let precision = |border: &Border| {
             (PRECISION_RATIO * border.possible).max(PRECISION_OF_LIMIT * self.moves.limit)
         };
@@ -191,10 +193,10 @@ impl Search<'_> {
         border
     }
 
-    /// The border from tangent to tangent, as long as the step shortens.
-    fn rounded_by_tangents(&self, mut border: Border) -> Border {
+    /// Follows the border from tangent to tangent, as long as the step shortens.
+    fn follow_tangents(&self, mut border: Border) -> Border {
         for _ in 0..MOST_TANGENTS {
-            let Some(down) = self.down(&(border.towards * border.impossible)) else {
+            let Some(down) = self.descent_direction(&(border.towards * border.impossible)) else {
                 break;
             };
             let halfway = (down + border.towards).try_normalize(PROBE_OF_LIMIT);
@@ -208,7 +210,7 @@ impl Search<'_> {
         border
     }
 
-    /// The border along another direction, if it is worthwhile.
+    /// Returns the border along another direction, if it is nearer by enough.
     fn shorter(&self, border: Border, towards: &Vector) -> Option<Border> {
         let possible = WORTHWHILE_RATIO * border.possible;
         let turned = Border {
@@ -217,16 +219,16 @@ impl Search<'_> {
             possible,
         };
         self.allows(&(towards * possible))
-            .then(|| self.bisected(turned))
+            .then(|| self.bisect(turned))
     }
 
-    /// The step as it is printed, a little longer where the exact columns ask for it.
-    fn confirmed(&self, border: &Border) -> Option<Nearest> {
+    /// Confirms the step as it is printed, longer if the exact columns ask for it.
+    fn confirm(&self, border: &Border) -> Option<Nearest> {
         least_excess(|excess| {
             let length = (border.possible * (1.0 + excess)).min(self.moves.limit);
             let step = border.towards * length;
-            let request = printed(self.moves.part, self.moves.request(&step));
-            let trial = self.ground.confirmed(&request, self.ground.case.wall_mm)?;
+            let request = round_as_printed(self.moves.part, self.moves.request(&step));
+            let trial = self.model.confirm(&request, self.model.case.wall_mm)?;
             trial.meets_the_model().then_some(Nearest {
                 step,
                 request,
@@ -236,9 +238,8 @@ impl Search<'_> {
     }
 }
 
-/// The request with its numbers as short as they are printed: points and directions to the
-/// decimals they are told with.
-fn printed(part: Part, request: Request) -> Request {
+/// Rounds the moved point or direction of a request to the decimals it is printed with.
+fn round_as_printed(part: Part, request: Request) -> Request {
     use crate::goal::{Contact, SpinPoint, Up};
     match (part, request) {
         (
@@ -248,7 +249,7 @@ fn printed(part: Part, request: Request) -> Request {
                 ..
             },
         ) => Request {
-            contact: Some(Contact::At(rounded(at, POINT_DECIMALS))),
+            contact: Some(Contact::At(round_to(at, POINT_DECIMALS))),
             ..request
         },
         (
@@ -258,7 +259,7 @@ fn printed(part: Part, request: Request) -> Request {
                 ..
             },
         ) => Request {
-            spin_point: Some(SpinPoint::At(rounded(at, POINT_DECIMALS))),
+            spin_point: Some(SpinPoint::At(round_to(at, POINT_DECIMALS))),
             ..request
         },
         (
@@ -268,7 +269,7 @@ fn printed(part: Part, request: Request) -> Request {
                 ..
             },
         ) => Request {
-            up: Up::Along(rounded_direction(&along.into()).into()),
+            up: Up::Along(round_direction(&along.into()).into()),
             ..request
         },
         _ => request,

@@ -1,66 +1,70 @@
-//! Which way up is best: axes over the whole sphere, ranked, and the best of them refined.
+//! The best way up: axes over the whole sphere are ranked, and the best of them refined.
 
 use rayon::prelude::*;
 
-use super::Case;
-use super::directions::{distinct, is_new, lattice, rounded_direction};
+use super::case::Case;
+use super::directions::{distinct, is_new, lattice, round_direction, with_axis};
 use super::footing::resting_directions;
-use super::ground::{COARSE_SAMPLES, FINE_SAMPLES, Ground, Trial};
 use super::reached::Reached;
+use super::sampled_model::{COARSE_SAMPLES, FINE_SAMPLES, SampledModel, Trial};
 use crate::geom::{Frame, Point, Vector};
-use crate::goal::{Contact, GoalKind, Request, Up};
+use crate::goal::{Contact, GoalKind, Request};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Csg, TriMesh};
 
-/// Directions of the lattice: 16° apart. Fewer miss the narrow ranges in which a top stands over
-/// its contact; more cost some milliseconds each.
+/// The number of lattice directions: 16° apart. Fewer miss the narrow ranges in which a top stands
+/// over its contact; more cost some milliseconds each.
 const LATTICE: usize = 160;
-/// Directions nearer than this are one: cos 3°.
+/// Directions nearer than this count as one: cos 3°.
 const SAME_COSINE: f64 = 0.9986;
-/// How many of the best are refined, and how far apart they are: cos 10°.
+/// The number of best axes that are refined, and their least distance: cos 10°.
 const STARTS: usize = 3;
 const APART_COSINE: f64 = 0.985;
-/// The first and the last tilt of a refinement, rad. The last is where the critical speed changes
-/// by less than its certificate on the coarse columns can tell.
+/// The first and the last tilt of a refinement, rad. Below the last, the critical speed changes by
+/// less than the gap of its certificate on coarse columns.
 const FIRST_TILT: f64 = 0.14;
 const LAST_TILT: f64 = 0.008;
-/// How much higher than the lowest a corner may be to be tried, as a part of the longest side:
-/// hollowing shifts the centre of mass by some per cent of it.
+/// The height above the lowest at which a corner is still tried, as a part of the longest side.
+/// Hollowing shifts the centre of mass by some per cent of that side.
 const CORNER_SLACK_RATIO: f64 = 0.02;
-/// Ways to tilt from each place.
+/// The number of tilts from each place.
 const WAYS: usize = 6;
 
-/// An axis, and what the goal reaches on it.
+/// An axis, and the value that the goal reaches on it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Orientation {
     /// The request with its axis, and a standing object's face, chosen.
     pub request: Request,
-    /// What it is ranked by, on sampled columns.
+    /// The value it is ranked by, on sampled columns.
     pub reached: Reached,
-    /// How many axes were tried before the best were refined.
+    /// The number of axes that were tried before the best were refined.
     pub tried: usize,
-    /// For how many of them the goal is possible.
+    /// The number of these for which the goal is possible.
     pub possible: usize,
 }
 
-/// The axis on which the goal reaches most, over all directions; none where it is possible on none
-/// of those tried.
+/// Returns the axis on which the goal reaches the best value. `None` if it is possible on none of
+/// the axes tried.
 ///
-/// The contact follows by the request's own rule; where the lowest point allows no axis, it is put
-/// below the centre of mass, where a tip has to reach it. Tried are a lattice over the sphere (half
-/// of it for a yo-yo, whose axis has no sense), the coordinate axes, the solid's principal axes
-/// and, for a top on its lowest point, the directions in which a corner lies below the centre of
-/// mass; for a standing object the faces of its convex hull. The best few are refined by tilting
-/// less and less. Takes some hundred trials, about a second on 10 000 triangles.
+/// The contact follows the request's own rule. If the lowest point allows no axis, the contact is
+/// put below the centre of mass, where a tip has to reach it.
+///
+/// The axes tried are the faces of the convex hull for a standing object. For the other goals they
+/// are a lattice over the sphere, the coordinate axes and the solid's principal axes. A yo-yo's
+/// axis has no sense, so half of them suffice. For a top on its lowest point, the directions in
+/// which a corner lies below the centre of mass are added.
+///
+/// The best few are refined by smaller and smaller tilts. Costs some hundred trials, about a second
+/// on 10 000 triangles.
 pub fn best_orientation(case: &Case) -> Option<Orientation> {
     let center = Request {
         contact: Some(Contact::Center),
         ..case.request
     };
     let is_lowest = case.request.contact == Some(Contact::Lowest);
-    best_by_its_rule(case).or_else(|| {
+    best_with_contact_rule(case).or_else(|| {
         if is_lowest {
-            best_by_its_rule(&Case {
+            best_with_contact_rule(&Case {
                 request: center,
                 ..*case
             })
@@ -70,15 +74,15 @@ pub fn best_orientation(case: &Case) -> Option<Orientation> {
     })
 }
 
-fn best_by_its_rule(case: &Case) -> Option<Orientation> {
-    let coarse = Ground::new(*case, COARSE_SAMPLES);
+fn best_with_contact_rule(case: &Case) -> Option<Orientation> {
+    let coarse = SampledModel::new(*case, COARSE_SAMPLES);
     let axes = candidates(case);
-    let ranked = ranked(&coarse, &axes);
+    let ranked = rank_axes(&coarse, &axes);
     let starts = spread(&ranked);
-    let ground = Ground::new(*case, FINE_SAMPLES);
+    let model = SampledModel::new(*case, FINE_SAMPLES);
     let refined: Vec<Option<Place>> = starts
         .par_iter()
-        .map(|start| refined(&ground, start))
+        .map(|start| refine(&model, start))
         .collect();
     let best = refined.into_iter().flatten().min_by(by_score)?;
     let (request, reached) = (best.request, best.reached);
@@ -102,37 +106,29 @@ fn by_score(a: &Place, b: &Place) -> std::cmp::Ordering {
     a.reached.score().total_cmp(&b.reached.score())
 }
 
-/// The request with this axis.
-pub(super) fn along(request: &Request, axis: &Vector) -> Request {
-    Request {
-        up: Up::Along((*axis).into()),
-        ..*request
-    }
-}
-
-/// What a goal reaches on an axis; none where it is impossible.
-fn place_on(ground: &Ground, axis: &Vector) -> Option<Place> {
-    let axis = rounded_direction(axis);
-    let request = along(&ground.case.request, &axis);
-    let trial = ground
-        .trial(&request, ground.case.wall_mm)
+/// Tries a goal on an axis. Returns `None` if it is impossible there.
+fn place_on(model: &SampledModel, axis: &Vector) -> Option<Place> {
+    let axis = round_direction(axis);
+    let request = with_axis(&model.case.request, &axis);
+    let trial = model
+        .trial(&request, model.case.wall_mm)
         .filter(Trial::is_possible)?;
     Some(Place {
         axis,
         request,
-        reached: Reached::of(&trial),
+        reached: Reached::of(&trial.solution.certificate),
     })
 }
 
-/// The possible axes, the best first.
-fn ranked(ground: &Ground, axes: &[Vector]) -> Vec<Place> {
-    let places: Vec<Option<Place>> = axes.par_iter().map(|axis| place_on(ground, axis)).collect();
+/// Returns the possible axes, the best first.
+fn rank_axes(model: &SampledModel, axes: &[Vector]) -> Vec<Place> {
+    let places: Vec<Option<Place>> = axes.par_iter().map(|axis| place_on(model, axis)).collect();
     let mut places: Vec<Place> = places.into_iter().flatten().collect();
     places.sort_by(by_score);
     places
 }
 
-/// The best few that lie apart.
+/// Returns the best few that lie apart.
 fn spread(ranked: &[Place]) -> Vec<Place> {
     let mut chosen: Vec<Vector> = Vec::new();
     let mut starts = Vec::new();
@@ -145,18 +141,19 @@ fn spread(ranked: &[Place]) -> Vec<Place> {
     starts
 }
 
-/// A place on the finer ground, tilted as long as that is better, less and less.
-fn refined(ground: &Ground, start: &Place) -> Option<Place> {
-    let mut best = place_on(ground, &start.axis)?;
-    let mut tilt = if ground.case.request.kind == GoalKind::Stand {
+/// Refines a place on the finely sampled model: tilts it while that improves the value, by smaller
+/// and smaller angles.
+fn refine(model: &SampledModel, start: &Place) -> Option<Place> {
+    let mut best = place_on(model, &start.axis)?;
+    let mut tilt = if model.case.request.kind == GoalKind::Stand {
         0.0
     } else {
         FIRST_TILT
     };
     while tilt > LAST_TILT {
-        let ways: Vec<Option<Place>> = tilted(&best.axis, tilt)
+        let ways: Vec<Option<Place>> = tilts_around(&best.axis, tilt)
             .par_iter()
-            .map(|axis| place_on(ground, axis))
+            .map(|axis| place_on(model, axis))
             .collect();
         let better = ways.into_iter().flatten().min_by(by_score);
         match better.filter(|place| by_score(place, &best).is_lt()) {
@@ -167,8 +164,8 @@ fn refined(ground: &Ground, start: &Place) -> Option<Place> {
     Some(best)
 }
 
-/// The directions this much aside, evenly around.
-fn tilted(axis: &Vector, tilt: f64) -> Vec<Vector> {
+/// Returns the directions at this angle from an axis, evenly around it.
+fn tilts_around(axis: &Vector, tilt: f64) -> Vec<Vector> {
     let frame = Frame::with_axis(Point::origin(), axis);
     let around = (0..WAYS).map(|i| std::f64::consts::TAU * i as f64 / WAYS as f64);
     let aside = |angle: f64| {
@@ -182,7 +179,7 @@ fn tilted(axis: &Vector, tilt: f64) -> Vec<Vector> {
     around.map(aside).collect()
 }
 
-/// The axes to try.
+/// Returns the axes to try.
 fn candidates(case: &Case) -> Vec<Vector> {
     let mesh = case.solid.mesh();
     if case.request.kind == GoalKind::Stand {
@@ -201,21 +198,22 @@ fn candidates(case: &Case) -> Vec<Vector> {
     distinct(all, SAME_COSINE)
 }
 
-/// The coordinate axes and the solid's principal ones, in both senses.
+/// Returns the coordinate axes and the solid's principal axes, in both senses.
 pub(super) fn special_axes(case: &Case) -> Vec<Vector> {
     let principal = Body::new(&moments_of_mesh(case.solid.mesh()), 1.0)
         .principal()
         .axes;
-    let own = [2, 1, 0].map(|i| rounded_direction(&principal.column(i).into_owned()));
+    let own = [2, 1, 0].map(|i| round_direction(&principal.column(i).into_owned()));
     let axes = [Vector::z(), Vector::y(), Vector::x()]
         .into_iter()
         .chain(own);
     axes.flat_map(|axis| [axis, -axis])
-        .map(|axis| rounded_direction(&axis))
+        .map(|axis| round_direction(&axis))
         .collect()
 }
 
-/// Whether the first of z, y, x that is not zero is negative: one of the two senses of an axis.
+/// Returns true if the first of z, y, x that is not zero is negative. This picks one of the two
+/// senses of an axis.
 pub(super) fn points_down(axis: &Vector) -> bool {
     let first = [axis.z, axis.y, axis.x]
         .into_iter()
@@ -223,8 +221,8 @@ pub(super) fn points_down(axis: &Vector) -> bool {
     first.is_some_and(|part| part < 0.0)
 }
 
-/// The directions from a corner of the convex hull to the centre of mass, where that corner is the
-/// lowest or nearly so: the solid all but balances on it, and hollowing has the least to do.
+/// Returns the directions from a corner of the convex hull to the centre of mass, if that corner is
+/// then the lowest or nearly so. The solid almost balances on it, so hollowing has the least to do.
 pub(super) fn over_corners(mesh: &TriMesh) -> Vec<Vector> {
     let center = moments_of_mesh(mesh).centroid();
     let hull = Csg::convex_hull(mesh.vertices())

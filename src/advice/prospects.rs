@@ -1,13 +1,13 @@
-//! What a model could become, along its own and the coordinate axes.
+//! The goals that a model could meet, along its own and the coordinate axes.
 
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::Case;
-use super::directions::distinct;
-use super::ground::{COARSE_SAMPLES, Ground, Trial};
-use super::orientation::{along, points_down, special_axes};
+use super::case::Case;
+use super::directions::{distinct, with_axis};
+use super::orientation::{points_down, special_axes};
 use super::reached::Reached;
+use super::sampled_model::{COARSE_SAMPLES, SampledModel, Trial};
 use crate::geom::Vector;
 use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::hollow::Status;
@@ -18,52 +18,53 @@ const SAME_COSINE: f64 = 0.999_85;
 /// A goal on an axis, and whether the model can meet it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Prospect {
-    /// What it would do.
+    /// The kind of goal.
     pub kind: GoalKind,
-    /// Which way up.
+    /// The direction that is up.
     pub up: Up,
-    /// Tops: where it touches the ground; none for the others.
+    /// Tops: the contact point; `None` for the others.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub contact: Option<Contact>,
-    /// Whether some hollowing with this wall does it, and the full solid too.
+    /// True if some hollowing with this wall meets it; the full solid counts too.
     pub possible: bool,
-    /// What is reached at best, to a few per cent; none where it is impossible.
+    /// The best value reached, to a few per cent; `None` if it is impossible.
     pub reached: Option<Reached>,
-    /// Why not, with the number; empty where it is possible.
+    /// The reason why it is impossible, with the number; empty if it is possible.
     pub reason: String,
 }
 
-/// Which goals a model could meet with its wall: tops on their lowest point, else with the contact
-/// below the centre of mass, yo-yos about their centre of mass, and standing objects, along the
-/// coordinate axes and the solid's principal axes; those that cannot be placed are left out.
+/// Returns the goals that a model could meet with its wall, along the coordinate axes and the
+/// solid's principal axes. They are tops on their lowest point, else with the contact below the
+/// centre of mass; yo-yos about their centre of mass; and standing objects. Goals that cannot be
+/// placed are left out.
 ///
-/// The request of the case is not read. Costs about thirty trials.
+/// Ignores the request of the case. Costs about thirty trials.
 pub fn prospects(case: &Case) -> Vec<Prospect> {
-    let ground = Ground::new(*case, COARSE_SAMPLES);
+    let model = SampledModel::new(*case, COARSE_SAMPLES);
     let axes = distinct(special_axes(case), SAME_COSINE);
-    let wishes: Vec<Request> = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand]
+    let requests: Vec<Request> = [GoalKind::Top, GoalKind::Yoyo, GoalKind::Stand]
         .iter()
-        .flat_map(|&kind| wishes(kind, &axes))
+        .flat_map(|&kind| requests(kind, &axes))
         .collect();
-    let found: Vec<Option<Prospect>> = wishes
+    let found: Vec<Option<Prospect>> = requests
         .par_iter()
-        .map(|wish| prospect(&ground, wish))
+        .map(|request| prospect(&model, request))
         .collect();
     found.into_iter().flatten().collect()
 }
 
-fn wishes(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
+fn requests(kind: GoalKind, axes: &[Vector]) -> Vec<Request> {
     let has_sense = kind != GoalKind::Yoyo;
     let axes = axes.iter().filter(|axis| has_sense || !points_down(axis));
     axes.map(|axis| Request {
-        up: worded(axis),
-        ..along(&Request::new(kind), axis)
+        up: name_axis(axis),
+        ..with_axis(&Request::new(kind), axis)
     })
     .collect()
 }
 
-/// The word for a coordinate axis, or the vector.
-fn worded(axis: &Vector) -> Up {
+/// Returns the word for a coordinate axis, or the vector.
+fn name_axis(axis: &Vector) -> Up {
     let words = [Up::X, Up::Y, Up::Z, Up::NegX, Up::NegY, Up::NegZ];
     let is_it = |up: &Up| up.direction().is_some_and(|direction| direction == *axis);
     words
@@ -72,13 +73,21 @@ fn worded(axis: &Vector) -> Up {
         .unwrap_or(Up::Along((*axis).into()))
 }
 
-fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
-    let top = wish.kind == GoalKind::Top;
-    let tried = |contact| ground.trial(&Request { contact, ..*wish }, ground.case.wall_mm);
-    let lowest = tried(top.then_some(Contact::Lowest));
+fn prospect(model: &SampledModel, request: &Request) -> Option<Prospect> {
+    let top = request.kind == GoalKind::Top;
+    let with_contact = |contact| {
+        model.trial(
+            &Request {
+                contact,
+                ..*request
+            },
+            model.case.wall_mm,
+        )
+    };
+    let lowest = with_contact(top.then_some(Contact::Lowest));
     let is_possible = |trial: &Option<Trial>| trial.as_ref().is_some_and(Trial::is_possible);
     let below = if top && !is_possible(&lowest) {
-        tried(Some(Contact::Center))
+        with_contact(Some(Contact::Center))
     } else {
         None
     };
@@ -90,7 +99,7 @@ fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
     });
     let trial = if helps { below } else { lowest }?;
     let possible = trial.is_possible();
-    let reached = Reached::of(&trial);
+    let reached = Reached::of(&trial.solution.certificate);
     let places = if top {
         ", neither on its lowest point nor below its centre of mass"
     } else {
@@ -102,8 +111,8 @@ fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
         brief(&trial) + places
     };
     Some(Prospect {
-        kind: wish.kind,
-        up: wish.up,
+        kind: request.kind,
+        up: request.up,
         contact,
         possible,
         reached: possible.then_some(reached),
@@ -111,7 +120,7 @@ fn prospect(ground: &Ground, wish: &Request) -> Option<Prospect> {
     })
 }
 
-/// Why a goal is impossible, in a few words with the number.
+/// Returns the reason why a goal is impossible, in a few words with the number.
 fn brief(trial: &Trial) -> String {
     match trial.solution.status {
         Status::ConstraintsInfeasible { .. } => "it cannot be balanced about this axis".to_owned(),

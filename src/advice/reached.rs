@@ -1,38 +1,37 @@
-//! What a goal reaches, as a number and in words.
+//! The value that a goal reaches, as a number and in words.
 
 use std::fmt;
 
 use serde::Serialize;
 
-use super::ground::Trial;
 use crate::base::units::{show_mm, show_mm3};
-use crate::hollow::Figure;
+use crate::hollow::{Certificate, Figure};
 
 /// The best value of a figure, on the columns of one trial.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Reached {
-    /// What is measured.
+    /// The figure.
     pub figure: Figure,
     /// Its value; an angle in rad.
     pub value: f64,
 }
 
 impl Reached {
-    pub(super) fn of(trial: &Trial) -> Self {
-        let certificate = &trial.solution.certificate;
+    /// Returns the value that a certificate proves.
+    pub(super) fn of(certificate: &Certificate) -> Self {
         Self {
             figure: certificate.figure,
             value: certificate.value,
         }
     }
 
-    /// The value so that less is better.
+    /// Returns the value, signed so that less is better.
     pub(super) fn score(&self) -> f64 {
         self.figure.cost(self.value)
     }
 }
 
-/// The end of a sentence that begins with "it".
+/// Writes the end of a sentence that begins with "it".
 impl fmt::Display for Reached {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let value = self.value;

@@ -1,12 +1,12 @@
-//! A remedy as a value: what to change, to what, what to type, and the solve that shows that it
-//! helps.
+//! A remedy as a value: the change, the options to set, and the solve that shows that it helps.
 
 use serde::Serialize;
 
-use super::ground::{CONFIRMING_COLUMNS, Trial};
 use super::reached::Reached;
+use super::sampled_model::{CONFIRMING_COLUMNS, Trial};
+use crate::base::setting::Setting;
 
-/// What is to be changed.
+/// The kind of change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Kind {
@@ -27,7 +27,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether the contact or the axis gets another place, with warnings of its own.
+    /// Returns true if the change moves the contact or the axis, which brings warnings of its own.
     fn moves(self) -> bool {
         matches!(
             self,
@@ -35,7 +35,7 @@ impl Kind {
         )
     }
 
-    /// The unit of the amount.
+    /// Returns the unit of the amount.
     fn unit(self) -> &'static str {
         match self {
             Self::NearestAxis | Self::NearestFace => "°",
@@ -45,7 +45,7 @@ impl Kind {
     }
 }
 
-/// The solve that confirmed a remedy: from nothing, on exact columns, with the numbers that are
+/// The solve that confirmed a remedy: a fresh one, on exact columns, with the numbers that are
 /// printed.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Confirmation {
@@ -53,11 +53,11 @@ pub struct Confirmation {
     pub columns_a_side: usize,
     /// Columns in all.
     pub columns: usize,
-    /// What the goal reaches.
+    /// The value that the goal reaches.
     pub reached: Reached,
     /// The gap of the certificate, as a part of the value.
     pub gap_ratio: f64,
-    /// How far the constraints are from met, in the solver's normalised units.
+    /// The residual of the constraints, in the solver's normalised units.
     pub residual: f64,
 }
 
@@ -67,73 +67,80 @@ impl Confirmation {
         Self {
             columns_a_side: CONFIRMING_COLUMNS,
             columns: trial.columns,
-            reached: Reached::of(trial),
+            reached: Reached::of(&trial.solution.certificate),
             gap_ratio: certificate.gap_ratio,
             residual: certificate.residual,
         }
     }
 }
 
-/// One way to make an impossible goal possible, or the finding that this way leads nowhere.
+/// A change that helps.
+pub(super) struct Change {
+    /// The new value, or the amount of the change.
+    pub amount: f64,
+    /// The options to set in place of those given.
+    pub settings: Vec<Setting>,
+    /// The sentence for the user.
+    pub words: String,
+}
+
+/// One change that makes an impossible goal possible, or the finding that this kind of change does
+/// not.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Remedy {
-    /// What is to be changed.
+    /// The kind of change.
     pub kind: Kind,
-    /// To what, or by how much; none where this way leads nowhere.
+    /// The new value, or the amount of the change; `None` if it does not help.
     pub amount: Option<f64>,
     /// The unit of the amount: mm, ° or g.
     pub unit: &'static str,
-    /// What to type in place of what was typed; empty where nothing helps, and for ballast.
-    pub flags: String,
-    /// The sentence for a maker.
+    /// The options to set in place of those given; empty if nothing helps, and for ballast.
+    pub settings: Vec<Setting>,
+    /// The sentence for the user.
     pub words: String,
     /// The solve that shows that it helps.
     pub confirmed: Option<Confirmation>,
 }
 
 impl Remedy {
-    /// Whether it helps.
+    /// Returns true if it helps.
     pub fn helps(&self) -> bool {
         self.confirmed.is_some()
     }
 
-    /// A way that helps; `trial` shows it. The words tell what to do, and get what is then reached
-    /// and what a new place warns of.
-    pub(super) fn found(
-        kind: Kind,
-        amount: f64,
-        [flags, words]: [String; 2],
-        trial: &Trial,
-    ) -> Self {
+    /// Returns a remedy that helps, as `trial` shows. The value then reached, and the warnings of a
+    /// new place, are appended to the words.
+    pub(super) fn helping(kind: Kind, change: Change, trial: &Trial) -> Self {
         let confirmed = Confirmation::of(trial);
         let warnings = if kind.moves() {
             &trial.placement.warnings[..]
         } else {
             &[]
         };
-        let warned = warnings.iter().map(|warning| format!("; {warning}"));
+        let appended = warnings.iter().map(|warning| format!("; {warning}"));
         let words = format!(
-            "{words}; it then {}{}",
+            "{}; it then {}{}",
+            change.words,
             confirmed.reached,
-            warned.collect::<String>()
+            appended.collect::<String>()
         );
         Self {
             kind,
-            amount: Some(amount),
+            amount: Some(change.amount),
             unit: kind.unit(),
-            flags,
+            settings: change.settings,
             words,
             confirmed: Some(confirmed),
         }
     }
 
-    /// A way that leads nowhere.
-    pub(super) fn nothing(kind: Kind, words: String) -> Self {
+    /// Returns the remedy of a kind of change that does not help.
+    pub(super) fn dead_end(kind: Kind, words: String) -> Self {
         Self {
             kind,
             amount: None,
             unit: kind.unit(),
-            flags: String::new(),
+            settings: Vec::new(),
             words,
             confirmed: None,
         }

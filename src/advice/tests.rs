@@ -1,25 +1,26 @@
-//! What is advised helps, and a little less would not: every remedy is put to a fresh solve on
-//! exact columns.
+//! Every remedy helps, and a little less would not: each is checked by a fresh solve on exact
+//! columns.
 
-use super::ground::{CONFIRMING_COLUMNS, Ground};
+use super::sampled_model::{CONFIRMING_COLUMNS, SampledModel};
 use super::*;
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Matrix, Point, Vector};
-use crate::goal::{Contact, Objective, SpinPoint, Up, place};
+use crate::goal::{Contact, Objective, Request, SpinPoint, Up, place};
 use crate::hollow::Figure;
 use crate::mesh::primitives::{cuboid, ellipsoid};
-use crate::mesh::{Csg, TriMesh};
+use crate::mesh::{Csg, Solid, TriMesh};
 
-/// Samples of the grounds that tests ask for exact answers only.
+/// The number of samples in tests that use exact columns only.
 const FEW: usize = 100;
-/// How much less than what is advised must be too little: the border is found to a per cent, and
-/// two are given to spare.
+/// The share of the advised amount that must be too little. The border is found to a per cent, and
+/// two more are to spare.
 const SHORT: f64 = 0.95;
 
 fn solid(mesh: TriMesh) -> Solid {
     Solid::new(mesh).unwrap()
 }
 
-/// A tower of 20 × 20 × 60 mm that leans over its foot.
+/// Returns a tower of 20 × 20 × 60 mm that leans over its foot.
 fn leaning_tower() -> Solid {
     let tower = cuboid(
         &Point::new(-10.0, -10.0, 0.0),
@@ -28,7 +29,8 @@ fn leaning_tower() -> Solid {
     solid(tower.map_vertices(|p| Point::new(p.x + 0.45 * p.z, p.y, p.z)))
 }
 
-/// A lens with a belly on one side, so that its centre of mass is not above its lowest point.
+/// Returns a lens with a bulge on one side, so that its centre of mass is not above its lowest
+/// point.
 fn bulging_lens() -> Solid {
     let lens = ellipsoid(&Point::origin(), &Vector::new(30.0, 26.0, 12.0), 4);
     solid(lens.map_vertices(|p| Point::new(p.x + 0.004 * p.x * p.x, p.y, p.z)))
@@ -47,8 +49,8 @@ fn case(solid: &Solid, request: Request, wall_mm: f64) -> Case<'_> {
 }
 
 fn is_possible(case: &Case, request: &Request, wall_mm: f64) -> bool {
-    Ground::new(*case, FEW)
-        .confirmed(request, wall_mm)
+    SampledModel::new(*case, FEW)
+        .confirm(request, wall_mm)
         .is_some()
 }
 
@@ -56,7 +58,16 @@ fn of_kind(remedies: &[Remedy], kind: Kind) -> &Remedy {
     remedies.iter().find(|remedy| remedy.kind == kind).unwrap()
 }
 
-/// A yo-yo whose axis leans away from the lens's own.
+/// Returns the value that a remedy gives to its only option.
+fn value(remedy: &Remedy, key: Key) -> &str {
+    let [setting] = &remedy.settings[..] else {
+        panic!("{remedy:?}")
+    };
+    assert_eq!(setting.key, key);
+    setting.value.as_deref().unwrap()
+}
+
+/// Returns a yo-yo whose axis is tilted against the lens's own.
 fn askew_yoyo() -> Request {
     let up = Up::Along([0.5, 0.1, 0.8]);
     Request {
@@ -66,7 +77,7 @@ fn askew_yoyo() -> Request {
     }
 }
 
-/// A top on a lens, its contact too far aside.
+/// Returns a top on a lens whose contact lies too far aside.
 fn top_aside(lens: &Solid) -> Request {
     let lowest = place(lens, 1.0, &Request::new(GoalKind::Top))
         .unwrap()
@@ -98,7 +109,8 @@ fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them(
         &case.request,
         wall.amount.unwrap() / SHORT + 0.1
     ));
-    assert_eq!(wall.flags, format!("--wall={}mm", wall.amount.unwrap()));
+    let thinner = Setting::new(Key::Wall, format!("{}mm", wall.amount.unwrap()));
+    assert_eq!(wall.settings, [thinner]);
     let reached = wall.confirmed.unwrap().reached;
     assert!(reached.figure == Figure::TopplingAngleRad && reached.value > 0.0);
 }
@@ -107,9 +119,9 @@ fn a_tower_stands_at_the_advised_size_and_wall_and_falls_a_little_short_of_them(
 fn possible_walls_are_below_one_number_and_impossible_ones_above() {
     let tower = leaning_tower();
     let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
-    let ground = Ground::new(case, 20_000);
+    let model = SampledModel::new(case, 20_000);
     let possible: Vec<bool> = (1..=30)
-        .map(|i| ground.allows(&case.request, 0.1 * f64::from(i)))
+        .map(|i| model.allows(&case.request, 0.1 * f64::from(i)))
         .collect();
     assert!(possible[0] && !possible[29]);
     assert!(
@@ -119,7 +131,7 @@ fn possible_walls_are_below_one_number_and_impossible_ones_above() {
 }
 
 #[test]
-fn a_wall_that_cannot_be_printed_is_not_advised_and_a_size_that_does_not_fit_neither() {
+fn neither_an_unprintable_wall_nor_a_size_that_does_not_fit_is_advised() {
     let tower = leaning_tower();
     let case = Case {
         least_wall_mm: 2.9,
@@ -132,7 +144,7 @@ fn a_wall_that_cannot_be_printed_is_not_advised_and_a_size_that_does_not_fit_nei
         (Kind::LeastSize, "61.00 mm at most"),
     ] {
         let remedy = of_kind(&found, kind);
-        assert!(!remedy.helps() && remedy.amount.is_none() && remedy.flags.is_empty());
+        assert!(!remedy.helps() && remedy.amount.is_none() && remedy.settings.is_empty());
         assert!(remedy.words.contains(says), "{}", remedy.words);
     }
 }
@@ -143,12 +155,7 @@ fn a_top_spins_on_the_advised_contact_and_on_none_that_is_nearer() {
     let case = case(&lens, top_aside(&lens), 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestContact);
-    let contact: Contact = remedy
-        .flags
-        .strip_prefix("--contact=")
-        .unwrap()
-        .parse()
-        .unwrap();
+    let contact: Contact = value(remedy, Key::Contact).parse().unwrap();
     assert!(is_possible(
         &case,
         &Request {
@@ -178,7 +185,7 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
     let case = case(&lens, askew_yoyo(), 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestAxis);
-    let up: Up = remedy.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    let up: Up = value(remedy, Key::Up).parse().unwrap();
     assert!(is_possible(&case, &Request { up, ..case.request }, 1.5));
     let asked = case.request.up.direction().unwrap();
     let tilt = up.direction().unwrap().angle(&asked);
@@ -198,7 +205,7 @@ fn a_yoyo_spins_about_the_advised_axis_and_about_none_that_is_nearer() {
 }
 
 #[test]
-fn a_yoyo_about_a_point_out_of_reach_is_told_one_within() {
+fn a_yoyo_about_a_point_out_of_reach_is_advised_one_within() {
     let lens = bulging_lens();
     let away = Request {
         spin_point: Some(SpinPoint::At([-14.0, 0.0, 1.0])),
@@ -207,12 +214,7 @@ fn a_yoyo_about_a_point_out_of_reach_is_told_one_within() {
     let case = case(&lens, away, 1.5);
     let found = remedies(&case);
     let remedy = of_kind(&found, Kind::NearestSpinPoint);
-    let point: SpinPoint = remedy
-        .flags
-        .strip_prefix("--spin-point=")
-        .unwrap()
-        .parse()
-        .unwrap();
+    let point: SpinPoint = value(remedy, Key::SpinPoint).parse().unwrap();
     assert!(is_possible(
         &case,
         &Request {
@@ -240,28 +242,28 @@ fn a_tower_stands_on_the_advised_face_and_with_the_advised_steel() {
     let case = case(&tower, Request::new(GoalKind::Stand), 3.0);
     let found = remedies(&case);
     let face = of_kind(&found, Kind::NearestFace);
-    let up: Up = face.flags.strip_prefix("--up=").unwrap().parse().unwrap();
+    let up: Up = value(face, Key::Up).parse().unwrap();
     assert!(is_possible(&case, &Request { up, ..case.request }, 3.0));
     let steel = of_kind(&found, Kind::LeastBallast);
-    // With its lower 15 mm filled the tower of 19.6 g has its centre 1.9 mm outside the edge, and
-    // steel acts on an arm of at most 17 mm, about half of that on the average: some grams.
+    // With its lower 15 mm filled, the tower of 19.6 g has its centre 1.9 mm outside the edge.
+    // Steel acts on an arm of at most 17 mm, about half of that on average: some grams.
     let mass_g = steel.amount.unwrap();
     assert!(steel.helps() && (1.0..8.0).contains(&mass_g), "{mass_g}");
-    assert!(steel.flags.is_empty() && steel.words.contains("g of steel"));
+    assert!(steel.settings.is_empty() && steel.words.contains("g of steel"));
 }
 
 #[test]
-fn sampled_depths_and_exact_columns_agree_on_what_is_clearly_possible_and_what_is_not() {
+fn sampled_depths_and_exact_columns_agree_away_from_the_border() {
     let lens = bulging_lens();
     let case = case(&lens, Request::new(GoalKind::Yoyo), 1.5);
-    let ground = Ground::new(case, 20_000);
+    let model = SampledModel::new(case, 20_000);
     let on_edge = Request {
         up: Up::X,
         ..case.request
     };
     for (request, expected) in [(case.request, true), (on_edge, false)] {
         assert_eq!(is_possible(&case, &request, case.wall_mm), expected);
-        assert_eq!(ground.allows(&request, case.wall_mm), expected);
+        assert_eq!(model.allows(&request, case.wall_mm), expected);
     }
 }
 
@@ -305,7 +307,9 @@ fn of_all_axes_a_lens_spins_best_about_its_own() {
             up: Up::Along(axis.into()),
             ..request
         };
-        let other = Ground::new(case, 20_000).trial(&request, 1.5).unwrap();
+        let other = SampledModel::new(case, 20_000)
+            .trial(&request, 1.5)
+            .unwrap();
         let is_worse =
             !other.is_possible() || other.solution.certificate.value > best.reached.value;
         assert!(is_worse, "{axis}");
@@ -325,7 +329,7 @@ fn a_standing_object_is_set_on_the_face_on_which_it_topples_last() {
 }
 
 #[test]
-fn what_a_lens_could_become_is_told_for_every_axis() {
+fn prospects_of_a_lens_are_listed_for_every_axis() {
     let lens = bulging_lens();
     let found = prospects(&case(&lens, Request::new(GoalKind::Top), 1.5));
     let prospect = |kind, up| {
@@ -362,10 +366,12 @@ fn the_hull_of_a_cross_has_the_cross_within() {
 #[test]
 fn the_confirming_solve_is_finer_than_the_search() {
     let lens = bulging_lens();
-    let ground = Ground::new(case(&lens, askew_yoyo(), 1.5), FINE_SAMPLES);
+    let model = SampledModel::new(case(&lens, askew_yoyo(), 1.5), FINE_SAMPLES);
     let request = Request::new(GoalKind::Yoyo);
-    let (_, exact) = ground.exact(&request, 1.5, CONFIRMING_COLUMNS).unwrap();
-    let trial = ground.trial(&request, 1.5).unwrap();
+    let (_, exact) = model
+        .exact_columns(&request, 1.5, CONFIRMING_COLUMNS)
+        .unwrap();
+    let trial = model.trial(&request, 1.5).unwrap();
     assert!(
         exact.len() > 4 * trial.columns,
         "{} {}",

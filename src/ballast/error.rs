@@ -1,70 +1,74 @@
-//! What can be wrong with the catalogue of stock parts, or with an order from it.
+//! Errors in the catalogue of stock parts, or in an order from it.
 
 use crate::base::toml_text::TextFault;
 use crate::interior::BuildError;
 use crate::shell::ShellError;
 
-/// A part of a catalogue that cannot be used.
+/// A reason why a catalogue cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum StockFault {
-    /// The text is no catalogue.
+    /// The text is not a catalogue.
     #[error(transparent)]
     Text(#[from] TextFault),
-    /// A number of unknown origin.
+    /// A number has no source.
     #[error(
         "{file}: [{table}] names no source; remedy: say in `source` where the numbers are from"
     )]
     Unsourced {
-        /// The catalogue.
+        /// The catalogue's file.
         file: String,
-        /// Which numbers: `size` or `mass`.
+        /// The table of the numbers: `size` or `mass`.
         table: &'static str,
     },
-    /// A size or mass that is none.
+    /// A size or mass is not positive and finite.
     #[error(
-        "{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its name ends in"
+        "{file}: {key} of `{part}` is not positive and finite; remedy: give it in the unit its \
+         name ends in"
     )]
     NotPositive {
-        /// The catalogue.
+        /// The catalogue's file.
         file: String,
         /// The part.
         part: String,
-        /// Which number.
+        /// The key of the number.
         key: &'static str,
     },
-    /// A part lighter or heavier than anything of its size.
+    /// A part is lighter or heavier than anything of its size.
     #[error(
-        "{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its sizes in mm"
+        "{file}: `{part}` would be of {density:.1} g/cm³; remedy: give its mass in g and its \
+         sizes in mm"
     )]
     Implausible {
-        /// The catalogue.
+        /// The catalogue's file.
         file: String,
         /// The part.
         part: String,
         /// Mass over volume, g/cm³.
         density: f64,
     },
-    /// An id that is given twice.
+    /// An id is given twice.
     #[error("{file}: the id `{part}` is given twice; remedy: rename one")]
     Twice {
-        /// The catalogue.
+        /// The catalogue's file.
         file: String,
         /// The id.
         part: String,
     },
 }
 
-/// Why an order for ballast cannot be met. That no place or number of parts will do is an answer,
-/// not an error.
+/// A reason why an order for ballast cannot be processed. An order for which no place or number of
+/// parts works is an answer, not an error.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum BallastError {
     /// A built-in catalogue is at fault.
     #[error(transparent)]
     Stock(#[from] StockFault),
-    /// No such part.
+    /// There is no such part.
     #[error("there is no stock part `{id}`; remedy: {remedy}")]
     Unknown {
-        /// What was asked for.
+        /// The id asked for.
         id: String,
         /// The nearest id, or all of them.
         remedy: String,

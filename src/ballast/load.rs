@@ -1,6 +1,7 @@
-//! The ballast that was decided on: parts at their places, and what they do to the body.
+//! The chosen ballast: parts at their places, and their effect on the body.
 
-use super::{Fit, Part, Pocket};
+use super::pocket::{Fit, Pocket};
+use super::stock::Part;
 use crate::geom::Frame;
 use crate::interior::Columns;
 use crate::mass::{Lump, Moments};
@@ -14,55 +15,55 @@ pub struct Placed {
     pub lump: Lump,
 }
 
-/// Parts in pockets, and how they change a body printed of some density.
+/// Parts in pockets, within a body printed of some density.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Load {
     /// The parts, in the order they were placed.
     pub parts: Vec<Placed>,
-    /// How they lie in their pockets.
+    /// The clearance and the web of their pockets.
     pub fit: Fit,
     /// The density of the print, g/mm³.
     pub density_g_mm3: f64,
 }
 
 impl Load {
-    /// Whether there is no ballast.
+    /// Returns true if there is no ballast.
     pub fn is_empty(&self) -> bool {
         self.parts.is_empty()
     }
 
-    /// The mass of all parts, g.
+    /// Returns the mass of all parts, g.
     pub fn mass_g(&self) -> f64 {
         self.parts.iter().map(|placed| placed.lump.mass_g).sum()
     }
 
-    /// With one more.
+    /// Returns the load with one more part.
     pub fn with(&self, placed: Placed) -> Self {
         let mut more = self.clone();
         more.parts.push(placed);
         more
     }
 
-    /// Without one of them.
+    /// Returns the load without one part.
     pub fn without(&self, index: usize) -> Self {
         let mut fewer = self.clone();
         fewer.parts.remove(index);
         fewer
     }
 
-    /// The pockets, in the order of the parts.
+    /// Returns the pockets, in the order of the parts.
     pub fn pockets(&self) -> impl Iterator<Item = Pocket> + '_ {
         self.parts
             .iter()
             .map(|placed| Pocket::of(&placed.lump, self.fit.clearance_mm))
     }
 
-    /// The pockets with the material that must stay around them.
+    /// Returns the pockets with the material that must stay around them.
     pub fn jackets(&self) -> impl Iterator<Item = Pocket> + '_ {
         self.pockets().map(|pocket| pocket.grown(self.fit.web_mm))
     }
 
-    /// What the parts alone add to a body of the print's density, model frame.
+    /// Returns the moments that the parts alone add to a body of the print's density, model frame.
     pub fn moments(&self) -> Moments {
         let of_part = |placed: &Placed| placed.lump.moments(self.density_g_mm3);
         self.parts
@@ -71,13 +72,14 @@ impl Load {
             .fold(Moments::default(), |sum, part| sum + part)
     }
 
-    /// What the parts add less what their pockets take away, model frame.
+    /// Returns the moments of the parts less those of their pockets, model frame.
     pub fn excess(&self) -> Moments {
         self.pockets()
             .fold(self.moments(), |sum, pocket| sum - pocket.moments())
     }
 
-    /// The columns of a frame without the pockets and what must stay around them.
+    /// Removes the pockets, with the material that must stay around them, from the columns of a
+    /// frame.
     pub fn carved(&self, columns: Columns, frame: &Frame) -> Columns {
         self.jackets().fold(columns, |columns, jacket| {
             columns.without(&jacket.mesh().in_frame(frame))

@@ -1,22 +1,23 @@
-//! Ballast: stock parts of steel in pockets of their own, where hollowing alone is not enough.
+//! Ballast: stock parts of steel in pockets of their own, for goals that hollowing alone does not
+//! meet.
 //!
-//! [`catalogue`] is what a shop has at hand, [`Order`] what a user asks for, [`Search`] finds where
-//! the parts act most, and [`Load`] is what was decided: parts of declared mass at declared places,
+//! [`catalogue`] lists the stock parts, [`Order`] is the user's request, and [`Search`] finds the
+//! places where parts act most. [`Load`] is the result: parts of declared mass at declared places,
 //! each in a pocket with a wall around it.
 //!
 //! # How the places are found
-//! A part of mass m at x adds (m/ρ) φ(x) to the ten moments, φ = (1, x, y, z, …), and takes its
-//! pocket away from them. With the dual's quadric g of the interior at hand (for an impossible goal
-//! the one that proves it), the value changes to first order by g·(the part − its pocket): the site
-//! where that is least acts most. One part is placed so, the interior is solved again with it,
-//! which gives the next quadric, and so on; then each part in turn is taken out and placed anew.
+//! A part of mass m at x adds (m/ρ) φ(x) to the ten moments, φ = (1, x, y, z, …), and its pocket is
+//! subtracted from them. Let g be the dual's quadric of the current interior; for an impossible
+//! goal it is the one that proves it. To first order the value changes by g·(the part − its
+//! pocket), so the part acts most at the site where that is least. One part is placed there, and
+//! the interior is solved again with it, which gives the next quadric. In the end each part in turn
+//! is taken out and placed again.
 //!
 //! # What is proved, and what is not
-//! With the parts at their places, the interior around them is the best there is, with the same
-//! certificate as without them. That no fewer or lighter parts do is proved only as far as
-//! [`crate::hollow::least_ballast`] goes: its bound on the mass of steel holds for steel of any
-//! shape anywhere inside, so fewer parts than reach that mass are never tried. Which of the sites
-//! are best is a search by descent, not a proof: other places may give a better value.
+//! With the parts at their places, the interior around them is optimal, with the same certificate
+//! as without them. [`crate::hollow::least_ballast`] bounds the mass of steel from below, for steel
+//! of any shape anywhere inside. So fewer parts than reach that mass are never tried. More is not
+//! proved: the sites are found by descent, and other places may give a better value.
 
 mod error;
 mod load;

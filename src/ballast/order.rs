@@ -1,4 +1,4 @@
-//! What a user asks for: ballast where it is needed, parts of a kind, or none.
+//! The user's order: ballast if it is needed, parts of one kind, or none.
 
 use std::{fmt, str::FromStr};
 
@@ -6,39 +6,40 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::words::as_text;
 
-/// The most parts that are laid in. Each is a pocket that must be cut open, filled and glued; a
-/// dozen is an afternoon.
+/// The greatest number of parts. Each is a pocket that must be cut open, filled and glued; a dozen
+/// is an afternoon's work.
 pub const MOST_PARTS: u32 = 12;
 
-/// The ballast asked for. Reads from and prints as `none`, `auto`, `ID` or `IDxN`.
+/// The ballast asked for. It is read and printed as `none`, `auto`, `ID` or `IDxN`.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Order {
     /// None.
     #[default]
     None,
-    /// The fewest steel balls that make possible what hollowing alone does not; none where it does.
+    /// The fewest steel balls that make the goal possible; none if hollowing alone does.
     Auto,
     /// Parts of one kind.
     Parts {
         /// The part's id in the catalogue.
         id: String,
-        /// How many; as few as it takes, at least one, where that is left open.
+        /// The number of parts; the fewest that suffice, at least one, if `None`.
         count: Option<u32>,
     },
 }
 
 impl Order {
-    /// Whether no ballast is asked for.
+    /// Returns true if no ballast is asked for.
     pub fn is_none(&self) -> bool {
         *self == Self::None
     }
 }
 
-/// A text that orders no ballast.
+/// A text that is not an order for ballast.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no ballast; remedy: give auto, none, the id of a stock part such as ball-4, or the id and a number from 1 to \
+    "`{0}` is not an order for ballast; remedy: give auto, none, the id of a stock part such as \
+     ball-4, or the id and a number from 1 to \
      {MOST_PARTS} such as ball-4x3"
 )]
 pub struct OrderError(String);
@@ -112,7 +113,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_order_is_refused_with_an_example() {
+    fn a_text_that_is_no_order_is_refused_with_an_example() {
         for text in ["", "ball 4", "ball-4x0", "ball-4x13", "x3"] {
             let error = text.parse::<Order>().unwrap_err().to_string();
             assert!(error.contains("such as ball-4x3"), "{error}");

@@ -7,7 +7,7 @@ use crate::geom::{Frame, Point, Vector};
 use crate::mass::{Lump, Moments, moments_of_mesh, rims};
 use crate::mesh::{TriMesh, primitives};
 
-/// How parts lie in their pockets.
+/// The clearance and the web of pockets.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Fit {
     /// The gap between a part and its pocket on all sides, mm.
@@ -16,36 +16,36 @@ pub struct Fit {
     pub web_mm: f64,
 }
 
-/// Segments of a pocket's round. Its facets touch the round from outside, so the part has its
-/// clearance everywhere.
+/// The number of segments of a pocket's circle. Its facets touch the circle from outside, so the
+/// part has its clearance everywhere.
 const SEGMENTS: u32 = 64;
-/// Splits of the icosahedron that stands for a ball.
+/// The number of subdivisions of the icosahedron that stands for a ball.
 const BALL_LEVEL: u32 = 3;
-/// The radius of that mesh's vertices over that of the largest ball inside it, and a little more.
+/// The radius of that mesh's vertices over that of the largest ball inside it, rounded up.
 const BALL_STRETCH: f64 = 1.0046;
-/// A turn that leads no vertex into a plane through the centre along a coordinate axis: a cut there
-/// would leave slivers.
+/// A skew axis that keeps vertices out of the planes through the centre along a coordinate axis. A
+/// cut there would leave slivers.
 const SKEW: Vector = Vector::new(0.27, 0.53, 0.81);
-/// The same about the axis of a cylinder, in segments.
+/// The skew of a cylinder about its axis, in segments.
 const SKEW_SEGMENTS: f64 = 0.37;
-/// Rings of a cap that are looked at besides its rim, over the radius.
+/// The rings of a cap that are checked besides its rim, over the radius.
 const RINGS: [f64; 2] = [0.0, 0.5];
 
-/// A region of a pocket's shape: a ball, or a cylinder about an axis.
+/// The region of a pocket: a ball, or a cylinder about an axis.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Pocket {
     /// Its centre, model frame, mm.
     pub center: Point,
-    /// The unit axis; of no meaning for a ball.
+    /// The unit axis; without meaning for a ball.
     pub axis: Vector,
-    /// No point of it is farther from its centre (ball) or axis than this, mm.
+    /// The greatest distance of its points from the centre (ball) or the axis, mm.
     pub radius_mm: f64,
-    /// Half its extent along the axis, mm; none for a ball.
+    /// Half its extent along the axis, mm; `None` for a ball.
     pub half_height_mm: Option<f64>,
 }
 
 impl Pocket {
-    /// The pocket that leaves this clearance around a part.
+    /// Returns the pocket that leaves this clearance around a part.
     pub fn of(lump: &Lump, clearance_mm: f64) -> Self {
         let shape = lump.shape;
         let tight = Self {
@@ -57,7 +57,7 @@ impl Pocket {
         tight.grown(clearance_mm)
     }
 
-    /// The region of the same kind that holds everything within `margin_mm` of this one.
+    /// Returns the region of the same kind that holds everything within `margin_mm` of this one.
     pub fn grown(&self, margin_mm: f64) -> Self {
         Self {
             radius_mm: (self.radius_mm + margin_mm) * self.stretch(),
@@ -66,7 +66,7 @@ impl Pocket {
         }
     }
 
-    /// By how much the vertices of its mesh stand out of what the mesh must hold.
+    /// Returns the ratio by which its mesh is larger than the round region inside it.
     fn stretch(&self) -> f64 {
         if self.half_height_mm.is_some() {
             1.0 / (PI / f64::from(SEGMENTS)).cos()
@@ -75,7 +75,7 @@ impl Pocket {
         }
     }
 
-    /// Its surface, closed and facing outward, model frame, mm.
+    /// Returns its surface, closed and facing outward, model frame, mm.
     pub fn mesh(&self) -> TriMesh {
         let Some(half) = self.half_height_mm else {
             let skewed = Frame::with_axis(self.center, &SKEW);
@@ -93,12 +93,12 @@ impl Pocket {
         })
     }
 
-    /// The moments of its mesh, model frame, mm.
+    /// Returns the moments of its mesh, model frame, mm.
     pub fn moments(&self) -> Moments {
         moments_of_mesh(&self.mesh())
     }
 
-    /// How far a point lies outside, mm; negative inside.
+    /// Returns the distance of a point from its surface, mm; negative inside.
     pub fn distance_mm(&self, point: &Point) -> f64 {
         let offset = point - self.center;
         let Some(half) = self.half_height_mm else {
@@ -112,8 +112,8 @@ impl Pocket {
         beyond.max(0.0).hypot(aside.max(0.0)) + beyond.max(aside).min(0.0)
     }
 
-    /// Points that stand for it, and how far it reaches from each, mm: a ball's centre and radius;
-    /// points of a cylinder's rims and caps.
+    /// Returns points that stand for it, and its reach from each, mm. For a ball they are the
+    /// centre and the radius, for a cylinder points of its rims and caps.
     pub fn outline(&self) -> (Vec<Point>, f64) {
         let Some(half) = self.half_height_mm else {
             return (vec![self.center], self.radius_mm);
@@ -123,7 +123,7 @@ impl Pocket {
         (rim.chain(RINGS.into_iter().flat_map(ring)).collect(), 0.0)
     }
 
-    /// Whether two of them keep so far apart, mm.
+    /// Returns true if two pockets are at least this gap apart, mm.
     pub fn clears(&self, other: &Self, gap_mm: f64) -> bool {
         let is_clear = |a: &Self, b: &Self| {
             let (points, reach_mm) = a.outline();

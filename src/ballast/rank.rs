@@ -1,27 +1,27 @@
-//! Which of two answers is the better one, possible or not.
+//! The order of answers, possible or not.
 
 use crate::goal::Goal;
 use crate::hollow::{Solution, Status};
 
-/// How far an answer is from the best: first its kind, then a number; less is better.
+/// The rank of an answer: first its kind, then a number; less is better.
 #[derive(Debug, Clone, Copy, PartialEq, PartialOrd)]
 pub(super) struct Rank(u8, f64);
 
-/// It does all that was asked.
+/// It meets the goal as asked.
 const FULL: u8 = 0;
-/// It does what was asked by another way: a rotor within its grade that cannot be balanced wholly.
+/// It meets the goal by another objective: a rotor within its grade that cannot be balanced fully.
 const PARTIAL: u8 = 1;
-/// The rows can be met, but the goal cannot.
+/// The constraints can be met, but the goal cannot.
 const MISSED: u8 = 2;
-/// The rows cannot be met.
-const ASIDE: u8 = 3;
+/// The constraints cannot be met.
+const INFEASIBLE: u8 = 3;
 /// Even its mass is wrong.
 const TOO_HEAVY_OR_LIGHT: u8 = 4;
-/// Nothing is known.
-const UNKNOWN: u8 = 5;
+/// The solver gave no decision.
+const UNDECIDED: u8 = 5;
 
 impl Rank {
-    /// The rank of what the solver says.
+    /// Returns the rank of a solver's answer.
     pub fn of(solution: &Solution, goal: &Goal) -> Self {
         if solution.is_usable() {
             let kind = if solution.objective == goal.objective {
@@ -40,27 +40,26 @@ impl Rank {
             Status::CannotBalance {
                 least_grade_mm_s, ..
             } => Self(MISSED, least_grade_mm_s),
-            Status::ConstraintsInfeasible { least_miss, .. } => Self(ASIDE, least_miss),
+            Status::ConstraintsInfeasible { least_miss, .. } => Self(INFEASIBLE, least_miss),
             Status::CannotTrim {
                 least_offset_mm, ..
-            } => Self(ASIDE, least_offset_mm),
+            } => Self(INFEASIBLE, least_offset_mm),
             Status::Sinks { least_ratio } => Self(TOO_HEAVY_OR_LIGHT, least_ratio),
             Status::RidesHigh { greatest_ratio } => Self(TOO_HEAVY_OR_LIGHT, -greatest_ratio),
-            _ => Self(UNKNOWN, solution.certificate.residual),
+            _ => Self(UNDECIDED, solution.certificate.residual),
         }
     }
 
-    /// Whether it does all that was asked.
+    /// Returns true if it meets the goal as asked.
     pub fn is_full(self) -> bool {
         self.0 == FULL
     }
 
-    /// Whether this is better than the other by more than rounding.
+    /// Returns true if this is better than the other by more than rounding.
     pub fn beats(self, other: Self) -> bool {
         self.0 < other.0 || (self.0 == other.0 && self.1 < other.1 - GAIN_RATIO * other.1.abs())
     }
 }
 
-/// What is gained by less than this share is not worth another place: the solver's own gap is a
-/// thousandth of it.
+/// A gain below this share is not worth another place. The solver's own gap is a thousandth of it.
 const GAIN_RATIO: f64 = 1e-4;

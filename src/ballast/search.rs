@@ -1,10 +1,13 @@
 //! The search for the parts and their places: one part after the other where it acts most, then
-//! each placed anew.
+//! each placed again.
 
+use super::error::BallastError;
 use super::load::{Load, Placed};
+use super::order::{MOST_PARTS, Order};
+use super::pocket::Fit;
 use super::rank::Rank;
-use super::sites::{Sites, Wish};
-use super::{BallastError, Fit, MOST_PARTS, Order, Part, catalogue, find};
+use super::sites::{PlaceQuery, Sites};
+use super::stock::{Part, catalogue, find};
 use crate::base::units::MM3_PER_CM3;
 use crate::base::watch::Watch;
 use crate::goal::Placement;
@@ -13,36 +16,37 @@ use crate::interior::Columns;
 use crate::mesh::Solid;
 use crate::shell::Shell;
 
-/// Columns a side while places are looked for: each place takes a solve.
+/// The columns a side during the search: each place takes a solve.
 const SEARCHING_COLUMNS: usize = 60;
-/// Columns a side on which the places found are confirmed: as many as a run's first level.
+/// The columns a side on which the places are confirmed: as many as at a run's first level.
 const CONFIRMING_COLUMNS: usize = 150;
-/// Passes an ascent of the least ballast may take: with a price to pay it bends more sharply than
-/// without.
+/// The passes of an ascent for the least ballast. With the ballast's price the dual bends more
+/// sharply.
 const PASSES: usize = 150;
-/// How much of the least mass that is proved on coarse columns is taken for sure.
+/// The share of the mass bound from coarse columns that is trusted.
 const SURE_RATIO: f64 = 0.9;
-/// How often each part is taken out and placed anew. The second sweep seldom finds anything.
+/// The number of sweeps in which each part is placed again. The second seldom finds anything.
 const SWEEPS: usize = 2;
-/// Shares of the way to the place that acts most. A part heavier than needed overshoots there; with
-/// less than an eighth of the way nothing is gained that the interior could not do as well.
+/// The shares of the way to the place that acts most. A part heavier than needed overshoots there.
+/// Less than an eighth of the way gains nothing that the interior could not do as well.
 const STEPS: [f64; 4] = [1.0, 0.5, 0.25, 0.125];
-/// What ballast is looked for in.
+
+/// The model in which ballast is searched.
 #[derive(Debug, Clone, Copy)]
 pub struct Shop<'a> {
     /// The model.
     pub solid: &'a Solid,
-    /// What it is to do.
+    /// Its goal.
     pub placement: &'a Placement,
     /// The wall that stays under its surface, mm.
     pub wall_mm: f64,
-    /// How parts lie in their pockets.
+    /// The clearance and the web of pockets.
     pub fit: Fit,
     /// The density of the print, g/cm³.
     pub density_g_cm3: f64,
 }
 
-/// A load, and what the solver says of it.
+/// A load, and the solver's answer to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Found {
     /// The parts at their places.
@@ -51,7 +55,7 @@ pub struct Found {
     pub solution: Solution,
 }
 
-/// The search in one model.
+/// The search for ballast in one model.
 pub struct Search<'a> {
     shop: Shop<'a>,
     sites: Sites<'a>,
@@ -60,7 +64,7 @@ pub struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    /// Looks at where parts may lie. Costs the columns and some ten thousand distances.
+    /// Finds the sites where parts may lie. Costs the columns and some ten thousand distances.
     pub fn new(shop: Shop<'a>) -> Result<Self, BallastError> {
         let Placement { goal, keeps, .. } = shop.placement;
         let shell = Shell::new(shop.solid, &goal.frame, shop.wall_mm, keeps)?;
@@ -75,10 +79,10 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// The ballast that an order asks for; none where no number of the parts that fit makes the
-    /// goal possible, or where the parts asked for do not fit.
+    /// Returns the ballast for an order. `None` if no number of parts that fit makes the goal
+    /// possible, or if the ordered parts do not fit.
     ///
-    /// A number of parts that is asked for is laid in whether the goal becomes possible or not.
+    /// An ordered number of parts is placed even if the goal stays impossible.
     pub fn of_order(&self, order: &Order) -> Result<Option<Found>, BallastError> {
         match order {
             Order::None => Ok(None),
@@ -86,33 +90,33 @@ impl<'a> Search<'a> {
             Order::Parts {
                 id,
                 count: Some(count),
-            } => Ok(self.so_many(&find(id)?, *count)),
+            } => Ok(self.place_parts(&find(id)?, *count)),
             Order::Parts { id, count: None } => {
                 let part = find(id)?;
-                Ok((1..=MOST_PARTS).find_map(|count| self.possible(&part, count)))
+                Ok((1..=MOST_PARTS).find_map(|count| self.place_if_possible(&part, count)))
             }
         }
     }
 
-    /// The fewest steel balls that do, and of as many the lightest.
+    /// Returns the fewest steel balls that make the goal possible, and of as many the lightest.
     ///
-    /// Fewer or lighter than the least steel that is proved to be needed are not tried.
+    /// Loads below the proved bound on the mass of steel are not tried.
     fn fewest_balls(&self, parts: &[Part]) -> Option<Found> {
         let balls: Vec<&Part> = parts.iter().filter(|part| part.shape.is_ball()).collect();
-        let least_g = self.least_g(balls.first()?)?;
+        let least_mass_g = self.least_mass_g(balls.first()?)?;
         (1..=MOST_PARTS).find_map(|count| {
-            let heavy_enough = |ball: &&&Part| ball.mass_g * f64::from(count) >= least_g;
+            let heavy_enough = |ball: &&&Part| ball.mass_g * f64::from(count) >= least_mass_g;
             let found = balls
                 .iter()
                 .filter(heavy_enough)
-                .filter_map(|ball| self.possible(ball, count));
-            best_kind(found, |found| self.rank(&found.solution))
+                .filter_map(|ball| self.place_if_possible(ball, count));
+            first_full(found, |found| self.rank(&found.solution))
         })
     }
 
-    /// The least mass of the ball's metal that any ballast must have, g; none where no amount of it
-    /// does.
-    fn least_g(&self, ball: &Part) -> Option<f64> {
+    /// Returns a lower bound on the mass of ballast of the ball's metal, g. `None` if no amount of
+    /// it suffices.
+    fn least_mass_g(&self, ball: &Part) -> Option<f64> {
         let metal_g_mm3 = ball.mass_g / ball.shape.volume_mm3();
         let density_ratio = metal_g_mm3 * MM3_PER_CM3 / self.shop.density_g_cm3;
         let settings = Settings {
@@ -129,23 +133,23 @@ impl<'a> Search<'a> {
         Some(SURE_RATIO * least.bound_mm3 * metal_g_mm3)
     }
 
-    /// So many of a part, if that makes the goal possible with something to spare, on finer columns
+    /// Places `count` of a part, if that makes the goal possible with a margin on the finer columns
     /// too.
-    fn possible(&self, part: &Part, count: u32) -> Option<Found> {
-        let found = self.so_many(part, count)?;
-        let fine = self.solved(found.load, &self.fine);
+    fn place_if_possible(&self, part: &Part, count: u32) -> Option<Found> {
+        let found = self.place_parts(part, count)?;
+        let fine = self.solve_around(found.load, &self.fine);
         has_spare(&self.shop.placement.goal, &fine.solution).then_some(fine)
     }
 
-    /// So many of a part, each where it acts most; none where they do not fit.
-    fn so_many(&self, part: &Part, count: u32) -> Option<Found> {
-        let mut found = self.solved(self.nothing(), &self.coarse);
+    /// Places `count` of a part, each where it acts most. Returns `None` if they do not fit.
+    fn place_parts(&self, part: &Part, count: u32) -> Option<Found> {
+        let mut found = self.solve_around(self.empty_load(), &self.coarse);
         for _ in 0..count {
-            let placed = self.placed(part, &found)?;
-            found = self.solved(found.load.with(placed), &self.coarse);
+            let placed = self.place_part(part, &found)?;
+            found = self.solve_around(found.load.with(placed), &self.coarse);
         }
         for _ in 0..SWEEPS {
-            let better = self.exchanged(part, found.clone());
+            let better = self.improve_places(part, found.clone());
             if better.load == found.load {
                 break;
             }
@@ -154,46 +158,46 @@ impl<'a> Search<'a> {
         Some(found)
     }
 
-    /// Each part taken out in turn and placed where it acts most on the answer at hand, or part of
-    /// the way there; kept where that gains.
-    fn exchanged(&self, part: &Part, mut found: Found) -> Found {
+    /// Takes out each part in turn and places it where it acts most on the current answer, or part
+    /// of the way there. Keeps a move that gains.
+    fn improve_places(&self, part: &Part, mut found: Found) -> Found {
         for index in 0..found.load.parts.len() {
             let (before, rest) = (found.load.parts[index].clone(), found.load.without(index));
-            // With the prices of the answer at hand: the multipliers know what the other parts
-            // already do.
+            // The current answer's prices: its multipliers reflect the effect of the other parts.
             let rest = Found {
                 load: rest,
                 solution: found.solution.clone(),
             };
-            let Some(after) = self.placed(part, &rest) else {
+            let Some(after) = self.place_part(part, &rest) else {
                 continue;
             };
-            let ways = STEPS
+            let moves = STEPS
                 .iter()
-                .filter_map(|&share| self.sites.between(&before, &after, share, &rest.load));
-            let tried = ways.map(|placed| self.solved(rest.load.with(placed), &self.coarse));
+                .filter_map(|&share| self.sites.move_toward(&before, &after, share, &rest.load));
+            let answers =
+                moves.map(|placed| self.solve_around(rest.load.with(placed), &self.coarse));
             let better =
                 |other: &Found| self.rank(&other.solution).beats(self.rank(&found.solution));
-            if let Some(other) = { tried }.find(better) {
+            if let Some(other) = { answers }.find(better) {
                 found = other;
             }
         }
         found
     }
 
-    /// The part where it acts most on an answer.
-    fn placed(&self, part: &Part, found: &Found) -> Option<Placed> {
+    /// Places the part where it acts most on an answer.
+    fn place_part(&self, part: &Part, found: &Found) -> Option<Placed> {
         let solution = &found.solution;
         let prices = solution.status.separator().unwrap_or(solution.quadric);
-        self.sites.best(&Wish {
+        self.sites.best(&PlaceQuery {
             part,
             prices,
             load: &found.load,
         })
     }
 
-    /// The interior around a load.
-    fn solved(&self, load: Load, columns: &Columns) -> Found {
+    /// Solves for the interior around a load.
+    fn solve_around(&self, load: Load, columns: &Columns) -> Found {
         let goal = &self.shop.placement.goal;
         let columns = load.carved(columns.clone(), &goal.frame);
         let fixed = goal.solid + load.excess().in_frame(&goal.frame);
@@ -206,7 +210,7 @@ impl<'a> Search<'a> {
         Found { load, solution }
     }
 
-    fn nothing(&self) -> Load {
+    fn empty_load(&self) -> Load {
         let density_g_mm3 = self.shop.density_g_cm3 / MM3_PER_CM3;
         Load {
             parts: Vec::new(),
@@ -220,8 +224,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The first that does all that was asked; where there is none, the first.
-fn best_kind(
+/// Returns the first that meets the goal as asked; if there is none, the first.
+fn first_full(
     mut found: impl Iterator<Item = Found>,
     rank: impl Fn(&Found) -> Rank,
 ) -> Option<Found> {
@@ -246,7 +250,7 @@ mod tests {
     const WEB_MM: f64 = 1.0;
     const DENSITY_G_CM3: f64 = 1.2;
 
-    fn placed(solid: &Solid, wall_mm: f64, request: Request) -> Placement {
+    fn place(solid: &Solid, wall_mm: f64, request: Request) -> Placement {
         place_made_of(
             solid,
             &Stock {
@@ -258,8 +262,8 @@ mod tests {
         .unwrap()
     }
 
-    fn searched(solid: &Solid, wall_mm: f64, request: Request, order: &str) -> Option<Found> {
-        let placement = placed(solid, wall_mm, request);
+    fn search(solid: &Solid, wall_mm: f64, request: Request, order: &str) -> Option<Found> {
+        let placement = place(solid, wall_mm, request);
         let fit = Fit {
             clearance_mm: 0.2,
             web_mm: WEB_MM,
@@ -279,7 +283,7 @@ mod tests {
         Some(found)
     }
 
-    /// Every pocket leaves the wall, and the web to every other pocket.
+    /// Asserts that every pocket leaves the wall, and the web to every other pocket.
     fn assert_sound(solid: &Solid, wall_mm: f64, load: &Load) {
         let outside = MeshDistance::new(solid.mesh());
         let meshes: Vec<_> = load.pockets().map(|pocket| pocket.mesh()).collect();
@@ -295,7 +299,7 @@ mod tests {
         }
     }
 
-    /// A block that turns about an axis 3 mm above its middle.
+    /// Returns a block that turns about an axis 3 mm above its middle.
     fn rotor() -> (Solid, Request) {
         let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
         let spin_point = Some(SpinPoint::At([20.0, 8.0, 18.0]));
@@ -309,14 +313,14 @@ mod tests {
         )
     }
 
-    /// A foot with an arm to one side.
+    /// Returns a foot with an arm to one side.
     fn leaning() -> (Solid, Request) {
         let solid = fixtures::cells(&[[0, 0, 0], [0, 0, 1], [1, 0, 1], [2, 0, 1]], 12.0);
         (solid, Request::new(GoalKind::Stand))
     }
 
-    fn bare(solid: &Solid, wall_mm: f64, request: Request) -> Solution {
-        let placement = placed(solid, wall_mm, request);
+    fn solve_without(solid: &Solid, wall_mm: f64, request: Request) -> Solution {
+        let placement = place(solid, wall_mm, request);
         let shell = Shell::new(solid, &placement.goal.frame, wall_mm, &placement.keeps).unwrap();
         let columns = Columns::of_shell(&shell, shell.coarse_pitch(100), &Watch::silent()).unwrap();
         let problem = Problem {
@@ -328,14 +332,18 @@ mod tests {
     }
 
     #[test]
-    fn a_rotor_that_no_hollowing_balances_is_balanced_with_as_few_balls_as_reach_its_unbalance() {
+    fn a_rotor_that_hollowing_cannot_balance_gets_as_few_balls_as_reach_its_unbalance() {
         let (solid, request) = rotor();
-        assert!(bare(&solid, WALL_MM, request).status.is_impossible());
-        let found = searched(&solid, WALL_MM, request, "auto").unwrap();
+        assert!(
+            solve_without(&solid, WALL_MM, request)
+                .status
+                .is_impossible()
+        );
+        let found = search(&solid, WALL_MM, request, "auto").unwrap();
         assert!(found.solution.is_usable());
-        // In mm⁴ of the print: the block pulls down by 19200 · 3; all of the interior below the
-        // axis, 34 · 10 · 15 mm³ of it 7.5 mm down, is 38250 of it. A ball of diameter d, 7.83/1.2
-        // times as dense, has its middle at most 27 − d/2 − 0.2 high.
+        // First moments in mm⁴ of the print: the block's is 19200 · 3. The interior below the axis,
+        // 34 · 10 · 15 mm³ with its middle 7.5 mm down, accounts for 38250. A ball of diameter d is
+        // 7.83/1.2 times as dense, and its middle is at most 27 − d/2 − 0.2 high.
         let missing = 19_200.0 * 3.0 - 34.0 * 10.0 * 15.0 * 7.5;
         let pull = |d: f64| std::f64::consts::PI / 6.0 * d.powi(3) * (7.83 / 1.2) * (8.8 - d / 2.0);
         let most = (1..=19)
@@ -364,8 +372,12 @@ mod tests {
     #[test]
     fn a_figure_that_falls_over_stands_with_one_ball_in_its_foot() {
         let (solid, request) = leaning();
-        assert!(bare(&solid, FIGURE_WALL_MM, request).status.is_impossible());
-        let found = searched(&solid, FIGURE_WALL_MM, request, "auto").unwrap();
+        assert!(
+            solve_without(&solid, FIGURE_WALL_MM, request)
+                .status
+                .is_impossible()
+        );
+        let found = search(&solid, FIGURE_WALL_MM, request, "auto").unwrap();
         assert_eq!(found.load.parts.len(), 1);
         let Point { coords } = Point::from(found.load.parts[0].lump.center_mm);
         assert!(coords.x < 8.0, "{coords}");
@@ -375,7 +387,7 @@ mod tests {
     #[test]
     fn parts_of_a_kind_are_laid_in_as_they_were_ordered_or_not_at_all() {
         let (solid, request) = rotor();
-        let found = searched(&solid, WALL_MM, request, "ball-5x3").unwrap();
+        let found = search(&solid, WALL_MM, request, "ball-5x3").unwrap();
         assert_eq!(found.load.parts.len(), 3);
         assert!(
             found
@@ -385,19 +397,19 @@ mod tests {
                 .all(|placed| placed.part.id == "ball-5")
         );
         // The interior is 10 mm wide.
-        assert!(searched(&solid, WALL_MM, request, "ball-10x1").is_none());
-        assert!(searched(&solid, WALL_MM, request, "coin-us-quarterx1").is_none());
+        assert!(search(&solid, WALL_MM, request, "ball-10x1").is_none());
+        assert!(search(&solid, WALL_MM, request, "coin-us-quarterx1").is_none());
     }
 
     #[test]
     fn a_nut_lies_where_its_round_has_room_on_all_sides() {
         let (solid, request) = leaning();
-        let found = searched(&solid, FIGURE_WALL_MM, request, "nut-m3").unwrap();
+        let found = search(&solid, FIGURE_WALL_MM, request, "nut-m3").unwrap();
         assert!(!found.load.parts.is_empty() && found.solution.is_usable());
     }
 
     #[test]
-    fn what_no_steel_inside_helps_gets_none() {
+    fn no_ballast_is_placed_if_no_steel_inside_helps() {
         // A pole on its edge: the axis lies 6 mm outside the block.
         let solid = testing::block([0.0; 3], [40.0, 16.0, 30.0]);
         let spin_point = Some(SpinPoint::At([20.0, 8.0, 36.0]));
@@ -406,6 +418,6 @@ mod tests {
             spin_point,
             ..Request::new(GoalKind::Balance)
         };
-        assert!(searched(&solid, WALL_MM, request, "auto").is_none());
+        assert!(search(&solid, WALL_MM, request, "auto").is_none());
     }
 }

@@ -1,9 +1,10 @@
-//! Where a stock part may lie, and where it acts most.
+//! The places where a stock part may lie, and the one where it acts most.
 
 use rayon::prelude::*;
 
 use super::load::{Load, Placed};
-use super::{Fit, Part, Pocket};
+use super::pocket::{Fit, Pocket};
+use super::stock::Part;
 use crate::geom::{Frame, Point, Quadric, Vector};
 use crate::goal::Placement;
 use crate::interior::Columns;
@@ -11,19 +12,18 @@ use crate::mass::{Lump, Moments, moments_of_mesh};
 use crate::mesh::{MeshDistance, Solid};
 use crate::shell::Keep;
 
-/// Sites along the longer side of the model. Fewer miss narrow places; the best is refined to a
-/// fraction of the step anyway.
+/// The number of sites along the longest side of the model. Fewer miss narrow places; the best is
+/// refine to a fraction of the step anyway.
 const SITES_A_SIDE: f64 = 48.0;
-/// Places are refined down to steps of this, mm: a tenth of what a printer places.
+/// The finest step of a refinement, mm: a tenth of a printer's resolution.
 const FINEST_STEP_MM: f64 = 0.02;
-/// Refining ends after so many moves. Each halves the step or gains; few places take more than
-/// fifty.
+/// The greatest number of moves of a refinement. Each halves the step or gains; few places take
+/// more than fifty.
 const MOST_MOVES: usize = 200;
-/// How much deeper than the wall asks a pocket is laid, mm: the measured wall is that of rounded
-/// vertices.
+/// The extra depth of a pocket below the wall, mm: the wall is measured on rounded vertices.
 const SPARE_MM: f64 = 1e-3;
 
-/// The places of a model: points of what may be emptied, and how deep they lie.
+/// The sites of a model: points of the region that may be emptied, and their depths.
 pub(super) struct Sites<'a> {
     surface: MeshDistance,
     keeps: &'a [Keep],
@@ -34,29 +34,29 @@ pub(super) struct Sites<'a> {
     points: Vec<(Point, f64)>,
 }
 
-/// A part that seeks a place.
+/// The question for the best place of a part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wish<'w> {
+pub(super) struct PlaceQuery<'w> {
     /// The part.
     pub part: &'w Part,
-    /// What the moments added are weighed with; goal frame. Less is better.
+    /// The price of each added moment, goal frame; a lower total is better.
     pub prices: Quadric,
-    /// What is placed already, how parts fit, and the print's density.
+    /// The parts already placed, their fit, and the print's density.
     pub load: &'w Load,
 }
 
-/// What a part with its pocket adds about the origin for one direction of its axis, goal frame.
-struct Stamp {
+/// A part with its pocket at the origin, with one direction of its axis, goal frame.
+struct OrientedPart {
     /// Model frame.
     axis: Vector,
     added: Moments,
     jacket_mm3: f64,
-    /// The least depth of a centre that its pocket can have, mm.
+    /// The least depth of its centre below the wall at which its pocket can fit, mm.
     least_depth_mm: f64,
 }
 
 impl<'a> Sites<'a> {
-    /// The sites within these columns of what may be emptied.
+    /// Finds the sites within the columns that may be emptied.
     pub fn new(solid: &Solid, placement: &'a Placement, wall_mm: f64, columns: &Columns) -> Self {
         let surface = MeshDistance::new(solid.mesh());
         let (frame, step_mm) = (
@@ -76,17 +76,16 @@ impl<'a> Sites<'a> {
         }
     }
 
-    /// The place where the part acts most; none where it does not fit.
+    /// Returns the place where the part acts most; `None` if it does not fit.
     ///
-    /// All sites are put in the order of what they add; the first with room is refined by moves
-    /// along the axes.
-    pub fn best(&self, wish: &Wish) -> Option<Placed> {
-        let stamps = self.stamps(wish);
-        let costs = |stamp: usize| {
+    /// All sites are sorted by their cost. The first with room is refined by moves along the axes.
+    pub fn best(&self, query: &PlaceQuery) -> Option<Placed> {
+        let oriented_parts = self.oriented_parts(query);
+        let costs = |oriented: usize| {
             let cost = |site: usize| {
                 (
-                    stamp_cost(&stamps[stamp], wish, &self.points[site].0),
-                    stamp,
+                    cost_at(&oriented_parts[oriented], query, &self.points[site].0),
+                    oriented,
                     site,
                 )
             };
@@ -95,33 +94,34 @@ impl<'a> Sites<'a> {
                 .map(cost)
                 .collect::<Vec<_>>()
         };
-        let mut order: Vec<(f64, usize, usize)> = (0..stamps.len()).flat_map(costs).collect();
+        let mut order: Vec<(f64, usize, usize)> =
+            (0..oriented_parts.len()).flat_map(costs).collect();
         order.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        let is_deep = |&&(_, stamp, site): &&(f64, usize, usize)| {
-            self.points[site].1 >= self.wall_mm + stamps[stamp].least_depth_mm
+        let is_deep = |&&(_, oriented, site): &&(f64, usize, usize)| {
+            self.points[site].1 >= self.wall_mm + oriented_parts[oriented].least_depth_mm
         };
-        let first = order.iter().filter(is_deep).find(|&&(_, stamp, site)| {
+        let first = order.iter().filter(is_deep).find(|&&(_, oriented, site)| {
             self.has_room(
-                &self.lump(wish, &stamps[stamp], &self.points[site].0),
-                wish.load,
+                &self.lump(query, &oriented_parts[oriented], &self.points[site].0),
+                query.load,
             )
         });
-        let &(_, stamp, site) = first?;
-        let lump = self.refined(wish, &stamps[stamp], self.points[site].0);
+        let &(_, oriented, site) = first?;
+        let lump = self.refine(query, &oriented_parts[oriented], self.points[site].0);
         Some(Placed {
-            part: wish.part.clone(),
+            part: query.part.clone(),
             lump,
         })
     }
 
-    /// The part in every direction it may have: a ball in one, the others along the axes of the
+    /// Returns the part in its possible directions: a ball in one, the others along the axes of the
     /// goal's frame.
-    fn stamps(&self, wish: &Wish) -> Vec<Stamp> {
-        let axes = if wish.part.shape.is_ball() { 1 } else { 3 };
-        let stamp = |i: usize| {
+    fn oriented_parts(&self, query: &PlaceQuery) -> Vec<OrientedPart> {
+        let axes = if query.part.shape.is_ball() { 1 } else { 3 };
+        let oriented = |i: usize| {
             // The third axis first: up, or the spin axis.
             let axis: Vector = self.frame.axes.column(2 - i).into_owned();
-            let lump = self.lump_at(wish.part, &self.frame.origin, &axis);
+            let lump = self.lump_at(query.part, &self.frame.origin, &axis);
             let Load {
                 fit:
                     Fit {
@@ -130,24 +130,24 @@ impl<'a> Sites<'a> {
                     },
                 density_g_mm3,
                 ..
-            } = *wish.load;
+            } = *query.load;
             let pocket = Pocket::of(&lump, clearance_mm);
             let added = lump.moments(density_g_mm3) - pocket.moments();
             let half_mm = pocket
                 .half_height_mm
                 .map_or(pocket.radius_mm, |half| half.min(pocket.radius_mm));
-            Stamp {
+            OrientedPart {
                 axis,
                 added: added.in_frame(&self.frame),
                 jacket_mm3: moments_of_mesh(&pocket.grown(web_mm).mesh()).volume(),
                 least_depth_mm: half_mm,
             }
         };
-        (0..axes).map(stamp).collect()
+        (0..axes).map(oriented).collect()
     }
 
-    fn lump(&self, wish: &Wish, stamp: &Stamp, local: &Point) -> Lump {
-        self.lump_at(wish.part, &self.frame.to_model(local), &stamp.axis)
+    fn lump(&self, query: &PlaceQuery, oriented: &OrientedPart, local: &Point) -> Lump {
+        self.lump_at(query.part, &self.frame.to_model(local), &oriented.axis)
     }
 
     fn lump_at(&self, part: &Part, center: &Point, axis: &Vector) -> Lump {
@@ -159,8 +159,14 @@ impl<'a> Sites<'a> {
         }
     }
 
-    /// The part moved by a share of the way to another place; none where that has no room.
-    pub fn between(&self, from: &Placed, to: &Placed, share: f64, load: &Load) -> Option<Placed> {
+    /// Moves a part by a share of the way to another place. Returns `None` if there is no room.
+    pub fn move_toward(
+        &self,
+        from: &Placed,
+        to: &Placed,
+        share: f64,
+        load: &Load,
+    ) -> Option<Placed> {
         let (a, b) = (
             Point::from(from.lump.center_mm),
             Point::from(to.lump.center_mm),
@@ -175,7 +181,8 @@ impl<'a> Sites<'a> {
         })
     }
 
-    /// Whether its pocket leaves the wall, what must stay solid, and the other pockets' webs.
+    /// Returns true if its pocket spares the wall, the solid regions and the webs of the other
+    /// pockets.
     fn has_room(&self, lump: &Lump, load: &Load) -> bool {
         let pocket = Pocket::of(lump, load.fit.clearance_mm);
         let wall_mm = self.wall_mm + SPARE_MM;
@@ -194,18 +201,19 @@ impl<'a> Sites<'a> {
                 || self.surface.min_distance_to(&pocket.mesh()) >= wall_mm)
     }
 
-    /// The place moved along the axes as long as that gains, in steps that halve where nothing
-    /// does.
-    fn refined(&self, wish: &Wish, stamp: &Stamp, start: Point) -> Lump {
-        let (mut best, mut step_mm) =
-            ((stamp_cost(stamp, wish, &start), start), self.step_mm / 2.0);
+    /// Moves a place along the axes as long as that gains. A step that gains nothing is halved.
+    fn refine(&self, query: &PlaceQuery, oriented: &OrientedPart, start: Point) -> Lump {
+        let (mut best, mut step_mm) = (
+            (cost_at(oriented, query, &start), start),
+            self.step_mm / 2.0,
+        );
         for _ in 0..MOST_MOVES {
             let moves = (0..6).map(|i| {
                 let way = Vector::ith(i / 2, if i % 2 == 0 { step_mm } else { -step_mm });
-                (stamp_cost(stamp, wish, &(best.1 + way)), best.1 + way)
+                (cost_at(oriented, query, &(best.1 + way)), best.1 + way)
             });
             let gains = moves.filter(|(cost, p)| {
-                *cost < best.0 && self.has_room(&self.lump(wish, stamp, p), wish.load)
+                *cost < best.0 && self.has_room(&self.lump(query, oriented, p), query.load)
             });
             match gains.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 Some(better) => best = better,
@@ -213,34 +221,34 @@ impl<'a> Sites<'a> {
                 None => step_mm /= 2.0,
             }
         }
-        self.lump(wish, stamp, &best.1)
+        self.lump(query, oriented, &best.1)
     }
 }
 
-/// What the part adds at a point of the goal frame: the part less its pocket; and what must stay
-/// solid around it where the void would have been.
-fn stamp_cost(stamp: &Stamp, wish: &Wish, p: &Point) -> f64 {
-    let moved = stamp.added.translated(&p.coords);
-    let added: f64 = wish
+/// Returns the cost of the part at a point of the goal frame. It sums the part less its pocket, and
+/// the solid material around it where the void would have been.
+fn cost_at(oriented: &OrientedPart, query: &PlaceQuery, p: &Point) -> f64 {
+    let moved = oriented.added.translated(&p.coords);
+    let added: f64 = query
         .prices
         .0
         .iter()
         .zip(moved.0)
         .map(|(price, moment)| price * moment)
         .sum();
-    added + stamp.jacket_mm3 * wish.prices.value(p).max(0.0)
+    added + oriented.jacket_mm3 * query.prices.value(p).max(0.0)
 }
 
-/// Points of the columns, no nearer to each other along any axis than the step.
+/// Returns points of the columns, at least one step apart along every axis.
 fn points_of(columns: &Columns, step_mm: f64) -> Vec<Point> {
     let is_row = |x: f64, pitch: f64| (x / step_mm).floor() != ((x - pitch) / step_mm).floor();
     let [px, py] = columns.pitch_mm;
-    let is_taken = |column: &usize| {
+    let is_kept = |column: &usize| {
         let [x, y] = columns.centers[*column];
         is_row(x, px) && is_row(y, py)
     };
     (0..columns.len())
-        .filter(is_taken)
+        .filter(is_kept)
         .flat_map(|column| {
             let [x, y] = columns.centers[column];
             columns

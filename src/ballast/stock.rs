@@ -1,39 +1,39 @@
-//! The catalogue of stock parts: what a shop has at hand, each number with its source.
+//! The catalogue of stock parts that a shop has at hand, each number with its source.
 
 use serde::{Deserialize, Serialize};
 
-use super::{BallastError, StockFault};
+use super::error::{BallastError, StockFault};
 use crate::base::toml_text::{self, nearest};
 use crate::base::units::MM3_PER_CM3;
 use crate::mass::LumpShape;
 use crate::printer::Sure;
 
-/// Where a part's sizes, or its mass, are from.
+/// The source of a part's sizes, or of its mass.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     /// The source, in words.
     pub source: String,
-    /// How sure it is.
+    /// The confidence in it.
     pub sure: Sure,
 }
 
 /// One stock part.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
-    /// What it is ordered by, such as `ball-4`.
+    /// The id by which it is ordered, such as `ball-4`.
     pub id: String,
-    /// What it is called in a shop.
+    /// Its name in a shop.
     pub name: String,
     /// Its sizes.
     pub shape: LumpShape,
-    /// g.
+    /// Its mass, g.
     pub mass_g: f64,
-    /// By how much of it the mass of a good part may differ.
+    /// The spread of the mass between good parts, as a share of it.
     pub mass_spread_ratio: f64,
-    /// Where the sizes are from.
+    /// The source of the sizes.
     pub size: Provenance,
-    /// Where the mass is from.
+    /// The source of the mass.
     pub mass: Provenance,
 }
 
@@ -74,12 +74,13 @@ macro_rules! built_in {
     };
 }
 
-/// The families that come with the program: the file's name and its text.
+/// The built-in families: the file's name and its text.
 const BUILT_IN: &[(&str, &str)] = built_in!("balls" "nuts" "coins");
 
-/// Between wood and gold, g/cm³: what is lighter or heavier than that for its size has a misprint.
+/// The plausible densities, from wood to gold, g/cm³. Outside them a size or mass is misprinted.
 const PLAUSIBLE_G_CM3: [f64; 2] = [0.5, 20.0];
-/// Every stock part: balls, then nuts, then coins, each from small to large.
+
+/// Returns all stock parts: balls, then nuts, then coins, each from small to large.
 pub fn catalogue() -> Result<Vec<Part>, StockFault> {
     let families: Vec<Vec<Part>> = BUILT_IN
         .iter()
@@ -88,7 +89,7 @@ pub fn catalogue() -> Result<Vec<Part>, StockFault> {
     Ok(families.concat())
 }
 
-/// The part of that id.
+/// Returns the part of this id.
 pub fn find(id: &str) -> Result<Part, BallastError> {
     let parts = catalogue()?;
     if let Some(part) = parts.iter().find(|part| part.id == id) {
@@ -105,7 +106,8 @@ pub fn find(id: &str) -> Result<Part, BallastError> {
     })
 }
 
-/// The parts of one file of the catalogue; refused where a number has no source or cannot be.
+/// Reads the parts of one file of the catalogue. Refuses numbers that have no source or are
+/// implausible.
 fn read(file: &str, text: &str) -> Result<Vec<Part>, StockFault> {
     let Family {
         size, mass, part, ..
@@ -157,7 +159,7 @@ fn read(file: &str, text: &str) -> Result<Vec<Part>, StockFault> {
     Ok(parts)
 }
 
-/// Refuses sizes and masses that cannot be.
+/// Refuses implausible sizes and masses.
 fn check(file: &str, part: &Part) -> Result<(), StockFault> {
     let (file, id) = (file.to_owned(), part.id.clone());
     let mut numbers = part.shape.sizes_mm();
@@ -191,7 +193,7 @@ fn check(file: &str, part: &Part) -> Result<(), StockFault> {
 mod tests {
     use super::*;
 
-    /// A family of one ball, with one of its lines changed.
+    /// Reads a family of one ball with one of its lines changed.
     fn family(line: &str, instead: &str) -> Result<Vec<Part>, StockFault> {
         let text = "id = \"balls\"\n[size]\nsource = \"a table\"\nsure = \"read\"\n[mass]\nsource = \"a balance\"\n\
                     sure = \"read\"\nspread_ratio = 0.01\n[[part]]\nid = \"ball-4\"\nname = \"ball\"\n\
@@ -259,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn sizes_and_masses_that_cannot_be_are_refused_by_name() {
+    fn implausible_sizes_and_masses_are_refused_by_name() {
         let error = family("diameter_mm = 4.0", "diameter_mm = -4.0")
             .unwrap_err()
             .to_string();
@@ -273,7 +275,7 @@ mod tests {
     }
 
     #[test]
-    fn an_unknown_part_is_told_with_the_nearest() {
+    fn an_unknown_part_is_answered_with_the_nearest() {
         let error = find("bal-4").unwrap_err().to_string();
         assert!(error.contains("did you mean `ball-4`?"), "{error}");
     }

@@ -10,6 +10,7 @@
 
 pub mod digest;
 pub mod numbers;
+pub mod setting;
 pub mod toml_text;
 pub mod units;
 pub mod verdict;

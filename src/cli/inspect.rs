@@ -6,13 +6,15 @@ use serde::Serialize;
 
 use super::Exit;
 use super::args::InspectArgs;
+use super::flags::{flag, flags, with_flags};
 use super::prepare::Voice;
 use super::show::{say, table};
 use crate::advice::{Case, Prospect, prospects};
 use crate::base::numbers::quantity;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::{counted, show_mm};
 use crate::geom::Vector;
-use crate::goal::{Contact, GoalKind, Request};
+use crate::goal::{Contact, GoalKind, Request, Up};
 use crate::io::{ReadError, read_model};
 use crate::mass::{Body, moments_of_mesh};
 use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
@@ -151,9 +153,11 @@ fn size_hint(longest_mm: f64) -> Option<String> {
     let is_plausible = (LEAST_SIZE_MM..=MOST_SIZE_MM).contains(&longest_mm);
     (!is_plausible).then(|| {
         format!(
-            "its longest side would be {}: the file's numbers are hardly mm; say what they are (--unit cm, m or in), or how large it \
-             is to be (--size 100mm)",
-            plain(longest_mm, "mm")
+            "its longest side would be {}: the file's numbers are hardly mm; give their unit, cm, m \
+             or in (`{}`), or the size of the object (`{}`)",
+            plain(longest_mm, "mm"),
+            Setting::open(Key::Unit),
+            Setting::new(Key::Size, "100mm")
         )
     })
 }
@@ -223,10 +227,9 @@ fn text(findings: &Findings) -> String {
         plain(findings.area_mm2, "mm²"),
         findings.repairs,
     );
-    text += &findings
-        .size_hint
-        .as_ref()
-        .map_or(String::new(), |hint| format!("warning: {hint}\n"));
+    text += &findings.size_hint.as_ref().map_or(String::new(), |hint| {
+        format!("warning: {}\n", with_flags(hint))
+    });
     for (count, what) in [
         (
             findings.crossing_pairs.unwrap_or(0),
@@ -268,7 +271,7 @@ fn becoming_text(becoming: &Becoming) -> String {
         let verdict = reached.unwrap_or_else(|| format!("impossible: {}", prospect.reason));
         [
             prospect.kind.to_string(),
-            format!("--up={}{}", prospect.up, contact(prospect)),
+            flags(&settings(prospect)),
             verdict,
         ]
     };
@@ -280,20 +283,23 @@ fn becoming_text(becoming: &Becoming) -> String {
     )
 }
 
-/// The contact of a top that differs from what `prepare` takes.
-fn contact(prospect: &Prospect) -> String {
+/// Returns the axis, and the contact of a top that differs from the default.
+fn settings(prospect: &Prospect) -> Vec<Setting> {
     let other = prospect
         .contact
         .filter(|contact| *contact != Contact::Lowest);
-    other.map_or(String::new(), |contact| format!(" --contact={contact}"))
+    let up = Setting::new(Key::Up, prospect.up);
+    let contact = other.map(|contact| Setting::new(Key::Contact, contact));
+    std::iter::once(up).chain(contact).collect()
 }
 
 fn mass_text(mass: &Mass) -> String {
     let [cx, cy, cz] = mass.center_mm;
     let [ax, ay, az] = mass.dominant_axis;
     let mut text = format!(
-        "a solid of {}, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which --up principal takes\n",
-        plain(mass.volume_mm3, "mm³")
+        "a solid of {}, centre of mass ({cx:.3}, {cy:.3}, {cz:.3}) mm\nlargest moment of inertia about ({ax:.4}, {ay:.4}, {az:.4}), which {} takes\n",
+        plain(mass.volume_mm3, "mm³"),
+        flag(&Setting::new(Key::Up, Up::Principal))
     );
     for (axis, ratio) in ["x", "y", "z"].iter().zip(mass.dominance_ratio_by_axis) {
         let word = if ratio < 1.0 {

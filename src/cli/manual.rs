@@ -13,7 +13,7 @@ use super::args::Cli;
 #[derive(Debug, thiserror::Error)]
 pub enum ManualError {
     /// There is no such command.
-    #[error("there is no command {0}; remedy: see equipoise --help")]
+    #[error("there is no command {0}; remedy: see equipoise help")]
     Unknown(String),
     /// Standard output is closed.
     #[error("cannot write to the standard output")]

@@ -6,6 +6,7 @@ mod ballast_args;
 pub mod bars;
 pub mod coupon;
 mod cut_arg;
+mod flags;
 mod goal_args;
 pub mod inspect;
 pub mod manual;

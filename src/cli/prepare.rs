@@ -5,6 +5,7 @@ use std::io::Write;
 use super::Exit;
 use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
+use super::flags::{flags, with_flags};
 use super::show::{Manner, say};
 use super::summary::{broken, details, ten_lines};
 use crate::advice::Remedy;
@@ -96,14 +97,14 @@ fn tell_prepared(
         return Ok(());
     }
     if let Some(choice) = &checklist.goal.choice {
-        writeln!(out, "{choice}")?;
+        writeln!(out, "{}", with_flags(choice))?;
     }
     write!(out, "{}", ten_lines(checklist, &request.out, voice.manner))?;
     if let Some(failure) = &prepared.failure {
         write!(out, "{}", failure_text(failure).replace('\u{a0}', " "))?;
     }
     for warning in &checklist.warnings {
-        writeln!(out, "warning: {warning}")?;
+        writeln!(out, "warning: {}", with_flags(warning))?;
     }
     if voice.manner.verbose > 0 {
         write!(out, "{}", details(checklist, voice.manner))?;
@@ -140,7 +141,7 @@ fn tell_impossible(
     Ok(())
 }
 
-/// What was chosen and warned of, and what helps.
+/// Returns the choice, the warnings and the remedies, with flags for their settings.
 fn advice(impossible: &Impossible) -> String {
     let choice = impossible.choice.iter().map(|choice| format!("{choice}\n"));
     let warnings = impossible
@@ -148,16 +149,14 @@ fn advice(impossible: &Impossible) -> String {
         .iter()
         .map(|warning| format!("warning: {warning}\n"));
     let remedies = remedies_text(&impossible.remedies, &impossible.hints);
-    choice.chain(warnings).chain([remedies]).collect()
+    let text: String = choice.chain(warnings).chain([remedies]).collect();
+    with_flags(&text)
 }
 
-/// Why a kit fails, and what helps.
+/// Returns the reason why a kit fails, and the remedies, with flags for their settings.
 fn failure_text(failure: &Failure) -> String {
-    format!(
-        "{}\n{}",
-        failure.reason,
-        remedies_text(&failure.remedies, &failure.hints)
-    )
+    let remedies = remedies_text(&failure.remedies, &failure.hints);
+    with_flags(&format!("{}\n{remedies}", failure.reason))
 }
 
 /// What helps, with what to type, what may help, and what does not.
@@ -165,10 +164,10 @@ fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
     let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
         remedies.iter().partition(|remedy| remedy.helps());
     let typed = |remedy: &Remedy| {
-        if remedy.flags.is_empty() {
+        if remedy.settings.is_empty() {
             String::new()
         } else {
-            format!("{}: ", remedy.flags)
+            format!("{}: ", flags(&remedy.settings))
         }
     };
     let helpful = helpful

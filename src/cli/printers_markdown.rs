@@ -2,13 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use super::flags::TABLE_BEGIN;
 use super::printers::show_pixel;
 use crate::base::units::show_mm;
 use crate::printer::{Printer, Sourced, Sure};
 
-/// What stands before the table in README.
-pub const BEGIN: &str = "<!-- equipoise printers list --markdown -->";
-/// What stands after it.
+/// The mark after the table of printers in README.
 pub const END: &str = "<!-- end of the table -->";
 
 /// The table of these printers, with the marks it stands between.
@@ -16,7 +15,10 @@ pub fn markdown(printers: &[Printer]) -> String {
     let head = "| printer | process | pixel or line | layer | least wall | clearance a side | materials | its own numbers are from |";
     let rule = "|---|---|---|---|---|---|---|---|";
     let rows: Vec<String> = printers.iter().map(row).collect();
-    format!("{BEGIN}\n{head}\n{rule}\n{}\n{END}\n", rows.join("\n"))
+    format!(
+        "{TABLE_BEGIN}\n{head}\n{rule}\n{}\n{END}\n",
+        rows.join("\n")
+    )
 }
 
 fn row(printer: &Printer) -> String {

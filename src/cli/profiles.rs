@@ -5,7 +5,9 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::args_printers::{CalibrateArgs, ImportArgs, NewArgs};
+use super::flags::{command_for_coupons, command_for_new_profile};
 use super::shop::today;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::{counted, show_percent};
 use crate::coupon::CouponSet;
 use crate::printer::import::{ImportError, Imported, slug};
@@ -29,11 +31,17 @@ pub enum ProfilesError {
     #[error(transparent)]
     Material(#[from] MaterialError),
     /// The file is there already.
-    #[error("{} exists; choose another with --out, or replace it with --force", .0.display())]
+    #[error(
+        "{} exists; choose another (`{}`), or replace it (`{}`)",
+        .0.display(),
+        Setting::open(Key::Out),
+        Setting::open(Key::Force)
+    )]
     Exists(PathBuf),
     /// A built-in printer is not a file.
     #[error(
-        "{id} is a shipped printer; remedy: equipoise printers new --from {id} --out shop.toml, and calibrate that"
+        "{id} is a shipped printer; remedy: {}, and calibrate that",
+        command_for_new_profile(id)
     )]
     ShippedPrinter {
         /// The printer's id.
@@ -70,8 +78,9 @@ pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     written_and_checked(&args.out, &text, args.force)?;
     Ok(writeln!(
         out,
-        "{} is a profile: print coupons (equipoise coupon --printer {0}) and calibrate it",
-        args.out.display()
+        "{} is a profile: print coupons ({}) and calibrate it",
+        args.out.display(),
+        command_for_coupons(&args.out.display().to_string())
     )?)
 }
 

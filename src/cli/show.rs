@@ -5,6 +5,8 @@ use std::{
     io::{IsTerminal, Write},
 };
 
+use super::flags::with_flags;
+
 /// How much is said, and whether in colour; decided once, at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
@@ -71,7 +73,7 @@ const REMEDY_MARK: &str = "; remedy: ";
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
     for cause in chain(error) {
-        let message = cause.to_string();
+        let message = with_flags(&cause.to_string());
         if said.contains(&message) {
             continue;
         }

@@ -1,8 +1,10 @@
-//! What a body of given moments does: speeds, angles and ratios that need no density.
+//! Figures of merit of a body of given moments: speeds, angles and ratios that need no density.
 
 use serde::{Deserialize, Serialize};
 
-use super::{Goal, GoalKind, Objective, support};
+use super::kind::{GoalKind, Objective};
+use super::placement::Goal;
+use super::support;
 use crate::base::units::STANDARD_GRAVITY_MM_S2;
 use crate::geom::{Matrix, Point, Vector};
 use crate::mass::{Body, Moments};
@@ -10,8 +12,9 @@ use crate::mass::{Body, Moments};
 /// The figures of a body with respect to a goal; density cancels in every one of them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Figures {
-    /// Top, balance: the centre of mass from the spin axis; yo-yo: from the spin point; stand,
-    /// float: from the middle of the support or from the centre of buoyancy, seen from above. mm.
+    /// The distance of the centre of mass, mm. Top, balance: from the spin axis. Yo-yo: from the
+    /// spin point. Stand, float: from the middle of the support or the centre of buoyancy, seen
+    /// from above.
     pub off_axis_mm: f64,
     /// The height of the centre of mass above the origin, mm.
     pub center_height_mm: f64,
@@ -20,18 +23,18 @@ pub struct Figures {
     /// The largest moment across the axis over the moment about it (I_b/I_c), about the centre;
     /// below 1 it is dominant.
     pub dominance_ratio: f64,
-    /// Top: the least speed at which it spins upright (Spin-It eq. 1); none where no speed is
-    /// enough, or no top.
+    /// Top: the least speed at which it spins upright (Spin-It eq. 1). `None` if no speed is
+    /// enough, and for other goals.
     pub critical_speed_rpm: Option<f64>,
-    /// The value of Spin-It's functional with the goal's weights (1 where it has none); none but
+    /// The value of Spin-It's functional with the goal's weights, 1 if it has none. `None` except
     /// for tops and yo-yos.
     pub spin_it: Option<f64>,
-    /// Stand: the tilt at which it topples, rad; negative where it does not stand; none for the
+    /// Stand: the tilt at which it topples, rad, negative if it does not stand. `None` for the
     /// others.
     pub toppling_angle_rad: Option<f64>,
 }
 
-/// The figures of the body with these moments in the goal frame.
+/// Returns the figures of the body with these moments in the goal frame.
 pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
     let body = Body::new(moments, 1.0);
     let tensor = &body.inertia_g_mm2;
@@ -60,7 +63,7 @@ pub fn figures(goal: &Goal, moments: &Moments) -> Figures {
     }
 }
 
-/// The angle between z and the principal axis nearest to it, rad.
+/// Returns the angle between z and the principal axis nearest to it, rad.
 fn tilt_of_nearest_axis(body: &Body) -> f64 {
     let axes = body.principal().axes;
     let tilt = |axis: Vector| axis.x.hypot(axis.y).atan2(axis.z.abs());
@@ -69,13 +72,15 @@ fn tilt_of_nearest_axis(body: &Body) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The largest moment of inertia about an axis across z, from the upper left 2 × 2 of the tensor.
+/// Returns the largest moment of inertia about an axis across z, from the upper left 2 × 2 of the
+/// tensor.
 fn largest_across(tensor: &Matrix) -> f64 {
     let mean = 0.5 * (tensor[(0, 0)] + tensor[(1, 1)]);
     mean + (0.5 * (tensor[(0, 0)] - tensor[(1, 1)])).hypot(tensor[(0, 1)])
 }
 
-/// ω² = M g ℓ/(I_c − I_b) about the centre of mass (Spin-It eq. 1), as turns a minute.
+/// Returns the critical speed, turns a minute: ω² = M g ℓ/(I_c − I_b) about the centre of mass
+/// (Spin-It eq. 1).
 fn critical_speed_rpm(body: &Body) -> Option<f64> {
     let tensor = &body.inertia_g_mm2;
     let margin = tensor[(2, 2)] - largest_across(tensor);
@@ -83,12 +88,12 @@ fn critical_speed_rpm(body: &Body) -> Option<f64> {
     (margin > 0.0 && lever >= 0.0).then(|| to_rpm((STANDARD_GRAVITY_MM_S2 * lever / margin).sqrt()))
 }
 
-/// Turns a minute of an angular speed in rad/s.
+/// Converts an angular speed from rad/s to turns a minute.
 pub(crate) fn to_rpm(omega_rad_s: f64) -> f64 {
     omega_rad_s * 60.0 / std::f64::consts::TAU
 }
 
-/// Spin-It eq. 2 and 6 about the spin point (yo-yo), eq. 3 and 7 (top).
+/// Evaluates Spin-It's functional: eq. 2 and 6 about the spin point (yo-yo), eq. 3 and 7 (top).
 fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
     let (gamma_c, gamma_i) = match goal.objective {
         Objective::SpinIt { gamma_c, gamma_i } => (gamma_c, gamma_i),
@@ -115,7 +120,7 @@ fn spin_it(goal: &Goal, moments: &Moments) -> Option<f64> {
     Some(lowering + gamma_i * flatness)
 }
 
-/// The least tilt that brings the centre of mass over an edge of the support, rad.
+/// Returns the least tilt that brings the centre of mass over an edge of the support, rad.
 fn toppling_angle_rad(polygon: &[[f64; 2]], moments: &Moments) -> f64 {
     let center = moments.centroid();
     let margin =
@@ -185,9 +190,9 @@ mod tests {
     }
 
     #[test]
-    fn the_functional_of_a_yo_yo_is_a_number_whatever_the_weight_of_a_lever_it_does_not_have() {
+    fn the_functional_of_a_yo_yo_ignores_the_weight_of_the_lever() {
         // About its centre of mass a cube has s_z = 0, so that s_z over that of the solid would be
-        // 0/0; its three moments are equal and the functional is γ_I (1 + 1).
+        // 0/0. Its three moments are equal and the functional is γ_I (1 + 1).
         let solid = block([-1., -1., -1.], [1., 1., 1.]);
         for gamma_c in [0.0, 1.0] {
             let objective = Objective::SpinIt {
@@ -208,7 +213,7 @@ mod tests {
     }
 
     #[test]
-    fn a_top_without_a_weight_on_its_lever_has_the_functional_of_its_tensor_alone() {
+    fn without_a_lever_weight_a_tops_functional_is_its_tensors_alone() {
         // A cube on its face: about the centre all moments are equal, whatever the lever.
         let solid = block([-1., -1., 0.], [1., 1., 2.]);
         let spin_it = |gamma_c| {

@@ -1,61 +1,62 @@
-//! What is put into the printed object that is not printed: a yo-yo's axle and string gap, a top's
-//! tip and stem.
+//! Hardware that is put into the printed object: a yo-yo's axle and string gap, a top's tip and
+//! stem.
 
 use std::{fmt, str::FromStr};
 
 use serde::{Deserialize, Serialize};
 
-use super::GoalKind;
+use super::kind::GoalKind;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::Length;
 use crate::base::words::{ChoiceError, as_text};
 
-/// The density of a rod where none is said, g/cm³: steel.
+/// The default density of a rod, g/cm³: steel.
 pub const STEEL_G_CM3: f64 = 7.85;
-/// How much of a tip or stem is inside where its depth is not said.
+/// The default depth of a tip or stem in the object, as a share of its length.
 const DEPTH_RATIO: f64 = 0.5;
-/// The outer diameter of what sits on a yo-yo's axle besides it, in diameters of the axle: that of
-/// a plain washer or a small bearing.
+/// The outer diameter of the fittings on a yo-yo's axle, in diameters of the axle: that of a plain
+/// washer or a small bearing.
 const FITTING_DIAMETERS: f64 = 2.0;
 
-/// A round rod: `DIAMETER`, `DIAMETERxLENGTH` or `DIAMETERxLENGTHxDEPTH`, and behind it `:DENSITY`
-/// in g/cm³ where it is not of steel; `4mmx12mm`, `6mm:2.7`.
+/// A round rod: `DIAMETER`, `DIAMETERxLENGTH` or `DIAMETERxLENGTHxDEPTH`. `:DENSITY` in g/cm³
+/// follows if it is not of steel. Examples: `4mmx12mm`, `6mm:2.7`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Rod {
-    /// Its diameter.
+    /// The diameter.
     pub diameter: Length,
-    /// From end to end; an axle's follows from the room there is where none is said.
+    /// The length from end to end. An axle without one is as long as the model has room for.
     pub length: Option<Length>,
-    /// How much of a tip or stem is inside the object; half of it where nothing is said.
+    /// The length of a tip or stem inside the object; half of it if `None`.
     pub depth: Option<Length>,
-    /// g/cm³.
+    /// The density, g/cm³.
     pub density_g_cm3: f64,
 }
 
 impl Rod {
-    /// Its radius, mm.
+    /// Returns the radius, mm.
     pub fn radius_mm(&self) -> f64 {
         0.5 * self.diameter.mm()
     }
 
-    /// The length of a tip or stem, mm; zero where none was said, which checking the request
+    /// Returns the length of a tip or stem, mm; zero if none was given, which checking the request
     /// refuses.
     pub fn length_mm(&self) -> f64 {
         self.length.map_or(0.0, Length::mm)
     }
 
-    /// How much of a tip or stem is inside the object, mm.
+    /// Returns the length of a tip or stem inside the object, mm.
     pub fn depth_mm(&self) -> f64 {
         self.depth
             .map_or(DEPTH_RATIO * self.length_mm(), Length::mm)
     }
 
-    /// How much of a tip or stem stands out of it, mm.
+    /// Returns the length of a tip or stem outside the object, mm.
     pub fn out_mm(&self) -> f64 {
         self.length_mm() - self.depth_mm()
     }
 
-    /// The outer diameter of what sits on this axle besides it, mm.
+    /// Returns the outer diameter of the fittings on this axle, mm.
     pub fn fitting_diameter_mm(&self) -> f64 {
         FITTING_DIAMETERS * self.diameter.mm()
     }
@@ -122,18 +123,18 @@ impl fmt::Display for Rod {
 
 as_text!(Rod);
 
-/// What is put into the object that is not printed. Its mass counts.
+/// The parts put into the object that are not printed. Their mass counts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Hardware {
-    /// Yo-yo: how far its halves are moved apart along the axle.
+    /// Yo-yo: the distance by which its halves are moved apart along the axle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap: Option<Length>,
     /// Yo-yo: the rod along the axis that joins the halves.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axle: Option<Rod>,
-    /// Yo-yo: the mass of nuts, washers or a bearing in the gap, g: a ring about the axle, as wide
-    /// as the gap and twice the axle's diameter across.
+    /// Yo-yo: the mass of nuts, washers or a bearing in the gap, g. It counts as a ring about the
+    /// axle, as wide as the gap and two diameters of the axle across.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_g: Option<f64>,
     /// Top: the pin it spins on.
@@ -144,54 +145,61 @@ pub struct Hardware {
     pub stem: Option<Rod>,
 }
 
-/// Hardware that does not go together or with its goal.
+/// A contradiction within the hardware, or with the goal.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum HardwareError {
-    /// A string gap, an axle or a mass on it for what is no yo-yo.
+    /// A string gap, an axle or a mass on it was given for a goal other than a yo-yo.
     #[error(
-        "a string gap, an axle and hardware on it go with the goal yoyo, not with {0}; remedy: leave them out"
+        "a string gap, an axle and hardware on it go with the goal yoyo, not with {0}; remedy: \
+         leave them out"
     )]
     NotAYoyo(GoalKind),
-    /// A tip or stem for what is no top.
+    /// A tip or stem was given for a goal other than a top.
     #[error("a tip and a stem go with the goal top, not with {0}; remedy: leave them out")]
     NotATop(GoalKind),
-    /// A gap and nothing to hold the halves, or the reverse.
+    /// A gap was given without an axle, or the reverse.
     #[error(
-        "a string gap and an axle go together; remedy: give both, such as --string-gap 3mm --axle 6mm"
+        "a string gap and an axle go together; remedy: give both, such as `{}` and `{}`",
+        Setting::new(Key::StringGap, "3mm"),
+        Setting::new(Key::Axle, "6mm")
     )]
     GapAndAxle,
-    /// An axle with a depth, or no longer than the gap.
+    /// The axle has a depth, or is no longer than the gap.
     #[error(
-        "an axle of {0} does not bridge the string gap: remedy: give DIAMETERxLENGTH with a length well above the gap, and no depth"
+        "an axle of {0} does not bridge the string gap; remedy: give DIAMETERxLENGTH with a \
+         length well above the gap, and no depth"
     )]
     Axle(Rod),
-    /// A mass that is none.
-    #[error("hardware of {0} g is none; remedy: give a mass in g, above zero")]
+    /// The mass is not positive.
+    #[error("a mass of {0} g for the hardware cannot be used; remedy: give one in g, above zero")]
     Mass(f64),
-    /// A tip or stem without a length, or with nothing inside or outside.
+    /// The tip or stem has no length, or nothing of it is inside or outside.
     #[error(
-        "a {what} of {rod} cannot be held: remedy: give DIAMETERxLENGTHxDEPTH with a depth below the length, such as 4mmx12mmx6mm"
+        "a {what} of {rod} cannot be held; remedy: give DIAMETERxLENGTHxDEPTH with a depth below \
+         the length, such as 4mmx12mmx6mm"
     )]
     Depth {
-        /// Tip or stem.
+        /// The kind of rod: tip or stem.
         what: &'static str,
-        /// What was asked for.
+        /// The rod asked for.
         rod: Rod,
     },
-    /// A tip that stands out by less than the radius of its round end.
+    /// The tip stands out by less than the radius of its round end.
     #[error(
-        "a tip of {0} stands out by less than its radius, so that its end cannot be round; remedy: make it longer or less deep"
+        "a tip of {0} stands out by less than its radius, so that its end cannot be round; \
+         remedy: make it longer or less deep"
     )]
     Blunt(Rod),
 }
 
 impl Hardware {
-    /// Whether there is none.
+    /// Returns true if there is no hardware.
     pub fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Whether its parts go together, and with the goal.
+    /// Checks that its parts are consistent and go with the goal.
     pub(super) fn check(&self, kind: GoalKind) -> Result<(), HardwareError> {
         let is_for_yoyo = self.string_gap.is_some() || self.axle.is_some() || self.mass_g.is_some();
         if is_for_yoyo && kind != GoalKind::Yoyo {
@@ -248,7 +256,7 @@ mod tests {
             hardware: Some(hardware),
             ..Request::new(kind)
         }
-        .checked()
+        .validate()
     }
 
     #[test]
@@ -265,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_rod_is_refused_with_a_remedy() {
+    fn a_text_that_is_no_rod_is_refused_with_a_remedy() {
         for text in [
             "",
             "x",
@@ -281,72 +289,91 @@ mod tests {
         }
     }
 
-    #[test]
-    fn hardware_goes_with_its_goal_and_its_parts_with_each_other() {
-        let gap = "3mm".parse().ok();
-        let axle = Hardware {
-            string_gap: gap,
+    fn yoyo() -> Hardware {
+        Hardware {
+            string_gap: "3mm".parse().ok(),
             axle: Some(rod("6mm")),
             ..Hardware::default()
-        };
-        let tip = Hardware {
+        }
+    }
+
+    fn top() -> Hardware {
+        Hardware {
             tip: Some(rod("4x12")),
             stem: Some(rod("5x30")),
             ..Hardware::default()
-        };
-        assert!(with(GoalKind::Yoyo, axle).is_ok() && with(GoalKind::Top, tip).is_ok());
-        let refused = |kind, hardware| match with(kind, hardware) {
+        }
+    }
+
+    fn refusal(kind: GoalKind, hardware: Hardware) -> HardwareError {
+        match with(kind, hardware) {
             Err(RequestError::Hardware(error)) => error,
             other => panic!("{other:?}"),
-        };
+        }
+    }
+
+    #[test]
+    fn hardware_goes_with_its_goal() {
+        assert!(with(GoalKind::Yoyo, yoyo()).is_ok() && with(GoalKind::Top, top()).is_ok());
         assert_eq!(
-            refused(GoalKind::Top, axle),
+            refusal(GoalKind::Top, yoyo()),
             HardwareError::NotAYoyo(GoalKind::Top)
         );
         assert_eq!(
-            refused(GoalKind::Stand, tip),
+            refusal(GoalKind::Stand, top()),
             HardwareError::NotATop(GoalKind::Stand)
         );
-        let alone = Hardware { axle: None, ..axle };
-        assert_eq!(refused(GoalKind::Yoyo, alone), HardwareError::GapAndAxle);
+    }
+
+    #[test]
+    fn an_axle_is_longer_than_its_gap_and_holds_a_positive_mass() {
+        let alone = Hardware {
+            axle: None,
+            ..yoyo()
+        };
+        assert_eq!(refusal(GoalKind::Yoyo, alone), HardwareError::GapAndAxle);
         let short = Hardware {
             axle: Some(rod("6x3")),
-            ..axle
+            ..yoyo()
         };
         assert!(matches!(
-            refused(GoalKind::Yoyo, short),
+            refusal(GoalKind::Yoyo, short),
             HardwareError::Axle(_)
         ));
         let weightless = Hardware {
             mass_g: Some(0.0),
-            ..axle
+            ..yoyo()
         };
         assert_eq!(
-            refused(GoalKind::Yoyo, weightless),
+            refusal(GoalKind::Yoyo, weightless),
             HardwareError::Mass(0.0)
         );
+    }
+
+    #[test]
+    fn a_tip_and_a_stem_have_a_length_inside_and_outside() {
         let endless = Hardware {
             tip: Some(rod("4mm")),
-            ..tip
+            ..top()
         };
         assert!(matches!(
-            refused(GoalKind::Top, endless),
+            refusal(GoalKind::Top, endless),
             HardwareError::Depth { what: "tip", .. }
         ));
         let sunk = Hardware {
             stem: Some(rod("4x12x12")),
-            ..tip
+            ..top()
         };
         assert!(matches!(
-            refused(GoalKind::Top, sunk),
+            refusal(GoalKind::Top, sunk),
             HardwareError::Depth { what: "stem", .. }
         ));
         let blunt = Hardware {
             tip: Some(rod("4x12x11")),
-            ..tip
+            ..top()
         };
         assert!(matches!(
-            refused(GoalKind::Top, blunt),
+            refusal(GoalKind::Top, blunt),
             HardwareError::Blunt(_)
         ));
     }

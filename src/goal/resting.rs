@@ -1,38 +1,37 @@
-//! Whether a body that should spin on its contact stands on it at rest: a flat foot, or one rounder
-//! than it looks.
+//! The rest of a top: it may stand still on a foot that is flat, or rounder than it looks.
 //!
-//! A body rolling on a level floor is in stable equilibrium where the height of its centre of mass
-//! over the floor is least among its neighbours (Várkonyi and Domokos, "Static equilibria of rigid
-//! bodies: dice, pebbles, and the Poincaré–Hopf theorem", J. Nonlinear Sci. 16, 2006). Over a
-//! contact of radius of curvature ρ, tilted by θ, that height is ρ + (h − ρ) cos θ: least upright
-//! where h < ρ. A top made of triangles has no curvature, so it is tilted instead, by an angle that
-//! one can see.
+//! A body that rolls on a level floor rests stably where the height of its centre of mass has a
+//! local minimum. The source is Várkonyi and Domokos, "Static equilibria of rigid bodies: dice,
+//! pebbles, and the Poincaré–Hopf theorem", J. Nonlinear Sci. 16, 2006. Over a contact of radius of
+//! curvature ρ, tilted by θ, that height is ρ + (h − ρ) cos θ: least upright if h < ρ. A top made
+//! of triangles has no curvature, so it is tilted by a visible angle instead.
 
 use crate::geom::Point;
 
-/// A top is tilted so far, rad. Below a quarter of a degree the facets of a mesh, or a printer's
-/// layers, hold it; above some degrees a foot on which it would stand is passed over.
+/// The angle by which a top is tilted, rad. Below a quarter of a degree the facets of a mesh, or a
+/// printer's layers, hold it. Above some degrees it tips over a foot on which it would stand.
 const TILT_RAD: f64 = 1.0 * RAD_PER_DEG;
 const RAD_PER_DEG: f64 = std::f64::consts::PI / 180.0;
-/// Directions in which it is tilted. With fewer the narrow way over a square foot is missed.
+/// The number of directions in which it is tilted. With fewer, the short way over the edge of a
+/// square foot is missed.
 const DIRECTIONS: usize = 36;
-/// Tilts are tried up to this, rad: what stands up to there stands.
+/// The greatest tilt that is tried, rad.
 const MOST_RAD: f64 = 45.0 * RAD_PER_DEG;
 
-/// How a body stands on its foot.
+/// The stability of a body that stands on its foot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Resting {
-    /// The radius of curvature that moves the contact as far when it is tilted by a degree, the
-    /// least of all directions, mm.
+    /// The radius of curvature that moves the contact as far at a tilt of a degree, mm; the least
+    /// over all directions.
     pub radius_mm: f64,
     /// The height of its centre of mass over the floor, mm.
     pub center_height_mm: f64,
-    /// It rights itself up to this tilt, to a degree, degrees.
+    /// The tilt up to which it rights itself, in whole degrees.
     pub rights_to_deg: f64,
 }
 
-/// How a body stands that touches a floor with its lowest points, z up; none where it falls when it
-/// is tilted by a degree, as a top must.
+/// Returns the stability of a body that stands on its lowest points, z up. `None` if a tilt of a
+/// degree makes it fall, as a top must.
 ///
 /// `points` are its corners and `center` its centre of mass, mm, in a frame whose z axis goes
 /// through the contact. Costs some hundred passes over the corners near the floor.
@@ -73,9 +72,9 @@ pub fn resting(points: &[Point], center: &Point) -> Option<Resting> {
     })
 }
 
-/// How far the contact lies beyond the centre of mass when the body is tilted in a direction,
-/// level, mm: positive rights it. And how far it lies from the axis in that direction, before the
-/// tilt, mm.
+/// Returns two arms in the direction of a tilt, mm. The first is the level distance of the contact
+/// beyond the centre of mass after the tilt; it rights the body if positive. The second is the
+/// contact's distance from the axis before the tilt.
 fn arm_mm(foot: &[Point], center: &Point, tilt_rad: f64, direction: usize) -> [f64; 2] {
     let (y, x) = (std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
     let (sin, cos) = tilt_rad.sin_cos();
@@ -95,23 +94,22 @@ mod tests {
     use super::*;
     use crate::mesh::primitives::{ball, cylinder};
 
-    fn of_ball(radius_mm: f64, height_mm: f64) -> Option<Resting> {
+    fn rest_ball(radius_mm: f64, height_mm: f64) -> Option<Resting> {
         let mesh = ball(&Point::new(0.0, 0.0, radius_mm), radius_mm, 6);
         resting(mesh.vertices(), &Point::new(0.0, 0.0, height_mm))
     }
 
     #[test]
-    fn a_ball_stands_where_its_centre_of_mass_is_lower_than_its_radius_and_falls_where_it_is_higher()
-     {
+    fn a_ball_stands_only_if_its_centre_of_mass_is_lower_than_its_radius() {
         // Its facets are 0.7° wide, so that contacts jump by as much as half of a tilt of one
         // degree.
-        let stands = of_ball(10.0, 4.0).unwrap();
+        let stands = rest_ball(10.0, 4.0).unwrap();
         assert!(
             stands.radius_mm > 5.0 && stands.radius_mm < 15.0,
             "{stands:?}"
         );
         assert!((stands.center_height_mm - 4.0).abs() < 1e-9);
-        assert_eq!(of_ball(10.0, 16.0), None);
+        assert_eq!(rest_ball(10.0, 16.0), None);
     }
 
     #[test]

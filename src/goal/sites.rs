@@ -1,4 +1,4 @@
-//! Where a goal is placed, in words: the direction that becomes up, a top's contact, a yo-yo's spin
+//! The words that place a goal: the direction that becomes up, a top's contact, a yo-yo's spin
 //! point.
 
 use std::{fmt, str::FromStr};
@@ -26,10 +26,10 @@ pub enum Up {
     NegZ,
     /// Along any vector, of any length but zero.
     Along([f64; 3]),
-    /// The solid's own axis of the largest moment of inertia, the easiest to spin about; of its two
-    /// senses the one in which the centre of mass stands lower above the lowest point.
+    /// The solid's own axis of the largest moment of inertia, the easiest to spin about. Of its two
+    /// senses it is the one in which the centre of mass stands lower.
     Principal,
-    /// The best of all directions; a run chooses one before anything is placed.
+    /// The best of all directions. A run chooses it before it places the goal.
     Auto,
 }
 
@@ -46,8 +46,8 @@ const AXES: [(&str, Up); 8] = [
 ];
 
 impl Up {
-    /// The unit vector; none for the principal and the best axis, which depend on the solid, and
-    /// for a vector without direction.
+    /// Returns the unit vector. `None` for the principal and the best axis, which depend on the
+    /// solid, and for a vector without a direction.
     pub fn direction(self) -> Option<Vector> {
         let [x, y, z] = [Vector::x(), Vector::y(), Vector::z()];
         match self {
@@ -63,7 +63,7 @@ impl Up {
     }
 }
 
-/// The unit vector along `along`, whatever its length; none if it has no direction.
+/// Returns the unit vector along a vector of any length; `None` if it has no direction.
 fn unit(along: [f64; 3]) -> Option<Vector> {
     let along = Vector::from(along);
     let largest = along.amax();
@@ -97,11 +97,11 @@ impl FromStr for Up {
                 ],
             )
         })?;
-        checked_direction(along, text)
+        check_direction(along, text)
     }
 }
 
-fn checked_direction(along: [f64; 3], text: &str) -> Result<Up, ChoiceError> {
+fn check_direction(along: [f64; 3], text: &str) -> Result<Up, ChoiceError> {
     if along.iter().any(|number| !number.is_finite()) {
         return Err(ChoiceError::NotFinite(text.to_owned()));
     }
@@ -120,9 +120,11 @@ impl fmt::Display for Up {
     }
 }
 
-/// A place named by a word, or given as a point of the model in mm.
+/// Defines a place that is named by a word or given as a point of the model in mm.
 macro_rules! place {
-    ($(#[$about:meta])* $name:ident, $what:literal { $($(#[$doc:meta])* $value:ident = $word:literal,)+ }) => {
+    ($(#[$about:meta])* $name:ident, $what:literal {
+        $($(#[$doc:meta])* $value:ident = $word:literal,)+
+    }) => {
         $(#[$about])*
         #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
         #[serde(try_from = "String", into = "String")]
@@ -157,10 +159,9 @@ macro_rules! place {
 }
 
 place! {
-    /// Where a top touches the floor.
+    /// The point at which a top touches the floor.
     Contact, "contact point" {
-        /// The lowest point of the model; the middle of the lowest feature where that is an edge or
-        /// a face.
+        /// The lowest point of the model; the middle of the lowest edge or face.
         Lowest = "lowest",
         /// Vertically below the solid's centre of mass, at the height of the lowest point.
         Center = "center",
@@ -196,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_direction_is_a_unit_vector_however_long_the_one_given() {
+    fn a_direction_is_a_unit_vector_whatever_length_was_given() {
         for scale in [1e-300, 1.0, 1e300] {
             let direction = Up::Along([0.0, -3.0 * scale, 4.0 * scale])
                 .direction()
@@ -245,7 +246,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn any_vector_reads_back_to_the_bit(x in -1e9..1e9_f64, y in -1e-9..1e-9_f64, z in proptest::num::f64::NORMAL) {
+        fn any_vector_reads_back_to_the_bit(
+            x in -1e9..1e9_f64,
+            y in -1e-9..1e-9_f64,
+            z in proptest::num::f64::NORMAL,
+        ) {
             let up = Up::Along([x, y, z]);
             prop_assert_eq!(up.to_string().parse::<Up>().unwrap(), up);
             let at = Contact::At([x, y, z]);

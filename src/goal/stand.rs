@@ -1,11 +1,13 @@
 //! The standing object: it rests on the hull of its lowest vertices.
 
-use super::place::{GoalError, Site};
-use super::{Placement, support};
+use super::error::GoalError;
+use super::placement::Placement;
+use super::site::Site;
+use super::support;
 use crate::geom::Point;
 
 /// Vertices within this part of the height of the lowest carry the object. A scanned foot is never
-/// flat: below 0.05 % it would stand on three vertices; above 1 % it would stand on what does not
+/// flat. Below 0.05 % the object would stand on three vertices; above 1 % on vertices that do not
 /// touch the floor.
 const SUPPORT_RATIO: f64 = 0.002;
 

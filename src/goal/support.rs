@@ -1,24 +1,25 @@
-//! Convex polygons in the floor plane: the hull of what touches it, its area and its middle.
+//! Convex polygons in the floor plane: the hull of the points that touch it, its area and its
+//! middle.
 
-/// Turns flatter than this part of the squared extent are straight: a hull corner there is
+/// Turns flatter than this part of the squared extent count as straight: a hull corner there is
 /// rounding.
 const STRAIGHT_RATIO: f64 = 1e-12;
 
-/// The convex hull, counterclockwise, without repeated or collinear corners (Andrew, "Another
-/// efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 1979).
+/// Returns the convex hull, counterclockwise, without repeated or collinear corners (Andrew,
+/// "Another efficient algorithm for convex hulls in two dimensions", Inf. Process. Lett. 9, 1979).
 pub(super) fn convex_hull(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {
         return points;
     }
-    let straight = STRAIGHT_RATIO * squared_extent(&points);
+    let straight = STRAIGHT_RATIO * extent_squared(&points);
     let mut hull = half_hull(points.iter().copied(), straight);
     hull.extend(half_hull(points.iter().rev().copied(), straight));
     hull
 }
 
-/// One side of the hull, from the first point up to but without the last.
+/// Returns one side of the hull, from the first point up to but without the last.
 fn half_hull(points: impl Iterator<Item = [f64; 2]>, straight: f64) -> Vec<[f64; 2]> {
     let mut side: Vec<[f64; 2]> = Vec::new();
     for point in points {
@@ -33,23 +34,23 @@ fn half_hull(points: impl Iterator<Item = [f64; 2]>, straight: f64) -> Vec<[f64;
     side
 }
 
-/// Twice the signed area of the triangle abc: positive when it turns left.
+/// Returns twice the signed area of the triangle abc, positive if it turns left.
 fn turn(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> f64 {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
 
-fn squared_extent(points: &[[f64; 2]]) -> f64 {
+fn extent_squared(points: &[[f64; 2]]) -> f64 {
     let from_first = |p: &[f64; 2]| (p[0] - points[0][0]).powi(2) + (p[1] - points[0][1]).powi(2);
     points.iter().map(from_first).fold(0.0, f64::max)
 }
 
-/// The area of a convex polygon, mm²; zero for a segment or a point.
+/// Returns the area of a convex polygon, mm²; zero for a segment or a point.
 pub(super) fn area(polygon: &[[f64; 2]]) -> f64 {
     fan(polygon).map(|(twice_area, _)| 0.5 * twice_area).sum()
 }
 
-/// The centroid of a convex polygon's area; the middle of a segment; the point itself; the origin
-/// for none.
+/// Returns the centroid of a convex polygon's area, the middle of a segment, or the point itself;
+/// the origin for no points.
 pub(super) fn middle(polygon: &[[f64; 2]]) -> [f64; 2] {
     if polygon.len() < 3 {
         let count = polygon.len().max(1) as f64;
@@ -64,7 +65,7 @@ pub(super) fn middle(polygon: &[[f64; 2]]) -> [f64; 2] {
     })
 }
 
-/// Twice the area and the centroid of each triangle of the fan from the first corner.
+/// Returns twice the area and the centroid of each triangle of the fan from the first corner.
 fn fan(polygon: &[[f64; 2]]) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
     polygon.windows(2).skip(1).map(|pair| {
         let (a, [b, c]) = (polygon[0], [pair[0], pair[1]]);
@@ -75,8 +76,8 @@ fn fan(polygon: &[[f64; 2]]) -> impl Iterator<Item = (f64, [f64; 2])> + '_ {
     })
 }
 
-/// The edges of a convex counterclockwise polygon as (inward unit normal, offset): inside is
-/// normal·p ≥ offset.
+/// Returns the edges of a convex counterclockwise polygon as (inward unit normal, offset): inside
+/// is normal·p ≥ offset.
 pub(crate) fn edges(polygon: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
     let next = polygon.iter().cycle().skip(1);
     let pairs = polygon.iter().zip(next);

@@ -1,12 +1,16 @@
 //! The top: it spins upright on one contact point.
 
-use super::place::{GoalError, Site};
-use super::{Contact, Placement, Rod, Warning, support};
+use super::error::GoalError;
+use super::hardware::Rod;
+use super::placement::{Placement, Warning};
+use super::site::Site;
+use super::sites::Contact;
+use super::support;
 use crate::geom::{Point, Vector};
 use crate::shell::Keep;
 
-/// How many walls thick the contact stays solid: with fewer than two the point would be worn or
-/// pushed through, with many more the lowest, most useful part of the interior is lost.
+/// The radius of the solid region at the contact, in walls. With fewer than two the point would be
+/// worn or pushed through. With many more the lowest, most useful part of the interior is lost.
 const CONTACT_RADIUS_WALLS: f64 = 2.0;
 
 /// Vertices within this part of the height of the lowest belong to the lowest feature. Below 1e-9
@@ -17,11 +21,11 @@ const LOWEST_FEATURE_RATIO: f64 = 1e-6;
 /// tip.
 const AIR_RATIO: f64 = 1e-6;
 
-/// Air below the surface that no printer could fill, mm: less than its layer, so no tip is missing.
+/// Air below the surface that is thinner than any printed layer, mm: no tip is missing.
 const TOUCHING_MM: f64 = 0.01;
 
-/// A top that stands on a tip touches with it: as far below the surface as the tip stands out, and
-/// its socket has a wall of its own.
+/// Places a top. With a tip it touches the floor as far below the surface as the tip stands out.
+/// The tip's socket has a wall of its own, so the contact needs no solid region.
 pub(super) fn place(
     site: &Site,
     wall_mm: f64,
@@ -30,11 +34,11 @@ pub(super) fn place(
 ) -> Result<Placement, GoalError> {
     let origin = contact_point(site, contact)?;
     let Some(tip) = tip else {
-        return placed(site, wall_mm, origin);
+        return place_at(site, wall_mm, origin);
     };
     let surface_mm = first_surface_above(site, &origin).ok_or(GoalError::NoSeat)?;
     let end = origin + Vector::z() * (surface_mm - tip.out_mm());
-    let Placement { goal, warnings, .. } = placed(site, wall_mm, end)?;
+    let Placement { goal, warnings, .. } = place_at(site, wall_mm, end)?;
     let is_of_body = |warning: &Warning| !matches!(warning, Warning::ContactInAir { .. });
     Ok(Placement {
         goal,
@@ -43,8 +47,8 @@ pub(super) fn place(
     })
 }
 
-/// The top that touches at this point of the upright frame.
-fn placed(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalError> {
+/// Places the top that touches at this point of the upright frame.
+fn place_at(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalError> {
     let depth_mm = origin.z - site.upright_center().z;
     if depth_mm >= 0.0 {
         return Err(GoalError::ContactAboveCenter { depth_mm });
@@ -62,15 +66,14 @@ fn placed(site: &Site, wall_mm: f64, origin: Point) -> Result<Placement, GoalErr
 
 fn contact_point(site: &Site, contact: Contact) -> Result<Point, GoalError> {
     let [x, y] = match contact {
-        Contact::At(point) => return site.given_point("contact", point),
+        Contact::At(point) => return site.locate_point("contact", point),
         Contact::Lowest => lowest_feature_middle(site),
         Contact::Center => [site.upright_center().x, site.upright_center().y],
     };
     Ok(Point::new(x, y, site.lowest_mm))
 }
 
-/// The middle of what the model would touch a floor with: a vertex, an edge's middle, or a face's
-/// centroid.
+/// Returns the middle of the lowest feature: a vertex, an edge's middle, or a face's centroid.
 fn lowest_feature_middle(site: &Site) -> [f64; 2] {
     let tie_mm = LOWEST_FEATURE_RATIO * site.height_mm();
     let lowest = site
@@ -95,8 +98,8 @@ fn warnings(site: &Site, contact: &Point, surface_mm: Option<f64>) -> Vec<Warnin
     air.into_iter().chain(below).collect()
 }
 
-/// How far above the contact the axis first meets the surface, mm; none where it meets nothing at
-/// or above it.
+/// Returns the height above the contact at which the axis first meets the surface, mm. `None` if it
+/// meets nothing at or above the contact.
 fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
     let tolerance_mm = AIR_RATIO * site.height_mm();
     let mesh = site.solid.mesh();
@@ -110,8 +113,8 @@ fn first_surface_above(site: &Site, contact: &Point) -> Option<f64> {
         .map(|height| height.max(0.0))
 }
 
-/// Where the z axis meets a triangle, mm; a triangle edge-on counts by its lowest corner on the
-/// axis.
+/// Returns the height at which the z axis meets a triangle, mm; `None` if it misses. A triangle
+/// seen edge-on counts by its lowest corner on the axis.
 pub(crate) fn height_over_origin([a, b, c]: [Vector; 3], tolerance_mm: f64) -> Option<f64> {
     let cross = |p: &Vector, q: &Vector| p.x * q.y - p.y * q.x;
     let weights = [cross(&b, &c), cross(&c, &a), cross(&a, &b)];

@@ -1,78 +1,94 @@
-//! A socket along the axis: its shape, and whether the model holds it.
+//! A socket along the axis: its shape, and the check that the model holds it.
 
 use std::f64::consts::{PI, TAU};
 
+use super::fitted::Kind;
+use crate::base::setting::{Key, Setting};
 use crate::geom::{Frame, Point};
 use crate::mesh::{ClipError, Csg, TriMesh, primitives, winding_number};
 
-/// Sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the circle; more only
-/// make more triangles.
+/// The number of sides of a socket. With 48 the corners of a 20 mm bore stand 0.02 mm off the
+/// circle; more only make more triangles.
 const SIDES: u32 = 48;
-/// The socket's first corner is turned by so much about the axis, rad, so that it lies on no
-/// model's plane of symmetry.
+/// The angle of the socket's first corner about the axis, rad. It keeps the corner off a model's
+/// planes of symmetry.
 const TURN_RAD: f64 = 0.3;
-/// Depths at which the wall about a socket is looked for.
+/// The number of depths at which the wall around a socket is checked.
 const LOOKS: usize = 8;
-/// Directions in which it is looked for at each: between them 2 % of the distance from the axis may
-/// be missed.
+/// The number of directions in which it is checked at each depth. Between them 2 % of the distance
+/// from the axis may be missed.
 const DIRECTIONS: usize = 16;
-/// The share of its depth over which a socket must have its wall all around. Less, and a blow on
-/// the rod breaks the rim.
+/// The share of its depth over which a socket must have a wall all around. With less, a blow on the
+/// rod breaks the rim.
 const HELD_RATIO: f64 = 0.5;
 
-/// Why a socket cannot be bored.
+/// A reason why a socket cannot be bored.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SeatError {
-    /// It comes out of the model, or its wall is too thin there.
+    /// It breaks out of the model, or the wall at its bottom is too thin.
     #[error(
-        "the {what}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; remedy: {}",
-        deepest(what, *most_mm)
+        "the {}'s socket, {depth_mm:.2} mm deep, has no wall of {wall_mm:.2} mm at its bottom; \
+         remedy: {}",
+        rod.word(),
+        remedy_for_depth(*rod, *most_mm)
     )]
     BreaksOut {
-        /// What it is for.
-        what: &'static str,
-        /// How deep it was to be, mm.
+        /// The rod it is for.
+        rod: Kind,
+        /// The depth asked for, mm.
         depth_mm: f64,
-        /// The wall it was to have, mm.
+        /// The wall asked for, mm.
         wall_mm: f64,
-        /// How deep it may be there, mm; none where no depth does.
+        /// The greatest depth that fits there, mm; `None` if none does.
         most_mm: Option<f64>,
     },
     /// Too little of its depth has a wall around it.
     #[error(
-        "the {what}'s socket has a wall of {wall_mm:.2} mm around it over {held_mm:.2} of its {depth_mm:.2} mm only; remedy: a deeper or \
-         thinner {what}, or another place for it"
+        "the {rod}'s socket has a wall of {wall_mm:.2} mm around it over {held_mm:.2} of its \
+         {depth_mm:.2} mm only; remedy: choose a deeper or thinner {rod}, or another place for it",
+        rod = rod.word()
     )]
     HardlyHeld {
-        /// What it is for.
-        what: &'static str,
-        /// Over how much of its depth it has a wall, mm.
+        /// The rod it is for.
+        rod: Kind,
+        /// The part of its depth that has a wall, mm.
         held_mm: f64,
-        /// How deep it was to be, mm.
+        /// The depth asked for, mm.
         depth_mm: f64,
-        /// The wall it was to have, mm.
+        /// The wall asked for, mm.
         wall_mm: f64,
     },
 }
 
-/// Depths that are tried where a socket breaks out, as parts of what was asked for. Fewer tell too
-/// little of what there is.
+/// The number of shorter depths that are tried if a socket breaks out. With fewer, the advised
+/// depth would be too coarse.
 const DEPTHS: usize = 20;
 
-/// What to do about a socket that breaks out.
-fn deepest(what: &str, most_mm: Option<f64>) -> String {
-    match most_mm.map(|mm| (mm * 10.0).floor() / 10.0) {
-        Some(mm) if mm > 0.0 => {
-            format!("{mm:.1} mm deep it has one (--{what}=DIAMETERxLENGTHx{mm:.1})")
+/// Returns the remedy for a socket that breaks out.
+fn remedy_for_depth(rod: Kind, most_mm: Option<f64>) -> String {
+    let key = match rod {
+        Kind::Axle | Kind::Ring => None,
+        Kind::Tip => Some(Key::Tip),
+        Kind::Stem => Some(Key::Stem),
+    };
+    let rod = rod.word();
+    match (most_mm.map(|mm| (mm * 10.0).floor() / 10.0), key) {
+        (Some(mm), Some(key)) if mm > 0.0 => {
+            let setting = Setting::new(key, format!("DIAMETERxLENGTHx{mm:.1}"));
+            format!("make it {mm:.1} mm deep (`{setting}`)")
         }
-        _ => format!("it has one at no depth there: a thinner {what}, or another place for it"),
+        (Some(mm), None) if mm > 0.0 => {
+            format!("choose a shorter {rod}: {mm:.1} mm of it fit there")
+        }
+        _ => format!("no depth there leaves one: choose a thinner {rod}, or another place for it"),
     }
 }
 
 /// A socket about the z axis of a frame, from its mouth to its bottom.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bore {
-    pub what: &'static str,
+    pub rod: Kind,
     pub radius_mm: f64,
     /// The least wall around it and behind its bottom, mm.
     pub wall_mm: f64,
@@ -87,12 +103,12 @@ impl Bore {
         (self.bottom_mm - self.mouth_mm).abs()
     }
 
-    /// Whether the model has a wall around the bore and behind its bottom; where that breaks out,
-    /// how deep it may be.
+    /// Checks that the model has a wall around the bore and behind its bottom. If the bore breaks
+    /// out, the error gives the greatest depth that fits.
     pub fn check(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
-        self.seated(model, frame).map_err(|error| match error {
+        self.check_walls(model, frame).map_err(|error| match error {
             SeatError::BreaksOut {
-                what,
+                rod,
                 depth_mm,
                 wall_mm,
                 ..
@@ -103,9 +119,9 @@ impl Bore {
                 };
                 let fits = (1..DEPTHS)
                     .rev()
-                    .find(|i| shorter(i).seated(model, frame).is_ok());
+                    .find(|i| shorter(i).check_walls(model, frame).is_ok());
                 SeatError::BreaksOut {
-                    what,
+                    rod,
                     depth_mm,
                     wall_mm,
                     most_mm: fits.map(|i| self.share(i)),
@@ -115,23 +131,23 @@ impl Bore {
         })
     }
 
-    /// So many twentieths of its depth, mm.
+    /// Returns `i` twentieths of its depth, mm.
     fn share(&self, i: usize) -> f64 {
         self.depth_mm() * i as f64 / DEPTHS as f64
     }
 
-    fn seated(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
+    fn check_walls(&self, model: &TriMesh, frame: &Frame) -> Result<(), SeatError> {
         let heights =
             (0..LOOKS).map(|i| self.at_depth(self.depth_mm() * (1.0 - i as f64 / LOOKS as f64)));
         let around: Vec<bool> = heights
-            .map(|z| self.walled(model, frame, z) == DIRECTIONS)
+            .map(|z| self.count_walled(model, frame, z) == DIRECTIONS)
             .collect();
         let behind = Point::new(0.0, 0.0, self.at_depth(self.depth_mm() + self.wall_mm));
-        let Self { what, wall_mm, .. } = *self;
+        let Self { rod, wall_mm, .. } = *self;
         let depth_mm = self.depth_mm();
         if !(around[0] && is_inside(model, &frame.to_model(&behind))) {
             return Err(SeatError::BreaksOut {
-                what,
+                rod,
                 depth_mm,
                 wall_mm,
                 most_mm: None,
@@ -144,7 +160,7 @@ impl Bore {
             Ok(())
         } else {
             Err(SeatError::HardlyHeld {
-                what,
+                rod,
                 held_mm,
                 depth_mm,
                 wall_mm,
@@ -152,20 +168,20 @@ impl Bore {
         }
     }
 
-    /// Whether it goes right through the model: its bottom lies clear outside, and behind its mouth
-    /// it has its wall.
+    /// Returns true if it goes right through the model: its bottom lies outside, and there is a
+    /// wall behind its mouth.
     pub fn passes_through(&self, model: &TriMesh, frame: &Frame) -> bool {
-        self.walled(model, frame, self.bottom_mm) == 0
-            && self.walled(model, frame, self.at_depth(self.wall_mm)) == DIRECTIONS
+        self.count_walled(model, frame, self.bottom_mm) == 0
+            && self.count_walled(model, frame, self.at_depth(self.wall_mm)) == DIRECTIONS
     }
 
-    /// The height in the frame at a depth below the mouth, mm.
+    /// Returns the height in the frame at a depth below the mouth, mm.
     fn at_depth(&self, depth_mm: f64) -> f64 {
         self.mouth_mm + depth_mm.copysign(self.bottom_mm - self.mouth_mm)
     }
 
-    /// In how many directions the wall about the bore is in the model at this height.
-    fn walled(&self, model: &TriMesh, frame: &Frame, z: f64) -> usize {
+    /// Counts the directions in which the wall around the bore lies in the model at this height.
+    fn count_walled(&self, model: &TriMesh, frame: &Frame, z: f64) -> usize {
         let at = |i: usize| {
             let (sin, cos) = (TAU * i as f64 / DIRECTIONS as f64 + TURN_RAD).sin_cos();
             let radius_mm = self.radius_mm + self.wall_mm;
@@ -177,8 +193,8 @@ impl Bore {
     }
 }
 
-/// The prism that is taken away for a round rod between two heights of a frame: the rod's circle
-/// touches its sides.
+/// Returns the prism that is subtracted for a round rod between two heights of a frame. The rod's
+/// circle touches its sides.
 pub(super) fn prism(
     frame: &Frame,
     radius_mm: f64,
@@ -197,7 +213,7 @@ pub(super) fn prism(
     Csg::of_mesh(&upright.map_vertices(place))
 }
 
-/// Whether a point lies in the body that a mesh bounds.
+/// Returns true if a point lies in the body that a mesh bounds.
 pub(super) fn is_inside(mesh: &TriMesh, point: &Point) -> bool {
     winding_number(mesh, point) > 0.5
 }
@@ -209,7 +225,7 @@ mod tests {
 
     fn bore(bottom_mm: f64) -> Bore {
         Bore {
-            what: "pin",
+            rod: Kind::Tip,
             radius_mm: 2.0,
             wall_mm: 1.0,
             mouth_mm: 0.0,
@@ -250,9 +266,9 @@ mod tests {
     }
 
     #[test]
-    fn a_socket_whose_upper_half_is_in_the_open_is_hardly_held() {
+    fn a_socket_that_is_open_over_most_of_its_depth_is_refused() {
         let block = cuboid(&Point::new(-4.0, -4.0, 7.0), &Point::new(4.0, 4.0, 20.0));
-        let held = bore(10.0).check(&block, &Frame::identity());
-        assert!(matches!(held, Err(SeatError::HardlyHeld { held_mm, .. }) if held_mm == 3.75));
+        let result = bore(10.0).check(&block, &Frame::identity());
+        assert!(matches!(result, Err(SeatError::HardlyHeld { held_mm, .. }) if held_mm == 3.75));
     }
 }

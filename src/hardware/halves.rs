@@ -1,27 +1,28 @@
-//! A model cut across its axis into the two halves that its axle will hold.
+//! The cut of a model across its axis into the two halves that its axle holds.
 
 use super::bore::is_inside;
-use super::{FitError, Workshop};
+use super::error::FitError;
+use super::workshop::Workshop;
 use crate::geom::{Plane, Point, Vector};
 use crate::mesh::{Csg, TriMesh, off_vertices};
 
-/// Pieces below this volume are sheets of a plane that runs along a face, mm³.
+/// Pieces below this volume are slivers of a cut that runs along a face, mm³.
 const SHEET_MM3: f64 = 1e-6;
-/// A piece that stays with the other half is held by a hull so much larger than itself, mm, so that
-/// rounding leaves no skin of it; what else lies nearer is cut into.
+/// A piece that stays with the other half is enclosed by its hull, grown by this margin, mm. The
+/// margin keeps rounding from leaving a skin of it. Other parts within the margin are cut into.
 const HULL_MARGIN_MM: f64 = 0.02;
-/// By how much of a piece's volume its hull may hold of something else.
+/// The share of a piece's volume that its hull may enclose of other parts.
 const FOREIGN_RATIO: f64 = 1e-3;
 
-/// The two halves, where they were in the model.
+/// The two halves at their old places in the model.
 pub(super) struct Halves {
     pub upper: Csg,
     pub lower: Csg,
 }
 
-/// The halves above and below the spin point. What the cut parts from both, such as the hand that
-/// hangs beside the body, stays with the half it grows from, whatever side of the plane it is on.
-pub(super) fn halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves, FitError> {
+/// Cuts the model into the halves above and below the spin point. A piece that the cut separates
+/// from its half, such as a hand that hangs beside the body, stays with the half it grows from.
+pub(super) fn split_halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves, FitError> {
     let (frame, mesh) = (&workshop.goal.frame, workshop.solid.mesh());
     let plane = off_vertices(mesh, &Plane::through(&frame.origin, &frame.axis()));
     let body = Csg::of_mesh(mesh)?;
@@ -44,7 +45,7 @@ pub(super) fn halves(workshop: &Workshop, bore_radius_mm: f64) -> Result<Halves,
             lower: below.hub,
         });
     }
-    around(&body, &plane, [&above, &below])
+    cut_around(&body, &plane, [&above, &below])
 }
 
 /// The pieces on one side of the cut: the one with the hub, and the others.
@@ -72,9 +73,8 @@ impl Side {
     }
 }
 
-/// The halves of a cut that goes around the loose pieces: each is left with what it touches on the
-/// other side.
-fn around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halves, FitError> {
+/// Cuts around the loose pieces, so that each stays with the part it touches on the other side.
+fn cut_around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halves, FitError> {
     let mut upper_room = body.half_space(plane)?;
     for piece in &above.loose {
         upper_room = upper_room.subtract(&hull(body, piece)?)?;
@@ -91,7 +91,7 @@ fn around(body: &Csg, plane: &Plane, [above, below]: [&Side; 2]) -> Result<Halve
     }
 }
 
-/// A convex room with nothing of the body in it but the piece.
+/// Returns a convex region that holds this piece and nothing else of the body.
 fn hull(body: &Csg, piece: &TriMesh) -> Result<Csg, FitError> {
     let signs = [-HULL_MARGIN_MM, HULL_MARGIN_MM];
     let corners = signs.iter().flat_map(|x| {
@@ -107,7 +107,7 @@ fn hull(body: &Csg, piece: &TriMesh) -> Result<Csg, FitError> {
     let hull = Csg::convex_hull(&points.collect::<Vec<_>>())?;
     let held_mm3 = body.intersect(&hull)?.to_mesh()?.signed_volume_mm3();
     let own_mm3 = piece.signed_volume_mm3();
-    // Of what it grows from, a skin of the margin is in the hull too.
+    // The hull also holds a skin of the part it grows from, as thick as the margin.
     let skin_mm3 = 2.0 * HULL_MARGIN_MM * surface_mm2(piece);
     let is_alone = held_mm3 - own_mm3 <= FOREIGN_RATIO * own_mm3 + skin_mm3;
     if is_alone {

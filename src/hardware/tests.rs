@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use super::*;
 use crate::geom::{Point, Vector};
 use crate::goal::{Contact, GoalKind, Placement, Request, SpinPoint, Up, place};
-use crate::mass::{Body, moments_of_mesh};
+use crate::mass::{Body, Moments, RoundBar, moments_of_mesh};
 use crate::mesh::{Csg, TriMesh, bodies, primitives};
 
 /// A ball of radius 20: its 81920 triangles fall short of it by less than 2e-4 of its volume.
@@ -46,23 +46,24 @@ fn top(tip: Option<&str>, stem: Option<&str>) -> Request {
     }
 }
 
-/// With sockets of no clearance and walls of 1 mm.
-fn made(solid: &Solid, request: &Request) -> (Placement, Result<Fitted, FitError>) {
+/// Fits the hardware with no clearance and walls of 1 mm.
+fn fit(solid: &Solid, request: &Request) -> (Placement, Result<Fitted, FitError>) {
     let placement = place(solid, 1.0, request).unwrap();
     let allowances = Allowances {
         clearance_mm: 0.0,
         wall_mm: 1.0,
     };
-    let made = fitted(
+    let result = fitted(
         solid,
         &placement.goal,
         &request.hardware.unwrap(),
         &allowances,
     );
-    (placement, made.map(Option::unwrap))
+    (placement, result.map(Option::unwrap))
 }
 
-/// The moments of a cylinder of unit density about z through the origin, from z = `low` to `high`.
+/// Returns the moments of a cylinder of unit density about z through the origin, from z = `low` to
+/// `high`.
 fn upright(radius_mm: f64, [low, high]: [f64; 2]) -> Moments {
     RoundBar::plain(
         Point::new(0.0, 0.0, low),
@@ -74,11 +75,11 @@ fn upright(radius_mm: f64, [low, high]: [f64; 2]) -> Moments {
 
 #[test]
 fn a_balls_halves_moved_apart_have_the_inertia_of_the_parallel_axes() {
-    // Of mass m and radius R: about the axis 2mR²/5 still; across it each half's centre lies 3R/8
-    // from the cut, so that moving each by g/2 adds m (3R/8 · g + g²/4). The sockets are taken out
-    // of the moved halves.
+    // Mass m, radius R. About the axis the moment stays 2mR²/5. Across it each half's centre lies
+    // 3R/8 from the cut, so that moving each by g/2 adds m (3R/8 · g + g²/4). The sockets are taken
+    // out of the moved halves.
     let (gap, depth, bore) = (3.0, 8.0, 2.0);
-    let (_, fitted) = made(&ball(), &yoyo("3mm", "4mm"));
+    let (_, fitted) = fit(&ball(), &yoyo("3mm", "4mm"));
     let fitted = fitted.unwrap();
     let socket = upright(bore, [0.5 * gap, 0.5 * gap + depth])
         + upright(bore, [-0.5 * gap - depth, -0.5 * gap]);
@@ -102,7 +103,7 @@ fn a_balls_halves_moved_apart_have_the_inertia_of_the_parallel_axes() {
 
 #[test]
 fn the_axle_weighs_what_a_steel_cylinder_weighs_and_counts_by_its_density() {
-    let (_, fitted) = made(&ball(), &yoyo("3mm", "4mm"));
+    let (_, fitted) = fit(&ball(), &yoyo("3mm", "4mm"));
     let fitted = fitted.unwrap();
     let length: f64 = 3.0 + 2.0 * 2.0 * 4.0;
     let moments = fitted.moments(1.57);
@@ -117,13 +118,13 @@ fn the_axle_weighs_what_a_steel_cylinder_weighs_and_counts_by_its_density() {
 }
 
 #[test]
-fn nuts_and_bearings_have_the_mass_that_was_said() {
+fn nuts_and_bearings_have_the_mass_that_was_given() {
     let mut request = yoyo("3mm", "4mm");
     request.hardware = request.hardware.map(|hardware| Hardware {
         mass_g: Some(2.5),
         ..hardware
     });
-    let fitted = made(&ball(), &request).1.unwrap();
+    let fitted = fit(&ball(), &request).1.unwrap();
     let ring = fitted.pieces[1];
     assert_eq!(ring.kind, Kind::Ring);
     let body = Body::new(&ring.bar.moments(), ring.density_g_cm3 / 1000.0);
@@ -139,7 +140,7 @@ fn the_cut_passes_through_the_spin_point_that_was_chosen() {
         spin_point: Some(SpinPoint::At(at)),
         ..yoyo("2mm", "3mmx10mm")
     };
-    let (placement, fitted) = made(&ball(), &request);
+    let (placement, fitted) = fit(&ball(), &request);
     let fitted = fitted.unwrap();
     let mut halves = bodies(fitted.solid.mesh());
     halves.sort_by(|a, b| a.signed_volume_mm3().total_cmp(&b.signed_volume_mm3()));
@@ -154,24 +155,25 @@ fn the_cut_passes_through_the_spin_point_that_was_chosen() {
 }
 
 #[test]
-fn an_axle_goes_as_deep_as_both_halves_let_it_and_one_that_would_come_out_is_refused() {
-    // A plate 10 mm thick has 5 mm on each side of its middle, one of them wall: a 3 mm axle goes
-    // 3.75 mm deep.
+fn an_axle_goes_as_deep_as_both_halves_allow_and_never_breaks_out() {
+    // A plate 10 mm thick has 5 mm on each side of its middle, 1 mm of it wall. So a 3 mm axle goes
+    // 3.75 mm deep, 1.25 diameters.
     let plate = block([40.0, 40.0, 10.0]);
-    let fitted = made(&plate, &yoyo("2mm", "3mm")).1.unwrap();
+    let fitted = fit(&plate, &yoyo("2mm", "3mm")).1.unwrap();
     assert_eq!(fitted.pieces[0].depth_mm, 3.75);
-    let refused = made(&plate, &yoyo("2mm", "3mmx11mm")).1;
-    assert!(
-        matches!(refused, Err(FitError::Seat(SeatError::BreaksOut { depth_mm, .. })) if depth_mm == 4.5)
-    );
+    let refused = fit(&plate, &yoyo("2mm", "3mmx11mm")).1;
+    let Err(FitError::Seat(SeatError::BreaksOut { depth_mm, .. })) = refused else {
+        panic!("{refused:?}")
+    };
+    assert_eq!(depth_mm, 4.5);
     // A bolt right through is no socket that comes out.
-    let through = made(&plate, &yoyo("2mm", "3mmx30mm")).1.unwrap();
+    let through = fit(&plate, &yoyo("2mm", "3mmx30mm")).1.unwrap();
     let drilled = 2.0 * 5.0 * (1600.0 - PI * 2.25);
     assert!((through.solid.mesh().signed_volume_mm3() / drilled - 1.0).abs() < 1e-4);
 }
 
 #[test]
-fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
+fn a_piece_that_the_cut_separates_stays_with_the_half_it_grows_from() {
     // A block with a hook: an arm out of its lower half that ends in a finger pointing up past the
     // middle.
     let csg = |min: [f64; 3], max: [f64; 3]| {
@@ -189,7 +191,7 @@ fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
         spin_point: Some(SpinPoint::At([0.0; 3])),
         ..yoyo("2mm", "4mm")
     };
-    let fitted = made(&hooked, &request).1.unwrap();
+    let fitted = fit(&hooked, &request).1.unwrap();
     let volumes: Vec<f64> = bodies(fitted.solid.mesh())
         .iter()
         .map(TriMesh::signed_volume_mm3)
@@ -208,9 +210,9 @@ fn what_the_cut_parts_from_both_halves_stays_with_the_one_it_grows_from() {
 }
 
 #[test]
-fn a_top_touches_with_the_end_of_its_tip_and_stands_higher_by_what_sticks_out() {
+fn a_top_touches_with_the_end_of_its_tip_and_stands_higher_by_as_much() {
     let solid = block([30.0, 30.0, 12.0]);
-    let (placement, fitted) = made(&solid, &top(Some("4mmx10mmx6mm"), Some("5mmx20mmx5mm")));
+    let (placement, fitted) = fit(&solid, &top(Some("4mmx10mmx6mm"), Some("5mmx20mmx5mm")));
     let fitted = fitted.unwrap();
     assert!((placement.goal.frame.origin - Point::new(15.0, 15.0, -4.0)).norm() < 1e-12);
     assert!(placement.keeps.is_empty() && placement.warnings.is_empty());
@@ -230,7 +232,7 @@ fn a_top_touches_with_the_end_of_its_tip_and_stands_higher_by_what_sticks_out() 
 fn a_heavier_tip_puts_the_centre_of_the_same_top_lower() {
     let solid = block([30.0, 30.0, 12.0]);
     let height = |tip: &str| {
-        let (placement, fitted) = made(&solid, &top(Some(tip), None));
+        let (placement, fitted) = fit(&solid, &top(Some(tip), None));
         let fitted = fitted.unwrap();
         let whole = moments_of_mesh(fitted.solid.mesh()) + fitted.moments(1.18);
         Body::new(&whole.in_frame(&placement.goal.frame), 1.0)
@@ -247,8 +249,8 @@ fn a_heavier_tip_puts_the_centre_of_the_same_top_lower() {
 
 #[test]
 fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
-    // An octahedron standing on its corner is as wide as it is high there: at 3 mm it has no wall
-    // of 1 mm about 4 mm.
+    // An octahedron on its corner is as wide as it is high there. At a height of 3 mm it has no
+    // wall of 1 mm around a 4 mm rod.
     let corner = |x: f64, y: f64, z: f64| Point::new(20.0 * x, 20.0 * y, 20.0 * z);
     let vertices = vec![
         corner(1., 0., 0.),
@@ -269,10 +271,10 @@ fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
         [0, 3, 5],
     ];
     let solid = Solid::new(TriMesh::new(vertices, faces.to_vec()).unwrap()).unwrap();
-    let held = |tip: &str| made(&solid, &top(Some(tip), None)).1;
+    let held = |tip: &str| fit(&solid, &top(Some(tip), None)).1;
     assert!(matches!(
         held("4mmx8mmx3mm"),
-        Err(FitError::Seat(SeatError::BreaksOut { what: "tip", .. }))
+        Err(FitError::Seat(SeatError::BreaksOut { rod: Kind::Tip, .. }))
     ));
     assert!(matches!(
         held("4mmx12mmx6mm"),
@@ -285,7 +287,7 @@ fn a_socket_in_a_sharp_point_is_refused_for_lack_of_a_wall() {
 fn a_turned_axis_gives_the_same_halves() {
     let solid = block([30.0, 24.0, 36.0]);
     let along = |up: Up| {
-        let (placement, fitted) = made(
+        let (placement, fitted) = fit(
             &solid,
             &Request {
                 up,

@@ -1,18 +1,20 @@
 //! A top's tip and stem: rods in sockets along its axis.
 //!
-//! Mass on the axis adds to s_z and to the moments across the axis, and next to nothing to the one
-//! about it, so every hollowing spins upright from a higher speed than without it: ω² = g s_z/(I_c
-//! − I_b). Light and thin ones cost least; what they give is a contact that does not wear.
+//! Mass on the axis adds to s_z and to the moments across the axis, but hardly to the moment about
+//! it. So it raises the speed from which a top spins upright: ω² = g s_z/(I_c − I_b). Light and
+//! thin rods cost least; their benefit is a contact that does not wear.
 
 use super::bore::{Bore, prism};
-use super::{FitError, Fitted, Kind, Piece, Workshop};
+use super::error::FitError;
+use super::fitted::{Fitted, Kind, Piece};
+use super::workshop::Workshop;
 use crate::geom::Point;
 use crate::goal::{Rod, height_over_origin};
 use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
 
-/// A socket is bored so far beyond the end of its rod that stands out, mm: no face of it lies in
-/// the plane in which the model begins.
+/// The length by which a socket is bored beyond the outer end of its rod, mm. No face of it then
+/// lies in the plane in which the model begins.
 const BEYOND_MM: f64 = 1e-3;
 
 /// A rod along the axis, by the heights of its ends in the goal frame.
@@ -23,8 +25,8 @@ struct Standing {
     outer_mm: f64,
 }
 
-/// The model with the sockets of its tip and stem. The tip ends in the goal's origin.
-pub(super) fn fitted(
+/// Bores the sockets of the tip and the stem. The tip ends in the goal's origin.
+pub(super) fn fit(
     workshop: &Workshop,
     tip: Option<Rod>,
     stem: Option<Rod>,
@@ -39,7 +41,7 @@ pub(super) fn fitted(
     let rods: Vec<Standing> = tip.into_iter().chain(stem).collect();
     let mut body = Csg::of_solid(workshop.solid)?;
     for rod in &rods {
-        body = bored(workshop, &body, rod)?;
+        body = bore_socket(workshop, &body, rod)?;
     }
     let solid = Solid::new(body.without_slivers().to_mesh()?)?;
     let pieces = rods.iter().map(|rod| piece(workshop, rod)).collect();
@@ -50,7 +52,7 @@ pub(super) fn fitted(
     })
 }
 
-/// The stem goes in where the axis leaves the model for good.
+/// Returns the stem, put in at the highest point at which the axis leaves the model.
 fn standing_stem(workshop: &Workshop, rod: Rod) -> Result<Standing, FitError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
     let heights = mesh.iter_corners().filter_map(|corners| {
@@ -67,14 +69,14 @@ fn standing_stem(workshop: &Workshop, rod: Rod) -> Result<Standing, FitError> {
     })
 }
 
-fn bored(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, FitError> {
+fn bore_socket(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, FitError> {
     let (frame, allowances) = (&workshop.goal.frame, workshop.allowances);
     let radius_mm = workshop.bore_radius_mm(&rod.rod);
     let inward = (rod.inner_mm - rod.outer_mm).signum();
     let mouth_mm = rod.inner_mm - inward * rod.rod.depth_mm();
-    let (what, wall_mm, bottom_mm) = (rod.kind.word(), allowances.wall_mm, rod.inner_mm);
+    let (wall_mm, bottom_mm) = (allowances.wall_mm, rod.inner_mm);
     Bore {
-        what,
+        rod: rod.kind,
         radius_mm,
         wall_mm,
         mouth_mm,
@@ -86,7 +88,7 @@ fn bored(workshop: &Workshop, body: &Csg, rod: &Standing) -> Result<Csg, FitErro
     Ok(body.subtract(&prism(frame, radius_mm, ends_mm)?)?)
 }
 
-/// A tip's end is round, a stem's flat.
+/// Returns a rod as a piece of hardware. A tip's end is round, a stem's flat.
 fn piece(workshop: &Workshop, rod: &Standing) -> Piece {
     let at = |z: f64| workshop.goal.frame.to_model(&Point::new(0.0, 0.0, z));
     let plain = RoundBar::plain(at(rod.inner_mm), at(rod.outer_mm), rod.rod.radius_mm());

@@ -1,22 +1,24 @@
 //! A yo-yo's halves on their axle.
 
 use super::bore::{Bore, SeatError, prism};
-use super::halves::{Halves, halves};
-use super::{FitError, Fitted, Kind, Piece, Workshop};
+use super::error::FitError;
+use super::fitted::{Fitted, Kind, Piece};
+use super::halves::{Halves, split_halves};
+use super::workshop::Workshop;
 use crate::base::units::MM3_PER_CM3;
 use crate::geom::Point;
 use crate::goal::Rod;
 use crate::mass::RoundBar;
 use crate::mesh::{Csg, Solid};
 
-/// How deep an axle may go into each half where its length is not said, in its diameters, the first
-/// that there is room for. Deeper than two it only weighs on the axis, where that helps least; with
-/// less than half a diameter glue holds nothing.
+/// The depths in each half that an axle without a length is tried at, in its diameters. Beyond two
+/// diameters it only adds mass on the axis, where mass helps least. With less than half a diameter
+/// glue does not hold.
 const DEPTHS_DIAMETERS: [f64; 7] = [2.0, 1.75, 1.5, 1.25, 1.0, 0.75, 0.5];
 
-/// The model cut across the axis at the spin point, bored for the axle, its halves `gap_mm` apart;
-/// `ring_g` is the mass of what sits on the axle in the gap.
-pub(super) fn fitted(
+/// Cuts the model across the axis at the spin point, bores it for the axle and moves its halves
+/// `gap_mm` apart. `ring_g` is the mass of the fittings on the axle in the gap.
+pub(super) fn fit(
     workshop: &Workshop,
     axle: Rod,
     gap_mm: f64,
@@ -25,32 +27,32 @@ pub(super) fn fitted(
     let frame = &workshop.goal.frame;
     let radius_mm = workshop.bore_radius_mm(&axle);
     let depth_mm = depth_mm(workshop, &axle, gap_mm)?;
-    let Halves { upper, lower } = halves(workshop, radius_mm)?;
-    let bored = prism(frame, radius_mm, [-depth_mm, depth_mm])?;
+    let Halves { upper, lower } = split_halves(workshop, radius_mm)?;
+    let socket_prism = prism(frame, radius_mm, [-depth_mm, depth_mm])?;
     let apart = |half: &Csg, side: f64| -> Result<_, FitError> {
         let shift = frame.axis() * (0.5 * side * gap_mm);
         Ok(half
-            .subtract(&bored)?
+            .subtract(&socket_prism)?
             .without_slivers()
             .to_mesh()?
             .map_vertices(|p| p + shift))
     };
     let (upper, lower) = rayon::join(|| apart(&upper, 1.0), || apart(&lower, -1.0));
     let solid = Solid::new(upper?.joined(&lower?))?;
-    let placed = Placed {
+    let seated = SeatedAxle {
         axle,
         length_mm: gap_mm + 2.0 * depth_mm,
         gap_mm,
     };
     Ok(Fitted {
         solid,
-        pieces: pieces(workshop, &placed, ring_g),
+        pieces: pieces(workshop, &seated, ring_g),
         gap_mm,
     })
 }
 
-/// How deep the axle goes into each half, mm: as its length says, or else as deep as both halves
-/// have a wall about it.
+/// Returns the depth of the axle in each half, mm. It follows from the axle's length, or is the
+/// first depth at which both halves have a wall around it.
 fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatError> {
     let (mesh, frame) = (workshop.solid.mesh(), &workshop.goal.frame);
     let sockets =
@@ -77,32 +79,31 @@ fn depth_mm(workshop: &Workshop, axle: &Rod, gap_mm: f64) -> Result<f64, SeatErr
     deepest.map_or_else(|| seats(least_mm).map(|()| least_mm), Ok)
 }
 
-/// The axle's socket from the cut to a height above or below it.
+/// Returns the axle's socket from the cut to a height above or below it.
 fn socket(workshop: &Workshop, axle: &Rod, bottom_mm: f64) -> Bore {
-    let (what, wall_mm) = (Kind::Axle.word(), workshop.allowances.wall_mm);
     Bore {
-        what,
+        rod: Kind::Axle,
         radius_mm: workshop.bore_radius_mm(axle),
-        wall_mm,
+        wall_mm: workshop.allowances.wall_mm,
         mouth_mm: 0.0,
         bottom_mm,
     }
 }
 
-/// An axle in its place.
-struct Placed {
+/// An axle between two halves.
+struct SeatedAxle {
     axle: Rod,
     length_mm: f64,
     gap_mm: f64,
 }
 
-/// The axle through the spin point, and the ring of what sits on it.
-fn pieces(workshop: &Workshop, placed: &Placed, ring_g: f64) -> Vec<Piece> {
-    let Placed {
+/// Returns the axle through the spin point, and the ring that stands for its fittings.
+fn pieces(workshop: &Workshop, seated: &SeatedAxle, ring_g: f64) -> Vec<Piece> {
+    let SeatedAxle {
         axle,
         length_mm,
         gap_mm,
-    } = *placed;
+    } = *seated;
     let at = |z: f64| workshop.goal.frame.to_model(&Point::new(0.0, 0.0, z));
     let about_q = |length_mm: f64, radius_mm| {
         RoundBar::plain(at(-0.5 * length_mm), at(0.5 * length_mm), radius_mm)

@@ -1,5 +1,4 @@
-//! The choices a job is made of besides its goal: each reads from and prints as the word used on
-//! the command line.
+//! The choices of a job besides its goal. Each is read and printed as its word in `job.toml`.
 
 use crate::base::words::choice;
 
@@ -18,7 +17,7 @@ choice! {
 }
 
 impl ModelUnit {
-    /// The unit in mm.
+    /// Returns the unit in mm.
     pub fn mm(self) -> f64 {
         match self {
             Self::Mm => 1.0,
@@ -30,17 +29,9 @@ impl ModelUnit {
 }
 
 choice! {
-    /// How the void is found.
-    Solver, "solver" {
-        /// The design region cut by the one best quadric.
-        Quadric = "quadric",
-    }
-}
-
-choice! {
-    /// Whether the object is cut so that its voids can be cleaned.
+    /// The choice to cut the object so that its voids can be cleaned.
     CutMode, "cut mode" {
-        /// Wherever a void would stay closed.
+        /// Cut wherever a void would stay closed.
         Auto = "auto",
         /// Not at all.
         Never = "never",
@@ -48,7 +39,7 @@ choice! {
 }
 
 choice! {
-    /// What aligns the parts.
+    /// The pins that align the parts.
     PinStyle, "style of pins" {
         /// Pins printed with the parts.
         Printed = "printed",
@@ -58,14 +49,14 @@ choice! {
 }
 
 impl PinStyle {
-    /// Whether they are printed.
+    /// Returns true if they are printed.
     pub fn is_printed(&self) -> bool {
         *self == Self::Printed
     }
 }
 
 choice! {
-    /// Whether parts bear their ids.
+    /// The marking of parts with their ids.
     IdStyle, "style of ids" {
         /// Sunk into the cut faces where there is room.
         Engraved = "engraved",
@@ -75,7 +66,7 @@ choice! {
 }
 
 impl IdStyle {
-    /// Whether they are sunk into the faces.
+    /// Returns true if they are engraved.
     pub fn is_engraved(&self) -> bool {
         *self == Self::Engraved
     }
@@ -88,7 +79,7 @@ choice! {
         Stl = "stl",
         /// 3MF: the parts, the assembly and the plates.
         ThreeMf = "3mf",
-        /// Everything in both; the parts' STL files are those that are judged.
+        /// Everything in both; the parts' STL files are the ones that are verified.
         Both = "both",
     }
 }

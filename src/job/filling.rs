@@ -1,4 +1,4 @@
-//! What the voids are filled with: a density.
+//! The filling of the voids: a density.
 
 use std::{fmt, str::FromStr};
 
@@ -6,25 +6,27 @@ use serde::{Deserialize, Serialize};
 
 use crate::base::words::as_text;
 
-/// A material that is poured into the voids, told by its density in g/cm³.
+/// A material that is poured into the voids, given by its density in g/cm³.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub struct Filling(f64);
 
-/// Denser than any metal that can be poured, g/cm³: a density in kg/m³ is meant.
+/// The greatest density, g/cm³: above that of any metal that can be poured. A greater number was
+/// meant in kg/m³.
 const GREATEST_G_CM3: f64 = 25.0;
 
 impl Filling {
-    /// Its density, g/cm³; positive.
+    /// Returns its density, g/cm³; positive.
     pub fn density_g_cm3(self) -> f64 {
         self.0
     }
 }
 
-/// A text that is no density.
+/// A text that is not a density.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no filling; remedy: give its density in g/cm³, above 0 and at most {GREATEST_G_CM3}, such as 2.3 for plaster"
+    "`{0}` is no filling; remedy: give its density in g/cm³, above 0 and at most \
+     {GREATEST_G_CM3}, such as 2.3 for plaster"
 )]
 pub struct FillingError(String);
 

@@ -18,7 +18,7 @@ use super::{
 };
 use crate::base::units::Length;
 use crate::goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up};
-use crate::job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling, Solver};
+use crate::job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling};
 use crate::printer::ShopError;
 
 /// What must be given, and what may be.
@@ -104,9 +104,6 @@ pub struct PrepareArgs {
     #[command(flatten)]
     pub scaling: ScalingArgs,
 
-    /// How the void is found [default: quadric]
-    #[arg(long, value_parser = words::<Solver>(Solver::WORDS), help_heading = "Method")]
-    pub solver: Option<Solver>,
     /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the
     /// wall]
     #[arg(
@@ -138,7 +135,7 @@ pub struct PrepareArgs {
 }
 
 /// The arguments that a replayed job has already decided.
-const DECIDED_BY_JOB: [&str; 29] = [
+const DECIDED_BY_JOB: [&str; 28] = [
     "printer",
     "material",
     "wall",
@@ -160,7 +157,6 @@ const DECIDED_BY_JOB: [&str; 29] = [
     "size",
     "scale",
     "unit",
-    "solver",
     "pitch",
     "cut",
     "pins",
@@ -254,7 +250,6 @@ impl PrepareArgs {
         Ok(Job {
             wall: self.wall,
             pitch: self.pitch,
-            solver: self.solver.unwrap_or(default.solver),
             cut,
             plan,
             pins: self.cutting.pins.unwrap_or(default.pins),
@@ -278,7 +273,7 @@ impl PrepareArgs {
             hardware: self.hardware.asked(),
             ..default
         };
-        Ok(asked.checked()?)
+        Ok(asked.validate()?)
     }
 }
 

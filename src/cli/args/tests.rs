@@ -6,7 +6,7 @@ use clap::CommandFactory;
 
 use super::*;
 use crate::goal::{Contact, GoalKind, Objective, SpinPoint, Up};
-use crate::job::{CutMode, ModelUnit, PartFormat, Scaling, Solver};
+use crate::job::{CutMode, ModelUnit, PartFormat, Scaling};
 
 fn parse(line: &str) -> Result<Cli, clap::Error> {
     Cli::try_parse_from(line.split_whitespace())
@@ -78,10 +78,7 @@ fn what_is_not_said_gets_the_documented_default() {
         (job.wall, job.pitch, job.printer.material),
         (None, None, None)
     );
-    assert_eq!(
-        (job.solver, job.cut, job.format),
-        (Solver::Quadric, CutMode::Auto, PartFormat::Both)
-    );
+    assert_eq!((job.cut, job.format), (CutMode::Auto, PartFormat::Both));
 }
 
 #[test]
@@ -97,7 +94,7 @@ fn directions_may_begin_with_a_minus_sign() {
 #[test]
 fn everything_that_can_be_said_arrives_in_the_job() {
     let line = "equipoise prepare m.stl --printer my.toml --material pla --goal yoyo --up x --spin-point -1,2,3 \
-                --objective dominance --scale 2.5 --wall 0.1cm --pitch 0.2 --solver quadric --cut never --out k --force --format stl";
+                --objective dominance --scale 2.5 --wall 0.1cm --pitch 0.2 --cut never --out k --force --format stl";
     let request = request(line);
     let job = &request.job;
     assert_eq!(
@@ -134,7 +131,6 @@ fn bad_arguments_are_refused_with_exit_code_2_and_clear_words() {
         ("--up --contact", "`--contact` is not a direction"),
         ("--contact highest", "is not a contact point"),
         ("--unit ft", "possible values: mm, cm, m, in"),
-        ("--solver octree", "possible values: quadric"),
         ("--objective fastest", "invalid value 'fastest'"),
         ("--threads 0", "invalid value '0'"),
         ("--threads 100000", "invalid value '100000'"),

@@ -1,6 +1,6 @@
-//! The ground every search walks on: one model, sampled once, tried at any wall, contact and axis.
+//! A model that is sampled once, so that requests can be tried at any wall, contact and axis.
 
-use super::Case;
+use super::case::Case;
 use super::reached::Reached;
 use crate::base::watch::Watch;
 use crate::goal::{
@@ -11,49 +11,50 @@ use crate::interior::{Columns, Depths};
 use crate::mass::moments_of_mesh;
 use crate::shell::Shell;
 
-/// Samples of the depth that a search aims by. A third of them, and what is found strays by some
-/// per cent from what is confirmed; three times as many cost as much more a trial and are no nearer
-/// than the confirming solve asks for.
+/// The number of depth samples of a search. With a third of them its answers differ by some per
+/// cent from the confirmed ones. Three times as many cost three times as much a trial, and the
+/// confirming solve asks for no more.
 pub(super) const FINE_SAMPLES: usize = 40_000;
-/// Samples for a first look at many axes.
+/// The number of depth samples for a first trial of many axes.
 pub(super) const COARSE_SAMPLES: usize = 8_000;
-/// Columns a side of the confirming solve. A run proves on four times as many that a goal is
-/// impossible; at 100 an answer at the very border may be another than there, at 400 the advice on
+/// The columns a side of the confirming solve. A run proves impossibility on four times as many
+/// columns. At 100 a side the two may disagree at the border of the possible. At 400 the advice on
 /// a large mesh takes three times as long.
 pub(super) const CONFIRMING_COLUMNS: usize = 200;
 
-/// Waterlines that are tried where what floats leaves it free.
+/// The number of waterlines that are tried if the waterline is free.
 const WATERLINES: usize = 12;
 
-/// A model whose depths are known.
-pub(super) struct Ground<'a> {
+/// A model with samples of its depths.
+pub(super) struct SampledModel<'a> {
     pub case: Case<'a>,
     weighed: Weighed<'a>,
     depths: Depths,
 }
 
-/// What the solver says of a request.
+/// The solver's answer to a request.
 #[derive(Debug, Clone)]
 pub(super) struct Trial {
     pub placement: Placement,
     pub solution: Solution,
-    /// How many columns it was solved on.
+    /// The number of columns it was solved on.
     pub columns: usize,
 }
 
 impl Trial {
-    /// Whether there is an interior that does what is asked.
+    /// Returns true if some interior meets the request.
     pub fn is_possible(&self) -> bool {
         self.solution.is_usable()
     }
 
-    /// Whether the spin axis passes through the model above its contact; no advice leads beside it.
+    /// Returns true if the spin axis passes through the model above its contact. Advice never moves
+    /// the axis off the model.
     pub fn meets_the_model(&self) -> bool {
         !self.placement.warnings.contains(&Warning::AxisMissesModel)
     }
 }
 
-impl<'a> Ground<'a> {
+impl<'a> SampledModel<'a> {
     pub fn new(case: Case<'a>, samples: usize) -> Self {
         let weighed = Weighed {
             solid: case.solid,
@@ -66,36 +67,36 @@ impl<'a> Ground<'a> {
         }
     }
 
-    /// What the solver says on the sampled depths; none where the request cannot be placed.
+    /// Solves a request on the sampled depths. Returns `None` if the request cannot be place.
     pub fn trial(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
-        let placement = self.placed(request, wall_mm)?;
+        let placement = self.place(request, wall_mm)?;
         let columns = self.depths.columns(wall_mm, &placement.keeps);
-        self.best(&placement, &columns, solve_on_model_columns)
+        self.best_trial(&placement, &columns, solve_on_model_columns)
     }
 
-    /// Whether the sampled depths allow it.
+    /// Returns true if a request is possible on the sampled depths.
     pub fn allows(&self, request: &Request, wall_mm: f64) -> bool {
         self.trial(request, wall_mm)
             .is_some_and(|trial| trial.is_possible())
     }
 
-    /// The same question put to exact columns, with nothing known from before; none unless the
-    /// answer is yes.
-    pub fn confirmed(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
-        let (placement, columns) = self.exact(request, wall_mm, CONFIRMING_COLUMNS)?;
-        self.best(&placement, &columns, solve)
+    /// Solves a request on exact columns, independently of the samples. Returns `None` if it is not
+    /// possible there.
+    pub fn confirm(&self, request: &Request, wall_mm: f64) -> Option<Trial> {
+        let (placement, columns) = self.exact_columns(request, wall_mm, CONFIRMING_COLUMNS)?;
+        self.best_trial(&placement, &columns, solve)
             .filter(Trial::is_possible)
     }
 
-    /// A request placed, with the exact columns of what may then be emptied, so many along the
-    /// longer side.
-    pub fn exact(
+    /// Places a request and builds the exact columns of the region that may be emptied, this many
+    /// along the longer side.
+    pub fn exact_columns(
         &self,
         request: &Request,
         wall_mm: f64,
         columns_a_side: usize,
     ) -> Option<(Placement, Columns)> {
-        let placement = self.placed(request, wall_mm)?;
+        let placement = self.place(request, wall_mm)?;
         let shell = Shell::new(
             self.case.solid,
             &placement.goal.frame,
@@ -108,8 +109,8 @@ impl<'a> Ground<'a> {
         Some((placement, columns))
     }
 
-    /// The placement of a request; none where it has none.
-    pub fn placed(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
+    /// Places a request. Returns `None` if that fails.
+    pub fn place(&self, request: &Request, wall_mm: f64) -> Option<Placement> {
         let stock = Stock {
             wall_mm,
             density_g_cm3: self.case.density_g_cm3,
@@ -117,9 +118,9 @@ impl<'a> Ground<'a> {
         place_weighed(&self.weighed, &stock, request).ok()
     }
 
-    /// The placement as it is, or, for what floats at a line that is left free, at several lines
-    /// over its height.
-    pub fn at_its_lines(&self, placement: &Placement) -> Vec<Placement> {
+    /// Returns the placement itself or, for a free waterline, the placement at several lines over
+    /// its height.
+    pub fn at_waterlines(&self, placement: &Placement) -> Vec<Placement> {
         let water = self
             .case
             .request
@@ -139,9 +140,9 @@ impl<'a> Ground<'a> {
         (1..=WATERLINES).map(at).collect()
     }
 
-    /// The best answer over the lines at which it may float; where none is possible, the first.
-    fn best(&self, placement: &Placement, columns: &Columns, ask: Ask) -> Option<Trial> {
-        let trials = self.at_its_lines(placement).into_iter().map(|placement| {
+    /// Returns the best answer over the waterlines; the first if none is possible.
+    fn best_trial(&self, placement: &Placement, columns: &Columns, ask: Ask) -> Option<Trial> {
+        let trials = self.at_waterlines(placement).into_iter().map(|placement| {
             let solution = ask(
                 &problem(&placement, columns),
                 &Settings::default(),
@@ -153,21 +154,21 @@ impl<'a> Ground<'a> {
                 solution,
             }
         });
-        let worth = |trial: &Trial| {
+        let score = |trial: &Trial| {
             if trial.is_possible() {
-                Reached::of(trial).score()
+                Reached::of(&trial.solution.certificate).score()
             } else {
                 f64::INFINITY
             }
         };
-        trials.min_by(|a, b| worth(a).total_cmp(&worth(b)))
+        trials.min_by(|a, b| score(a).total_cmp(&score(b)))
     }
 }
 
-/// A solver: for columns of the model or of the goal.
+/// A solver for columns in the model's or in the goal's frame.
 type Ask = fn(&Problem, &Settings, &Watch) -> Solution;
 
-/// The plain question: what of these columns is to be emptied for the goal.
+/// Returns the problem of emptying these columns for the goal.
 pub(super) fn problem<'p>(placement: &'p Placement, columns: &'p Columns) -> Problem<'p> {
     Problem {
         goal: &placement.goal,

@@ -1,0 +1,112 @@
+//! The remedy of a moved contact, spin point or axis.
+
+use super::moves::{Moves, Part};
+use super::nearest::{Nearest, find_nearest};
+use super::remedy::{Change, Kind, Remedy};
+use super::sampled_model::SampledModel;
+use crate::base::setting::{Key, Setting};
+use crate::base::units::show_mm;
+use crate::geom::Vector;
+use crate::goal::{Contact, Request};
+
+/// Returns the nearest move that helps, as a remedy. If no axis helps, it is also searched with the
+/// contact below the centre of mass.
+pub(super) fn remedy(model: &SampledModel, moves: &Moves) -> Remedy {
+    let found = find_nearest(model, moves);
+    let centered = if found.is_none() {
+        moves.with_centered_contact()
+    } else {
+        None
+    };
+    let nearest = centered.and_then(|moves| find_nearest(model, &moves));
+    match found.or(nearest) {
+        Some(nearest) => describe(moves, &nearest),
+        None => Remedy::dead_end(kind(moves.part), no_help(moves.part).to_owned()),
+    }
+}
+
+fn kind(part: Part) -> Kind {
+    match part {
+        Part::Contact => Kind::NearestContact,
+        Part::SpinPoint => Kind::NearestSpinPoint,
+        Part::Axis => Kind::NearestAxis,
+    }
+}
+
+/// Returns the sentence for a part that cannot be moved so that it helps.
+fn no_help(part: Part) -> &'static str {
+    match part {
+        Part::Contact => "no contact point was found on the same level that helps",
+        Part::SpinPoint => "no other spin point was found that helps",
+        Part::Axis => "no other axis was found that helps",
+    }
+}
+
+/// Returns the remedy of a step that was found.
+fn describe(moves: &Moves, nearest: &Nearest) -> Remedy {
+    let length = nearest.step.norm();
+    let amount = if moves.part == Part::Axis {
+        length.to_degrees()
+    } else {
+        length
+    };
+    let change = Change {
+        amount,
+        settings: settings(moves.part, &nearest.request),
+        words: words(moves, nearest),
+    };
+    Remedy::helping(kind(moves.part), change, &nearest.trial)
+}
+
+fn words(moves: &Moves, nearest: &Nearest) -> String {
+    let length = nearest.step.norm();
+    let towards = direction_words(&moves.frame.direction_to_model(&nearest.step));
+    let (distance, angle) = (show_mm(length), length.to_degrees());
+    let contact = match (moves.part, nearest.request.contact) {
+        (Part::Contact, _) => return format!("move the contact point {distance} toward {towards}"),
+        (Part::SpinPoint, _) => return format!("move the spin point {distance} toward {towards}"),
+        (Part::Axis, Some(Contact::Lowest)) => ", with the contact at the model's new lowest point",
+        (Part::Axis, Some(Contact::Center)) => ", with the contact below the centre of mass",
+        (Part::Axis, _) => "",
+    };
+    format!("tilt the axis by {angle:.1}° toward {towards}{contact}")
+}
+
+/// Returns the options for a moved part.
+fn settings(part: Part, request: &Request) -> Vec<Setting> {
+    let up = Setting::new(Key::Up, request.up);
+    match (part, request.contact, request.spin_point) {
+        (Part::Contact, Some(contact), _) => vec![Setting::new(Key::Contact, contact)],
+        (Part::SpinPoint, _, Some(point)) => vec![Setting::new(Key::SpinPoint, point)],
+        (_, Some(Contact::Center), _) => vec![up, Setting::new(Key::Contact, Contact::Center)],
+        _ => vec![up],
+    }
+}
+
+/// A direction this near to a coordinate axis is named by it: cos 10°.
+const ALONG_COSINE: f64 = 0.985;
+
+/// Returns a word such as "+x", or the unit vector.
+fn direction_words(direction: &Vector) -> String {
+    let unit = direction.normalize();
+    let largest = unit.iamax();
+    if unit[largest].abs() >= ALONG_COSINE {
+        let sign = if unit[largest] > 0.0 { '+' } else { '−' };
+        return format!("{sign}{}", ["x", "y", "z"][largest]);
+    }
+    format!("({:.2}, {:.2}, {:.2})", unit.x, unit.y, unit.z)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_direction_near_an_axis_is_named_by_it() {
+        assert_eq!(direction_words(&Vector::new(0.1, -3.0, 0.1)), "−y");
+        assert_eq!(
+            direction_words(&Vector::new(3.0, 0.0, 4.0)),
+            "(0.60, 0.00, 0.80)"
+        );
+    }
+}

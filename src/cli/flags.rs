@@ -1,0 +1,84 @@
+//! The flags of the command line: the one file that words a setting as a flag.
+
+use crate::base::setting::{Key, Setting, reword};
+
+/// Returns the flag of a setting, such as `--ballast=auto`.
+pub fn flag(setting: &Setting) -> String {
+    let name = name(setting.key);
+    match &setting.value {
+        Some(value) => format!("--{name}={value}"),
+        None => format!("--{name}"),
+    }
+}
+
+/// Returns the flags of several settings, as they are typed.
+pub fn flags(settings: &[Setting]) -> String {
+    settings.iter().map(flag).collect::<Vec<_>>().join(" ")
+}
+
+/// Returns a message of the library with its settings worded as flags.
+pub fn with_flags(text: &str) -> String {
+    reword(text, flag)
+}
+
+/// Returns the command that writes a shop's own profile from a printer.
+pub fn command_for_new_profile(id: &str) -> String {
+    format!("equipoise printers new --from {id} --out shop.toml")
+}
+
+/// Returns the command that writes the coupons of a printer.
+pub fn command_for_coupons(id: &str) -> String {
+    format!("equipoise coupon --printer {id}")
+}
+
+/// The mark before the table of printers in README.
+pub const TABLE_BEGIN: &str = "<!-- equipoise printers list --markdown -->";
+
+/// Returns an option's name on the command line.
+fn name(key: Key) -> String {
+    match key {
+        Key::Plan => "cut".to_owned(),
+        Key::Factor => "scale".to_owned(),
+        Key::Speed => "speed".to_owned(),
+        Key::Grade => "grade".to_owned(),
+        Key::HardwareMass => "hardware-mass".to_owned(),
+        _ => key.word().replace('_', "-"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory;
+
+    use super::*;
+    use crate::cli::args::Cli;
+
+    #[test]
+    fn every_setting_has_a_flag_that_its_command_knows() {
+        let knows = |command: &clap::Command, key: Key| {
+            let long = name(key);
+            command
+                .get_arguments()
+                .any(|argument| argument.get_long() == Some(long.as_str()))
+        };
+        let cli = Cli::command();
+        let find = |command: &clap::Command, name| command.find_subcommand(name).cloned().unwrap();
+        let prepare = find(&cli, "prepare");
+        let import = find(&find(&cli, "printers"), "import");
+        for &key in Key::ALL {
+            let command = if key == Key::List { &import } else { &prepare };
+            assert!(knows(command, key), "{key}");
+        }
+    }
+
+    #[test]
+    fn a_message_names_flags_on_the_command_line() {
+        let up = Setting::new(Key::Up, "-0.1,0,1");
+        let message = format!("give `{up}` or `{}`", Setting::open(Key::SpinPoint));
+        assert_eq!(with_flags(&message), "give --up=-0.1,0,1 or --spin-point");
+        assert_eq!(
+            flags(&[up, Setting::new(Key::Size, "62mm")]),
+            "--up=-0.1,0,1 --size=62mm"
+        );
+    }
+}

@@ -1,0 +1,86 @@
+//! The reasons why a goal cannot be placed in a model.
+
+use super::request::RequestError;
+use super::sites::Up;
+
+/// The greatest distance of a point from the model, in lengths of the model. No tip reaches farther
+/// than one length; beyond some thousands rounding would decide.
+pub(super) const FAR_LENGTHS: f64 = 10.0;
+
+/// A reason why a goal cannot be placed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GoalError {
+    /// A vector without a direction.
+    #[error("up = {0} is not a direction; give three finite numbers that are not all zero")]
+    NoDirection(Up),
+    /// The axis is still to be chosen.
+    #[error("up = auto is not a direction yet; choose one first (advice::best_orientation)")]
+    NotChosen,
+    /// A point with a coordinate that is not a number.
+    #[error("{name} = ({x}, {y}, {z}) is not a point; give three finite numbers in mm")]
+    NotAPoint {
+        /// The option's name.
+        name: &'static str,
+        /// Its x.
+        x: f64,
+        /// Its y.
+        y: f64,
+        /// Its z.
+        z: f64,
+    },
+    /// A point far away from the model.
+    #[error(
+        "{name} lies more than {FAR_LENGTHS} times the model's length away from it; give a point \
+         of the model, in mm of its \
+         final size"
+    )]
+    FarAway {
+        /// The option's name.
+        name: &'static str,
+    },
+    /// The wall is zero, negative or not a number.
+    #[error("a wall of {0} mm is not a wall; give a positive thickness")]
+    NoWall(f64),
+    /// The parts of the request do not go together.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// A top that hangs from its contact.
+    #[error(
+        "the centre of mass lies {depth_mm:.3} mm below the contact point: that is a pendulum, \
+         not a top; choose a contact below the centre, or turn the model over"
+    )]
+    ContactAboveCenter {
+        /// The depth of the centre below the contact, mm.
+        depth_mm: f64,
+    },
+    /// Nothing can hold the tip.
+    #[error(
+        "the spin axis passes through no part of the model above the contact point, so that no \
+         tip can be put in; give another contact"
+    )]
+    NoSeat,
+    /// A support without area.
+    #[error(
+        "the {vertices} lowest vertices of the model support it on a point or a line only; turn \
+         it, or give it a flat foot"
+    )]
+    NoSupport {
+        /// The number of vertices at the support plane.
+        vertices: usize,
+    },
+    /// A waterline above the model.
+    #[error(
+        "a waterline of {waterline_mm:.3} mm leaves nothing of {height_mm:.3} mm above the water; \
+         give a lower one"
+    )]
+    UnderWater {
+        /// The waterline asked for, mm above the lowest point.
+        waterline_mm: f64,
+        /// The height of the model, mm.
+        height_mm: f64,
+    },
+    /// The density is zero, negative or not a number.
+    #[error("a density of {0} g/cm³ is not a density; give a positive one")]
+    NoDensity(f64),
+}

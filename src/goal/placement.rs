@@ -1,0 +1,96 @@
+//! A goal placed in a model, and the warnings that go with it.
+
+use serde::{Deserialize, Serialize};
+
+use super::kind::{GoalKind, Objective};
+use super::rotor::Spindle;
+use super::water::Afloat;
+use crate::base::setting::{Key, Setting};
+use crate::geom::Frame;
+use crate::mass::Moments;
+use crate::shell::Keep;
+
+/// A goal placed in a model.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Goal {
+    /// The kind of goal.
+    pub kind: GoalKind,
+    /// The origin (contact, spin point, or the support's centroid) and z (spin axis, up) in model
+    /// coordinates.
+    pub frame: Frame,
+    /// The objective; it suits the kind.
+    pub objective: Objective,
+    /// Stand: the convex support polygon, counterclockwise, goal frame, mm; empty for the others.
+    pub support: Vec<[f64; 2]>,
+    /// Balance: the rotor and its end planes; `None` for the others.
+    pub spindle: Option<Spindle>,
+    /// Float: the conditions for floating upright at the waterline; `None` for the others.
+    pub afloat: Option<Afloat>,
+    /// The moments of the whole solid in the goal frame, mm.
+    pub solid: Moments,
+}
+
+/// A goal, the regions that must stay solid for it, and warnings for the user.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Placement {
+    /// The goal.
+    pub goal: Goal,
+    /// The regions that must stay solid besides the wall, model coordinates.
+    pub keeps: Vec<Keep>,
+    /// Findings that do not stop the run.
+    pub warnings: Vec<Warning>,
+}
+
+/// A remark on the placement that the user should read.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[serde(rename_all = "kebab-case", tag = "kind")]
+pub enum Warning {
+    /// The contact point hangs below the surface.
+    #[error(
+        "the contact point is in the air: the model begins {missing_mm:.3} mm above it, so that as \
+         printed it cannot spin there; put in a tip piece (`{}`), or give another contact (`{}`)",
+        any_tip(),
+        Setting::open(Key::Contact)
+    )]
+    ContactInAir {
+        /// The distance from the contact up along the axis to the surface, mm.
+        missing_mm: f64,
+    },
+    /// The top stands still on its foot instead of falling over. Its centre of mass is lower than
+    /// the contact's radius of curvature.
+    #[error(
+        "it stands still on its foot without spinning, and rights itself when tilted by \
+         {rights_to_deg:.0}°: its contact moves as that of a ball of {radius_mm:.0} mm radius, and \
+         its centre of mass is only {center_height_mm:.1} mm up; it spins upright as promised, but \
+         rubs, and does not fall when it is slow; for a top that falls put in a tip piece (`{}`)",
+        any_tip()
+    )]
+    FlatFoot {
+        /// The radius of curvature of the contact over a tilt of a degree, mm.
+        radius_mm: f64,
+        /// The height of the centre of mass, mm.
+        center_height_mm: f64,
+        /// The tilt up to which it rights itself, degrees.
+        rights_to_deg: f64,
+    },
+    /// The spin axis does not pass through the model above the contact.
+    #[error(
+        "the spin axis passes through no part of the model above the contact point; give another \
+         contact"
+    )]
+    AxisMissesModel,
+    /// A part of the model lies lower than the contact.
+    #[error(
+        "the model reaches {depth_mm:.3} mm below the contact point and will touch a flat floor \
+         first"
+    )]
+    BelowContact {
+        /// The depth of the lowest point below the contact, mm.
+        depth_mm: f64,
+    },
+}
+
+/// Returns the setting that puts in a tip.
+fn any_tip() -> Setting {
+    Setting::new(Key::Tip, "DIAMETERxLENGTH")
+}
