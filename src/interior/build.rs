@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use super::columns::Columns;
 use super::row::{Reaching, Row};
+use crate::base::setting::{Key, Setting};
 use crate::base::units::show_mm;
 use crate::base::watch::Watch;
 use crate::shell::{Bins, Ruler, Shell};
@@ -27,9 +28,10 @@ pub enum BuildError {
     #[error(
         "columns {} × {} apart are not possible here, where at most \
          {MAX_GRID_COLUMNS:.0e} may stand; \
-         remedy: give a larger --pitch or a smaller model",
+         remedy: give a larger pitch (`{}`) or a smaller model",
         show_pitch(pitch_mm[0]),
-        show_pitch(pitch_mm[1])
+        show_pitch(pitch_mm[1]),
+        Setting::open(Key::Pitch)
     )]
     Pitch {
         /// The pitch asked for, mm.

@@ -1,5 +1,6 @@
 //! Advice: remedies for an impossible goal, and hints for a kit that breaks a promise.
 
+use super::hints::hint;
 use super::outcome::{Failure, Impossible, Prepared};
 use crate::advice::{self, Case, Kind, Remedy};
 use crate::base::numbers::quantity;
@@ -7,7 +8,7 @@ use crate::base::watch::{Phase, Watch};
 use crate::error::Error;
 use crate::goal::Request;
 use crate::run::{Model, Placed, Shop};
-use crate::verify::{Check, CheckKind, FigureName};
+use crate::verify::{Check, CheckKind};
 
 /// Hint for models with hardware: remedies are searched for the bare model only.
 const BARE: &str =
@@ -60,45 +61,6 @@ pub fn remedies(
     })
 }
 
-/// Hints by the kinds of the broken checks.
-const HINTS: [(fn(&CheckKind) -> bool, &str); 8] = [
-    (
-        |kind| matches!(kind, CheckKind::Standing),
-        "lay ballast into its foot (--ballast=auto)",
-    ),
-    (
-        |kind| matches!(kind, CheckKind::AxisOffset | CheckKind::AxisTilt),
-        "a finer --pitch brings the written parts nearer to the optimum",
-    ),
-    (
-        |kind| {
-            let figure = FigureName::DominanceRatio;
-            matches!(kind, CheckKind::Dominance) || *kind == CheckKind::PromisedFigure { figure }
-        },
-        "spin it about the axis of its largest moment (--up=principal, or --up=auto for the best of all)",
-    ),
-    (
-        |kind| matches!(kind, CheckKind::Wall),
-        "give a thicker --wall, so that what is lost at sharp edges does not count",
-    ),
-    (
-        |kind| matches!(kind, CheckKind::BuildVolume),
-        "make it smaller (--size), or choose a printer with more room",
-    ),
-    (
-        |kind| kind.void().is_some() || matches!(kind, CheckKind::VoidsAsStated),
-        "make it larger with the same wall, or give the cuts yourself: edit cuts.toml and give it back with --cut",
-    ),
-    (
-        |kind| matches!(kind, CheckKind::SocketWall),
-        "give a thicker --wall, or align the parts by dowels (--pins=dowel)",
-    ),
-    (
-        |kind| matches!(kind, CheckKind::Waterline),
-        "leave the waterline free (--waterline=auto)",
-    ),
-];
-
 /// Adds the reason why a kit breaks a promise, and what helps.
 pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<Prepared, Error> {
     if prepared.passes() {
@@ -107,14 +69,17 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
     watch.enter(Phase::Advise);
     let checks = prepared.checklist.checks.iter();
     let broken: Vec<&Check> = checks.filter(|check| !check.pass).collect();
-    let hints = HINTS
-        .iter()
-        .filter(|(is_about, _)| broken.iter().any(|check| is_about(&check.kind)));
-    let hints = hints.map(|(_, hint)| *hint).chain([MORE_ROOM]);
+    let mut hints: Vec<String> = Vec::new();
+    for hint in broken.iter().filter_map(|check| hint(&check.kind)) {
+        if !hints.contains(&hint) {
+            hints.push(hint);
+        }
+    }
+    hints.push(MORE_ROOM.to_owned());
     let falls_over = broken.iter().any(|check| check.kind == CheckKind::Standing);
     let failure = Failure {
         reason: reason(&prepared, &broken),
-        hints: hints.map(str::to_owned).collect(),
+        hints,
         remedies: if falls_over {
             other_faces(placed)
         } else {

@@ -3,6 +3,7 @@
 mod advise;
 mod faces;
 mod hardware;
+mod hints;
 mod judge;
 mod levels;
 mod load;

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::Rung;
 use crate::advice::Reached;
+use crate::base::setting::{Key, Setting};
 use crate::base::units::counted;
 use crate::goal::{Request, Up};
 
@@ -187,8 +188,8 @@ impl fmt::Display for AxisChoice {
                 reached,
             } => write!(
                 f,
-                "axis {} was chosen: {possible} of {tried} axes tried allow the goal; on this one, the best near any of them, it {reached}",
-                request.up
+                "`{}` was chosen: {possible} of {tried} axes tried allow the goal; on this one, the best near any of them, it {reached}",
+                Setting::new(Key::Up, request.up)
             ),
             Self::NonePossible { up } => {
                 write!(

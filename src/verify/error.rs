@@ -45,7 +45,7 @@ pub enum VerifyError {
     },
     /// Meshes that the judgement needs are missing.
     #[error(
-        "{} missing from {folder}: {}; remedy: copy the kit again, or make it again with equipoise prepare --job {folder}/job.toml",
+        "{} missing from {folder}: {}; remedy: copy the kit again, or prepare its {folder}/job.toml again",
         if files.len() == 1 { "a file is" } else { "files are" },
         files.join(", "),
         folder = folder.display()

@@ -8,6 +8,7 @@ use zip::{CompressionMethod, System, ZipWriter, write::SimpleFileOptions};
 
 use super::names::{CONTENT_TYPES, CORE_NAMESPACE, MODEL_PART, MODEL_TYPE, RELATIONSHIPS};
 use super::transform::Transform;
+use crate::base::setting::{Key, Setting};
 use crate::geom::Point;
 use crate::mesh::TriMesh;
 use crate::repair::weld;
@@ -54,7 +55,10 @@ pub struct Object {
 
 /// The reason that a package could not be put together.
 #[derive(Debug, thiserror::Error)]
-#[error("the 3MF package {title} cannot be put together; remedy: ask for --format stl")]
+#[error(
+    "the 3MF package {title} cannot be put together; remedy: ask for STL files alone (`{}`)",
+    Setting::new(Key::Format, "stl")
+)]
 pub struct PackageError {
     /// Its title.
     title: String,

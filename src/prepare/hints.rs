@@ -1,0 +1,68 @@
+//! Hints: what is worth a try for a kit that breaks a promise.
+
+use crate::base::setting::{Key, Setting};
+use crate::verify::{CheckKind, FigureName};
+
+/// Returns what may help a broken check, `None` if nothing is known to.
+pub fn hint(kind: &CheckKind) -> Option<String> {
+    let open = Setting::open;
+    Some(match kind {
+        CheckKind::Standing => format!(
+            "lay ballast into its foot (`{}`)",
+            Setting::new(Key::Ballast, "auto")
+        ),
+        CheckKind::AxisOffset | CheckKind::AxisTilt => format!(
+            "a finer pitch (`{}`) brings the written parts nearer to the optimum",
+            open(Key::Pitch)
+        ),
+        CheckKind::Dominance
+        | CheckKind::PromisedFigure {
+            figure: FigureName::DominanceRatio,
+        } => format!(
+            "spin it about the axis of its largest moment (`{}`, or `{}` for the best of all)",
+            Setting::new(Key::Up, "principal"),
+            Setting::new(Key::Up, "auto")
+        ),
+        CheckKind::Wall => format!(
+            "give a thicker wall (`{}`), so that what is lost at sharp edges does not count",
+            open(Key::Wall)
+        ),
+        CheckKind::BuildVolume => format!(
+            "make it smaller (`{}`), or choose a printer with more room",
+            open(Key::Size)
+        ),
+        CheckKind::SocketWall => format!(
+            "give a thicker wall (`{}`), or align the parts by dowels (`{}`)",
+            open(Key::Wall),
+            Setting::new(Key::Pins, "dowel")
+        ),
+        CheckKind::Waterline => format!(
+            "leave the waterline free (`{}`)",
+            Setting::new(Key::Waterline, "auto")
+        ),
+        kind if kind.void().is_some() || *kind == CheckKind::VoidsAsStated => format!(
+            "make it larger with the same wall, or edit cuts.toml and give it back (`{}`)",
+            open(Key::Plan)
+        ),
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_hint_names_the_setting_to_change() {
+        let hint = hint(&CheckKind::Standing).unwrap();
+        assert!(hint.contains("`ballast = \"auto\"`"), "{hint}");
+    }
+
+    #[test]
+    fn a_promised_dominance_is_helped_like_dominance_itself() {
+        let promised = CheckKind::PromisedFigure {
+            figure: FigureName::DominanceRatio,
+        };
+        assert_eq!(hint(&promised), hint(&CheckKind::Dominance));
+    }
+}
