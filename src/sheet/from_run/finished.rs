@@ -9,7 +9,7 @@ use crate::mass::{Body, Moments};
 use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
 use crate::repair::weld;
-use crate::sheet::{PartRow, TurnRow};
+use crate::sheet::{Half, PartRow, TurnRow};
 
 /// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no
 /// layer is thinner than this.
@@ -24,7 +24,7 @@ pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
         .parts
         .iter()
         .zip(parts)
-        .filter(|(_, row)| row.half.as_deref() == Some("A"));
+        .filter(|(_, row)| row.half == Some(Half::A));
     let half = written
         .fold(Moments::default(), |sum, (part, _)| {
             sum + part.evidence().moments()

@@ -6,6 +6,7 @@ use crate::hardware::{Kind, Piece};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, bodies, winding_number};
 use crate::run::{Placed, WrittenPart};
+use crate::sheet::Half;
 use crate::verify::Hardware;
 
 /// Corners of a part that are looked at to tell its half.
@@ -19,7 +20,7 @@ pub fn hardware(placed: &Placed) -> Vec<Hardware> {
 }
 
 /// What to mind of an axle that goes in by less than its diameter, where the model is thin.
-pub fn shallow_axle(placed: &Placed) -> Option<String> {
+pub fn shallow_axle(placed: &Placed) -> Option<Half> {
     let pieces = placed.fitted.iter().flat_map(|fitted| &fitted.pieces);
     let axle = pieces.into_iter().find(|piece| piece.kind == Kind::Axle)?;
     let (depth_mm, diameter_mm) = (axle.depth_mm, 2.0 * axle.bar.radius_mm);
@@ -46,7 +47,7 @@ pub fn halves(placed: &Placed) -> Vec<TriMesh> {
 
 /// The half that holds the corners of a part: about those on a surface it winds in part, the other
 /// not at all.
-pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<String> {
+pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<Half> {
     let corners = written.part.solid.mesh().vertices();
     let looks = || {
         corners
@@ -54,10 +55,10 @@ pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<String> {
             .step_by(corners.len().div_ceil(SAMPLED_CORNERS).max(1))
     };
     let share = |half: &TriMesh| looks().map(|p| winding_number(half, p)).sum::<f64>();
-    let shares = halves.iter().map(share).zip(["A", "B"]);
+    let shares = halves.iter().map(share).zip([Half::A, Half::B]);
     shares
         .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, half)| half.to_owned())
+        .map(|(_, half)| half)
 }
 
 fn order(index: usize, piece: &Piece) -> Hardware {

@@ -2,7 +2,7 @@
 
 use crate::printer::Support;
 use crate::run::Placed;
-use crate::sheet::{MaterialRow, PrinterRow};
+use crate::sheet::{MaterialRow, PrinterRow, SupportMethod};
 
 /// The printer, as far as the shop and the judge need it.
 pub fn printer_row(placed: &Placed) -> PrinterRow {
@@ -11,12 +11,12 @@ pub fn printer_row(placed: &Placed) -> PrinterRow {
         id: printer.id.clone(),
         profile_sha256: printer.profile_sha256.clone(),
         name: printer.name.clone(),
-        process: printer.process.clone().unwrap_or_default(),
+        process: printer.process.clone().unwrap_or_default().into(),
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
         print_scale_ratio: scaled(printer.print_scale_ratio()),
-        support: support_word(printer.support).to_owned(),
+        support: support_method(printer.support),
         minimum_wall_mm: placed.minimum_wall_mm(),
         minimum_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
@@ -88,11 +88,11 @@ pub fn scale_note([x, y, z]: [f64; 3]) -> String {
     )
 }
 
-fn support_word(support: Support) -> &'static str {
+fn support_method(support: Support) -> SupportMethod {
     match support {
-        Support::Soluble => "soluble",
-        Support::Breakaway => "breakaway",
-        Support::WaterJet => "water-jet",
-        Support::None => "none",
+        Support::Soluble => SupportMethod::Soluble,
+        Support::Breakaway => SupportMethod::Breakaway,
+        Support::WaterJet => SupportMethod::WaterJet,
+        Support::None => SupportMethod::None,
     }
 }
