@@ -13,9 +13,9 @@ mod qr;
 mod render;
 mod scene;
 mod section;
-mod seen;
 mod shot;
 mod svg;
+mod visibility;
 
 pub(crate) use base64::base64;
 pub(crate) use callouts::Mark;

@@ -3,9 +3,10 @@
 use crate::geom::{Plane, Point};
 use crate::mesh::TriMesh;
 
-/// Returns the section of a convex body by a plane, in the coordinates of [`Plane::basis`], mm: the
-/// points where its edges cross the plane, in order around their mean. Empty if the plane misses the
-/// body.
+/// Returns the section of a convex body by a plane: the points where its edges cross the plane, in
+/// order around their mean.
+///
+/// Coordinates are those of [`Plane::basis`], mm. Empty if the plane misses the body.
 pub fn convex_section(body: &TriMesh, plane: &Plane) -> Vec<[f64; 2]> {
     let (u, v) = plane.basis();
     let flat = |p: Point| [u.dot(&p.coords), v.dot(&p.coords)];

@@ -3,10 +3,10 @@
 use super::callouts::Mark;
 use super::legend::{Key, draw_legend};
 use super::projection::Projection;
-use super::render::{PictureError, render_seen};
+use super::render::{PictureError, render_with_visibility};
 use super::scene::{Camera, Scene};
-use super::seen::Seen;
 use super::svg::Drawing;
+use super::visibility::Visibility;
 use crate::geom::Point;
 
 /// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
@@ -54,17 +54,17 @@ pub enum Label {
 impl Shot<'_> {
     /// Renders the scene; returns a PNG if it has no names and no legend, else an SVG around it.
     pub fn draw(&self) -> Result<Drawn, PictureError> {
-        let (image, seen) = render_seen(&self.scene, &self.camera);
+        let (image, visibility) = render_with_visibility(&self.scene, &self.camera);
         let png = image.to_png()?;
         let is_bare = self.labels.is_empty() && self.keys.is_empty();
         Ok(if is_bare {
             Drawn::Png(png)
         } else {
-            Drawn::Svg(self.draw_names(&png, &seen))
+            Drawn::Svg(self.draw_names(&png, &visibility))
         })
     }
 
-    fn draw_names(&self, png: &[u8], seen: &Seen) -> Drawing {
+    fn draw_names(&self, png: &[u8], visibility: &Visibility) -> Drawing {
         let projection = Projection::of(&self.scene, &self.camera, 1);
         let [width, height] = self.camera.size_px;
         let below_px = if self.keys.is_empty() {
@@ -81,14 +81,14 @@ impl Shot<'_> {
             match label {
                 Label::At(point, words) => {
                     let at = projection.at(point);
-                    let is_hidden = !seen.shows(at, projection.nearness_mm(point));
+                    let is_hidden = !visibility.shows(at, projection.nearness_mm(point));
                     marks.push(Mark {
                         is_hidden,
                         ..Mark::new(at, words.clone())
                     });
                 }
                 Label::On(item, words) => {
-                    marks.push(self.mark_item(*item, words, &projection, seen));
+                    marks.push(self.mark_item(*item, words, &projection, visibility));
                 }
                 Label::Between(ends) => {
                     drawing.dashed_line(ends.each_ref().map(|end| projection.at(end)));
@@ -103,13 +103,19 @@ impl Shot<'_> {
     }
 
     /// Returns the name of an item at the middle of its visible part, or as hidden at its centre.
-    fn mark_item(&self, item: usize, words: &str, projection: &Projection, seen: &Seen) -> Mark {
+    fn mark_item(
+        &self,
+        item: usize,
+        words: &str,
+        projection: &Projection,
+        visibility: &Visibility,
+    ) -> Mark {
         let center = || {
             let item = self.scene.items.get(item);
             let center = item.map(|item| item.mesh.aabb().center() + item.shift);
             projection.at(&center.unwrap_or(Point::origin()))
         };
-        let spot = seen.middle_of(item);
+        let spot = visibility.middle_of(item);
         Mark {
             is_hidden: spot.is_none(),
             ..Mark::new(spot.unwrap_or_else(center), words.to_owned())

@@ -1,5 +1,5 @@
-//! The exploded views: the parts drawn apart along the cuts, with the lines along which they come
-//! together; and the halves of a yo-yo drawn apart along their axle.
+//! The exploded views: the parts drawn apart along the cuts with the lines along which they come
+//! together. The halves of a yo-yo are drawn apart along their axle.
 
 use super::figure::{Draft, Role};
 use super::subject::{Subject, pins_by_part};

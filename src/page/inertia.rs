@@ -159,8 +159,8 @@ fn draw_ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     ));
 }
 
-/// Returns the semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first. The
-/// second value is the angle of the longer one, rad.
+/// Returns the semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first.
+/// The second value is the angle of the longer one, rad.
 fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
     let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
     (

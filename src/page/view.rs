@@ -24,8 +24,8 @@ const TRIANGLES: usize = 60_000;
 /// the view.
 const TOLERANCE_RATIO: f64 = 2.5e-4;
 
-/// Greatest number of times the tolerance is doubled while there are too many triangles. 64 times
-/// the first tolerance is 1.6 % of the longest side.
+/// Greatest number of times the tolerance is doubled while there are too many triangles. That makes
+/// it 1.6 % of the longest side at most.
 const DOUBLINGS: usize = 6;
 
 /// Greatest number of a packed coordinate.

@@ -39,8 +39,8 @@ impl Viewpoint {
         }
     }
 
-    /// Returns the view with room for names, and its cut through the axis if there is hardware, else
-    /// through the first piece of ballast.
+    /// Returns the view with room for names, and its cut through the axis if there is hardware,
+    /// else through the first piece of ballast.
     pub fn through_inserts(self, subject: &Subject) -> Self {
         let rods = (!subject.hardware.is_empty()).then(|| subject.aim.frame().origin);
         let lump = subject.ballast.first();

@@ -14,8 +14,8 @@ pub struct Certificate {
     /// Proved bound: no hollowing of this model does better with this wall and `kept_solid_mm3`
     /// left solid. For tops it holds for hollowings whose centre of mass is as high.
     pub bound: f64,
-    /// Volume that stays solid because voids there could not be cleaned, mm³. A minimum opening around
-    /// those voids counts too.
+    /// Volume that stays solid because voids there could not be cleaned, mm³. A minimum opening
+    /// around those voids counts too.
     pub kept_solid_mm3: f64,
     /// Optimum before anything was kept solid for cleaning; `None` in kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -62,8 +62,8 @@ pub struct CleaningRow {
     /// The certificate's figure after the round; `None` if the goal could not be met any more, so
     /// that the round was undone.
     pub value_after: Option<f64>,
-    /// `true` if the plan, not cleaning, asked for the round. A plan keeps solid what lies beyond joints
-    /// without room for pins, and what a person ordered to stay solid.
+    /// `true` if the plan, not cleaning, asked for the round. A plan keeps solid what lies beyond
+    /// joints without room for pins, and what a person ordered to stay solid.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub by_plan: bool,
 }

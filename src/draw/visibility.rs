@@ -8,7 +8,7 @@ const BEHIND_RATIO: f64 = 0.01;
 
 /// The item and the depth at every pixel of a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Seen {
+pub struct Visibility {
     /// Pixels in a row.
     pub width: usize,
     /// The index of the item seen; `None` for paper and for the cut face.
@@ -17,7 +17,7 @@ pub struct Seen {
     pub nearness_mm: Vec<f64>,
 }
 
-impl Seen {
+impl Visibility {
     /// Returns the middle of the visible region of an item: its pixel farthest from all others.
     /// `None` if the item is hidden.
     pub fn middle_of(&self, item: usize) -> Option<Spot> {
@@ -87,7 +87,7 @@ mod tests {
     use super::*;
 
     /// Returns a picture from letters: each letter is an item, dots are paper.
-    fn picture_of(rows: &[&str]) -> Seen {
+    fn picture_of(rows: &[&str]) -> Visibility {
         let items: Vec<Option<u32>> = rows
             .concat()
             .bytes()
@@ -97,7 +97,7 @@ mod tests {
             .iter()
             .map(|item| item.map_or(f64::NEG_INFINITY, f64::from))
             .collect();
-        Seen {
+        Visibility {
             width: rows[0].len(),
             items,
             nearness_mm,
