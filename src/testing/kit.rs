@@ -129,12 +129,7 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             measured_min_mm: found.wall_min_mm,
         },
         voids: vec![the_void()],
-        cuts: vec![CutRow {
-            id: "C1".into(),
-            point_mm: [0.0, 0.0, 16.0],
-            normal: [0.0, 0.0, 1.0],
-            within: Vec::new(),
-        }],
+        cuts: vec![cut()],
         parts: parts(evidence, found),
         joints: vec![joint()],
         grid: vec![grid_row()],
@@ -266,6 +261,15 @@ fn the_void() -> VoidRow {
         method: CLEANING.rule.words().into(),
         is_clean: true,
         clean: "Flush with the water jet.".into(),
+    }
+}
+
+fn cut() -> CutRow {
+    CutRow {
+        id: "C1".into(),
+        point_mm: [0.0, 0.0, 16.0],
+        normal: [0.0, 0.0, 1.0],
+        within: Vec::new(),
     }
 }
 

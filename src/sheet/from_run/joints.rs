@@ -118,8 +118,8 @@ fn why_no_bosses(made: &Made, joint: &JointNote) -> String {
     })
 }
 
-/// Returns whether a note of the plan appears at its step: a joint's warning in its row, or parts
-/// without an id in the print step.
+/// Returns whether a note of the plan appears at its step: in the row of a joint, or where parts
+/// without an id are printed.
 pub fn is_shown_at_its_step(note: &str) -> bool {
     ["joint ", "no room for an id "]
         .iter()
