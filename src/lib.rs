@@ -11,8 +11,8 @@
 //! pitch and material, [`shell`] keeps the wall, [`interior`] holds what may be emptied as exact
 //! columns, [`hollow`] solves, [`advice`] says what helps where that is impossible, [`voids`] draws
 //! the surfaces, [`cut`] opens and pins the parts, [`verify`] judges what is written without
-//! knowing how it was made, [`sheet`] and [`page`] put the job sheet together, [`kit`] writes it; [`coupon`] lets a shop measure what
-//! its printer does; [`prepare::prepare`] is that line.
+//! knowing how it was made, [`sheet`] and [`page`] put the job sheet together, [`kit`] writes it;
+//! [`coupon`] lets a shop measure what its printer does; [`prepare::prepare`] is that line.
 //!
 //! # Example
 //! ```no_run

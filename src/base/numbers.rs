@@ -1,14 +1,13 @@
-//! Numbers and quantities as people read them.
+//! Numbers and quantities as text for people.
 
-/// Digits that are shown of a number: enough to tell two parts apart on a balance, few enough to
-/// read aloud.
+/// Digits shown of a number: enough to tell two parts apart on a balance, few enough to read aloud.
 const SIGNIFICANT_DIGITS: i32 = 4;
 
-/// Below this a number is written with a power of ten.
+/// Magnitude below which a number is written with a power of ten.
 const SMALL: f64 = 1e-3;
 
-/// A number to four digits without closing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0` for zero
-/// of either sign.
+/// Returns a number to four digits without trailing zeros: `0.005`, `12.35`, `1234`, `1.5e-7`; `0`
+/// for zero of either sign.
 pub fn number(value: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
@@ -25,7 +24,7 @@ pub fn number(value: f64) -> String {
     }
 }
 
-/// A number with its unit: `12.35 mm`, `3.251°`, `0.7974`.
+/// Returns a number with its unit: `12.35 mm`, `3.251°`, `0.7974`.
 pub fn quantity(value: f64, unit: &str) -> String {
     match unit {
         "" => number(value),
@@ -34,27 +33,27 @@ pub fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// A quantity, or a dash where there is none.
+/// Returns a quantity, or a dash for `None`.
 pub fn quantity_or_dash(value: Option<f64>, unit: &str) -> String {
     value.map_or_else(|| "—".to_owned(), |value| quantity(value, unit))
 }
 
-/// Three lengths: `100 × 62.3 × 41.07 mm`.
+/// Returns three lengths: `100 × 62.3 × 41.07 mm`.
 pub fn extent(size_mm: &[f64; 3]) -> String {
     format!("{}\u{a0}mm", size_mm.map(number).join(" × "))
 }
 
-/// The coordinates of a point in mm, or of a direction, with what is below a thousandth as zero:
-/// `(0.1349, 55.76, 0)`.
+/// Returns the coordinates of a point in mm, or of a direction, with values below a thousandth as
+/// zero: `(0.1349, 55.76, 0)`.
 pub fn coordinates(at: &[f64; 3]) -> String {
-    let shown = |value: f64| {
+    let rounded = |value: f64| {
         if value.abs() < SMALL {
             number(0.0)
         } else {
             number(value)
         }
     };
-    format!("({})", at.map(shown).join(", "))
+    format!("({})", at.map(rounded).join(", "))
 }
 
 #[cfg(test)]

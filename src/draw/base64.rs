@@ -1,9 +1,9 @@
-//! Bytes as text for a data URI.
+//! Bytes as base64 text, for data URIs.
 
 /// The alphabet of RFC 4648 §4.
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
-/// The bytes in base64 with padding (RFC 4648 §4).
+/// Returns the bytes in base64 with padding (RFC 4648 §4).
 pub fn base64(bytes: &[u8]) -> String {
     let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
     for group in bytes.chunks(3) {

@@ -1,111 +1,96 @@
-//! How cut faces are filled: what is printed, hardware and ballast differ in the run of their
-//! stripes, so that grey printing and every colour vision tell them apart; and the legend that
-//! names them.
+//! The hatching of cut faces. The stripes of printed material, hardware and ballast run in
+//! different directions, so that they differ in grey print and to every colour vision.
 
-use super::palette::{BALLAST, CROSSED, Color, HARDWARE, HATCH, RODS, SECTION, VOID, hex};
-use super::svg::{Anchor, Drawing, Spot, Stroke};
+use super::palette::{BALLAST, CROSSED, Color, HARDWARE, HATCH, RODS, SECTION};
+use super::svg::{Drawing, Paint, Spot, Stroke};
 
-/// Samples of a shaded picture from one stripe to the next, and how many of them are stripe: fewer
-/// melt together in print.
+/// Period of the stripes in samples of a shaded picture, and how many of them are stripe: finer
+/// stripes merge in print.
 const PERIOD_SAMPLES: [usize; 2] = [14, 4];
 
-/// Pixels of a line drawing from one stripe to the next: fewer hide small pins, more pass thin
-/// walls by.
+/// Period of the stripes in pixels of a line drawing: finer stripes hide small pins, coarser ones
+/// miss thin walls.
 const PERIOD_PX: f64 = 13.0;
 
-/// How wide a stripe of a line drawing is, pixels.
+/// Width of a stripe of a line drawing, pixels.
 const STRIPE_PX: f64 = 1.2;
 
-/// Width and height of the samples in a legend, in heights of its words.
-const SWATCH_TEXTS: [f64; 2] = [1.6, 0.9];
-
-/// What a letter takes in a legend, in heights of its words: sans-serif letters are about half as
-/// wide as high.
-const LETTER_TEXTS: f64 = 0.55;
-
-/// How stripes run.
+/// The direction of stripes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Runs {
+pub enum Stripes {
     /// From the lower left to the upper right.
     Up,
     /// From the upper left to the lower right.
     Down,
-    /// Both ways.
+    /// Both directions.
     Crossed,
 }
 
-/// What a cut face is filled with.
+/// The filling of a cut face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Hatch {
-    /// The ground of a shaded picture, and the stripes of a line drawing.
+    /// The ground in a shaded picture, the stripes in a line drawing.
     pub dark: Color,
-    /// The stripes of a shaded picture, and the ground of a line drawing.
+    /// The stripes in a shaded picture, the ground in a line drawing.
     pub pale: Color,
-    /// How the stripes run.
-    pub runs: Runs,
+    /// The direction of the stripes.
+    pub stripes: Stripes,
 }
 
 impl Hatch {
-    /// What is printed.
+    /// Printed material.
     pub const PRINTED: Self = Self {
         dark: SECTION,
         pale: HATCH,
-        runs: Runs::Up,
+        stripes: Stripes::Up,
     };
     /// Axles, tips, stems and dowels.
     pub const RODS: Self = Self {
         dark: HARDWARE,
         pale: RODS,
-        runs: Runs::Down,
+        stripes: Stripes::Down,
     };
     /// Ballast.
     pub const BALLAST: Self = Self {
         dark: CROSSED,
         pale: BALLAST,
-        runs: Runs::Crossed,
+        stripes: Stripes::Crossed,
     };
 
-    /// The colour of a sample of a shaded picture, by its place to the right and down.
+    /// Returns the colour of the sample of a shaded picture at this place to the right and down.
     pub fn color_at(&self, [x, y]: [usize; 2]) -> Color {
         let [period, wide] = PERIOD_SAMPLES;
         let up = (x + y) % period < wide;
         let down = (x + period - y % period) % period < wide;
-        let is_stripe = match self.runs {
-            Runs::Up => up,
-            Runs::Down => down,
-            Runs::Crossed => up || down,
+        let is_stripe = match self.stripes {
+            Stripes::Up => up,
+            Stripes::Down => down,
+            Stripes::Crossed => up || down,
         };
         if is_stripe { self.pale } else { self.dark }
     }
 
-    /// Fills closed lines of a drawing by the even-odd rule, and draws them.
+    /// Fills closed lines of a drawing by the even-odd rule, and draws their outline.
     pub fn fill(&self, drawing: &mut Drawing, rings: &[Vec<Spot>], outline: Stroke) {
-        drawing.path(rings, true, (Some(&hex(self.pale)), Stroke::NONE));
-        let ways: &[f64] = match self.runs {
-            Runs::Up => &[1.0],
-            Runs::Down => &[-1.0],
-            Runs::Crossed => &[1.0, -1.0],
+        drawing.path(rings, true, Paint::filled(self.pale, Stroke::NONE));
+        let ways: &[f64] = match self.stripes {
+            Stripes::Up => &[1.0],
+            Stripes::Down => &[-1.0],
+            Stripes::Crossed => &[1.0, -1.0],
         };
-        let stripes: Vec<Vec<Spot>> = ways.iter().flat_map(|way| stripes(rings, *way)).collect();
-        drawing.path(
-            &stripes,
-            false,
-            (
-                None,
-                Stroke {
-                    color: self.dark,
-                    width: STRIPE_PX,
-                    dashes: "",
-                },
-            ),
-        );
-        drawing.path(rings, true, (None, outline));
+        let stripes: Vec<Vec<Spot>> = ways
+            .iter()
+            .flat_map(|way| clip_lines(rings, *way))
+            .collect();
+        let paint = Paint::line(Stroke::solid(self.dark, STRIPE_PX));
+        drawing.path(&stripes, false, paint);
+        drawing.path(rings, true, Paint::line(outline));
     }
 }
 
-/// The stretches of the lines x + way·y = k · period that are inside closed lines, by the even-odd
-/// rule.
-fn stripes(rings: &[Vec<Spot>], way: f64) -> Vec<Vec<Spot>> {
+/// Returns the segments of the lines x + way·y = k · period that lie inside closed lines, by the
+/// even-odd rule.
+fn clip_lines(rings: &[Vec<Spot>], way: f64) -> Vec<Vec<Spot>> {
     let step = PERIOD_PX * std::f64::consts::SQRT_2;
     let across = |[x, y]: Spot| (x + way * y) / step;
     let all = || rings.iter().flatten().map(|spot| across(*spot));
@@ -143,46 +128,6 @@ fn between(a: Spot, b: Spot, share: f64) -> Spot {
     [a[0] + share * (b[0] - a[0]), a[1] + share * (b[1] - a[1])]
 }
 
-/// What a legend names.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Key {
-    /// A cut face.
-    Cut(Hatch),
-    /// A void.
-    Void,
-    /// A pin in its socket.
-    Pin,
-    /// The widest disc that passes an opening.
-    Disc,
-}
-
-/// Draws samples with their words in a row from a spot: the left end, half-way up.
-pub fn legend(drawing: &mut Drawing, start: Spot, keys: &[(Key, &str)]) {
-    let text = drawing.text_px();
-    let [wide, high] = SWATCH_TEXTS.map(|texts| texts * text);
-    let mut x = start[0];
-    for (key, words) in keys {
-        let [top, bottom] = [start[1] - 0.5 * high, start[1] + 0.5 * high];
-        let ring = vec![[x, top], [x + wide, top], [x + wide, bottom], [x, bottom]];
-        let middle = [x + 0.5 * wide, start[1]];
-        match key {
-            Key::Cut(hatch) => hatch.fill(drawing, &[ring], Stroke::THIN),
-            Key::Void => drawing.path(&[ring], true, (Some(&hex(VOID)), Stroke::THIN)),
-            Key::Pin => draw_peg(drawing, middle, [0.6 * high, high]),
-            Key::Disc => drawing.circle(middle, 0.5 * high, (Some(&hex(VOID)), Stroke::DASHED)),
-        }
-        x += wide + 0.4 * text;
-        drawing.text([x, start[1]], Anchor::Start, words);
-        x += (LETTER_TEXTS * words.chars().count() as f64 + 1.0) * text;
-    }
-}
-
-/// Draws a pin, whole, in its socket, dashed; diameters in pixels.
-pub fn draw_peg(drawing: &mut Drawing, at: Spot, [pin_px, socket_px]: [f64; 2]) {
-    drawing.circle(at, 0.5 * socket_px, (Some("#ffffff"), Stroke::DASHED));
-    drawing.circle(at, 0.5 * pin_px, (None, Stroke::THIN));
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -191,7 +136,7 @@ mod tests {
         vec![[low, low], [high, low], [high, high], [low, high]]
     }
 
-    /// The length of all stripes together.
+    /// Returns the total length of the stripes.
     fn length(stripes: &[Vec<Spot>]) -> f64 {
         stripes
             .iter()
@@ -200,12 +145,12 @@ mod tests {
     }
 
     #[test]
-    fn stripes_lie_in_the_material_and_as_far_apart_as_they_should() {
+    fn stripes_lie_in_the_material_a_period_apart() {
         let rings = [square(0.0, 400.0), square(100.0, 300.0)];
         for way in [1.0, -1.0] {
-            let found = stripes(&rings, way);
-            // Lines a period apart cover area over period; a line more or less at either end is a
-            // hundredth of that.
+            let found = clip_lines(&rings, way);
+            // Lines a period apart have a total length of area over period; one line more or less
+            // at either end is 1 % of that.
             let expected = (400.0 * 400.0 - 200.0 * 200.0) / PERIOD_PX;
             assert!((length(&found) / expected - 1.0).abs() < 0.02);
             let middle = |ends: &Vec<Spot>| between(ends[0], ends[1], 0.5);
@@ -216,7 +161,7 @@ mod tests {
     }
 
     #[test]
-    fn printed_matter_rods_and_ballast_differ_in_the_run_of_their_stripes() {
+    fn material_rods_and_ballast_differ_in_the_direction_of_their_stripes() {
         let of = |hatch: Hatch| {
             let place = |index: usize| [index % 28, index / 28];
             (0..28 * 28)
@@ -228,12 +173,12 @@ mod tests {
         assert!(
             printed != rods && count(&printed) == count(&rods) && count(&ballast) > count(&rods)
         );
-        // Up: the same one to the right and one up; down: one to the right and one down.
+        // Up stripes repeat one sample right and one up, down stripes one right and one down.
         assert!((0..26).all(|i| printed[28 + i + 1] == printed[56 + i] && rods[28 + i] == rods[56 + i + 1]));
     }
 
     #[test]
-    fn nothing_has_no_stripes() {
-        assert!(stripes(&[], 1.0).is_empty());
+    fn no_rings_have_no_stripes() {
+        assert!(clip_lines(&[], 1.0).is_empty());
     }
 }

@@ -4,10 +4,10 @@
 /// Red, green, blue.
 pub type Color = [u8; 3];
 
-/// The ink of lines and words.
+/// The ink of lines and words: almost black.
 pub const INK: Color = [26, 28, 31];
 
-/// Paper.
+/// Paper: white.
 pub const PAPER: Color = [255, 255, 255];
 
 /// The surface of the model: light grey.
@@ -16,29 +16,29 @@ pub const BODY: Color = [200, 203, 208];
 /// The inside of a void: sky blue.
 pub const VOID: Color = [86, 180, 233];
 
-/// Material seen where it is cut: vermilion, and hatched as in any drawing.
+/// Cut faces of material: vermilion, hatched.
 pub const SECTION: Color = [213, 94, 0];
 
-/// The stripes of the hatching.
+/// The stripes of cut faces of material: pale orange.
 pub const HATCH: Color = [255, 214, 170];
 
 /// Hardware: dark grey.
 pub const HARDWARE: Color = [84, 88, 96];
 
-/// The stripes of hardware where it is cut: pale grey.
+/// The stripes of cut hardware: pale grey.
 pub const RODS: Color = [222, 225, 230];
 
 /// Ballast: light steel.
 pub const BALLAST: Color = [176, 180, 190];
 
-/// The ground of ballast where it is cut, between crossed stripes: darker than hardware.
+/// The ground of cut ballast, between crossed stripes: darker than hardware.
 pub const CROSSED: Color = [52, 56, 64];
 
-/// The squares of a plate, two by two.
+/// The light and the dark squares of a build plate.
 pub const PLATE: [Color; 2] = [[238, 240, 243], [219, 223, 228]];
 
-/// Parts, in turn: six of Okabe and Ito, then paler and darker ones; neighbours in this order
-/// differ in lightness too.
+/// The colours of parts, in turn: six of Okabe and Ito, then paler and darker ones. Neighbours in
+/// this order differ in lightness too.
 pub const PARTS: [Color; 12] = [
     [240, 228, 66],
     [0, 114, 178],
@@ -54,12 +54,15 @@ pub const PARTS: [Color; 12] = [
     [150, 90, 190],
 ];
 
-/// The colour of a part.
+/// The colours of curves in a plot: blue and vermilion (Okabe and Ito), of different lightness.
+pub const CURVES: [Color; 2] = [[0, 114, 178], [213, 94, 0]];
+
+/// Returns the colour of the part with this index; colours repeat after twelve parts.
 pub fn part_color(index: usize) -> Color {
     PARTS[index % PARTS.len()]
 }
 
-/// A colour as CSS and SVG write it.
+/// Returns a colour as CSS and SVG write it: `#rrggbb`.
 pub fn hex(color: Color) -> String {
     format!(
         "#{}",
@@ -71,7 +74,7 @@ pub fn hex(color: Color) -> String {
 mod tests {
     use super::*;
 
-    /// The relative luminance of a colour (WCAG 2.2).
+    /// Returns the relative luminance of a colour (WCAG 2.2).
     fn luminance(color: Color) -> f64 {
         let linear = color.map(|channel| {
             let share = f64::from(channel) / 255.0;
@@ -84,14 +87,14 @@ mod tests {
         0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
     }
 
-    /// Their contrast, from 1 to 21 (WCAG 2.2).
+    /// Returns the contrast of two colours, from 1 to 21 (WCAG 2.2).
     fn contrast(a: Color, b: Color) -> f64 {
         let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
         a.max(b) / a.min(b)
     }
 
     #[test]
-    fn outlines_and_words_stand_out_from_every_colour_and_the_paper() {
+    fn ink_stands_out_from_every_colour_and_the_paper() {
         // WCAG 2.2 asks for 3 between the parts of a picture and 4.5 for words.
         assert!(contrast(INK, PAPER) > 4.5);
         for color in PARTS
@@ -104,8 +107,7 @@ mod tests {
 
     #[test]
     fn parts_that_follow_each_other_differ_in_grey() {
-        // A step of 1.3 in luminance is a step of a tenth of the grey scale, which an office
-        // printer keeps.
+        // A step of 1.3 in luminance is a tenth of the grey scale, which an office printer keeps.
         for pair in PARTS.windows(2) {
             assert!(contrast(pair[0], pair[1]) > 1.3, "{pair:?}");
         }
@@ -113,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_cut_void_and_outside_differs_in_grey() {
+    fn cut_faces_voids_and_outsides_differ_in_grey() {
         assert!(
             contrast(SECTION, VOID) > 1.5
                 && contrast(SECTION, BODY) > 2.0

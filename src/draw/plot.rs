@@ -1,7 +1,7 @@
-//! Curves over a number, with axes and a legend.
+//! A plot of curves with axes and a legend.
 
-use super::palette::{Color, INK, PAPER, hex};
-use super::svg::{Anchor, Drawing, Spot, Stroke};
+use super::palette::{Color, INK, PAPER};
+use super::svg::{Anchor, Drawing, Paint, Spot, Stroke};
 use crate::base::numbers::number;
 
 /// Width and height, pixels.
@@ -10,56 +10,61 @@ const SIZE_PX: [usize; 2] = [720, 460];
 /// Height of words, pixels: 7 points at half the width of an A4 page.
 const TEXT_PX: f64 = 22.0;
 
-/// The room of the curves between the axes' words: left, top, right, bottom, pixels.
+/// The frame of the curves: left, top, right, bottom, pixels.
 const FRAME_PX: [f64; 4] = [110.0, 40.0, 690.0, 380.0];
 
-/// Steps between two numbers at an axis, of which the one is taken that leaves about this many.
+/// Aimed number of intervals between the numbers on an axis.
 const TICKS: f64 = 7.0;
 
-/// How much room is left beyond the least and the greatest value, as a share of their difference.
+/// Room beyond the least and the greatest value, as a share of their difference.
 const ROOM_RATIO: f64 = 0.08;
 
-/// Curves reach no more than this many times the best value above it: what is worse only flattens
-/// the rest.
+/// Greatest value shown, in multiples of the greatest last value of a curve: worse values only
+/// flatten the rest.
 const WORST_RATIO: f64 = 4.0;
 
-/// How wide a letter is about, in the height of the words.
+/// Width of a letter, in heights of the words.
 const LETTER_RATIO: f64 = 0.55;
 
-/// The colours of the two curves (Okabe and Ito): blue and vermilion, of different lightness and
-/// with different marks.
-pub const LINES: [Color; 2] = [[0, 114, 178], [213, 94, 0]];
-
-/// A curve with its name.
+/// A curve and its name.
 pub struct Curve {
+    /// The name in the legend.
     pub name: &'static str,
+    /// The points, across and up.
     pub points: Vec<Spot>,
+    /// The colour of line and marks.
     pub color: Color,
-    /// Whether its marks are hollow squares and its line is dashed.
+    /// A flag for a dashed line with hollow squares as marks, in place of a solid one with discs.
     pub is_second: bool,
 }
 
-/// Curves over a number.
+/// Curves over the same number.
 pub struct Plot {
+    /// The words at the axis across.
     pub across: String,
+    /// The words at the axis up.
     pub up: String,
+    /// The curves.
     pub curves: Vec<Curve>,
-    /// A point to name.
+    /// A point with a name.
     pub mark: Option<(Spot, String)>,
 }
 
 impl Plot {
-    pub fn drawn(&self) -> Drawing {
+    /// Draws the plot.
+    pub fn draw(&self) -> Drawing {
         let mut drawing = Drawing::new(SIZE_PX, TEXT_PX);
         let scales = self.scales();
-        axes(&mut drawing, &scales, [&self.across, &self.up]);
+        draw_axes(&mut drawing, &scales, [&self.across, &self.up]);
         for curve in &self.curves {
             draw_curve(&mut drawing, curve, &scales);
         }
-        legend(&mut drawing, &self.curves);
+        draw_legend(&mut drawing, &self.curves);
         if let Some((at, words)) = &self.mark {
-            let [x, y] = scales.each_ref().map(|scale| scale.clamped(at[scale.axis]));
-            drawing.circle([x, y], 8.0, (Some(&hex(PAPER)), Stroke::THICK));
+            let [x, y] = scales
+                .each_ref()
+                .map(|scale| scale.clamp_at(at[scale.axis]));
+            drawing.circle([x, y], 8.0, Paint::filled(PAPER, Stroke::THICK));
             let anchor = if x > 0.6 * SIZE_PX[0] as f64 {
                 Anchor::End
             } else {
@@ -71,7 +76,7 @@ impl Plot {
         drawing
     }
 
-    /// The scales across and up.
+    /// Returns the scales across and up.
     fn scales(&self) -> [Scale; 2] {
         let [left, top, right, bottom] = FRAME_PX;
         let of = |axis: usize| {
@@ -104,14 +109,14 @@ impl Plot {
     }
 }
 
-/// The least and the greatest.
+/// Returns the least and the greatest of values.
 fn range(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| {
         (low.min(value), high.max(value))
     })
 }
 
-/// From numbers to pixels along one axis.
+/// The map from numbers to pixels along one axis.
 struct Scale {
     axis: usize,
     from: [f64; 2],
@@ -124,11 +129,12 @@ impl Scale {
         self.to[0] + share * (self.to[1] - self.to[0])
     }
 
-    fn clamped(&self, value: f64) -> f64 {
+    /// Returns the pixel of a value, with values outside of the axis put on its end.
+    fn clamp_at(&self, value: f64) -> f64 {
         self.at(value.clamp(self.from[0], self.from[1]))
     }
 
-    /// Round numbers on it.
+    /// Returns the round numbers on the axis, at most 32.
     fn ticks(&self) -> Vec<f64> {
         let step = round_step((self.from[1] - self.from[0]) / TICKS);
         let first = (self.from[0] / step).ceil() as i64;
@@ -140,7 +146,7 @@ impl Scale {
     }
 }
 
-/// The least of 1, 2 and 5 times a power of ten that is no less.
+/// Returns the least of 1, 2 and 5 times a power of ten that is not less than `step`.
 fn round_step(step: f64) -> f64 {
     let power = 10f64.powf(step.max(f64::MIN_POSITIVE).log10().floor());
     [1.0, 2.0, 5.0, 10.0]
@@ -150,13 +156,10 @@ fn round_step(step: f64) -> f64 {
         .unwrap_or(step)
 }
 
-fn axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&str; 2]) {
+/// Draws the grid, the numbers and the words of both axes.
+fn draw_axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&str; 2]) {
     let [left, top, right, bottom] = FRAME_PX;
-    let grid = Stroke {
-        color: [201, 206, 212],
-        width: 1.0,
-        dashes: "",
-    };
+    let grid = Stroke::solid([201, 206, 212], 1.0);
     for tick in across.ticks() {
         drawing.line([[across.at(tick), top], [across.at(tick), bottom]], grid);
         drawing.text(
@@ -169,18 +172,9 @@ fn axes(drawing: &mut Drawing, [across, up]: &[Scale; 2], [x_words, y_words]: [&
         drawing.line([[left, up.at(tick)], [right, up.at(tick)]], grid);
         drawing.text([left - 10.0, up.at(tick)], Anchor::End, &number(tick));
     }
-    drawing.path(
-        &[vec![[left, top], [left, bottom], [right, bottom]]],
-        false,
-        (
-            None,
-            Stroke {
-                color: INK,
-                width: 2.0,
-                dashes: "",
-            },
-        ),
-    );
+    let frame = vec![[left, top], [left, bottom], [right, bottom]];
+    let paint = Paint::line(Stroke::solid(INK, 2.0));
+    drawing.path(&[frame], false, paint);
     drawing.text([right, bottom + 2.4 * TEXT_PX], Anchor::End, x_words);
     drawing.text([10.0, 0.6 * TEXT_PX], Anchor::Start, y_words);
 }
@@ -189,28 +183,19 @@ fn draw_curve(drawing: &mut Drawing, curve: &Curve, [across, up]: &[Scale; 2]) {
     let spots: Vec<Spot> = curve
         .points
         .iter()
-        .map(|[x, y]| [across.clamped(*x), up.clamped(*y)])
+        .map(|[x, y]| [across.clamp_at(*x), up.clamp_at(*y)])
         .collect();
     draw_line(drawing, &spots, curve);
 }
 
-/// A line with its marks.
+/// Draws a line with its marks.
 fn draw_line(drawing: &mut Drawing, spots: &[Spot], curve: &Curve) {
-    let dashes = if curve.is_second { "10 6" } else { "" };
-    drawing.path(
-        &[spots.to_vec()],
-        false,
-        (
-            None,
-            Stroke {
-                color: curve.color,
-                width: 3.0,
-                dashes,
-            },
-        ),
-    );
+    let stroke = Stroke {
+        dashes: if curve.is_second { "10 6" } else { "" },
+        ..Stroke::solid(curve.color, 3.0)
+    };
+    drawing.path(&[spots.to_vec()], false, Paint::line(stroke));
     for &[x, y] in spots {
-        let color = hex(curve.color);
         if curve.is_second {
             let square = vec![
                 [x - 5.0, y - 5.0],
@@ -218,26 +203,16 @@ fn draw_line(drawing: &mut Drawing, spots: &[Spot], curve: &Curve) {
                 [x + 5.0, y + 5.0],
                 [x - 5.0, y + 5.0],
             ];
-            drawing.path(
-                &[square],
-                true,
-                (
-                    Some(&hex(PAPER)),
-                    Stroke {
-                        color: curve.color,
-                        width: 2.5,
-                        dashes: "",
-                    },
-                ),
-            );
+            let paint = Paint::filled(PAPER, Stroke::solid(curve.color, 2.5));
+            drawing.path(&[square], true, paint);
         } else {
-            drawing.circle([x, y], 5.0, (Some(&color), Stroke::NONE));
+            drawing.circle([x, y], 5.0, Paint::filled(curve.color, Stroke::NONE));
         }
     }
 }
 
-/// The names of the curves at the upper right, each with a piece of its line.
-fn legend(drawing: &mut Drawing, curves: &[Curve]) {
+/// Draws the names of the curves at the upper right, each with a piece of its line.
+fn draw_legend(drawing: &mut Drawing, curves: &[Curve]) {
     let mut right = FRAME_PX[2];
     for curve in curves.iter().rev() {
         let y = 0.6 * TEXT_PX;
@@ -259,7 +234,7 @@ mod tests {
             from: [0.13, 1.21],
             to: [0.0, 100.0],
         };
-        // A seventh of 1.08 rounds up to a fifth.
+        // A seventh of 1.08 rounds up to 0.2.
         assert_eq!(
             scale
                 .ticks()
@@ -282,6 +257,6 @@ mod tests {
             [2.0, 3.0, 4.0].map(|value| scale.at(value)),
             [380.0, 210.0, 40.0]
         );
-        assert_eq!(scale.clamped(9.0), 40.0);
+        assert_eq!(scale.clamp_at(9.0), 40.0);
     }
 }

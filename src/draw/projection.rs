@@ -1,24 +1,25 @@
-//! How a scene falls on a picture: parallel lines, fitted to the paper.
+//! The parallel projection of a scene, fitted to a picture.
 
 use super::scene::{Camera, Scene};
 use super::svg::Spot;
 use crate::geom::{Aabb, Point, Vector};
 
-/// The share of the picture left free on each side.
+/// Least share of the picture left free on each side.
 const MARGIN_RATIO: f64 = 0.04;
 
-/// A parallel projection of a scene on a picture of some pixels.
+/// A parallel projection of a scene on a picture.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Projection {
-    /// What goes right, up and toward the viewer.
+    /// Unit vectors to the right, up and toward the viewer.
     pub axes: [Vector; 3],
-    /// Pixels in a millimetre.
+    /// Pixels per millimetre.
     pub scale: f64,
     offset: Spot,
 }
 
 impl Projection {
-    /// The projection that shows all of the scene, `pixels` times as fine as the camera's.
+    /// Returns the projection that shows all of the scene, with `pixels` times as many pixels on a
+    /// side as the camera has.
     pub fn of(scene: &Scene, camera: &Camera, pixels: usize) -> Self {
         let axes = axes(camera);
         let [width, height] = camera.size_px.map(|side| side * pixels);
@@ -44,7 +45,7 @@ impl Projection {
         }
     }
 
-    /// Where a point falls: pixels to the right, pixels down.
+    /// Returns the place of a point on the picture: pixels to the right, pixels down.
     pub fn at(&self, p: &Point) -> Spot {
         let [right, up, _] = self.axes.map(|axis| axis.dot(&p.coords));
         [
@@ -53,13 +54,13 @@ impl Projection {
         ]
     }
 
-    /// How near a point is to the viewer, mm.
+    /// Returns the coordinate of a point toward the viewer, mm; larger is nearer.
     pub fn nearness_mm(&self, p: &Point) -> f64 {
         self.axes[2].dot(&p.coords)
     }
 }
 
-/// What goes right, up and toward the viewer.
+/// Returns unit vectors to the right, up and toward the viewer.
 fn axes(camera: &Camera) -> [Vector; 3] {
     let toward = camera.toward_viewer.normalize();
     let right = camera.up.cross(&toward).normalize();

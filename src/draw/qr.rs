@@ -2,12 +2,12 @@
 
 use qrcode::{Color, EcLevel, QrCode};
 
-/// The free rim around a code, modules: ISO/IEC 18004 asks for four; with less, scanners lose the
-/// corners.
+/// The free margin around a code, modules: ISO/IEC 18004 asks for four, because scanners lose the
+/// corners otherwise.
 const QUIET_MODULES: usize = 4;
 
-/// The side of a text's code in modules with its quiet rim, and the dark modules as an SVG path;
-/// none where the text is too long for a code (2 kB).
+/// Returns the side of a text's QR code with its margin, in modules, and its dark modules as an SVG
+/// path. `None` if the text is too long for a code (about 2 kB).
 pub fn code_path(text: &str) -> Option<(usize, String)> {
     let code = QrCode::with_error_correction_level(text, EcLevel::M).ok()?;
     let width = code.width();
@@ -31,9 +31,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_code_has_the_finder_of_its_corner_and_a_free_rim() {
+    fn a_code_has_its_corner_finder_and_a_free_margin() {
         let (side, path) = code_path("EQUIPOISE box SHA256 abcdef").unwrap();
-        // Version v has 4v + 17 modules; this text takes the second.
+        // Version v has 4v + 17 modules a side; this text takes version 2.
         assert_eq!(side, 25 + 8);
         // The upper left finder: seven dark modules, then a light one.
         for x in 4..11 {
@@ -43,7 +43,7 @@ mod tests {
     }
 
     #[test]
-    fn a_name_too_long_for_a_code_gets_none() {
+    fn a_text_too_long_for_a_code_gets_none() {
         assert!(code_path(&"x".repeat(5000)).is_none());
     }
 }

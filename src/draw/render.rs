@@ -1,33 +1,34 @@
-//! A small z-buffer: shaded and outlined meshes to PNG, the same bytes on every machine thread
-//! count.
+//! A small z-buffer that renders shaded and outlined meshes to PNG, with the same bytes on any
+//! number of threads.
 
 use super::hatch::Hatch;
 use super::palette::{Color, INK};
 use super::projection::Projection;
 use super::scene::{Camera, Item, Scene};
-use super::seen::Seen;
+use super::visibility::Visibility;
 use crate::geom::{Plane, Point, Vector};
 
-/// Paper.
+/// The colour of paper.
 const BACKGROUND: Color = [255, 255, 255];
 
 /// Samples along each side of a pixel: 1 leaves jagged edges, 3 costs twice as much for little.
 const SAMPLES: usize = 2;
 
-/// The light that reaches a face turned away from the lamp; the rest is the lamp's.
+/// Share of the light that reaches a face turned away from the lamp.
 const AMBIENT_RATIO: f64 = 0.5;
 
-/// Where the lamp stands, in (right, up, toward the viewer): over the viewer's left shoulder.
+/// Direction to the lamp as (right, up, toward the viewer): over the viewer's left shoulder.
 const LAMP: [f64; 3] = [-0.4, 0.5, 0.77];
 
-/// A step in depth of more than this share of the scene's draws an outline; a smooth surface has
+/// Least step in depth that draws an outline, as a share of the scene's depth. A smooth surface has
 /// such steps only within 2° of its silhouette.
 const STEP_RATIO: f64 = 0.02;
 
-/// Faces that meet at more than 50° draw an edge: below, coarse meshes show their facets.
+/// Faces that meet at more than 50° draw an edge; with a smaller angle coarse meshes would show
+/// their facets.
 const CREASE_COSINE: f64 = 0.64;
 
-/// Why a picture cannot be written.
+/// An error of the PNG encoder.
 #[derive(Debug, thiserror::Error)]
 #[error("a picture of {width} × {height} pixels cannot be written as PNG")]
 pub struct PictureError {
@@ -36,19 +37,19 @@ pub struct PictureError {
     source: png::EncodingError,
 }
 
-/// A drawn picture, rows from the top.
+/// A rendered picture, rows from the top.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Image {
-    /// Pixels in a row.
+    /// Pixels per row.
     pub width: usize,
-    /// Rows.
+    /// Number of rows.
     pub height: usize,
-    /// The pixels.
+    /// The pixels, row by row.
     pub pixels: Vec<Color>,
 }
 
 impl Image {
-    /// The picture as the bytes of a PNG file (8 bit, RGB).
+    /// Returns the picture as the bytes of a PNG file (8 bit, RGB).
     pub fn to_png(&self) -> Result<Vec<u8>, PictureError> {
         let mut bytes = Vec::new();
         let mut encoder = png::Encoder::new(&mut bytes, self.width as u32, self.height as u32);
@@ -68,46 +69,43 @@ impl Image {
     }
 }
 
-/// Draws the scene, fitted to the picture, flat shaded and outlined. Sides turned away from the
-/// viewer are the inside of material seen through the cut, and get the item's hatching: that draws
-/// the cut face without building it.
+/// Renders the scene, fitted to the picture, flat shaded and outlined.
+///
+/// A triangle turned away from the viewer is the inside of material, seen through the cut. It gets
+/// the item's hatching, which draws the cut face without building it.
 ///
 /// About 0.1 s for 100 000 triangles at 900 × 700.
 pub fn render(scene: &Scene, camera: &Camera) -> Image {
-    render_seen(scene, camera).0
+    render_with_visibility(scene, camera).0
 }
 
-/// The same with what is seen at every pixel.
-pub fn render_seen(scene: &Scene, camera: &Camera) -> (Image, Seen) {
+/// Renders the scene as [`render`] does, and returns the item seen at every pixel with it.
+pub fn render_with_visibility(scene: &Scene, camera: &Camera) -> (Image, Visibility) {
     let mut canvas = Canvas::new(scene, camera);
     for (index, item) in scene.items.iter().enumerate() {
         for corners in item.mesh.iter_corners() {
-            canvas.draw(
-                corners.map(|corner| corner + item.shift),
-                (item, index),
-                scene.cut.as_ref(),
-            );
+            canvas.draw(corners.map(|corner| corner + item.shift), item, index);
         }
     }
-    canvas.outline();
-    (canvas.resolve(), canvas.seen())
+    canvas.ink_outlines();
+    (canvas.resolve(), canvas.visible_items())
 }
 
-/// What is seen at a sample.
+/// The surface seen at a sample.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Sample {
-    /// mm toward the viewer.
+    /// The coordinate toward the viewer, mm.
     depth: f64,
     color: Color,
-    /// Which item it belongs to, or its cut face; zero for paper.
+    /// The number of the item or of the kind of cut face; zero for paper.
     surface: u32,
     normal: [f32; 3],
 }
 
-/// The surface of the first kind of cut face, the next are even too; those of items are odd.
+/// The number of the first kind of cut face. Cut faces have even numbers, items odd ones.
 const CUT_FACE: u32 = 2;
 
-/// Nothing but paper.
+/// A sample of paper.
 const EMPTY: Sample = Sample {
     depth: f64::NEG_INFINITY,
     color: BACKGROUND,
@@ -115,15 +113,23 @@ const EMPTY: Sample = Sample {
     normal: [0.0; 3],
 };
 
-/// The samples drawn so far, and how the scene falls on them.
+/// A triangle as it is drawn: its sample but for the depth, and the hatching of a cut face.
+#[derive(Clone, Copy)]
+struct Face {
+    sample: Sample,
+    hatch: Option<Hatch>,
+}
+
+/// The samples drawn so far, and the projection of the scene on them.
 struct Canvas {
     width: usize,
     height: usize,
     projection: Projection,
+    cut: Option<Plane>,
     samples: Vec<Sample>,
 }
 
-/// A corner on the canvas: samples to the right, samples down, mm toward the viewer, mm beyond the
+/// A vertex on the canvas: samples to the right, samples down, mm toward the viewer, mm beyond the
 /// cut.
 type Corner = [f64; 4];
 
@@ -135,30 +141,32 @@ impl Canvas {
             width,
             height,
             projection,
+            cut: scene.cut,
             samples: vec![EMPTY; width * height],
         }
     }
 
-    fn project(&self, p: &Point, cut: Option<&Plane>) -> Corner {
-        let beyond = cut.map_or(-1.0, |plane| plane.distance(p));
+    fn project(&self, p: &Point) -> Corner {
+        let beyond = self.cut.as_ref().map_or(-1.0, |plane| plane.distance(p));
         let [right, down] = self.projection.at(p);
         [right, down, self.projection.nearness_mm(p), beyond]
     }
 
-    fn draw(&mut self, corners: [Point; 3], (item, index): (&Item, usize), cut: Option<&Plane>) {
-        let [a, b, c] = corners.each_ref().map(|corner| self.project(corner, cut));
+    /// Draws a triangle of the item with this index.
+    fn draw(&mut self, corners: [Point; 3], item: &Item, index: usize) {
+        let [a, b, c] = corners.each_ref().map(|corner| self.project(corner));
         let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if area == 0.0 || area.is_nan() {
             return;
         }
-        // Rows count downward, so a triangle that faces the viewer turns the other way here.
-        let hatch = (cut.is_some() && area > 0.0).then_some(item.hatch);
-        let drawn = match hatch {
+        // Rows count downward, so a triangle that faces the viewer turns clockwise here.
+        let hatch = (self.cut.is_some() && area > 0.0).then_some(item.hatch);
+        let sample = match hatch {
             Some(hatch) => Sample {
-                surface: CUT_FACE + 2 * hatch.runs as u32,
+                surface: CUT_FACE + 2 * hatch.stripes as u32,
                 ..EMPTY
             },
-            None => self.shaded(&corners, item.color, 2 * index as u32 + 1),
+            None => self.shade(&corners, item.color, 2 * index as u32 + 1),
         };
         let span = |axis: usize, limit: usize| {
             let low = a[axis].min(b[axis]).min(c[axis]).floor().max(0.0) as usize;
@@ -169,21 +177,17 @@ impl Canvas {
                 .clamp(0.0, limit as f64) as usize;
             low..high
         };
+        let face = Face { sample, hatch };
         for y in span(1, self.height) {
             for x in span(0, self.width) {
-                self.draw_sample([x, y], [a, b, c], (drawn, hatch));
+                self.draw_sample([x, y], [a, b, c], face);
             }
         }
     }
 
-    /// Draws one sample if the triangle covers it, in front of what is there, on this side of the
-    /// cut.
-    fn draw_sample(
-        &mut self,
-        [x, y]: [usize; 2],
-        [a, b, c]: [Corner; 3],
-        (drawn, hatch): (Sample, Option<Hatch>),
-    ) {
+    /// Draws one sample of a triangle that covers it. The triangle must lie on this side of the cut
+    /// and in front of what is drawn there.
+    fn draw_sample(&mut self, [x, y]: [usize; 2], [a, b, c]: [Corner; 3], face: Face) {
         let (px, py) = (x as f64 + 0.5, y as f64 + 0.5);
         let side = |p: Corner, q: Corner| (q[0] - p[0]) * (py - p[1]) - (q[1] - p[1]) * (px - p[0]);
         let (u, v, w) = (side(b, c), side(c, a), side(a, b));
@@ -194,17 +198,17 @@ impl Canvas {
         let mix = |i: usize| (u * a[i] + v * b[i] + w * c[i]) / sum;
         let sample = &mut self.samples[y * self.width + x];
         if mix(3) <= 0.0 && mix(2) > sample.depth {
-            let color = hatch.map_or(drawn.color, |hatch| hatch.color_at([x, y]));
+            let hatched = face.hatch.map(|hatch| hatch.color_at([x, y]));
             *sample = Sample {
                 depth: mix(2),
-                color,
-                ..drawn
+                color: hatched.unwrap_or(face.sample.color),
+                ..face.sample
             };
         }
     }
 
-    /// A face as the lamp shows it, by its slope.
-    fn shaded(&self, [a, b, c]: &[Point; 3], color: Color, surface: u32) -> Sample {
+    /// Returns a triangle of an item in the light of the lamp.
+    fn shade(&self, [a, b, c]: &[Point; 3], color: Color, surface: u32) -> Sample {
         let normal = (b - a).cross(&(c - a));
         let slope = Vector::from(self.projection.axes.map(|axis| axis.dot(&normal))).normalize();
         let lit = slope.dot(&Vector::from(LAMP)).max(0.0);
@@ -218,8 +222,8 @@ impl Canvas {
         }
     }
 
-    /// Inks the samples where one surface ends before another, or bends sharply.
-    fn outline(&mut self) {
+    /// Inks the samples where one surface ends in front of another or bends sharply.
+    fn ink_outlines(&mut self) {
         let depths = || {
             self.samples
                 .iter()
@@ -232,21 +236,23 @@ impl Canvas {
         let step_mm = STEP_RATIO * (high - low);
         let pairs =
             (0..self.samples.len()).flat_map(|at| self.neighbours(at).map(move |next| [at, next]));
-        let inked: Vec<usize> = pairs.filter_map(|pair| self.inked(pair, step_mm)).collect();
+        let inked: Vec<usize> = pairs
+            .filter_map(|pair| self.edge_between(pair, step_mm))
+            .collect();
         inked
             .into_iter()
             .for_each(|at| self.samples[at].color = INK);
     }
 
-    /// The sample at the right of one and the one below it.
+    /// Returns the samples to the right of one and below it.
     fn neighbours(&self, at: usize) -> impl Iterator<Item = usize> + use<> {
         let right = Some(at + 1).filter(|next| !next.is_multiple_of(self.width));
         let below = Some(at + self.width).filter(|next| *next < self.samples.len());
         right.into_iter().chain(below)
     }
 
-    /// The nearer of two samples, if what is seen changes between them.
-    fn inked(&self, [at, next]: [usize; 2], step_mm: f64) -> Option<usize> {
+    /// Returns the nearer of two samples if the surface changes between them.
+    fn edge_between(&self, [at, next]: [usize; 2], step_mm: f64) -> Option<usize> {
         let (here, there) = (&self.samples[at], &self.samples[next]);
         let cosine: f32 = here
             .normal
@@ -261,22 +267,22 @@ impl Canvas {
         is_edge.then_some(if there.depth > here.depth { next } else { at })
     }
 
-    /// What is seen at the first sample of each pixel.
-    fn seen(&self) -> Seen {
+    /// Returns the items at the first sample of each pixel.
+    fn visible_items(&self) -> Visibility {
         let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
         let first = |pixel: usize| {
             self.samples[pixel / width * SAMPLES * self.width + pixel % width * SAMPLES]
         };
         let item = |sample: Sample| (sample.surface % 2 == 1).then_some(sample.surface / 2);
         let pixels = || (0..width * height).map(first);
-        Seen {
+        Visibility {
             width,
             items: pixels().map(item).collect(),
             nearness_mm: pixels().map(|sample| sample.depth).collect(),
         }
     }
 
-    /// The mean of the samples of each pixel.
+    /// Returns the mean of the samples of each pixel.
     fn resolve(&self) -> Image {
         let (width, height) = (self.width / SAMPLES, self.height / SAMPLES);
         let sample = |x: usize, y: usize, channel: usize| {
@@ -333,6 +339,7 @@ mod tests {
         render(&Scene { items, cut }, &from_above())
     }
 
+    /// Returns the share of pixels that pass a test.
     fn share_of(image: &Image, test: impl Fn(&Color) -> bool) -> f64 {
         image.pixels.iter().filter(|pixel| test(pixel)).count() as f64 / image.pixels.len() as f64
     }
@@ -341,22 +348,22 @@ mod tests {
     fn a_square_fills_its_share_of_the_picture() {
         let square = block(Point::origin(), [10.0, 10.0, 1.0]);
         let filled = share_of(&draw(&[&square], None), |pixel| *pixel != BACKGROUND);
-        // 92 of 100 pixels a side; the rim pixels may be half covered on either side.
+        // 92 of 100 pixels a side; pixels on the rim may be covered in half.
         assert!((filled - 0.92 * 0.92).abs() < 2.0 * 4.0 * 92.0 / 10_000.0 / 2.0);
     }
 
     #[test]
-    fn a_disc_fills_a_quarter_of_pi_of_its_square() {
+    fn a_disc_fills_pi_over_four_of_its_square() {
         let filled = share_of(&draw(&[&ball(Point::origin(), 5.0, 64)], None), |pixel| {
             *pixel != BACKGROUND
         });
         let want = std::f64::consts::FRAC_PI_4 * 0.92 * 0.92;
-        // Half the pixels on the rim, π · 92 of them, may count either way.
+        // Of the π · 92 pixels on the rim, half may count either way.
         assert!((filled - want).abs() < 0.5 * std::f64::consts::PI * 92.0 / 10_000.0);
     }
 
     #[test]
-    fn the_nearer_face_hides_the_farther_whatever_the_order() {
+    fn the_nearer_face_hides_the_farther_in_any_order() {
         let (low, high) = (
             block(Point::origin(), [9.0; 3]),
             block(Point::new(2.0, 2.0, 20.0), [5.0; 3]),
@@ -365,7 +372,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cut_through_a_hollow_box_shows_a_frame_of_cut_around_the_void() {
+    fn a_cut_through_a_hollow_box_shows_a_frame_around_the_void() {
         let outer = block(Point::origin(), [10.0; 3]);
         let void = block(Point::new(2.0, 2.0, 2.0), [6.0; 3]).reversed();
         let plane = Plane::through(&Point::new(0.0, 0.0, 5.0), &Vector::z());
@@ -374,13 +381,13 @@ mod tests {
         let cut = share_of(&image, |pixel| *pixel != BACKGROUND && !is_floor(pixel));
         assert!((cut - 0.92 * 0.92 * 0.64).abs() < 0.02);
         assert!(share_of(&image, is_floor) > 0.28);
-        // Four diagonals of fourteen are hatched, so three pixels of seven are stripe, in part or
-        // whole: the rest is 0.31.
+        // Four diagonals of fourteen are stripes, so three pixels of seven are stripes in part or
+        // whole; the others are 0.31 of the picture.
         assert!(share_of(&image, |pixel| *pixel == CUT.dark) > 0.25);
     }
 
     #[test]
-    fn nothing_at_all_is_white_paper() {
+    fn an_empty_scene_is_white_paper() {
         assert_eq!(
             share_of(&draw(&[], None), |pixel| *pixel == BACKGROUND),
             1.0

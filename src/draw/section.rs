@@ -3,8 +3,10 @@
 use crate::geom::{Plane, Point};
 use crate::mesh::TriMesh;
 
-/// The section of a convex body: where its edges pass the plane, in order about their middle, in
-/// the plane's coordinates, mm. Empty where the plane passes it by.
+/// Returns the section of a convex body by a plane: the points where its edges cross the plane, in
+/// order around their mean.
+///
+/// Coordinates are those of [`Plane::basis`], mm. Empty if the plane misses the body.
 pub fn convex_section(body: &TriMesh, plane: &Plane) -> Vec<[f64; 2]> {
     let (u, v) = plane.basis();
     let flat = |p: Point| [u.dot(&p.coords), v.dot(&p.coords)];
@@ -23,7 +25,7 @@ pub fn convex_section(body: &TriMesh, plane: &Plane) -> Vec<[f64; 2]> {
     ring
 }
 
-/// The mean of points; not a number where there are none.
+/// Returns the mean of points; NaN if there are none.
 fn mean(points: &[[f64; 2]]) -> [f64; 2] {
     let count = points.len() as f64;
     [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count)
@@ -45,11 +47,10 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_is_cut_in_a_circle_whose_radius_follows_pythagoras() {
+    fn a_ball_is_cut_in_a_circle_by_pythagoras() {
         let ball = primitives::ball(&Point::new(1.0, 2.0, 3.0), 5.0, 5);
         let plane = Plane::through(&Point::new(0.0, 0.0, 6.0), &Vector::z());
-        // Three off the centre: 5² − 3² = 4². The facets of 20 480 triangles lie within 0.2 % of
-        // the ball.
+        // 3 mm off the centre: 5² − 3² = 4². The 20 480 facets lie within 0.2 % of the ball.
         let found = area_mm2(&convex_section(&ball, &plane));
         assert!(
             (found / (16.0 * std::f64::consts::PI) - 1.0).abs() < 0.01,
@@ -60,7 +61,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rod_cut_along_its_axis_is_a_rectangle_though_the_plane_passes_its_corners() {
+    fn a_rod_cut_along_its_axis_is_a_rectangle_even_through_its_vertices() {
         let rod = primitives::cylinder(2.0, 10.0, 32);
         let along = Plane::through(&Point::origin(), &Vector::y());
         assert!((area_mm2(&convex_section(&rod, &along)) - 40.0).abs() < 1e-9);

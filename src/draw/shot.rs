@@ -1,23 +1,22 @@
 //! A scene as a picture with names on it, each with a line to what it names.
 
-use super::hatch::{Key, legend};
+use super::callouts::Mark;
+use super::legend::{Key, draw_legend};
 use super::projection::Projection;
-use super::render::{PictureError, render_seen};
+use super::render::{PictureError, render_with_visibility};
 use super::scene::{Camera, Scene};
-use super::seen::Seen;
-use super::svg::{Drawing, Mark};
+use super::svg::Drawing;
+use super::visibility::Visibility;
 use crate::geom::Point;
 
 /// Height of the words on a picture of the whole, pixels: 7 points at half the width of an A4 page.
 pub const TEXT_PX: f64 = 22.0;
-
-/// The height of a legend, in heights of its words.
+/// Height of a legend, in heights of its words.
 const LEGEND_TEXTS: f64 = 1.8;
-
-/// How far from the left edge a legend begins, pixels.
+/// Distance of a legend from the left edge, pixels.
 const LEGEND_PX: f64 = 14.0;
 
-/// What a picture is made of.
+/// A finished drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Drawn {
     /// The bytes of a PNG file.
@@ -28,62 +27,44 @@ pub enum Drawn {
 
 /// A scene with names on it, before it is drawn.
 pub struct Shot<'a> {
-    /// What is drawn.
+    /// The meshes.
     pub scene: Scene<'a>,
-    /// How it is looked at.
+    /// The direction from which they are seen.
     pub camera: Camera,
     /// The height of words, pixels.
     pub text_px: f64,
     /// The names on the picture.
     pub labels: Vec<Label>,
-    /// The entries of the legend below the picture.
+    /// The entries of the legend below the picture; without entries there is no legend.
     pub keys: Vec<(Key, &'static str)>,
 }
 
-/// Words on a picture.
+/// Words on a picture, placed in the scene.
 pub enum Label {
-    /// At the side, with a line to this point of the scene.
+    /// A name at the side, with a line to this point.
     At(Point, String),
-    /// At the side, with a line to where most of this item is seen.
+    /// A name at the side, with a line to the middle of the visible part of this item.
     On(usize, String),
-    /// A line between two points of the scene.
+    /// A dashed line between two points.
     Between([Point; 2]),
-    /// A length between two points of the scene, drawn this many pixels aside.
+    /// A length between two points, drawn this many pixels aside.
     Length([Point; 2], [f64; 2], String),
 }
 
 impl Shot<'_> {
-    /// Draws the scene with its names.
+    /// Renders the scene; returns a PNG if it has no names and no legend, else an SVG around it.
     pub fn draw(&self) -> Result<Drawn, PictureError> {
-        let (image, seen) = render_seen(&self.scene, &self.camera);
+        let (image, visibility) = render_with_visibility(&self.scene, &self.camera);
         let png = image.to_png()?;
         let is_bare = self.labels.is_empty() && self.keys.is_empty();
         Ok(if is_bare {
             Drawn::Png(png)
         } else {
-            Drawn::Svg(self.labelled(&png, &seen))
+            Drawn::Svg(self.draw_names(&png, &visibility))
         })
     }
 
-    /// The name of an item: at the middle of what is seen of it, or dashed at its own middle where
-    /// it is hidden.
-    fn named(&self, item: usize, words: &str, (projection, seen): (&Projection, &Seen)) -> Mark {
-        let middle = || {
-            let of = self
-                .scene
-                .items
-                .get(item)
-                .map(|item| item.mesh.aabb().center() + item.shift);
-            projection.at(&of.unwrap_or(Point::origin()))
-        };
-        let spot = seen.middle_of(item);
-        Mark {
-            is_hidden: spot.is_none(),
-            ..Mark::new(spot.unwrap_or_else(middle), words.to_owned())
-        }
-    }
-
-    fn labelled(&self, png: &[u8], seen: &Seen) -> Drawing {
+    fn draw_names(&self, png: &[u8], visibility: &Visibility) -> Drawing {
         let projection = Projection::of(&self.scene, &self.camera, 1);
         let [width, height] = self.camera.size_px;
         let below_px = if self.keys.is_empty() {
@@ -93,25 +74,24 @@ impl Shot<'_> {
         };
         let mut drawing = Drawing::new([width, height + below_px as usize], self.text_px);
         drawing.picture(png, self.camera.size_px, 1.0);
-        legend(
-            &mut drawing,
-            [LEGEND_PX, height as f64 + 0.5 * below_px],
-            &self.keys,
-        );
+        let legend_at = [LEGEND_PX, height as f64 + 0.5 * below_px];
+        draw_legend(&mut drawing, legend_at, &self.keys);
         let mut marks = Vec::new();
         for label in &self.labels {
             match label {
                 Label::At(point, words) => {
                     let at = projection.at(point);
-                    let is_hidden = !seen.shows(at, projection.nearness_mm(point));
+                    let is_hidden = !visibility.shows(at, projection.nearness_mm(point));
                     marks.push(Mark {
                         is_hidden,
                         ..Mark::new(at, words.clone())
                     });
                 }
-                Label::On(item, words) => marks.push(self.named(*item, words, (&projection, seen))),
+                Label::On(item, words) => {
+                    marks.push(self.mark_item(*item, words, &projection, visibility));
+                }
                 Label::Between(ends) => {
-                    drawing.dashed(ends.each_ref().map(|end| projection.at(end)))
+                    drawing.dashed_line(ends.each_ref().map(|end| projection.at(end)));
                 }
                 Label::Length(ends, aside, words) => {
                     drawing.dimension(ends.each_ref().map(|end| projection.at(end)), *aside, words);
@@ -120,5 +100,25 @@ impl Shot<'_> {
         }
         drawing.callouts(&marks);
         drawing
+    }
+
+    /// Returns the name of an item at the middle of its visible part, or as hidden at its centre.
+    fn mark_item(
+        &self,
+        item: usize,
+        words: &str,
+        projection: &Projection,
+        visibility: &Visibility,
+    ) -> Mark {
+        let center = || {
+            let item = self.scene.items.get(item);
+            let center = item.map(|item| item.mesh.aabb().center() + item.shift);
+            projection.at(&center.unwrap_or(Point::origin()))
+        };
+        let spot = visibility.middle_of(item);
+        Mark {
+            is_hidden: spot.is_none(),
+            ..Mark::new(spot.unwrap_or_else(center), words.to_owned())
+        }
     }
 }

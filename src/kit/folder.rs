@@ -1,4 +1,4 @@
-//! Writing a kit: whole or not at all.
+//! The kit as a folder that is written whole or not at all.
 
 use std::fs;
 use std::io::{self, Write};
@@ -10,34 +10,35 @@ pub struct Kit {
     files: Vec<(String, Vec<u8>)>,
 }
 
-/// What to do if the target exists.
+/// The treatment of an existing target.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Existing {
     /// Leave it and fail.
     Keep,
-    /// Put the new kit in its place, once that is wholly written.
+    /// Replace it, once the new kit is completely written.
     Replace,
 }
 
 impl Existing {
-    /// Whether a kit may take `target`, tried before any work is done by making a hidden folder
-    /// beside it and removing it again; see [`Kit::write`].
+    /// Returns an error if a kit cannot be written to `target`. The test makes a hidden folder
+    /// beside it and removes it again, so that a run can stop before its work; see [`Kit::write`].
     pub fn allows(self, target: &Path) -> Result<(), KitError> {
-        may_take(target, self)?;
+        check_target(target, self)?;
         Staging::beside(target).map(drop)
     }
 }
 
-/// Why a kit was not written; nothing is left behind.
+/// The reason why a kit was not written; nothing is left behind.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum KitError {
-    /// The folder is there already.
+    /// The folder exists already.
     #[error("{target} exists; choose another with --out, or replace it with --force")]
     Exists {
         /// The folder.
         target: PathBuf,
     },
-    /// The target is there and no folder.
+    /// The target exists and is no folder.
     #[error("{target} is a file, not a folder; choose another with --out")]
     NotAFolder {
         /// The file.
@@ -68,9 +69,9 @@ pub enum KitError {
     /// The system refused.
     #[error("cannot write {path}; is there room, and may you write there?")]
     Write {
-        /// Where.
+        /// The file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: io::Error,
     },
 }
@@ -81,37 +82,37 @@ impl Kit {
         self.files.push((file.to_owned(), bytes));
     }
 
-    /// The files, in the order they were added.
+    /// Returns the files in the order they were added.
     pub fn files(&self) -> impl ExactSizeIterator<Item = (&str, &[u8])> {
         self.files
             .iter()
             .map(|(file, bytes)| (file.as_str(), bytes.as_slice()))
     }
 
-    /// Writes the kit as the folder `target`, making its parents where they are missing.
+    /// Writes the kit as the folder `target` and makes missing parents.
     ///
     /// The files are written and synced in a hidden folder beside the target, which is then
-    /// renamed: another program sees the old kit or the new one, never a part of one. On any error
-    /// the old kit is where it was and nothing else is left.
+    /// renamed. Another program sees the old kit or the new one, never a part of one. After an
+    /// error the old kit is in its place and nothing else is left.
     pub fn write(&self, target: &Path, existing: Existing) -> Result<(), KitError> {
-        may_take(target, existing)?;
+        check_target(target, existing)?;
         let staging = Staging::beside(target)?;
         for (file, bytes) in self.files() {
             write_file(&staging.path, file, bytes)?;
         }
         staging.sync()?;
-        staging.take_the_place_of(target)
+        staging.replace(target)
     }
 }
 
-/// What a set of coupons is told by.
+/// The file by which a set of coupons is recognised.
 pub const COUPON_FILE: &str = "coupon.json";
 
-/// The files by which a folder is known as one of ours.
+/// The files by which a folder is recognised as a kit or a set of coupons.
 const SIGNS: [&str; 2] = ["checklist.json", COUPON_FILE];
 
-/// Whether the target may be written before anything is.
-fn may_take(target: &Path, existing: Existing) -> Result<(), KitError> {
+/// Returns an error if the target may not be written.
+fn check_target(target: &Path, existing: Existing) -> Result<(), KitError> {
     let target_path = target.to_owned();
     match (fs::symlink_metadata(target), existing) {
         (Err(source), _) if source.kind() == io::ErrorKind::NotFound => Ok(()),
@@ -136,13 +137,13 @@ fn may_take(target: &Path, existing: Existing) -> Result<(), KitError> {
     }
 }
 
-/// Whether a folder can be read and holds nothing.
+/// Returns whether a folder can be read and is empty.
 fn is_empty(folder: &Path) -> bool {
     fs::read_dir(folder).is_ok_and(|mut entries| entries.next().is_none())
 }
 
-/// A hidden folder beside the target; removed when dropped, on a panic too, with the parents made
-/// for it.
+/// A hidden folder beside the target. Dropping it removes it and the parents made for it, also on a
+/// panic.
 struct Staging {
     path: PathBuf,
     made_parents: Vec<PathBuf>,
@@ -150,8 +151,8 @@ struct Staging {
 
 impl Drop for Staging {
     fn drop(&mut self) {
-        // After the rename the folder is gone and its parents are not empty, so nothing more
-        // happens; if removing fails there is nothing to be done about it.
+        // After the rename the folder is gone and its parents are not empty, so nothing is removed.
+        // A failure to remove cannot be reported from here.
         let _ = fs::remove_dir_all(&self.path);
         for parent in &self.made_parents {
             let _ = fs::remove_dir(parent);
@@ -167,44 +168,44 @@ impl Staging {
             .take_while(|p| !p.as_os_str().is_empty() && !p.exists());
         let made_parents = missing.map(Path::to_owned).collect();
         let staging = Self {
-            path: sibling(target, "new")?,
+            path: hidden_sibling(target, "new")?,
             made_parents,
         };
-        fs::create_dir_all(parent).map_err(failed(parent))?;
-        fs::create_dir(&staging.path).map_err(failed(&staging.path))?;
+        fs::create_dir_all(parent).map_err(write_error(parent))?;
+        fs::create_dir(&staging.path).map_err(write_error(&staging.path))?;
         Ok(staging)
     }
 
-    /// Asks the system to put every folder of the kit on the disk.
+    /// Asks the system to write the folder of the kit to the disk.
     fn sync(&self) -> Result<(), KitError> {
         sync_folder(&self.path)
     }
 
-    /// Renames the staging folder to the target, an existing target aside first and back again if
-    /// that fails.
-    fn take_the_place_of(self, target: &Path) -> Result<(), KitError> {
+    /// Renames the hidden folder to the target. An existing target is renamed aside first, and back
+    /// if that fails.
+    fn replace(self, target: &Path) -> Result<(), KitError> {
         if !target.exists() {
             return self.rename_to(target);
         }
-        let aside = sibling(target, "old")?;
-        fs::rename(target, &aside).map_err(failed(target))?;
+        let aside = hidden_sibling(target, "old")?;
+        fs::rename(target, &aside).map_err(write_error(target))?;
         match self.rename_to(target) {
-            Ok(()) => fs::remove_dir_all(&aside).map_err(failed(&aside)),
+            Ok(()) => fs::remove_dir_all(&aside).map_err(write_error(&aside)),
             Err(error) => {
-                fs::rename(&aside, target).map_err(failed(&aside))?;
+                fs::rename(&aside, target).map_err(write_error(&aside))?;
                 Err(error)
             }
         }
     }
 
     fn rename_to(&self, target: &Path) -> Result<(), KitError> {
-        fs::rename(&self.path, target).map_err(failed(target))?;
+        fs::rename(&self.path, target).map_err(write_error(target))?;
         sync_folder(folder_of(target))
     }
 }
 
-/// A hidden name beside the target that no other run uses at the same time.
-fn sibling(target: &Path, purpose: &str) -> Result<PathBuf, KitError> {
+/// Returns a hidden path beside the target that no other run uses at the same time.
+fn hidden_sibling(target: &Path, purpose: &str) -> Result<PathBuf, KitError> {
     let name = target.file_name().ok_or_else(|| KitError::NoName {
         target: target.to_owned(),
     })?;
@@ -216,7 +217,7 @@ fn sibling(target: &Path, purpose: &str) -> Result<PathBuf, KitError> {
     Ok(folder_of(target).join(name))
 }
 
-/// The folder a path lies in.
+/// Returns the folder that holds a path.
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
@@ -235,26 +236,27 @@ fn write_file(folder: &Path, file: &str, bytes: &[u8]) -> Result<(), KitError> {
         });
     }
     let path = folder.join(file);
-    fs::create_dir_all(folder_of(&path)).map_err(failed(&path))?;
-    let mut opened = fs::File::create_new(&path).map_err(failed(&path))?;
+    fs::create_dir_all(folder_of(&path)).map_err(write_error(&path))?;
+    let mut opened = fs::File::create_new(&path).map_err(write_error(&path))?;
     opened
         .write_all(bytes)
         .and_then(|()| opened.sync_all())
-        .map_err(failed(&path))
+        .map_err(write_error(&path))
 }
 
-/// Asks the system to put a folder's entries on the disk, where it can do that for folders.
+/// Asks the system to write a folder's entries to the disk, if it can do that for folders.
 fn sync_folder(folder: &Path) -> Result<(), KitError> {
     if cfg!(unix) {
         fs::File::open(folder)
             .and_then(|opened| opened.sync_all())
-            .map_err(failed(folder))
+            .map_err(write_error(folder))
     } else {
         Ok(())
     }
 }
 
-fn failed(path: &Path) -> impl FnOnce(io::Error) -> KitError {
+/// Returns a function that adds the path to an error of the system.
+fn write_error(path: &Path) -> impl FnOnce(io::Error) -> KitError {
     move |source| KitError::Write {
         path: path.to_owned(),
         source,
@@ -312,7 +314,7 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_that_is_no_kit_is_never_replaced_but_an_empty_one_is_filled() {
+    fn a_folder_that_is_no_kit_is_kept_but_an_empty_one_is_filled() {
         let room = tempfile::tempdir().unwrap();
         let home = room.path().join("home");
         fs::create_dir(&home).unwrap();
@@ -326,7 +328,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_in_the_way_is_refused_and_left() {
+    fn a_file_in_the_way_is_kept() {
         let room = tempfile::tempdir().unwrap();
         let target = room.path().join("kit");
         fs::write(&target, "mine").unwrap();
@@ -339,7 +341,7 @@ mod tests {
     }
 
     #[test]
-    fn a_kit_that_cannot_be_finished_leaves_nothing_and_the_old_one_whole() {
+    fn a_kit_that_fails_leaves_the_old_one_whole() {
         let room = tempfile::tempdir().unwrap();
         let target = room.path().join("kit");
         kit("one").write(&target, Existing::Keep).unwrap();

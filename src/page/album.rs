@@ -1,4 +1,4 @@
-//! The pictures of a kit: the model, the cut-away, the parts apart, and each part as it is printed.
+//! The pictures of a kit: the model, the cut-away, the parts apart, and each part in print pose.
 
 use rayon::prelude::*;
 
@@ -7,74 +7,82 @@ use super::curves;
 use super::cut_drawing::{self, CutFace};
 use super::figure::{Draft, Picture, Role};
 use super::inertia;
-use super::inserts::{drawn, drawn_lump};
+use super::inserts::{lump_mesh, rod_mesh};
 use super::plate;
 use super::subject::{Subject, parts_in_model};
 use super::viewpoint::Viewpoint;
 use crate::draw::{
     BALLAST, BODY, HARDWARE, Hatch, Item, Key, Label, PictureError, Scene, Shot, TEXT_PX, VOID,
-    convex_section, part_color, still,
+    convex_section, part_color,
 };
 use crate::geom::{Parting, Point};
 use crate::goal::GoalKind;
 use crate::mesh::TriMesh;
 use crate::sheet::Checklist;
 
-/// The same on the cover, whose pictures are smaller, pixels: 7 points at 48 mm of height.
+/// Height of the words on the cover, whose pictures are smaller, pixels: 7 points at 48 mm of
+/// height.
 const COVER_TEXT_PX: f64 = 30.0;
 
-/// Takes every picture; the same bytes on any number of threads.
+/// The meshes that are put into the parts, model frame.
+struct Inserts {
+    hardware: Vec<TriMesh>,
+    lumps: Vec<TriMesh>,
+}
+
+impl Inserts {
+    fn of(subject: &Subject) -> Self {
+        let lumps = subject.ballast.iter();
+        Self {
+            hardware: subject.hardware.iter().map(rod_mesh).collect(),
+            lumps: lumps.map(|order| lump_mesh(&order.lump)).collect(),
+        }
+    }
+
+    fn rods(&self) -> impl Iterator<Item = Item<'_>> {
+        self.hardware.iter().map(|mesh| Item {
+            hatch: Hatch::RODS,
+            ..Item::new(mesh, HARDWARE)
+        })
+    }
+
+    fn lumps(&self) -> impl Iterator<Item = Item<'_>> {
+        self.lumps.iter().map(|mesh| Item {
+            hatch: Hatch::BALLAST,
+            ..Item::new(mesh, BALLAST)
+        })
+    }
+}
+
+/// Draws the model, the cut-away, the parts apart, the halves of a yo-yo and each part; the same
+/// bytes on any number of threads.
 pub fn album(subject: &Subject) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
-    let view = Viewpoint::of(&outer, &subject.aim.frame()).through(subject);
+    let view = Viewpoint::of(&outer, &subject.aim.frame()).through_inserts(subject);
     let in_place = parts_in_model(subject.parts);
     let partings = subject.partings();
+    let inserts = Inserts::of(subject);
+    let part_boxes = subject.parts.iter().map(|part| part.mesh.aabb());
+    let plates: Vec<[TriMesh; 2]> = part_boxes.map(|part| plate::squares_under(&part)).collect();
+
+    let mut whole = model(&outer, &view, upright_caption(subject.aim.kind));
+    whole.shot.scene.items.extend(inserts.rods());
+    let mut cut_away = cut_away([&outer, &voids], &view, subject);
+    cut_away.shot.scene.items.extend(inserts.rods());
+    cut_away.shot.scene.items.extend(inserts.lumps());
     let apart = Apart::of(&in_place, &partings);
-    let hardware: Vec<TriMesh> = subject.hardware.iter().map(drawn).collect();
-    let lumps: Vec<TriMesh> = subject
-        .ballast
-        .iter()
-        .map(|order| drawn_lump(&order.lump))
-        .collect();
-    let plates: Vec<[TriMesh; 2]> = subject
-        .parts
-        .iter()
-        .map(|part| plate::under(&part.mesh.aabb()))
-        .collect();
-    let mut drafts = vec![
-        model(&outer, &view, upright(subject.aim.kind)),
-        cut_away([&outer, &voids], &view, subject),
-        apart.draft(&subject.aim.frame(), subject.promised),
-    ];
-    let rod = |mesh| Item {
-        hatch: Hatch::RODS,
-        ..still(mesh, HARDWARE)
-    };
-    drafts
-        .iter_mut()
-        .for_each(|draft| draft.shot.scene.items.extend(hardware.iter().map(rod)));
-    let lump = |mesh| Item {
-        hatch: Hatch::BALLAST,
-        ..still(mesh, BALLAST)
-    };
-    drafts[1].shot.scene.items.extend(lumps.iter().map(lump));
-    let count = subject.parts.len();
-    let names = subject
-        .hardware
-        .iter()
-        .enumerate()
-        .map(|(index, piece)| Label::On(count + index, piece.id.clone()));
-    drafts[2].shot.labels.extend(names);
-    add_ballast(&mut drafts[2].shot, subject, &lumps, &partings);
-    drafts.extend(halves(subject, &in_place, &hardware));
-    let of_parts = subject.parts.iter().zip(&plates).enumerate();
-    drafts.extend(
-        of_parts.map(|(index, (part, plate))| plate::draft(part, plate, part_color(index))),
-    );
+    let mut exploded = apart.draft(&subject.aim.frame(), subject.promised);
+    add_inserts(&mut exploded.shot, subject, &inserts, &partings);
+
+    let mut drafts = vec![whole, cut_away, exploded];
+    drafts.extend(halves(subject, &in_place, &inserts.hardware));
+    let parts = subject.parts.iter().zip(&plates).enumerate();
+    drafts.extend(parts.map(|(index, (part, plate))| plate::draft(part, plate, part_color(index))));
     drafts.par_iter().map(Draft::draw).collect()
 }
 
-/// Draws them; the same bytes on any number of threads.
+/// Draws the pictures that show numbers of the sheet: the cuts with their lengths, the mass
+/// properties and the plots of the proof. The same bytes on any number of threads.
 pub fn drawings(
     sheet: &Checklist,
     subject: &Subject,
@@ -86,27 +94,36 @@ pub fn drawings(
     Ok(drawings)
 }
 
-/// Adds the ballast to the parts drawn apart: between the parts whose cut opens its pocket.
-fn add_ballast<'a>(
+/// Adds the hardware in its place to the parts drawn apart, and the ballast between the parts whose
+/// cut opens its pocket, with their names.
+fn add_inserts<'a>(
     shot: &mut Shot<'a>,
     subject: &Subject,
-    lumps: &'a [TriMesh],
+    inserts: &'a Inserts,
     partings: &[Parting],
 ) {
+    for (piece, rod) in subject.hardware.iter().zip(inserts.rods()) {
+        add_named(shot, rod, &piece.id);
+    }
     let apart_mm = apart::apart_mm(&shot.scene.items);
-    for (order, mesh) in subject.ballast.iter().zip(lumps) {
-        let shift = apart::lump_shift(&order.lump, partings, apart_mm);
-        shot.labels
-            .push(Label::On(shot.scene.items.len(), order.id.clone()));
-        shot.scene.items.push(Item {
+    for (order, mesh) in subject.ballast.iter().zip(&inserts.lumps) {
+        let shift = apart::shift_of_lump(&order.lump, partings, apart_mm);
+        let lump = Item {
             shift,
-            ..still(mesh, BALLAST)
-        });
+            ..Item::new(mesh, BALLAST)
+        };
+        add_named(shot, lump, &order.id);
     }
 }
 
-/// What the picture of the whole is called.
-fn upright(kind: GoalKind) -> &'static str {
+fn add_named<'a>(shot: &mut Shot<'a>, item: Item<'a>, id: &str) {
+    let index = shot.scene.items.len();
+    shot.labels.push(Label::On(index, id.to_owned()));
+    shot.scene.items.push(item);
+}
+
+/// Returns the caption of the picture of the whole.
+fn upright_caption(kind: GoalKind) -> &'static str {
     match kind {
         GoalKind::Stand => "The object as it stands.",
         GoalKind::Float => "The object as it floats.",
@@ -122,7 +139,7 @@ fn model<'a>(outer: &'a TriMesh, view: &Viewpoint, caption: &str) -> Draft<'a> {
         alt: format!("Shaded view from the side and a little above. {caption}"),
         shot: Shot {
             scene: Scene {
-                items: vec![still(outer, BODY)],
+                items: vec![Item::new(outer, BODY)],
                 cut: None,
             },
             camera: view.camera,
@@ -156,29 +173,29 @@ fn cut_away<'a>(
         file: "pictures/cut-away.svg".to_owned(),
         role: Role::CutAway,
         caption: "Cut open from top to bottom.".to_owned(),
-        alt: "The object cut open, its front half taken away. What is cut is striped: material orange, hardware and ballast grey; the \
+        alt: "The object cut open, its front half taken away. Cut faces are striped: material orange, hardware and ballast grey. The \
               surfaces of the voids inside are blue."
             .to_owned(),
         shot: Shot {
-            scene: Scene { items: vec![still(outer, BODY), still(voids, VOID)], cut: Some(view.cut) },
+            scene: Scene { items: vec![Item::new(outer, BODY), Item::new(voids, VOID)], cut: Some(view.cut) },
             camera: view.camera,
             text_px: COVER_TEXT_PX,
-            labels: cut_names(view, subject),
+            labels: names_on_cut(view, subject),
             keys: keys.into_iter().filter(|(is_there, ..)| *is_there).map(|(_, key, words)| (key, words)).collect(),
         },
     }
 }
 
-/// The names of the hardware and the ballast that the cut-away passes through.
-fn cut_names(view: &Viewpoint, subject: &Subject) -> Vec<Label> {
+/// Returns the names of the hardware and the ballast that the cut-away passes through.
+fn names_on_cut(view: &Viewpoint, subject: &Subject) -> Vec<Label> {
     let rods = subject
         .hardware
         .iter()
-        .map(|piece| (&piece.id, drawn(piece)));
+        .map(|piece| (&piece.id, rod_mesh(piece)));
     let lumps = subject
         .ballast
         .iter()
-        .map(|order| (&order.id, drawn_lump(&order.lump)));
+        .map(|order| (&order.id, lump_mesh(&order.lump)));
     let is_cut = |mesh: &TriMesh| !convex_section(mesh, &view.cut).is_empty();
     let cut = rods.chain(lumps).filter(|(_, mesh)| is_cut(mesh));
     let on_cut = |at: Point| at - view.cut.normal * view.cut.distance(&at);

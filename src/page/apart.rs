@@ -1,63 +1,63 @@
-//! The parts drawn apart along the cuts, with their names, their pins and the lines along which
-//! they come together.
+//! The exploded views: the parts drawn apart along the cuts with the lines along which they come
+//! together. The halves of a yo-yo are drawn apart along their axle.
 
 use super::figure::{Draft, Role};
-use super::subject::{Subject, pins};
+use super::subject::{Subject, pins_by_part};
 use crate::draw::{
-    HARDWARE, Hatch, Item, Label, Scene, Shot, TEXT_PX, labelled_camera, part_color, still, turned,
+    Camera, HARDWARE, Hatch, Item, Label, Scene, Shot, TEXT_PX, part_color, view_direction,
 };
 use crate::geom::{Aabb, Frame, Parting, Point, Vector};
 use crate::mass::Lump;
 use crate::mesh::TriMesh;
 use crate::verify::{Peg, PromisedPart};
 
-/// How far parts are drawn apart, as a share of the model's longest side.
+/// Distance by which parts are drawn apart, as a share of the model's longest side.
 const APART_RATIO: f64 = 0.35;
 
-/// Directions around the axis that are tried for the viewer.
+/// Number of directions around the axis that are tried for the viewer.
 const AZIMUTHS: usize = 24;
 
-/// How far above the ground the viewer stands, radians.
+/// Angle of the viewer above the ground, radians.
 const LIFT: f64 = 0.35;
 
-/// The best cosine between the view and a cut's normal: the parts are seen side by side, and their
-/// cut faces too.
+/// Best cosine between the view and a cut's normal: it shows the parts side by side and their cut
+/// faces too.
 const FACE_COSINE: f64 = 0.4;
 
-/// What counts as the same base of a pin, mm.
+/// Distance up to which a pin and a socket count as mates, mm.
 const SAME_MM: f64 = 1e-6;
 
-/// How far either half is drawn from its place, as a share of the model's longest side: the axle is
-/// seen between them.
+/// Displacement of either half of a yo-yo, as a share of the model's longest side: it shows the
+/// axle between them.
 const HALVES_APART_RATIO: f64 = 0.2;
 
-/// Where the viewer stands: to the right and above, radians, so that both outlines are seen one
-/// over the other.
-const TURN_AND_LIFT: [f64; 2] = [0.45, 0.5];
+/// Angles of the viewer of the halves to the right and above, radians: both outlines are visible,
+/// one over the other.
+const HALVES_TURN_AND_LIFT: [f64; 2] = [0.45, 0.5];
 
-/// The parts in the model frame and how far each is drawn from its place.
+/// The parts in the model frame, and their displacements.
 pub(super) struct Apart<'a> {
     parts: &'a [TriMesh],
     cuts: &'a [Parting],
     shifts: Vec<Vector>,
 }
 
-/// How far each part is drawn from its place: away from every cut that is made where it lies, to
-/// its own side.
+/// Returns the displacement of each part: away from every cut that is made at its place, to its own
+/// side.
 pub(super) fn shifts(parts: &[TriMesh], cuts: &[Parting]) -> Vec<Vector> {
-    let apart_mm = of_longest_side_mm(parts.iter());
+    let apart_mm = gap_for_mm(parts.iter());
     parts
         .iter()
         .map(|part| {
             cuts.iter()
-                .map(|cut| away(cut, &part.aabb().center(), apart_mm))
+                .map(|cut| shift_from(cut, &part.aabb().center(), apart_mm))
                 .sum()
         })
         .collect()
 }
 
-/// How far what has its centre here is drawn from a cut that parts `apart_mm`.
-fn away(cut: &Parting, center: &Point, apart_mm: f64) -> Vector {
+/// Returns the displacement by one cut of a thing with this centre.
+fn shift_from(cut: &Parting, center: &Point, apart_mm: f64) -> Vector {
     if cut.acts_at(center) {
         cut.plane.normal * (0.5 * apart_mm * cut.plane.distance(center).signum())
     } else {
@@ -65,22 +65,23 @@ fn away(cut: &Parting, center: &Point, apart_mm: f64) -> Vector {
     }
 }
 
-/// How far ballast is drawn from its place: between the parts whose cut opens its pocket.
-pub(super) fn lump_shift(lump: &Lump, partings: &[Parting], apart_mm: f64) -> Vector {
+/// Returns the displacement of ballast, which is drawn between the parts whose cut opens its
+/// pocket.
+pub(super) fn shift_of_lump(lump: &Lump, partings: &[Parting], apart_mm: f64) -> Vector {
     let (center, reach_mm) = (Point::from(lump.center_mm), lump.shape.radius_mm());
     let past = partings
         .iter()
         .filter(|cut| cut.plane.distance(&center).abs() > reach_mm);
-    past.map(|cut| away(cut, &center, apart_mm)).sum()
+    past.map(|cut| shift_from(cut, &center, apart_mm)).sum()
 }
 
-/// How far the parts of a scene are drawn apart at a cut, mm.
+/// Returns the gap that is drawn at each cut of a scene, mm.
 pub(super) fn apart_mm(items: &[Item]) -> f64 {
-    of_longest_side_mm(items.iter().map(|item| item.mesh))
+    gap_for_mm(items.iter().map(|item| item.mesh))
 }
 
-/// The same for meshes in place.
-pub(super) fn of_longest_side_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
+/// Returns the gap that is drawn at each cut for meshes in place, mm.
+pub(super) fn gap_for_mm<'a>(meshes: impl Iterator<Item = &'a TriMesh>) -> f64 {
     let all = meshes
         .map(TriMesh::aabb)
         .fold(Aabb::EMPTY, |all, part| all.union(&part));
@@ -96,7 +97,7 @@ impl<'a> Apart<'a> {
         }
     }
 
-    /// The picture, with a name for every part and pin.
+    /// Returns the picture, with a name for every part and pin.
     pub fn draft(&self, frame: &Frame, promised: &[PromisedPart]) -> Draft<'a> {
         let item = |(index, (mesh, &shift)): (usize, (&'a TriMesh, &Vector))| Item {
             mesh,
@@ -109,13 +110,13 @@ impl<'a> Apart<'a> {
             role: Role::Exploded,
             caption: "The parts drawn apart along the cuts. Dashed lines show where each pin goes; a dashed leader ends at something hidden. N: pins, H: hardware, B: ballast."
                 .to_owned(),
-            alt: alt(promised),
+            alt: alt_text(promised),
             shot: Shot {
                 scene: Scene {
                     items: self.parts.iter().zip(&self.shifts).enumerate().map(item).collect(),
                     cut: None,
                 },
-                camera: labelled_camera(self.toward_viewer(frame), frame.axis()),
+                camera: Camera::new(self.toward_viewer(frame), frame.axis()).with_label_margins(),
                 text_px: TEXT_PX,
                 labels: self.labels(promised),
                 keys: Vec::new(),
@@ -123,11 +124,11 @@ impl<'a> Apart<'a> {
         }
     }
 
-    /// Where the parts are seen side by side, and the faces of the cuts a little.
+    /// Returns the direction that shows the parts side by side and the cut faces a little.
     fn toward_viewer(&self, frame: &Frame) -> Vector {
         let direction = |index: usize| {
             let turn = std::f64::consts::TAU * index as f64 / AZIMUTHS as f64;
-            turned(
+            view_direction(
                 &frame.direction_to_model(&-Vector::y()),
                 &frame.axis(),
                 [turn, LIFT],
@@ -153,13 +154,14 @@ impl<'a> Apart<'a> {
     fn labels(&self, promised: &[PromisedPart]) -> Vec<Label> {
         let name = |(index, part): (usize, &PromisedPart)| Label::On(index, part.id.clone());
         let names = promised.iter().enumerate().map(name);
-        let pins = pins(promised)
+        let pins = pins_by_part(promised)
             .filter_map(|(part, pin)| self.pin_labels(part, pin, promised))
             .flatten();
         names.chain(pins).collect()
     }
 
-    /// The line from a pin to its socket, and the pin's name at its tip.
+    /// Returns the line from a pin to its socket, and the pin's name at its tip. `None` if the pin
+    /// has no socket.
     fn pin_labels(&self, part: usize, pin: &Peg, promised: &[PromisedPart]) -> Option<[Label; 2]> {
         let center = Point::from(pin.center_mm);
         let is_mate = |socket: &Peg| {
@@ -176,10 +178,12 @@ impl<'a> Apart<'a> {
     }
 }
 
-/// What is to be seen, in words.
-fn alt(promised: &[PromisedPart]) -> String {
+/// Describes the picture in words.
+fn alt_text(promised: &[PromisedPart]) -> String {
     let names: Vec<&str> = promised.iter().map(|part| part.id.as_str()).collect();
-    let pins: Vec<&str> = pins(promised).map(|(_, pin)| pin.id.as_str()).collect();
+    let pins: Vec<&str> = pins_by_part(promised)
+        .map(|(_, pin)| pin.id.as_str())
+        .collect();
     let pins = if pins.is_empty() {
         "no pins".to_owned()
     } else {
@@ -191,13 +195,16 @@ fn alt(promised: &[PromisedPart]) -> String {
     )
 }
 
-/// The picture; none where there are no halves on an axle.
+/// Returns the picture of the halves of a yo-yo, turned as they are to be glued. `None` if there
+/// are no halves on an axle.
 pub(super) fn halves<'a>(
     subject: &Subject,
     parts: &'a [TriMesh],
     hardware: &'a [TriMesh],
 ) -> Option<Draft<'a>> {
-    subject.hardware.iter().find(|piece| piece.what == "axle")?;
+    if !subject.has_halves() {
+        return None;
+    }
     let frame = subject.aim.frame();
     let apart_mm = HALVES_APART_RATIO
         * parts
@@ -207,13 +214,13 @@ pub(super) fn halves<'a>(
     let height_mm = |part: &TriMesh| frame.to_local(&part.aabb().center()).z;
     let half = |(index, mesh): (usize, &'a TriMesh)| Item {
         shift: frame.axis() * (apart_mm * height_mm(mesh).signum()),
-        ..still(mesh, part_color(index))
+        ..Item::new(mesh, part_color(index))
     };
     let items = parts
         .iter()
         .enumerate()
         .map(half)
-        .chain(hardware.iter().map(|mesh| still(mesh, HARDWARE)));
+        .chain(hardware.iter().map(|mesh| Item::new(mesh, HARDWARE)));
     let name = |(index, mesh): (usize, &TriMesh)| {
         let id = subject
             .promised
@@ -226,6 +233,8 @@ pub(super) fn halves<'a>(
     };
     let rods = subject.hardware.iter().enumerate();
     let rods = rods.map(|(index, piece)| Label::On(parts.len() + index, piece.id.clone()));
+    let front = frame.direction_to_model(&-Vector::y());
+    let toward = view_direction(&front, &frame.axis(), HALVES_TURN_AND_LIFT);
     Some(Draft {
         file: "pictures/halves.svg".to_owned(),
         role: Role::Halves,
@@ -233,10 +242,7 @@ pub(super) fn halves<'a>(
         alt: "The two halves of the yo-yo one above the other with the axle between them, their outlines turned alike.".to_owned(),
         shot: Shot {
             scene: Scene { items: items.collect(), cut: None },
-            camera: labelled_camera(
-                turned(&frame.direction_to_model(&-Vector::y()), &frame.axis(), TURN_AND_LIFT),
-                frame.axis(),
-            ),
+            camera: Camera::new(toward, frame.axis()).with_label_margins(),
             text_px: TEXT_PX,
             labels: parts.iter().enumerate().map(name).chain(rods).collect(),
             keys: Vec::new(),

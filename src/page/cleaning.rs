@@ -1,22 +1,22 @@
-//! How each void is cleaned, and what was kept solid so that it can be.
+//! The cleaning of each void, and the material kept solid for it.
 
 use maud::{Markup, html};
 
-use super::fields::left_inside;
+use super::fields::residue;
 use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{Checklist, VoidRow, checks_of_void};
 use crate::verify::{Check, CheckKind};
 
-/// Less than this left solid changes no figure that is shown, mm³: where the figures differ, it is
-/// for solving again with pins and on the printer's own columns.
-const LEAST_TOLD_MM3: f64 = 0.05;
+/// Least volume kept solid that is reported, mm³. Less changes no figure that is shown: other
+/// differences come from solving again with pins and on the printer's own columns.
+const LEAST_REPORTED_MM3: f64 = 0.05;
 
-/// The share of a void's surface in sight from which nothing is said of hidden corners: sampling
-/// cannot tell more.
+/// Share of a void's surface in sight from which hidden corners are not mentioned: sampling is not
+/// more accurate.
 const ALL_IN_SIGHT_RATIO: f64 = 0.995;
 
-/// The way to clean a void, with a box to tick.
+/// Returns the instruction to clean a void, with a box to tick.
 pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
     let full_g = void.volume_mm3 / MM3_PER_CM3 * sheet.material.density_g_cm3;
     html! {
@@ -31,7 +31,7 @@ pub(super) fn clean_one(sheet: &Checklist, void: &VoidRow) -> Markup {
             @for check in checks_of_void(&sheet.checks, &void.id) {
                 (verdict(check)) " "
             }
-            br; (void.clean) " Left full of " (left_inside(&sheet.printer.process)) ", it adds about " (quantity(full_g, "g")) "."
+            br; (void.clean) " Left full of " (residue(&sheet.printer.process)) ", it adds about " (quantity(full_g, "g")) "."
         }
     }
 }
@@ -48,7 +48,7 @@ fn verdict(check: &Check) -> Markup {
     }
 }
 
-/// What is in sight of a void's wall, where that counts.
+/// Words the share of a void's wall in sight, if the cleaning rule needs sight; else empty.
 fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
     let percent = |ratio: f64| format!("{:.0}", 100.0 * ratio);
     match void.sight_ratio {
@@ -69,15 +69,15 @@ fn in_sight(sheet: &Checklist, void: &VoidRow) -> String {
     }
 }
 
-/// What cleaning cost, in sentences: nothing where nothing was kept solid.
+/// Returns the cost of cleaning in sentences; empty if nothing was kept solid.
 pub(super) fn cost(sheet: &Checklist) -> Markup {
     let proof = &sheet.certificate;
     let (unit, name) = (proof.figure.unit(), proof.figure.name());
     html! {
-        @if let (Some(before), true) = (proof.value_before_cleaning, proof.kept_solid_mm3 >= LEAST_TOLD_MM3) {
+        @if let (Some(before), true) = (proof.value_before_cleaning, proof.kept_solid_mm3 >= LEAST_REPORTED_MM3) {
             p {
                 "So that every void can be cleaned" (by_plan(sheet)) ", " (quantity(proof.kept_solid_mm3 / MM3_PER_CM3, "cm³"))
-                " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " in place of "
+                " that could have been emptied stays solid: the " (name) " is " (quantity(proof.value, unit)) " instead of "
                 (quantity(before, unit)) "."
             }
         }
@@ -93,7 +93,7 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
                         td class="n" {
                             @match round.value_after {
                                 Some(after) => (quantity(after, unit)),
-                                None => "taken back: the goal could not be met",
+                                None => "undone: the goal could not be met",
                             }
                         }
                     }
@@ -103,7 +103,7 @@ pub(super) fn cost(sheet: &Checklist) -> Markup {
     }
 }
 
-/// What stays solid besides what could not be cleaned.
+/// Words that the plan keeps something solid too; else empty.
 fn by_plan(sheet: &Checklist) -> &'static str {
     let is_any = sheet
         .certificate

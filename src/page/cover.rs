@@ -1,5 +1,4 @@
-//! The first page: what it is, what it will do, whether it may be printed, and the way through the
-//! sheet.
+//! The first page: the object and its promise, the verdict, the facts, and links to the steps.
 
 use maud::{Markup, html};
 
@@ -14,9 +13,9 @@ use crate::base::numbers::{extent, number, quantity};
 use crate::base::units::{MM3_PER_CM3, counted};
 use crate::sheet::{Checklist, Verdict};
 
-/// The cover.
-pub(super) fn cover(papers: &PageInputs, job: &JobId) -> Markup {
-    let sheet = papers.sheet;
+/// Returns the first page.
+pub(super) fn cover(inputs: &PageInputs, job: &JobId) -> Markup {
+    let sheet = inputs.sheet;
     html! {
         header class="cover" {
             (on_screen(job))
@@ -30,11 +29,11 @@ pub(super) fn cover(papers: &PageInputs, job: &JobId) -> Markup {
             div class="code" { (code(job)) p class="small" { "Name of the job and SHA-256 of checklist.json" } }
         }
         section aria-label="Overview" {
-            (order())
+            (order_fields())
             (warnings(sheet))
-            div class="cover-pictures" { (figures(papers.pictures, Role::Cover)) (figures(papers.pictures, Role::CutAway)) }
+            div class="cover-pictures" { (figures(inputs.pictures, Role::Cover)) (figures(inputs.pictures, Role::CutAway)) }
             (facts(sheet))
-            (way(sheet))
+            (overview(sheet))
         }
     }
 }
@@ -49,7 +48,7 @@ fn verdict(sheet: &Checklist) -> Markup {
 
 fn warnings(sheet: &Checklist) -> Markup {
     html! {
-        @for warning in &sheet.warnings { p class="warn" { strong { "Mind: " } (warning) } }
+        @for warning in &sheet.warnings { p class="warn" { strong { "Warning: " } (warning) } }
     }
 }
 
@@ -66,7 +65,7 @@ fn facts(sheet: &Checklist) -> Markup {
     }
 }
 
-/// How much of the mass is not printed.
+/// Names the share of the mass that is hardware; empty if there is none.
 fn of_hardware(sheet: &Checklist) -> String {
     let mass_g: f64 = sheet.hardware.iter().map(|piece| piece.mass_g).sum();
     if mass_g > 0.0 {
@@ -81,8 +80,8 @@ fn pixels(sheet: &Checklist) -> String {
     format!("{x} × {y}\u{a0}µm")
 }
 
-/// What there is, and the steps with links to them.
-fn way(sheet: &Checklist) -> Markup {
+/// Returns what the kit consists of, and links to the steps.
+fn overview(sheet: &Checklist) -> Markup {
     html! {
         nav class="steps" aria-label="Steps" {
             p {
@@ -99,8 +98,8 @@ fn way(sheet: &Checklist) -> Markup {
     }
 }
 
-/// What only the shop knows.
-fn order() -> Markup {
+/// Returns fields for what only the shop knows.
+fn order_fields() -> Markup {
     html! {
         p class="fields" {
             @for field in ["Order", "Revision", "Quantity", "Due", "Prepared by"] {

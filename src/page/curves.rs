@@ -1,11 +1,11 @@
-//! The plots of how the answer came about: the certificate by pass, a top's critical speed by height.
+//! The plots of the search: value and bound by pass, and a top's critical speed by height.
 
 use super::figure::{Picture, Role};
 use crate::base::numbers::quantity;
-use crate::draw::{Curve, Drawn, LINES, Plot, Spot};
+use crate::draw::{CURVES, Curve, Drawn, Plot, Spot};
 use crate::sheet::{Checklist, Course, PassRow};
 
-/// The plots of how the answer came about; none where nothing was recorded.
+/// Draws the plots of the search; empty if it was not recorded.
 pub(super) fn plots(sheet: &Checklist) -> Vec<Picture> {
     let Some(course) = &sheet.certificate.course else {
         return Vec::new();
@@ -34,13 +34,13 @@ fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
             Curve {
                 name: "found",
                 points: pick(|row| row.value),
-                color: LINES[0],
+                color: CURVES[0],
                 is_second: false,
             },
             Curve {
                 name: "proved bound",
                 points: pick(|row| row.bound),
-                color: LINES[1],
+                color: CURVES[1],
                 is_second: true,
             },
         ],
@@ -58,7 +58,7 @@ fn certificate(sheet: &Checklist, course: &Course) -> Option<Picture> {
             figure.name(),
             course.passes.len()
         ),
-        drawn: Drawn::Svg(plot.drawn()),
+        drawn: Drawn::Svg(plot.draw()),
     })
 }
 
@@ -82,7 +82,7 @@ fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
         curves: vec![Curve {
             name: "best at that height",
             points,
-            color: LINES[0],
+            color: CURVES[0],
             is_second: false,
         }],
         mark: written.map(|at| (at, "this kit".to_owned())),
@@ -93,7 +93,7 @@ fn speeds(sheet: &Checklist, course: &Course) -> Option<Picture> {
         role: Role::Proof,
         caption: "The least speed at which a hollowing with its centre of mass at a height could spin, and this kit.".to_owned(),
         alt: format!("Plot of the least critical speed by the height of the centre of mass; least near {height} with {speed}."),
-        drawn: Drawn::Svg(plot.drawn()),
+        drawn: Drawn::Svg(plot.draw()),
     })
 }
 

@@ -1,89 +1,88 @@
-//! The section at a cut as a drawing with its lengths: outlines, walls, pins and sockets.
+//! The section at a cut as a drawing with dimensions: outlines, walls, pins and sockets.
 
 use super::figure::{Picture, Role};
 use super::inserts::{Insert, inserts};
 use crate::base::numbers::{number, quantity};
-use crate::draw::{Drawing, Drawn, Hatch, Key, Mark, Spot, Stroke, VOID, draw_peg, hex, legend};
+use crate::draw::{
+    Drawing, Drawn, Hatch, Key, Mark, Paint, Spot, Stroke, VOID, draw_legend, draw_peg,
+};
 use crate::geom::{Plane, Point, Vector};
-use crate::sheet::Checklist;
+use crate::sheet::{Checklist, JointRow};
 use crate::verify::Peg;
 
-/// Width, pixels.
+/// Width of the drawing, pixels.
 const WIDTH_PX: usize = 1000;
 
-/// What is left below the section for its width and the legend, pixels.
+/// Room below the section for its width and the legend, pixels.
 const BELOW_PX: f64 = 120.0;
 
-/// How far above the lower edge the middle of the legend is, and how far from the left one it
-/// begins, pixels.
+/// Distances of the legend's middle from the lower edge and of its begin from the left edge,
+/// pixels.
 const LEGEND_PX: [f64; 2] = [20.0, 14.0];
 
 /// Height of words, pixels: 8 points at the width of an A4 page.
 const TEXT_PX: f64 = 19.0;
 
-/// The room of the section inside the drawing: left, top, right, bottom, pixels; beside it stand
-/// names and lengths.
+/// Frame of the section inside the drawing: left, top, right, bottom, pixels. Names and dimensions
+/// stand outside of it.
 const FRAME_PX: [f64; 4] = [230.0, 40.0, 770.0, 540.0];
 
-/// How far the lengths over all lie from the section, pixels.
+/// Distance of the overall dimensions from the section, pixels.
 const ASIDE_PX: f64 = 34.0;
 
-/// Where up is less than this share of the plane's directions, the plane is level and nothing in it
-/// is up.
+/// If the projection of up on the plane is shorter than this, the plane counts as level.
 const LEVEL_RATIO: f64 = 0.2;
 
 /// The section of the uncut body at a cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutFace {
-    /// The cut's id.
+    /// Id of the cut.
     pub cut: String,
-    /// Its plane, model frame.
+    /// Plane of the cut, model frame.
     pub plane: Plane,
-    /// The outlines of material in it, in the coordinates of [`Plane::basis`], mm: outer ones
+    /// Outlines of material in the coordinates of [`Plane::basis`], mm: outer ones
     /// counter-clockwise, holes clockwise.
     pub rings: Vec<Vec<[f64; 2]>>,
-    /// Where the wall between the outside and a void is thinnest in it: its two ends, same
-    /// coordinates.
+    /// Ends of the thinnest wall between the outside and a void, same coordinates.
     pub wall: Option<[[f64; 2]; 2]>,
-    /// Every region of material with the parts below and above it.
+    /// Regions of material, each with the parts below and above it.
     pub regions: Vec<Region>,
-    /// A point of every face that the cut leaves whole, same coordinates.
+    /// A point of each face that the cut leaves whole, same coordinates.
     pub whole: Vec<[f64; 2]>,
-    /// The voids it opens.
+    /// Mouths of the voids it opens.
     pub mouths: Vec<Mouth>,
 }
 
 /// A region of material in a cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Region {
-    /// A point well inside, in the plane's coordinates, mm.
+    /// Point well inside, in the plane's coordinates, mm.
     pub at: [f64; 2],
-    /// The ids of the parts below and above the cut there.
+    /// Ids of the parts below and above the cut there.
     pub parts: [String; 2],
 }
 
-/// Where a cut opens a void.
+/// The mouth of a void in a cut.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mouth {
-    /// The void's id.
+    /// Id of the void.
     pub void: String,
-    /// The middle of the largest disc that passes, in the plane's coordinates, mm.
+    /// Middle of the widest disc that passes, in the plane's coordinates, mm.
     pub at: [f64; 2],
-    /// The diameter of that disc, mm.
+    /// Diameter of that disc, mm.
     pub diameter_mm: f64,
 }
 
-/// From the plane to the drawing.
-struct Sheet {
+/// The map from the plane of a cut to the drawing.
+struct PlaneMap {
     turn: [f64; 2],
     scale: f64,
     offset: Spot,
 }
 
-impl Sheet {
-    /// Turned so that `up` (in the plane) is up, as large as the frame.
+impl PlaneMap {
+    /// Returns the map that turns `up`, a direction in the plane, upward and fills the frame.
     fn of(face: &CutFace, up: [f64; 2]) -> Self {
-        // Where up is all but across the plane, any direction will do.
         let length = up[0].hypot(up[1]);
         let turn = if length > LEVEL_RATIO {
             up.map(|x| x / length)
@@ -110,7 +109,7 @@ impl Sheet {
         }
     }
 
-    /// Where a point of the plane falls.
+    /// Returns the spot of a point of the plane.
     fn at(&self, [u, v]: [f64; 2]) -> Spot {
         let [x, y] = self.turn;
         [
@@ -120,7 +119,7 @@ impl Sheet {
     }
 }
 
-/// The least and the greatest of spots.
+/// Returns the least and the greatest coordinates of spots.
 fn bounds(spots: impl Iterator<Item = Spot>) -> [Spot; 2] {
     spots.fold(
         [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]],
@@ -133,7 +132,7 @@ fn bounds(spots: impl Iterator<Item = Spot>) -> [Spot; 2] {
     )
 }
 
-/// The drawing of every cut.
+/// Draws every cut that goes through material.
 pub(super) fn drawings(sheet: &Checklist, faces: &[CutFace]) -> Vec<Picture> {
     faces
         .iter()
@@ -143,8 +142,8 @@ pub(super) fn drawings(sheet: &Checklist, faces: &[CutFace]) -> Vec<Picture> {
 }
 
 fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
-    let pegs = pegs(sheet, &face.cut);
-    let names: Vec<&str> = pegs.iter().map(|(pin, _)| pin.id.as_str()).collect();
+    let pins_here = pins_of_cut(sheet, &face.cut);
+    let names: Vec<&str> = pins_here.iter().map(|pin| pin.pin.id.as_str()).collect();
     let pins = if names.is_empty() {
         "no pins".to_owned()
     } else {
@@ -154,17 +153,18 @@ fn picture(sheet: &Checklist, face: &CutFace) -> Picture {
         file: format!("pictures/cut-{}.svg", face.cut),
         role: Role::Cut,
         caption: format!(
-            "Cut {}{}. P: the part behind the drawing | the part taken off it; N: pins; V: voids. Diameters in mm.",
+            "Cut {}{}. P | P: the first part is seen here, the second sits on top of it; N: pins; V: voids. Diameters in mm.",
             face.cut,
-            sides(sheet, &face.cut)
+            limits(sheet, &face.cut)
         ),
         alt: format!("Section at cut {} with its sizes, {pins}.", face.cut),
-        drawn: Drawn::Svg(drawn(sheet, face, &pegs)),
+        drawn: Drawn::Svg(draw_section(sheet, face, &pins_here)),
     }
 }
 
-/// `, made only above C1 and below C2`; nothing of a cut through everything.
-fn sides(sheet: &Checklist, cut: &str) -> String {
+/// Words the sides to which a cut is limited: `, made only above C1 and below C2`; empty for a cut
+/// through everything.
+fn limits(sheet: &Checklist, cut: &str) -> String {
     let within = sheet
         .cuts
         .iter()
@@ -180,106 +180,98 @@ fn sides(sheet: &Checklist, cut: &str) -> String {
     }
 }
 
-/// The pins of a cut with their sockets.
-fn pegs<'a>(sheet: &'a Checklist, cut: &str) -> Vec<(&'a Peg, Option<&'a Peg>)> {
-    let is_here = |pin: &&Peg| {
-        sheet
-            .joints
-            .iter()
-            .any(|joint| joint.id == pin.joint && joint.cut == cut)
-    };
-    let socket_of = |pin: &Peg| {
-        sheet
-            .parts
-            .iter()
-            .flat_map(|part| &part.sockets)
-            .find(|socket| socket.id == pin.id)
-    };
-    let pins = sheet
-        .parts
-        .iter()
-        .flat_map(|part| &part.pins)
-        .filter(is_here);
-    pins.map(|pin| (pin, socket_of(pin))).collect()
+/// A pin that stands on the cut, with the socket it goes into.
+struct PinInSocket<'a> {
+    pin: &'a Peg,
+    socket: Option<&'a Peg>,
 }
 
-fn drawn(sheet: &Checklist, face: &CutFace, pegs: &[(&Peg, Option<&Peg>)]) -> Drawing {
+impl PinInSocket<'_> {
+    /// Draws both circles and returns their name.
+    fn draw(&self, drawing: &mut Drawing, at: Spot, scale: f64) -> Mark {
+        let pin_mm = self.pin.diameter_mm;
+        let socket_mm = self.socket.map(|socket| socket.diameter_mm);
+        let socket_px = socket_mm.map_or(0.0, |mm| scale * mm);
+        draw_peg(drawing, at, [scale * pin_mm, socket_px]);
+        Mark {
+            radius_px: 0.5 * scale * socket_mm.unwrap_or(pin_mm),
+            ..Mark::new(at, self.name())
+        }
+    }
+
+    fn name(&self) -> String {
+        let socket = self.socket.map_or(String::new(), |socket| {
+            format!(" in ⌀{}", number(socket.diameter_mm))
+        });
+        format!("{} ⌀{}{socket}", self.pin.id, number(self.pin.diameter_mm))
+    }
+}
+
+/// Returns the pins of a cut with their sockets.
+fn pins_of_cut<'a>(sheet: &'a Checklist, cut: &str) -> Vec<PinInSocket<'a>> {
+    let joints = &sheet.joints;
+    let is_here = |pin: &&Peg| {
+        let is_joint = |joint: &JointRow| joint.id == pin.joint && joint.cut == cut;
+        joints.iter().any(is_joint)
+    };
+    let sockets = || sheet.parts.iter().flat_map(|part| &part.sockets);
+    let pins = sheet.parts.iter().flat_map(|part| &part.pins);
+    pins.filter(is_here)
+        .map(|pin| PinInSocket {
+            pin,
+            socket: sockets().find(|socket| socket.id == pin.id),
+        })
+        .collect()
+}
+
+fn draw_section(sheet: &Checklist, face: &CutFace, pins: &[PinInSocket]) -> Drawing {
     let (u, v) = face.plane.basis();
     let axis = Vector::from(sheet.goal.aim.axis).normalize();
-    let paper = Sheet::of(face, [u.dot(&axis), v.dot(&axis)]);
-    let rings: Vec<Vec<Spot>> = face
-        .rings
-        .iter()
-        .map(|ring| ring.iter().map(|p| paper.at(*p)).collect())
-        .collect();
+    let map = PlaneMap::of(face, [u.dot(&axis), v.dot(&axis)]);
+    let spots = |ring: &Vec<[f64; 2]>| ring.iter().map(|p| map.at(*p)).collect();
+    let rings: Vec<Vec<Spot>> = face.rings.iter().map(spots).collect();
     let [_, [_, bottom]] = bounds(rings.iter().flatten().copied());
     let mut drawing = Drawing::new([WIDTH_PX, (bottom + BELOW_PX) as usize], TEXT_PX);
-    let outer: Vec<Vec<Spot>> = rings
-        .iter()
-        .zip(&face.rings)
-        .filter(|(_, ring)| area_mm2(ring) > 0.0)
-        .map(|(spots, _)| spots.clone())
-        .collect();
-    drawing.path(&outer, true, (Some(&hex(VOID)), Stroke::NONE));
-    Hatch::PRINTED.fill(
-        &mut drawing,
-        &rings,
-        Stroke {
-            width: 2.0,
-            ..Stroke::THIN
-        },
-    );
+    draw_material(&mut drawing, face, &rings);
     let inserts = inserts(sheet, &face.plane);
-    draw_legend(&mut drawing, face, (!pegs.is_empty(), &inserts));
-    draw_size(&mut drawing, &rings, paper.scale);
+    draw_section_legend(&mut drawing, face, !pins.is_empty(), &inserts);
+    draw_size(&mut drawing, &rings, map.scale);
+
     let mut marks = Vec::new();
     for mouth in &face.mouths {
-        let at = paper.at(mouth.at);
-        drawing.circle(
-            at,
-            0.5 * paper.scale * mouth.diameter_mm,
-            (None, Stroke::DASHED),
-        );
-        marks.push(Mark::new(
-            at,
-            format!("{} open ⌀{}", mouth.void, number(mouth.diameter_mm)),
-        ));
+        marks.push(draw_mouth(&mut drawing, mouth, &map));
     }
-    for (pin, socket) in pegs {
-        let at = paper.at(flat(&face.plane, &pin.center_mm));
-        draw_peg(
-            &mut drawing,
-            at,
-            [
-                paper.scale * pin.diameter_mm,
-                socket.map_or(0.0, |s| paper.scale * s.diameter_mm),
-            ],
-        );
-        let radius_px = 0.5 * paper.scale * socket.map_or(pin.diameter_mm, |s| s.diameter_mm);
-        marks.push(Mark {
-            radius_px,
-            ..Mark::new(at, peg_words(pin, *socket))
-        });
+    for pin in pins {
+        let at = map.at(flat(&face.plane, &pin.pin.center_mm));
+        marks.push(pin.draw(&mut drawing, at, map.scale));
     }
-    marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &paper)));
-    marks.extend(
-        face.whole
-            .iter()
-            .map(|at| Mark::new(paper.at(*at), "stays whole".to_owned())),
-    );
-    let region = |region: &Region| Mark::new(paper.at(region.at), region.parts.join(" | "));
+    marks.extend(face.wall.map(|ends| draw_wall(&mut drawing, ends, &map)));
+    let whole = |at: &[f64; 2]| Mark::new(map.at(*at), "stays whole".to_owned());
+    marks.extend(face.whole.iter().map(whole));
+    let region = |region: &Region| Mark::new(map.at(region.at), region.parts.join(" | "));
     marks.extend(face.regions.iter().map(region));
-    marks.extend(
-        inserts
-            .iter()
-            .map(|insert| draw_insert(&mut drawing, insert, &paper)),
-    );
+    for insert in &inserts {
+        marks.push(draw_insert(&mut drawing, insert, &map));
+    }
     drawing.callouts(&marks);
     drawing
 }
 
-/// Twice the area inside a ring, negative where it runs clockwise.
-fn area_mm2(ring: &[[f64; 2]]) -> f64 {
+/// Draws the voids and, hatched, the material.
+fn draw_material(drawing: &mut Drawing, face: &CutFace, rings: &[Vec<Spot>]) {
+    let pairs = rings.iter().zip(&face.rings);
+    let outer = pairs.filter(|(_, ring)| doubled_area_mm2(ring) > 0.0);
+    let outer: Vec<Vec<Spot>> = outer.map(|(spots, _)| spots.clone()).collect();
+    drawing.path(&outer, true, Paint::filled(VOID, Stroke::NONE));
+    let outline = Stroke {
+        width: 2.0,
+        ..Stroke::THIN
+    };
+    Hatch::PRINTED.fill(drawing, rings, outline);
+}
+
+/// Returns twice the area inside a ring, negative for a clockwise ring.
+fn doubled_area_mm2(ring: &[[f64; 2]]) -> f64 {
     let next = ring.iter().cycle().skip(1);
     ring.iter()
         .zip(next)
@@ -287,30 +279,30 @@ fn area_mm2(ring: &[[f64; 2]]) -> f64 {
         .sum()
 }
 
-/// A point of the plane in its coordinates.
+/// Returns a point of the plane in its coordinates.
 fn flat(plane: &Plane, point_mm: &[f64; 3]) -> [f64; 2] {
     let (u, v) = plane.basis();
     let from_origin = Point::from(*point_mm).coords;
     [u.dot(&from_origin), v.dot(&from_origin)]
 }
 
-fn peg_words(pin: &Peg, socket: Option<&Peg>) -> String {
-    let socket = socket.map_or(String::new(), |socket| {
-        format!(" in ⌀{}", number(socket.diameter_mm))
-    });
-    format!("{} ⌀{}{socket}", pin.id, number(pin.diameter_mm))
+/// Draws the widest disc that passes through a mouth, and returns its name.
+fn draw_mouth(drawing: &mut Drawing, mouth: &Mouth, map: &PlaneMap) -> Mark {
+    let at = map.at(mouth.at);
+    let radius_px = 0.5 * map.scale * mouth.diameter_mm;
+    drawing.circle(at, radius_px, Paint::line(Stroke::DASHED));
+    let diameter = number(mouth.diameter_mm);
+    Mark::new(at, format!("{} open ⌀{diameter}", mouth.void))
 }
 
-/// The thinnest wall as a thick line, and its words.
-fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark {
-    let [a, b] = ends.map(|end| paper.at(end));
-    drawing.line(
-        [a, b],
-        Stroke {
-            width: 4.0,
-            ..Stroke::THICK
-        },
-    );
+/// Draws the thinnest wall as a thick line, and returns its name.
+fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], map: &PlaneMap) -> Mark {
+    let [a, b] = ends.map(|end| map.at(end));
+    let stroke = Stroke {
+        width: 4.0,
+        ..Stroke::THICK
+    };
+    drawing.line([a, b], stroke);
     let mm = (ends[0][0] - ends[1][0]).hypot(ends[0][1] - ends[1][1]);
     Mark::new(
         [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])],
@@ -318,15 +310,15 @@ fn draw_wall(drawing: &mut Drawing, ends: [[f64; 2]; 2], paper: &Sheet) -> Mark 
     )
 }
 
-/// The section of something that is not printed, and its name.
-fn draw_insert(drawing: &mut Drawing, insert: &Insert, paper: &Sheet) -> Mark {
-    let ring = insert.ring.iter().map(|at| paper.at(*at)).collect();
+/// Draws the section of hardware or ballast, and returns its name.
+fn draw_insert(drawing: &mut Drawing, insert: &Insert, map: &PlaneMap) -> Mark {
+    let ring = insert.ring.iter().map(|at| map.at(*at)).collect();
     insert.hatch.fill(drawing, &[ring], Stroke::THIN);
-    Mark::new(paper.at(insert.middle()), insert.id.clone())
+    Mark::new(map.at(insert.middle()), insert.id.clone())
 }
 
-/// What is drawn how, of what there is.
-fn draw_legend(drawing: &mut Drawing, face: &CutFace, (has_pins, inserts): (bool, &[Insert])) {
+/// Draws the legend of what the section shows.
+fn draw_section_legend(drawing: &mut Drawing, face: &CutFace, has_pins: bool, inserts: &[Insert]) {
     let has = |hatch: Hatch| inserts.iter().any(|insert| insert.hatch == hatch);
     let keys = [
         (true, Key::Cut(Hatch::PRINTED), "material"),
@@ -347,10 +339,10 @@ fn draw_legend(drawing: &mut Drawing, face: &CutFace, (has_pins, inserts): (bool
         .collect();
     let [up, left] = LEGEND_PX;
     let [_, height] = drawing.size_px();
-    legend(drawing, [left, height - up], &keys);
+    draw_legend(drawing, [left, height - up], &keys);
 }
 
-/// The lengths over all.
+/// Draws the overall dimensions.
 fn draw_size(drawing: &mut Drawing, rings: &[Vec<Spot>], scale: f64) {
     let [[left, top], [right, bottom]] = bounds(rings.iter().flatten().copied());
     let words = |pixels: f64| quantity(pixels / scale, "mm");
@@ -375,14 +367,17 @@ mod tests {
     }
 
     #[test]
-    fn rings_have_the_sign_of_their_turn() {
+    fn a_clockwise_ring_has_a_negative_area() {
         let ring = square(1.0, 3.0);
         let back: Vec<[f64; 2]> = ring.iter().rev().copied().collect();
-        assert_eq!([area_mm2(&ring), area_mm2(&back)], [8.0, -8.0]);
+        assert_eq!(
+            [doubled_area_mm2(&ring), doubled_area_mm2(&back)],
+            [8.0, -8.0]
+        );
     }
 
     #[test]
-    fn a_section_fills_the_frame_with_up_up_and_right_right() {
+    fn a_section_fills_the_frame_upright_and_unmirrored() {
         let plane = Plane::through(&Point::origin(), &Vector::z());
         let face = CutFace {
             cut: "C1".into(),
@@ -394,14 +389,14 @@ mod tests {
             mouths: vec![],
         };
         for up in [[0.0, 1.0], [1.0, 0.0], [-0.6, 0.8]] {
-            let paper = Sheet::of(&face, up);
-            let [origin, above] = [[0.0, 0.0], up].map(|point| paper.at(point));
+            let map = PlaneMap::of(&face, up);
+            let [origin, above] = [[0.0, 0.0], up].map(|point| map.at(point));
             assert!(
                 (above[0] - origin[0]).abs() < 1e-9 && above[1] < origin[1],
                 "{up:?}"
             );
-            // Right of up is up turned clockwise: the drawing is no mirror image.
-            let right = paper.at([up[1], -up[0]]);
+            // Up turned clockwise points right: the drawing is not mirrored.
+            let right = map.at([up[1], -up[0]]);
             assert!(
                 right[0] > origin[0] && (right[1] - origin[1]).abs() < 1e-9,
                 "{up:?}"
@@ -410,7 +405,7 @@ mod tests {
         let [low, high] = bounds(
             face.rings[0]
                 .iter()
-                .map(|point| Sheet::of(&face, [0.0, 1.0]).at(*point)),
+                .map(|point| PlaneMap::of(&face, [0.0, 1.0]).at(*point)),
         );
         assert!((low[1] - FRAME_PX[1]).abs() < 1e-9 && (high[1] - FRAME_PX[3]).abs() < 1e-9);
     }

@@ -1,20 +1,21 @@
-//! A page with the look of the shop's papers: one file, nothing from outside.
+//! An HTML document in the style of the shop's papers: one file that loads nothing.
 
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-/// How the page looks; part of the page, so that it is one file.
+/// The style sheet; it is part of the page, so that the page is one file.
 const STYLE: &str = include_str!("page.css");
 
-/// What the page may load: its own pictures and style, and nothing from outside.
+/// The content policy: the page may use its own pictures, style and script, and load nothing.
 const POLICY: &str =
     "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline'";
 
-/// A page of the shop's papers, with their look and nothing from outside.
+/// Returns an HTML document in the style of the shop's papers, which loads nothing.
 pub fn document(title: &str, body: &Markup) -> String {
-    written(title, body, "")
+    styled_document(title, body, "")
 }
 
-pub(super) fn written(title: &str, body: &Markup, style: &str) -> String {
+/// Returns an HTML document with additional style.
+pub(super) fn styled_document(title: &str, body: &Markup, style: &str) -> String {
     html! {
         (DOCTYPE)
         html lang="en" {

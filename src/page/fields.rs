@@ -1,34 +1,34 @@
-//! Pieces that several sections of the page share: lines to write on, masses with their windows, file names.
+//! Pieces shared by several sections of the page: blanks, masses with their windows, file names.
 
 use maud::{Markup, html};
 
 use crate::base::numbers::{number, quantity};
-use crate::sheet::Checklist;
+use crate::sheet::{Checklist, Half, Process};
 
-/// A line to write on.
+/// Returns a line to write on.
 pub(super) fn blank() -> Markup {
     html! { span class="fill" { "\u{a0}" } }
 }
 
-/// The path of a file, which breaks behind `/`, `_` and `-` where the line is too short.
+/// Returns the path of a file, which may break after `/`, `_` and `-`.
 pub(super) fn file_name(path: &str) -> Markup {
     html! { code { @for piece in path.split_inclusive(['/', '_', '-']) { (piece) wbr; } } }
 }
 
-/// The mass of something printed, and what a sound print of it may weigh where the density was
-/// measured; else its share of all parts, which no density changes.
+/// Returns the mass of something printed. If the density was measured, the weighing window follows;
+/// else its share of all parts, which does not depend on the density.
 pub(super) fn mass_with_window(sheet: &Checklist, mass_g: f64) -> Markup {
     html! {
         (quantity(mass_g, "g"))
         @if let Some(spread) = sheet.material.density_spread_ratio { (window(mass_g, spread)) }
         @else {
             br;
-            span class="small" { (number(100.0 * mass_g / printed_g(sheet))) " % of all parts" }
+            span class="small" { (number(100.0 * mass_g / mass_of_parts_g(sheet))) " % of all parts" }
         }
     }
 }
 
-/// A mass, and what a sound piece of it may weigh.
+/// Returns a mass and its weighing window.
 pub(super) fn mass_window(mass_g: f64, spread_ratio: f64) -> Markup {
     html! { (quantity(mass_g, "g")) (window(mass_g, spread_ratio)) }
 }
@@ -40,17 +40,25 @@ fn window(mass_g: f64, spread_ratio: f64) -> Markup {
     }
 }
 
-/// What the parts weigh together, g.
-pub(super) fn printed_g(sheet: &Checklist) -> f64 {
+/// Returns the mass of all parts, g.
+pub(super) fn mass_of_parts_g(sheet: &Checklist) -> f64 {
     sheet.parts.iter().map(|part| part.mass_g).sum()
 }
 
-/// What may be left in a void, by process.
-pub(super) fn left_inside(process: &str) -> &'static str {
+/// Names a half of a yo-yo.
+pub(super) fn half_name(half: Half) -> &'static str {
+    match half {
+        Half::A => "A",
+        Half::B => "B",
+    }
+}
+
+/// Names the residue that a process may leave in a void.
+pub(super) fn residue(process: &Process) -> &'static str {
     match process {
-        "sla" => "resin or support",
-        "sls" | "mjf" => "powder",
-        "mjp" => "wax",
+        Process::Sla => "resin or support",
+        Process::Sls | Process::Mjf => "powder",
+        Process::Mjp => "wax",
         _ => "support",
     }
 }
@@ -60,14 +68,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn only_powder_processes_speak_of_powder_and_only_resin_of_resin() {
+    fn only_powder_processes_leave_powder_and_only_sla_leaves_resin() {
         for (process, left) in [
             ("fdm", "support"),
             ("sla", "resin or support"),
             ("sls", "powder"),
             ("polyjet", "support"),
         ] {
-            assert_eq!(left_inside(process), left);
+            assert_eq!(residue(&Process::from(process.to_owned())), left);
         }
     }
 }

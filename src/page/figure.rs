@@ -4,30 +4,29 @@ use maud::{Markup, PreEscaped, html};
 
 use crate::draw::{Drawn, PictureError, Shot, base64};
 
-/// Where on the page a picture belongs.
+/// The place of a picture on the page.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Role {
-    /// The whole, on the cover.
+    /// Cover: the whole.
     Cover,
-    /// What is inside, beside the cleaning of the voids and on the cover.
+    /// Cover: the whole cut open.
     CutAway,
-    /// The parts drawn apart, beside the gluing.
+    /// Gluing: the parts drawn apart.
     Exploded,
-    /// A part in its print pose, in the table of parts.
+    /// Table of parts: a part in its print pose.
     Part,
-    /// A cut with its pins, beside the dry fit.
+    /// Dry fit: a cut with its pins.
     Cut,
-    /// The halves of a yo-yo on their axle, beside the hardware.
+    /// Hardware: the halves of a yo-yo on their axle.
     Halves,
-    /// Mass properties before and after.
+    /// Proof: mass properties before and after.
     Inertia,
-    /// How the proof came about.
+    /// Proof: plots of the search.
     Proof,
 }
 
 impl Role {
-    /// How its pictures are laid out: two beside each other, or one below the other, drawings with
-    /// small words wider.
+    /// Returns the CSS class of its pictures: side by side, or wider for drawings with small words.
     fn class(self) -> &'static str {
         match self {
             Self::Cut => "pictures wide",
@@ -40,20 +39,20 @@ impl Role {
 /// A picture as a file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    /// Its path in the kit.
+    /// Path in the kit.
     pub file: String,
-    /// Where it belongs on the page.
+    /// Place on the page.
     pub role: Role,
-    /// What it is, in a short sentence.
+    /// Caption, a short sentence.
     pub caption: String,
-    /// What is to be seen on it, for those who cannot see it.
+    /// Description for those who cannot see it.
     pub alt: String,
-    /// What is drawn.
+    /// Image itself.
     pub drawn: Drawn,
 }
 
 impl Picture {
-    /// The bytes of its file.
+    /// Returns the bytes of its file.
     pub fn bytes(&self) -> Vec<u8> {
         match &self.drawn {
             Drawn::Png(png) => png.clone(),
@@ -61,7 +60,7 @@ impl Picture {
         }
     }
 
-    /// The picture itself on the page, without a caption.
+    /// Returns the image on the page, without a caption.
     pub(super) fn image(&self) -> Markup {
         match &self.drawn {
             Drawn::Png(png) => {
@@ -74,10 +73,15 @@ impl Picture {
 
 /// A picture before it is drawn.
 pub(super) struct Draft<'a> {
+    /// Path in the kit.
     pub file: String,
+    /// Place on the page.
     pub role: Role,
+    /// Caption.
     pub caption: String,
+    /// Description for those who cannot see it.
     pub alt: String,
+    /// Scene.
     pub shot: Shot<'a>,
 }
 
@@ -95,12 +99,12 @@ impl Draft<'_> {
     }
 }
 
-/// One picture with its caption.
+/// Returns a picture with its caption.
 pub(super) fn figure(picture: &Picture) -> Markup {
     html! { figure { (picture.image()) figcaption { (picture.caption) } } }
 }
 
-/// Every picture of a role in a row, if there are any.
+/// Returns the pictures of a role in a row; nothing if there are none.
 pub(super) fn figures(pictures: &[Picture], role: Role) -> Markup {
     html! {
         @if pictures.iter().any(|picture| picture.role == role) {

@@ -1,4 +1,4 @@
-//! Fitting and gluing: which joints close together, in which order, and what to mind of each.
+//! The dry fit and the gluing: the order of the joints, and what to watch at each.
 
 use maud::{Markup, html};
 
@@ -9,25 +9,25 @@ use crate::goal::GoalKind;
 use crate::sheet::{Checklist, JointRow};
 use crate::verify::GlueFilm;
 
-/// So many pins let parts together one way only, where nothing else is to be minded of a joint.
+/// Number of pins that align a joint fully, if it has no note.
 const ONE_WAY_PINS: usize = 2;
 
-/// Joints between the same two bodies, each glued so far: they close in one movement.
+/// A step of gluing: all joints between two bodies of parts, which close in one movement.
 struct Closing<'a> {
     joints: Vec<&'a JointRow>,
-    /// The parts of either body.
+    /// Ids of the parts of each body.
     sides: [Vec<&'a str>; 2],
 }
 
-/// The closings in an order that can be carried out: cut by cut, so that what is closed first lies
-/// wholly on one side of every later cut, and two bodies meet along one plane.
+/// Returns the steps of gluing in an order that works, cut by cut. What is closed first lies wholly
+/// on one side of every later cut, so two bodies meet along one plane.
 fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
     let mut bodies: Vec<Vec<&str>> = sheet
         .parts
         .iter()
         .map(|part| vec![part.id.as_str()])
         .collect();
-    let mut open: Vec<&JointRow> = in_order_of_cuts(&sheet.joints);
+    let mut open: Vec<&JointRow> = sort_by_cut(&sheet.joints);
     let mut closings = Vec::new();
     while let Some(first) = open.first() {
         let sides = first.parts.each_ref().map(|part| body_of(&bodies, part));
@@ -46,15 +46,15 @@ fn closings<'a>(sheet: &'a Checklist) -> Vec<Closing<'a>> {
     closings
 }
 
-/// The joints of the first cut, then those of the next, cuts as their first joints come.
-fn in_order_of_cuts(joints: &[JointRow]) -> Vec<&JointRow> {
+/// Sorts the joints by cut, with the cuts in the order of their first joints.
+fn sort_by_cut(joints: &[JointRow]) -> Vec<&JointRow> {
     let first = |cut: &str| joints.iter().position(|joint| joint.cut == cut);
     let mut sorted: Vec<&JointRow> = joints.iter().collect();
     sorted.sort_by_key(|joint| first(&joint.cut));
     sorted
 }
 
-/// The body that a part belongs to; the part alone where it is not known.
+/// Returns the body that holds a part; the part alone if none does.
 fn body_of<'a>(bodies: &[Vec<&'a str>], part: &'a str) -> Vec<&'a str> {
     bodies
         .iter()
@@ -64,7 +64,7 @@ fn body_of<'a>(bodies: &[Vec<&'a str>], part: &'a str) -> Vec<&'a str> {
 }
 
 impl Closing<'_> {
-    /// `J6 and J7 together`.
+    /// Names the joints: `J6 and J7 together`.
     fn name(&self) -> String {
         let ids: Vec<&str> = self.joints.iter().map(|joint| joint.id.as_str()).collect();
         match ids.split_last() {
@@ -74,20 +74,20 @@ impl Closing<'_> {
         }
     }
 
-    /// `P01 + P03`, for each of the two bodies.
+    /// Names the two bodies: `P01 + P03`.
     fn bodies(&self) -> [String; 2] {
         self.sides.each_ref().map(|side| side.join(" + "))
     }
 
-    /// The cuts it lies in.
+    /// Names the cuts in which the joints lie.
     fn cuts(&self) -> String {
         let mut cuts: Vec<&str> = self.joints.iter().map(|joint| joint.cut.as_str()).collect();
         cuts.dedup();
         cuts.join(", ")
     }
 
-    /// The joint whose pins align one that has not enough of its own, because both close in one
-    /// movement.
+    /// Returns the joint whose pins align another that has too few, since both close in one
+    /// movement. `None` if the joint needs no guide or no other joint can be one.
     fn guide_of(&self, joint: &JointRow) -> Option<&JointRow> {
         let is_sound = |row: &JointRow| row.pins >= ONE_WAY_PINS && row.note.is_none();
         let others = self
@@ -101,7 +101,7 @@ impl Closing<'_> {
             .filter(|_| !is_sound(joint))
     }
 
-    /// How it is aligned: its pins, and what to mind of any joint.
+    /// Returns how the joints are aligned: their pins, and their notes.
     fn alignment(&self) -> Markup {
         let is_one = self.joints.len() == 1;
         html! {
@@ -111,14 +111,14 @@ impl Closing<'_> {
                     @if joint.pins > 0 { (counted(joint.pins, "pin")) ", clearance " (quantity(joint.clearance_mm, "mm")) " a side" }
                     @else if joint.note.is_none() { "no pins" }
                     @if let Some(note) = &joint.note { @if joint.pins > 0 { "; " } strong { (note) } }
-                    @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, which closes with it" }
+                    @if let Some(other) = self.guide_of(joint) { "; the pins of " (other.id) " align it, as both close together" }
                 }
             }
         }
     }
 }
 
-/// The step in which everything is put together dry.
+/// Returns the step in which everything is put together without glue.
 pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.joints.is_empty() { p { "Nothing is glued to another printed part: nothing to fit." } }
@@ -135,14 +135,14 @@ pub(super) fn dry_fit(sheet: &Checklist) -> Markup {
     }
 }
 
-/// The step in which the parts are glued, two bodies at a time.
+/// Returns the step in which the parts are glued, two bodies at a time.
 pub(super) fn glue(sheet: &Checklist) -> Markup {
     html! {
         @if sheet.joints.is_empty() { p { "No printed part is glued to another." } }
         @else {
             div class="lead" {
-                p { "In this order; each row sets before the next. Joints in one row close in one movement: put glue on all of them first." }
-                p { (sparing(sheet.goal.aim.kind)) }
+                p { "Glue in this order, and let each row set before the next. Joints in the same row close together: put glue on all of them first." }
+                p { (glue_advice(sheet.goal.aim.kind)) }
                 (films(sheet))
             }
             table {
@@ -169,24 +169,24 @@ fn line(closing: &Closing) -> Markup {
     }
 }
 
-/// Why glue is used sparingly, and all around what must be tight.
-fn sparing(kind: GoalKind) -> &'static str {
+/// Returns how to apply the glue for a goal of this kind.
+fn glue_advice(kind: GoalKind) -> &'static str {
     match kind {
         GoalKind::Float => {
             "Seal every joint all around: a void that fills with water sinks it or turns it over."
         }
         GoalKind::Top | GoalKind::Yoyo | GoalKind::Balance => {
-            "Thin glue, kept off the voids: a gram of it off the axis is a gram out of balance."
+            "Use little glue, and keep it out of the voids: glue off the axis unbalances the object."
         }
-        GoalKind::Stand => "Thin glue, kept off the voids.",
+        GoalKind::Stand => "Use little glue, and keep it out of the voids.",
     }
 }
 
-/// The dowels to cut; nothing where pins are printed.
+/// Returns the dowels to cut; empty if pins are printed.
 fn cut_list(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.cut_list.is_empty() {
-            p { "Cut the dowels, ends square and free of burr; each goes half into either part." }
+            p { "Cut the dowels with square ends, free of burrs; half of each goes into either part." }
             ul class="ticks" {
                 @for row in &sheet.cut_list {
                     li {
@@ -199,15 +199,15 @@ fn cut_list(sheet: &Checklist) -> Markup {
     }
 }
 
-/// What the films of glue weigh, and how thick they are counted; nothing where that is not known.
+/// Returns the mass and thickness of the films of glue; empty if they are not known.
 fn films(sheet: &Checklist) -> Markup {
     let films: Vec<GlueFilm> = sheet.joints.iter().filter_map(|joint| joint.glue).collect();
     let mass_g: f64 = films.iter().map(|film| film.mass_g).sum();
     html! {
         @if let Some(film) = films.first() {
             p {
-                "The figures count films of glue of " (quantity(film.thickness_mm, "mm")) " and " (quantity(film.density_g_cm3, "g/cm³"))
-                ", " (quantity(mass_g, "g")) " in all; what is pressed out is wiped off."
+                "The figures include films of glue of " (quantity(film.thickness_mm, "mm")) " and " (quantity(film.density_g_cm3, "g/cm³"))
+                ", " (quantity(mass_g, "g")) " in all. Wipe off what is pressed out."
             }
         }
     }
@@ -218,7 +218,7 @@ mod tests {
     use super::*;
     use crate::testing::sample;
 
-    /// A sheet of these parts and joints: parts joined, and the cut.
+    /// Returns a sheet with this many parts and these joints: two parts and the cut.
     fn sheet(count: usize, joints: &[(usize, usize, &str)]) -> Checklist {
         let mut sheet = sample().0;
         let id = |index: usize| format!("P{:02}", index);
@@ -244,7 +244,7 @@ mod tests {
     }
 
     #[test]
-    fn four_quarters_are_glued_to_halves_and_the_halves_in_one_movement() {
+    fn quarters_are_glued_to_halves_and_the_halves_in_one_movement() {
         let crossed = sheet(4, &[(1, 2, "C1"), (1, 3, "C2"), (3, 4, "C1"), (2, 4, "C2")]);
         assert_eq!(names(&crossed), ["J1", "J3", "J2 and J4 together"]);
         assert_eq!(closings(&crossed)[2].bodies(), ["P01 + P02", "P03 + P04"]);
@@ -277,7 +277,7 @@ mod tests {
     }
 
     #[test]
-    fn a_side_that_a_cut_was_kept_to_is_closed_before_the_other_side_comes_on() {
+    fn the_side_to_which_a_cut_is_limited_is_closed_first() {
         let kept = sheet(3, &[(3, 2, "C2"), (2, 1, "C1"), (3, 1, "C1")]);
         assert_eq!(names(&kept), ["J1", "J2 and J3 together"]);
         assert_eq!(closings(&kept)[1].bodies(), ["P03 + P02", "P01"]);
@@ -290,15 +290,15 @@ mod tests {
             crossed.joints[index].pins = pins;
             crossed.joints[index].note = (pins == 0).then(|| "no room for pins".to_owned());
         }
-        let told = |closing: usize| closings(&crossed)[closing].alignment().into_string();
+        let words = |closing: usize| closings(&crossed)[closing].alignment().into_string();
         // J1 closes alone; J2 closes with J4.
-        assert!(!told(0).contains("align it"), "{}", told(0));
+        assert!(!words(0).contains("align it"), "{}", words(0));
         assert!(
-            told(2).contains("no room for pins</strong>; the pins of J4 align it"),
+            words(2).contains("no room for pins</strong>; the pins of J4 align it"),
             "{}",
-            told(2)
+            words(2)
         );
-        assert_eq!(told(2).matches("align it").count(), 1);
+        assert_eq!(words(2).matches("align it").count(), 1);
     }
 
     #[test]
@@ -308,9 +308,10 @@ mod tests {
     }
 
     #[test]
-    fn only_what_turns_is_told_of_balance() {
+    fn only_turning_objects_are_warned_of_unbalance() {
         assert!(
-            sparing(GoalKind::Top).contains("axis") && !sparing(GoalKind::Stand).contains("axis")
+            glue_advice(GoalKind::Top).contains("axis")
+                && !glue_advice(GoalKind::Stand).contains("axis")
         );
     }
 }

@@ -1,35 +1,35 @@
-//! What the machine makes of the lengths that were asked for: its pixels, lines and layers.
+//! The table of ordered lengths as the machine makes them, in pixels, lines and layers.
 
 use maud::{Markup, html};
 
 use crate::base::numbers::{number, quantity};
 use crate::sheet::GridRow;
 
-/// The table of these rows; nothing where there are none.
+/// Returns the table of these rows; empty without rows.
 pub(super) fn table(rows: &[GridRow]) -> Markup {
     html! {
         @if !rows.is_empty() {
-            h2 { "What the machine makes of it" }
+            h2 { "Sizes on this printer" }
             table {
-                thead { tr { th scope="col" { "What" } th scope="col" { "Along" } th scope="col" class="n" { "Asked" } th scope="col" class="n" { "Drawn" } th scope="col" { "The machine gives" } } }
+                thead { tr { th scope="col" { "What" } th scope="col" { "Along" } th scope="col" class="n" { "Asked" } th scope="col" class="n" { "Drawn" } th scope="col" { "Printed as" } } }
                 tbody {
-                    @for (row, along) in gathered(rows) {
+                    @for (row, along) in merge_directions(rows) {
                         tr {
                             td { (row.what) } td { (along) }
                             td class="n" { (quantity(row.asked_mm, "mm")) } td class="n" { (quantity(row.drawn_mm, "mm")) }
-                            td { (given(row)) }
+                            td { (steps_words(row)) }
                         }
                     }
                 }
             }
-            p class="small" { "Walls are counted wherever they lie between the pixels and layers, so that many or one more." }
+            p class="small" { "A wall may print one step thicker, as it can begin anywhere between the pixels and layers." }
         }
     }
 }
 
-/// The rows with the directions along which the machine makes the same of the same length: `x, y`.
-fn gathered(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
-    let mut gathered: Vec<(&GridRow, String)> = Vec::new();
+/// Merges rows that differ only in their direction, and joins the directions: `x, y`.
+fn merge_directions(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
+    let mut merged: Vec<(&GridRow, String)> = Vec::new();
     for row in rows {
         let is_same = |other: &GridRow| {
             GridRow {
@@ -37,16 +37,16 @@ fn gathered(rows: &[GridRow]) -> Vec<(&GridRow, String)> {
                 ..other.clone()
             } == *row
         };
-        match gathered.last_mut().filter(|(last, _)| is_same(last)) {
+        match merged.last_mut().filter(|(last, _)| is_same(last)) {
             Some((_, along)) => *along += &format!(", {}", row.along),
-            None => gathered.push((row, row.along.clone())),
+            None => merged.push((row, row.along.clone())),
         }
     }
-    gathered
+    merged
 }
 
-/// The last column: `24 pixels of 42.33 µm = 1.016 mm`.
-fn given(row: &GridRow) -> String {
+/// Words the last column: `24 pixels of 42.33 µm = 1.016 mm`.
+fn steps_words(row: &GridRow) -> String {
     let least = if row.is_whole { "" } else { "about " };
     let step = number(row.step_mm * 1000.0);
     format!(
@@ -62,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_the_machine_makes_alike_along_two_directions_is_one_line() {
+    fn equal_lengths_along_two_directions_are_one_line() {
         let row = |along: &str, steps_of: &str, steps: u32| GridRow {
             what: "wall".to_owned(),
             along: along.to_owned(),
@@ -79,12 +79,12 @@ mod tests {
             row("y", "pixels", 20),
             row("z", "layers", 10),
         ];
-        let lines: Vec<String> = gathered(&rows)
+        let lines: Vec<String> = merge_directions(&rows)
             .into_iter()
             .map(|(_, along)| along)
             .collect();
         assert_eq!(lines, ["x, y", "z"]);
         let oblong = [row("x", "pixels", 20), row("y", "pixels", 25)];
-        assert_eq!(gathered(&oblong).len(), 2);
+        assert_eq!(merge_directions(&oblong).len(), 2);
     }
 }

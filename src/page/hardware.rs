@@ -1,44 +1,41 @@
-//! The step in which hardware that is not printed is put in.
+//! The step in which the hardware is put in.
 
 use maud::{Markup, html};
 
-use super::fields::blank;
+use super::fields::{blank, half_name};
 use super::figure::{Picture, Role, figures};
 use crate::base::numbers::quantity;
 use crate::geom::Point;
-use crate::sheet::Checklist;
+use crate::sheet::{Checklist, Half};
 use crate::verify::Hardware;
 
-/// The step in which the hardware is put in.
-pub(super) fn fitting(sheet: &Checklist, pictures: &[Picture]) -> Markup {
+/// Returns the step in which the hardware is put in.
+pub(super) fn fit_hardware(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         div class="lead" {
-            @for half in ["A", "B"] {
-                @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half) } " is " (parts) "." } }
+            @for half in [Half::A, Half::B] {
+                @if let Some(parts) = parts_of(sheet, half) { p { "Half " strong { (half_name(half)) } " is " (parts) "." } }
             }
         }
-        (turning(sheet))
+        (align_halves(sheet))
         (figures(pictures, Role::Halves))
         ul class="ticks" {
-            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (described(sheet, piece)) " " span class="field" { "Weighed, g " (blank()) } } }
+            @for piece in &sheet.hardware { li { strong { (piece.id) } ", " (description(sheet, piece)) " " span class="field" { "Weighed, g " (blank()) } } }
         }
-        p class="small" { "Weigh each piece before it goes in: what differs from the mass above moves the centre of mass, or slows it down." }
+        p class="small" { "Weigh each piece before it goes in: a different mass moves the centre of mass, or slows the object down." }
     }
 }
 
-/// The parts of one half of a yo-yo, glued first; none where there are no halves.
-fn parts_of(sheet: &Checklist, half: &str) -> Option<String> {
-    let parts = sheet
-        .parts
-        .iter()
-        .filter(|part| part.half.as_deref() == Some(half));
+/// Names the parts of a half of a yo-yo; `None` if there are no halves.
+fn parts_of(sheet: &Checklist, half: Half) -> Option<String> {
+    let parts = sheet.parts.iter().filter(|part| part.half == Some(half));
     let parts: Vec<&str> = parts.map(|part| part.id.as_str()).collect();
     let glued = if parts.len() > 1 { ", glued" } else { "" };
     (!parts.is_empty()).then(|| parts.join(" + ") + glued)
 }
 
-/// What a piece is, how deep it goes and how far it stands out.
-fn described(sheet: &Checklist, piece: &Hardware) -> String {
+/// Describes a piece, how deep it goes in and how far it stands out.
+fn description(sheet: &Checklist, piece: &Hardware) -> String {
     let length_mm = (Point::from(piece.to_mm) - Point::from(piece.from_mm)).norm();
     let [length, depth, out, socket] = [
         length_mm,
@@ -73,22 +70,22 @@ fn described(sheet: &Checklist, piece: &Hardware) -> String {
     }
 }
 
-/// How the halves of a yo-yo are turned against each other; nothing where there is one body.
-fn turning(sheet: &Checklist) -> Markup {
+/// Returns how to align the halves of a yo-yo; empty for a single body.
+fn align_halves(sheet: &Checklist) -> Markup {
     html! {
         @if let Some(turn) = &sheet.turn {
             p {
                 strong { "Turn half A on the axle until its outline meets that of half B all around: " }
                 "hold the yo-yo against a light and sight along the axle, then along the seam from two sides, at ears, corners or any mark that runs "
-                "over the seam, before the glue sets. A degree off (" (quantity(rim_mm(sheet), "mm")) " at the rim) takes the centre of mass "
-                (quantity(turn.offset_mm_per_deg, "mm")) " off the axis and leans the axis by " (quantity(turn.tilt_deg_per_deg, "°"))
-                ", as half A alone has its centre " (quantity(turn.half_offset_mm, "mm")) " off the axis and half B balances it."
+                "over the seam, before the glue sets. One degree off (" (quantity(rim_mm(sheet), "mm")) " at the rim) moves the centre of mass "
+                (quantity(turn.offset_mm_per_deg, "mm")) " off the axis and tilts the axis by " (quantity(turn.tilt_deg_per_deg, "°"))
+                ", because half A alone has its centre " (quantity(turn.half_offset_mm, "mm")) " off the axis and half B balances it."
             }
         }
     }
 }
 
-/// What a degree is at half the greatest size, mm.
+/// Returns the length of a degree at half the greatest size, mm.
 fn rim_mm(sheet: &Checklist) -> f64 {
     0.5 * sheet.model.size_mm.into_iter().fold(0.0, f64::max) * 1f64.to_radians()
 }

@@ -1,5 +1,5 @@
-//! Mass properties before and after: the ellipsoid that turns as hard as the body, its axes and its
-//! centre of mass, over a pale picture (as in Spin-It, ACM TOG 33(4), 2014, figures 4 and 5).
+//! Mass properties before and after, over a pale picture: the ellipsoid of the same inertia, its
+//! axes and the centre of mass. As in Spin-It, ACM TOG 33(4), 2014, figures 4 and 5.
 
 use rayon::prelude::*;
 
@@ -8,8 +8,8 @@ use super::subject::Subject;
 use super::viewpoint::Viewpoint;
 use crate::base::numbers::quantity;
 use crate::draw::{
-    Anchor, BODY, Camera, Drawing, Drawn, INK, PAPER, PictureError, Projection, Scene, Spot,
-    Stroke, VOID, camera, hex, render, short, still,
+    Anchor, BODY, Camera, Drawing, Drawn, INK, Item, PAPER, Paint, PictureError, Projection, Scene,
+    Spot, Stroke, VOID, hex, render, short,
 };
 use crate::geom::{Matrix, Point, Vector};
 use crate::goal::GoalKind;
@@ -17,23 +17,23 @@ use crate::mass::Body;
 use crate::sheet::Checklist;
 use crate::verify::Figures;
 
-/// How much of the pale picture is seen.
+/// Opacity of the pale picture.
 const PALE: f64 = 0.35;
 
 /// Height of words, pixels.
 const TEXT_PX: f64 = 22.0;
 
-/// The radius of the sign of a centre of mass, pixels.
+/// Radius of the symbol of a centre of mass, pixels.
 const CENTER_PX: f64 = 13.0;
 
-/// A solid ellipsoid of semi-axes a, b, c has the second moments m a²/5, m b²/5, m c²/5 about its
-/// centre.
+/// Ratio of a squared semi-axis to the second moment per mass. A solid ellipsoid with semi-axes
+/// a, b, c has the second moments m a²/5, m b²/5, m c²/5 about its centre.
 const ELLIPSOID_RATIO: f64 = 5.0;
 
 /// The colour of the ellipsoid: blue.
 const ELLIPSOID: &str = "#0072b2";
 
-/// What one of the pictures is of.
+/// A state of the object: filled solid, or as made.
 struct State<'a> {
     file: &'static str,
     name: &'static str,
@@ -41,14 +41,14 @@ struct State<'a> {
     scene: Scene<'a>,
 }
 
-/// The pictures before and after, seen from the side.
+/// Draws the pictures before and after, seen from the side.
 pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Picture>, PictureError> {
     let (outer, voids) = (subject.shells.outer_mesh(), subject.shells.inner_mesh());
     let frame = subject.aim.frame();
     let view = Viewpoint::of(&outer, &frame);
     let side = Camera {
         margin_ratio: [0.14; 2],
-        ..camera(view.cut.normal, frame.axis())
+        ..Camera::new(view.cut.normal, frame.axis())
     };
     let cut = Some(view.cut);
     let states = [
@@ -57,7 +57,7 @@ pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Pictu
             name: "Solid",
             body: &sheet.solid,
             scene: Scene {
-                items: vec![still(&outer, BODY)],
+                items: vec![Item::new(&outer, BODY)],
                 cut: None,
             },
         },
@@ -66,7 +66,7 @@ pub(super) fn pictures(sheet: &Checklist, subject: &Subject) -> Result<Vec<Pictu
             name: "As made",
             body: &sheet.assembly,
             scene: Scene {
-                items: vec![still(&outer, BODY), still(&voids, VOID)],
+                items: vec![Item::new(&outer, BODY), Item::new(&voids, VOID)],
                 cut,
             },
         },
@@ -86,10 +86,10 @@ fn picture(state: &State, side: &Camera, sheet: &Checklist) -> Result<Picture, P
         center: Point::from(state.body.center_mm),
         inertia_g_mm2: Matrix::from_fn(|row, column| state.body.inertia_g_mm2[row][column]),
     };
-    goal_axis(&mut drawing, &projection, sheet);
-    ellipsoid(&mut drawing, &projection, &body);
-    axes(&mut drawing, &projection, &body);
-    center(&mut drawing, projection.at(&body.center));
+    draw_goal_axis(&mut drawing, &projection, sheet);
+    draw_ellipsoid(&mut drawing, &projection, &body);
+    draw_principal_axes(&mut drawing, &projection, &body);
+    draw_center(&mut drawing, projection.at(&body.center));
     drawing.text([12.0, TEXT_PX], Anchor::Start, state.name);
     Ok(Picture {
         file: state.file.to_owned(),
@@ -124,20 +124,20 @@ fn caption(state: &State, sheet: &Checklist) -> String {
     )
 }
 
-/// The axis of the goal through its point, over the whole height.
-fn goal_axis(drawing: &mut Drawing, projection: &Projection, sheet: &Checklist) {
+/// Draws the goal's axis over the whole height, and a triangle at its point.
+fn draw_goal_axis(drawing: &mut Drawing, projection: &Projection, sheet: &Checklist) {
     let frame = sheet.goal.aim.frame();
     let [x, _] = projection.at(&frame.origin);
     let [_, height] = drawing.size_px();
     drawing.line([[x, 6.0], [x, height - 6.0]], Stroke::DASH_DOT);
     let [_, y] = projection.at(&frame.origin);
     let tip = [[x, y], [x - 11.0, y + 18.0], [x + 11.0, y + 18.0]];
-    drawing.path(&[tip.to_vec()], true, (Some(&hex(PAPER)), Stroke::THICK));
+    drawing.path(&[tip.to_vec()], true, Paint::filled(PAPER, Stroke::THICK));
 }
 
-/// The shadow of the ellipsoid of the same mass and inertia: with second moments S about the centre
-/// it is { x : xᵀ S⁻¹ x ≤ 5/m }, and its shadow has the second moments of the shadow.
-fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
+/// Draws the ellipsoid of the same mass and inertia. With second moments S about the centre it is
+/// { x : xᵀ S⁻¹ x ≤ 5/m }, and its projection has the projected second moments.
+fn draw_ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     let second = Matrix::identity() * (0.5 * body.inertia_g_mm2.trace()) - body.inertia_g_mm2;
     let [right, up, _] = projection.axes;
     let squared = |a: &Vector, b: &Vector| {
@@ -159,8 +159,8 @@ fn ellipsoid(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     ));
 }
 
-/// The semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first, and the
-/// angle of the longer one, rad.
+/// Returns the semi-axes of { p : pᵀ M⁻¹ p ≤ 1 } for M = [[a, b], [b, c]], the longer one first.
+/// The second value is the angle of the longer one, rad.
 fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
     let (mean, half) = (0.5 * (a + c), (0.5 * (a - c)).hypot(b));
     (
@@ -169,8 +169,8 @@ fn ellipse([a, b, c]: [f64; 3]) -> ([f64; 2], f64) {
     )
 }
 
-/// The principal axes as far as the ellipsoid, I_c thick.
-fn axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
+/// Draws the principal axes up to the ellipsoid, that of I_c thick.
+fn draw_principal_axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     let principal = body.principal();
     let trace = principal.moments_g_mm2.iter().sum::<f64>();
     let names = ["I_a", "I_b", "I_c"];
@@ -205,10 +205,10 @@ fn axes(drawing: &mut Drawing, projection: &Projection, body: &Body) {
     }
 }
 
-/// The sign of a centre of mass: a disc in quarters.
-fn center(drawing: &mut Drawing, [x, y]: Spot) {
+/// Draws the symbol of a centre of mass: a disc in quarters.
+fn draw_center(drawing: &mut Drawing, [x, y]: Spot) {
     let ink = hex(INK);
-    drawing.circle([x, y], CENTER_PX, (Some(&hex(PAPER)), Stroke::THIN));
+    drawing.circle([x, y], CENTER_PX, Paint::filled(PAPER, Stroke::THIN));
     let r = CENTER_PX;
     let (x, y) = (short(x), short(y));
     drawing.add(&format!(
@@ -225,7 +225,7 @@ mod tests {
         let ([major, minor], angle) = ellipse([4.0, 0.0, 9.0]);
         assert_eq!([major, minor], [3.0, 2.0]);
         assert!((angle.abs() - std::f64::consts::FRAC_PI_2).abs() < 1e-15);
-        // The same turned by 45°: M = R diag(9, 4) Rᵀ = [[6.5, 2.5], [2.5, 6.5]].
+        // The same ellipse turned by 45°: M = R diag(9, 4) Rᵀ = [[6.5, 2.5], [2.5, 6.5]].
         let ([major, minor], angle) = ellipse([6.5, 2.5, 6.5]);
         assert!((major - 3.0).abs() < 1e-12 && (minor - 2.0).abs() < 1e-12);
         assert!((angle - std::f64::consts::FRAC_PI_4).abs() < 1e-15);

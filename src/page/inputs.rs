@@ -1,4 +1,4 @@
-//! What the page is made of.
+//! The inputs of the page.
 
 use super::figure::Picture;
 use super::view::View;
@@ -7,12 +7,12 @@ use crate::sheet::Checklist;
 /// Everything the page shows.
 #[derive(Debug, Clone, Copy)]
 pub struct PageInputs<'a> {
-    /// The job sheet.
+    /// Job sheet.
     pub sheet: &'a Checklist,
-    /// The SHA-256 of the job sheet as it is written for machines, hexadecimal.
+    /// SHA-256 of `checklist.json`, hexadecimal.
     pub sha256: &'a str,
-    /// The pictures.
+    /// Pictures.
     pub pictures: &'a [Picture],
-    /// What can be turned and taken apart on a screen; none where there are pictures only.
+    /// 3D view for a screen; `None` for a page with pictures only.
     pub view: Option<&'a View>,
 }

@@ -1,4 +1,4 @@
-//! Hardware and ballast as they are drawn: whole, and where a cut passes through them.
+//! Meshes and sections of hardware and ballast.
 
 use crate::draw::{Hatch, convex_section};
 use crate::geom::{Frame, Plane, Point, Vector};
@@ -7,39 +7,40 @@ use crate::mesh::{TriMesh, primitives};
 use crate::sheet::Checklist;
 use crate::verify::Hardware;
 
-/// Sides of a rod in a picture: fewer look like a nut.
+/// Sides of a rod in a picture: a rod with fewer sides looks like a nut.
 const SIDES: u32 = 32;
 
-/// How fine the ball of a rounded end is drawn: 320 triangles.
+/// Subdivisions of a ball in a picture: 320 triangles.
 const BALL_LEVEL: u32 = 2;
 
-/// A piece that a cut passes through.
+/// The section of a piece that a cut passes through.
 pub(super) struct Insert {
-    /// Its id, such as `H1`.
+    /// Id of the piece, such as `H1`.
     pub id: String,
-    /// How it is filled.
+    /// Filling.
     pub hatch: Hatch,
-    /// Its outline in the plane's coordinates, mm.
+    /// Outline in the plane's coordinates, mm.
     pub ring: Vec<[f64; 2]>,
 }
 
 impl Insert {
-    /// The middle of its outline.
+    /// Returns the mean of its outline.
     pub fn middle(&self) -> [f64; 2] {
-        mean(&self.ring)
+        let count = self.ring.len() as f64;
+        [0, 1].map(|axis| self.ring.iter().map(|point| point[axis]).sum::<f64>() / count)
     }
 }
 
-/// The hardware and the ballast that a cut passes through.
+/// Returns the sections of the hardware and the ballast that a cut passes through.
 pub(super) fn inserts(sheet: &Checklist, plane: &Plane) -> Vec<Insert> {
     let rods = sheet
         .hardware
         .iter()
-        .map(|rod| (&rod.id, Hatch::RODS, drawn(rod)));
+        .map(|rod| (&rod.id, Hatch::RODS, rod_mesh(rod)));
     let lumps = sheet
         .ballast
         .iter()
-        .map(|row| (&row.order.id, Hatch::BALLAST, drawn_lump(&row.order.lump)));
+        .map(|row| (&row.order.id, Hatch::BALLAST, lump_mesh(&row.order.lump)));
     let insert = |(id, hatch, mesh): (&String, Hatch, TriMesh)| {
         let ring = convex_section(&mesh, plane);
         (ring.len() > 2).then(|| Insert {
@@ -51,8 +52,8 @@ pub(super) fn inserts(sheet: &Checklist, plane: &Plane) -> Vec<Insert> {
     rods.chain(lumps).filter_map(insert).collect()
 }
 
-/// A piece of ballast as it is drawn: nuts and coins as discs.
-pub(super) fn drawn_lump(lump: &Lump) -> TriMesh {
+/// Returns the mesh of a piece of ballast; nuts and coins are drawn as discs.
+pub(super) fn lump_mesh(lump: &Lump) -> TriMesh {
     let (center, shape) = (Point::from(lump.center_mm), &lump.shape);
     if shape.is_ball() {
         return primitives::ball(&center, shape.radius_mm(), BALL_LEVEL);
@@ -63,8 +64,8 @@ pub(super) fn drawn_lump(lump: &Lump) -> TriMesh {
     disc.map_vertices(|p| frame.to_model(&(low + p.coords)))
 }
 
-/// A piece as it is drawn: rings as if they had no hole.
-pub(super) fn drawn(piece: &Hardware) -> TriMesh {
+/// Returns the mesh of a piece of hardware; rings are drawn without their hole.
+pub(super) fn rod_mesh(piece: &Hardware) -> TriMesh {
     let (from, to) = (Point::from(piece.from_mm), Point::from(piece.to_mm));
     let (radius_mm, length_mm) = (0.5 * piece.diameter_mm, (to - from).norm());
     let frame = Frame::with_axis(from, &(to - from));
@@ -81,10 +82,4 @@ pub(super) fn drawn(piece: &Hardware) -> TriMesh {
         TriMesh::default()
     };
     rod.joined(&ball).map_vertices(|p| frame.to_model(p))
-}
-
-/// The mean of points; not a number where there are none.
-fn mean(points: &[[f64; 2]]) -> [f64; 2] {
-    let count = points.len() as f64;
-    [0, 1].map(|axis| points.iter().map(|point| point[axis]).sum::<f64>() / count)
 }

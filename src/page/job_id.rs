@@ -1,6 +1,6 @@
-//! The QR code of a job: what it is called, and the hash that everything in its kit hangs on.
+//! The identity of a job: its name, and the hash on which everything in its kit depends.
 
-/// Digits of the hash in the code of the running header, which must stay readable at 15 mm: 64
+/// Digits of the hash in the QR code of the running header, which must stay readable at 15 mm: 64
 /// bits.
 const HEADER_DIGITS: usize = 16;
 
@@ -11,24 +11,24 @@ const ID_DIGITS: usize = 8;
 /// files.
 #[derive(Debug, Clone, Copy)]
 pub struct JobId<'a> {
-    /// The job's name.
+    /// Name of the job.
     pub name: &'a str,
-    /// The SHA-256 of the kit's `checklist.json`, hexadecimal.
+    /// SHA-256 of the kit's `checklist.json`, hexadecimal.
     pub sha256: &'a str,
 }
 
 impl JobId<'_> {
-    /// The name with the first digits of the hash: `elephant-3f2a9c01`.
+    /// Returns the name with the first digits of the hash: `elephant-3f2a9c01`.
     pub fn short(&self) -> String {
         format!("{}-{}", self.name, digits(self.sha256, ID_DIGITS))
     }
 
-    /// What the code on the cover says.
+    /// Returns the text of the QR code on the cover.
     pub fn text(&self) -> String {
         format!("EQUIPOISE {} SHA256 {}", self.name, self.sha256)
     }
 
-    /// What the code on every page says: the same with the first 16 digits of the hash.
+    /// Returns the text of the QR code on every page, with the first 16 digits of the hash.
     pub fn header_text(&self) -> String {
         format!(
             "EQUIPOISE {} SHA256 {}",
@@ -38,7 +38,7 @@ impl JobId<'_> {
     }
 }
 
-/// The first digits of a hash.
+/// Returns the first digits of a hash.
 fn digits(sha256: &str, count: usize) -> &str {
     sha256.get(..count).unwrap_or(sha256)
 }

@@ -1,9 +1,9 @@
-//! The checklist as one page a shop works from: no network, good on a screen and on paper.
+//! The job sheet as one page to work from, on a screen or on paper, without a network.
 
 use maud::{Markup, html};
 
 use super::cover::cover;
-use super::document::written;
+use super::document::styled_document;
 use super::fields::blank;
 use super::grid;
 use super::inputs::PageInputs;
@@ -15,30 +15,30 @@ use super::steps::{step_names, steps};
 use super::view::viewer;
 use crate::sheet::Checklist;
 
-/// The checklist as a self-contained HTML page with the pictures inside it.
-pub fn page(papers: &PageInputs) -> String {
-    let (sheet, pictures) = (papers.sheet, papers.pictures);
+/// Returns the job sheet as a self-contained HTML page with its pictures.
+pub fn page(inputs: &PageInputs) -> String {
+    let (sheet, pictures) = (inputs.sheet, inputs.pictures);
     let job = JobId {
         name: &sheet.job,
-        sha256: papers.sha256,
+        sha256: inputs.sha256,
     };
     let body = html! {
-        (cover(papers, &job))
+        (cover(inputs, &job))
         main {
-            @if let Some(view) = papers.view { (viewer(view)) }
+            @if let Some(view) = inputs.view { (viewer(view)) }
             (parts(sheet, pictures))
             (steps(sheet, pictures))
             (sign_off(sheet))
             (grid::table(&sheet.grid))
             (proof::checks(&sheet.checks))
             (proof::proof(sheet, pictures))
-            (proof::files(papers))
+            (proof::files(inputs))
         }
     };
-    written(&format!("Job sheet: {}", sheet.job), &body, &style(&job))
+    styled_document(&format!("Job sheet: {}", sheet.job), &body, &style(&job))
 }
 
-/// A line for every step, in the order of the sheet.
+/// Returns a table to sign every step off, in the order of the sheet.
 fn sign_off(sheet: &Checklist) -> Markup {
     let steps = step_names(sheet).into_iter();
     html! {

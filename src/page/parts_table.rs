@@ -1,19 +1,18 @@
-//! The table of parts: each as it lies on the plate, what it weighs, and boxes for what only the
-//! shop knows.
+//! The table of parts: each in its print pose, with its mass and fields for the shop.
 
 use maud::{Markup, html};
 
-use super::fields::{blank, file_name, mass_with_window};
+use super::fields::{blank, file_name, half_name, mass_with_window};
 use super::figure::Picture;
 use crate::base::numbers::{extent, quantity};
 use crate::base::units::{MM3_PER_CM3, counted};
 use crate::sheet::{Checklist, PartRow};
 
-/// How much of a hash is shown: enough to tell files apart by eye. The whole is at the end of the
-/// sheet.
+/// Digits of a hash that are shown: enough to tell files apart by eye. The whole hash is at the end
+/// of the sheet.
 const SHORT_HASH: usize = 12;
 
-/// The section of the parts.
+/// Returns the section of the parts.
 pub(super) fn parts(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         section class="new-page" {
@@ -34,20 +33,20 @@ fn line(sheet: &Checklist, part: &PartRow, pictures: &[Picture]) -> Markup {
     html! {
         tr {
             td class="picture" { @if let Some(picture) = picture { (picture.image()) } }
-            td { (described(part)) }
+            td { (description(part)) }
             td class="n" { (mass_with_window(sheet, part.mass_g)) }
             td class="boxes" {
                 @for field in ["Machine", "Material lot", "Operator"] { span class="field" { (field) " " (blank()) } br; }
-                span class="field" { "Sound ☐" }
+                span class="field" { "Part OK ☐" }
             }
         }
     }
 }
 
-/// What a part is, how it lies, and what its file is.
-fn described(part: &PartRow) -> Markup {
+/// Returns what a part is, how it lies, and its file.
+fn description(part: &PartRow) -> Markup {
     html! {
-        strong class="part-id" { (part.id) } @if let Some(half) = &part.half { ", half " (half) } br;
+        strong class="part-id" { (part.id) } @if let Some(half) = part.half { ", half " (half_name(half)) } br;
         (file_name(&part.file)) br;
         "SHA-256 " code { (part.sha256.get(..SHORT_HASH).unwrap_or(&part.sha256)) "…" } br;
         (extent(&part.size_mm)) br;

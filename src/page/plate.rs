@@ -1,9 +1,9 @@
-//! A part on the plate as it is printed: squares of a centimetre under it, and its size along the
+//! A part on the build plate in print pose: squares of 10 mm under it, and its size along the
 //! printer's axes.
 
 use super::figure::{Draft, Role};
 use crate::base::numbers::number;
-use crate::draw::{Camera, Color, Label, PLATE, Scene, Shot, still, turned};
+use crate::draw::{Camera, Color, Item, Label, PLATE, Scene, Shot, view_direction};
 use crate::geom::{Aabb, Point, Vector};
 use crate::mesh::TriMesh;
 use crate::sheet::part_picture_file;
@@ -15,28 +15,25 @@ const SIZE_PX: [usize; 2] = [560, 460];
 /// Height of words, pixels: 8 points at a third of the width of an A4 page.
 const TEXT_PX: f64 = 24.0;
 
-/// The share of the picture left free on each side for lengths.
+/// Share of the picture left free on each side for dimensions.
 const MARGIN_RATIO: f64 = 0.17;
 
-/// How far above the plate the viewer of a part stands, radians: high enough to look into a hollow
+/// Angles of the viewer to the right and above the plate, radians: high enough to see into a hollow
 /// that is open upward.
-const LIFT: f64 = 0.7;
+const TURN_AND_LIFT: [f64; 2] = [0.45, 0.7];
 
-/// How far to the right, radians.
-const TURN: f64 = 0.45;
-
-/// The side of the plate's squares, mm.
+/// Side of the plate's squares, mm.
 const SQUARE_MM: f64 = 10.0;
 
-/// How far the plate lies under the part, mm: enough that neither shines through the other.
+/// Distance of the drawn plate below the part, mm: enough that neither shows through the other.
 const BELOW_MM: f64 = 0.05;
 
-/// How far lengths are drawn from what they measure, pixels.
+/// Distance of dimensions from what they measure, pixels.
 const ASIDE_PX: f64 = 22.0;
 
-/// A plate under a part: whole squares that reach past it on every side, light ones and darker
-/// ones.
-pub(super) fn under(part: &Aabb) -> [TriMesh; 2] {
+/// Returns the light and the dark squares of a plate under a part, which reach past it on every
+/// side.
+pub(super) fn squares_under(part: &Aabb) -> [TriMesh; 2] {
     let first = |low: f64| (low / SQUARE_MM).floor() as i64 - 1;
     let last = |high: f64| (high / SQUARE_MM).ceil() as i64 + 1;
     let (columns, rows) = (
@@ -57,7 +54,7 @@ pub(super) fn under(part: &Aabb) -> [TriMesh; 2] {
     })
 }
 
-/// Squares that face up, by their lower left corners.
+/// Returns squares that face up, from their lower left corners.
 fn flat_squares(corners: impl Iterator<Item = [f64; 2]>, z: f64) -> TriMesh {
     let (mut vertices, mut triangles) = (Vec::new(), Vec::new());
     for [x, y] in corners {
@@ -69,7 +66,7 @@ fn flat_squares(corners: impl Iterator<Item = [f64; 2]>, z: f64) -> TriMesh {
     TriMesh::new(vertices, triangles).unwrap_or_default()
 }
 
-/// The picture of a part on its plate.
+/// Returns the picture of a part on its plate.
 pub(super) fn draft<'a>(
     part: &'a PartEvidence,
     plate: &'a [TriMesh; 2],
@@ -78,7 +75,7 @@ pub(super) fn draft<'a>(
     let plates = plate
         .iter()
         .zip(PLATE)
-        .map(|(squares, shade)| still(squares, shade));
+        .map(|(squares, shade)| Item::new(squares, shade));
     Draft {
         file: part_picture_file(&part.id),
         role: Role::Part,
@@ -89,24 +86,24 @@ pub(super) fn draft<'a>(
         ),
         shot: Shot {
             scene: Scene {
-                items: plates.chain([still(&part.mesh, color)]).collect(),
+                items: plates.chain([Item::new(&part.mesh, color)]).collect(),
                 cut: None,
             },
             camera: Camera {
-                toward_viewer: turned(&-Vector::y(), &Vector::z(), [TURN, LIFT]),
+                toward_viewer: view_direction(&-Vector::y(), &Vector::z(), TURN_AND_LIFT),
                 up: Vector::z(),
                 size_px: SIZE_PX,
                 margin_ratio: [MARGIN_RATIO; 2],
             },
             text_px: TEXT_PX,
-            labels: lengths(&part.mesh.aabb()),
+            labels: dimensions(&part.mesh.aabb()),
             keys: Vec::new(),
         },
     }
 }
 
-/// Its sizes along x, y and z.
-fn lengths(part: &Aabb) -> Vec<Label> {
+/// Returns the sizes of a part along x, y and z.
+fn dimensions(part: &Aabb) -> Vec<Label> {
     let (low, high) = (part.min, part.max);
     let size = part.size();
     let words = |axis: &str, mm: f64| format!("{axis} {}", number(mm));
@@ -135,9 +132,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_plate_reaches_past_the_part_by_a_square_or_more_on_every_side() {
+    fn a_plate_reaches_past_the_part_on_every_side() {
         let part = Aabb::of_points(&[Point::new(-12.0, 3.0, 0.0), Point::new(25.0, 7.0, 9.0)]);
-        let [light, dark] = under(&part);
+        let [light, dark] = squares_under(&part);
         let plate = light.aabb().union(&dark.aabb());
         assert_eq!(
             (plate.min, plate.max),
@@ -146,7 +143,7 @@ mod tests {
                 Point::new(40.0, 20.0, -BELOW_MM)
             )
         );
-        // Seven by three squares, two triangles each, eleven of one shade.
+        // Seven by three squares of two triangles; eleven squares have one shade.
         assert_eq!(
             [light.triangles().len(), dark.triangles().len()]
                 .iter()

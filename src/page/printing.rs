@@ -1,4 +1,4 @@
-//! The print step: what to load, how solid, on what support, and what to write on the parts.
+//! The print step: the files to load, infill, support, and what to write on the parts.
 
 use maud::{Markup, html};
 
@@ -6,17 +6,17 @@ use super::fields::file_name;
 use super::support;
 use crate::base::numbers::quantity;
 use crate::base::units::MM3_PER_CM3;
-use crate::sheet::{Checklist, PartRow};
+use crate::sheet::{Checklist, PartRow, Process};
 
-/// What the names of the packages of whole plates begin with.
+/// Prefix of the names of packages of whole plates.
 const PLATE: &str = "plate";
 
-/// The least cup that is warned of, mm³: a socket or a letter that holds less drips empty and sucks
-/// at nothing.
+/// Least volume of a cup that gets a warning, mm³: a smaller one, such as a socket or a letter,
+/// drains and causes no suction.
 const LEAST_CUP_MM3: f64 = 150.0;
 
-/// The step in which the parts are printed.
-pub(super) fn print(sheet: &Checklist) -> Markup {
+/// Returns the step in which the parts are printed.
+pub(super) fn print_step(sheet: &Checklist) -> Markup {
     html! {
         ul class="plain" {
             li { strong { "Load: " } (load(sheet)) }
@@ -25,23 +25,23 @@ pub(super) fn print(sheet: &Checklist) -> Markup {
             @if sheet.printer.build_volume_mm.is_none() {
                 li { strong { "Room: " } "the build volume of this printer is not known; check by hand that every part fits." }
             }
-            @if let Some(cups) = cup_warning(sheet) { li { strong { "Mind: " } (cups) "." } }
-            @if let Some(parts) = unmarked(sheet) {
-                li { strong { "Names: " } "write the id on these parts as they come off the plate, as it has no room in their cut faces: " strong { (parts) } "." }
+            @if let Some(cups) = cup_warning(sheet) { li { strong { "Warning: " } (cups) "." } }
+            @if let Some(parts) = parts_without_id(sheet) {
+                li { strong { "Names: " } "write the id on these parts when they come off the plate, as their cut faces have no room for it: " strong { (parts) } "." }
             }
         }
         ul class="ticks" {
             @for part in &sheet.parts {
                 li {
                     strong { (part.id) } ": " (file_name(&part.file)) ", " (part.lies) ". Printed, and looks as in the table of parts."
-                    @if let Some(told) = support::of_part(part) { br; (told) }
+                    @if let Some(words) = support::of_part(part) { br; (words) }
                 }
             }
         }
     }
 }
 
-/// Which files go to the slicer.
+/// Returns the files to load into the slicer.
 fn load(sheet: &Checklist) -> Markup {
     let plates: Vec<&String> = sheet
         .files
@@ -58,20 +58,20 @@ fn load(sheet: &Checklist) -> Markup {
     }
 }
 
-/// How the printer is set so that material is solid; every mass on the sheet rests on it.
+/// Returns the settings for solid material, on which every mass on the sheet depends.
 fn solid(sheet: &Checklist) -> Markup {
     let printer = &sheet.printer;
-    let how = match printer.process.as_str() {
-        "fdm" => format!(
-            "perimeters all around, everything between them filled, in lines of {} and layers of {}; both are counted on.",
+    let how = match &printer.process {
+        Process::Fdm => format!(
+            "100 % infill between the perimeters, line width {}, layers of {}. Do not change them: the masses depend on them.",
             quantity(printer.pixel_mm[0], "mm"),
             quantity(printer.layer_mm, "mm")
         ),
-        "sla" => format!(
+        Process::Sla => format!(
             "no hollowing, no infill and no drain holes by the slicer, in layers of {}.",
             quantity(printer.layer_mm, "mm")
         ),
-        "polyjet" | "mjp" => format!(
+        Process::Polyjet | Process::Mjp => format!(
             "model material all through, no light or sparse filling, in layers of {}.",
             quantity(printer.layer_mm, "mm")
         ),
@@ -82,39 +82,41 @@ fn solid(sheet: &Checklist) -> Markup {
     };
     html! {
         (how) " The voids are in the files and stay empty: the slicer must neither fill nor add any. "
-        "With walls that are not solid every mass on this sheet is wrong, and so is the balance."
+        "If walls are not solid, every mass on this sheet is wrong, and so is the balance."
     }
 }
 
-/// The parts that bear their id in no cut face, where there are several to be told apart.
-fn unmarked(sheet: &Checklist) -> Option<String> {
+/// Names the parts without an id in a cut face; `None` if there are none or only one part.
+fn parts_without_id(sheet: &Checklist) -> Option<String> {
     let parts = sheet.parts.iter().filter(|part| part.marks.is_empty());
     let ids: Vec<&str> = parts.map(|part| part.id.as_str()).collect();
     (sheet.parts.len() > 1 && !ids.is_empty()).then(|| ids.join(", "))
 }
 
-/// The parts whose open hollow lies mouth down on the plate of a printer that stands in resin.
+/// Returns the parts that lie with the mouth of an open hollow down on the plate of a resin
+/// printer.
 fn cups(sheet: &Checklist) -> Vec<&PartRow> {
-    let is_cup = |part: &&PartRow| part.cup_mm3 >= LEAST_CUP_MM3 && sheet.printer.process == "sla";
+    let is_cup =
+        |part: &&PartRow| part.cup_mm3 >= LEAST_CUP_MM3 && sheet.printer.process == Process::Sla;
     sheet.parts.iter().filter(is_cup).collect()
 }
 
-/// What to do about parts that print as closed cups; none where there are none.
+/// Words a warning of parts that print as closed cups; `None` if there are none.
 pub fn cup_warning(sheet: &Checklist) -> Option<String> {
     let cups = cups(sheet);
-    let told = |part: &&PartRow| {
+    let name = |part: &&PartRow| {
         format!(
             "{} ({})",
             part.id,
             quantity(part.cup_mm3 / MM3_PER_CM3, "cm³")
         )
     };
-    let told: Vec<String> = cups.iter().map(told).collect();
+    let names: Vec<String> = cups.iter().map(name).collect();
     (!cups.is_empty()).then(|| {
         format!(
-            "the mouth of an open hollow lies flat on the platform in {}: a closed cup, which traps resin and sucks at every layer; lean these \
-             parts on support, or turn their mouths away from the platform (masses and balance stay as they are)",
-            told.join(", ")
+            "the mouth of an open hollow lies flat on the platform in {}: a closed cup, which traps resin and causes suction at every layer; tilt these \
+             parts on support, or turn their mouths away from the platform (masses and balance do not change)",
+            names.join(", ")
         )
     })
 }
@@ -124,22 +126,22 @@ mod tests {
     use super::*;
     use crate::testing::sample;
 
-    fn told(change: impl Fn(&mut Checklist)) -> String {
+    fn page_of(change: impl Fn(&mut Checklist)) -> String {
         let mut sheet = sample().0;
         change(&mut sheet);
-        print(&sheet).into_string()
+        print_step(&sheet).into_string()
     }
 
     #[test]
-    fn every_process_is_told_to_print_solid_and_lines_only_where_there_are_lines() {
+    fn every_process_prints_solid_and_only_fdm_has_lines() {
         for process in ["fdm", "sla", "polyjet", "mjp", "sls", "mjf"] {
-            let page = told(|sheet| sheet.printer.process = process.to_owned());
+            let page = page_of(|sheet| sheet.printer.process = process.to_owned().into());
             assert!(
                 page.contains("Solid, 100 % infill") && page.contains("layers of 0.016"),
                 "{process}"
             );
             assert_eq!(
-                page.contains("lines of 0.0423"),
+                page.contains("line width 0.0423"),
                 process == "fdm",
                 "{process}"
             );
@@ -147,8 +149,8 @@ mod tests {
     }
 
     #[test]
-    fn the_plates_are_named_where_there_are_any_and_the_unknown_build_volume_is_told() {
-        let page = told(|sheet| {
+    fn plates_and_an_unknown_build_volume_are_named() {
+        let page = page_of(|sheet| {
             sheet.files.insert("plate_1.3mf".to_owned(), String::new());
             sheet.files.insert("plate_2.3mf".to_owned(), String::new());
         });
@@ -157,7 +159,7 @@ mod tests {
                 && page.contains("plate_2.3mf")
                 && !page.contains("not known")
         );
-        let page = told(|sheet| sheet.printer.build_volume_mm = None);
+        let page = page_of(|sheet| sheet.printer.build_volume_mm = None);
         assert!(
             !page.contains("plate_") && page.contains("build volume of this printer is not known")
         );
@@ -165,18 +167,18 @@ mod tests {
 
     #[test]
     fn parts_without_an_id_are_named_once() {
-        let page = told(|_| ());
+        let page = page_of(|_| ());
         assert_eq!(page.matches("write the id on these parts").count(), 1);
         assert!(page.contains("<strong>P01, P02</strong>"));
-        assert!(!told(|sheet| sheet.parts.truncate(1)).contains("write the id"));
+        assert!(!page_of(|sheet| sheet.parts.truncate(1)).contains("write the id"));
     }
 
     #[test]
-    fn only_resin_minds_a_cup() {
+    fn only_resin_printers_are_warned_of_cups() {
         let mut sheet = sample().0;
         sheet.parts[1].cup_mm3 = 5000.0;
         assert_eq!(cup_warning(&sheet), None);
-        sheet.printer.process = "sla".to_owned();
+        sheet.printer.process = Process::Sla;
         let said = cup_warning(&sheet).unwrap();
         assert!(said.contains("P02 (5\u{a0}cm³)") && !said.contains("P01"));
     }

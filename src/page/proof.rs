@@ -1,4 +1,4 @@
-//! The back of the sheet: what was checked, how good the result is, and every file with its hash.
+//! The back of the sheet: the checks, the proof, and the hashes of all files.
 
 use maud::{Markup, html};
 
@@ -10,13 +10,13 @@ use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
 use crate::sheet::{BossRow, Checklist};
 use crate::verify::{Check, Figures};
 
-/// What an engineer reads here, for those who are none.
+/// A guide to the figures.
 const READING: &str = "For engineers. I_a ≤ I_b ≤ I_c are the moments of inertia about the three principal axes through the centre of mass. \
     The axis of I_c is the one a body spins about stably; the farther I_b/I_c is below 1 the better. Spin-It's functional adds the squares of such \
-    ratios (for a top with the centre's height): the lower the better. It is what was made best where the sheet says so, and is another figure than \
-    the ratio or the speed on the first page. The score of a cut adds up what speaks against it: 0 is best.";
+    ratios (for a top also the centre's height): the lower the better. It was optimised if the sheet says so, and differs from \
+    the ratio or the speed on the first page. The score of a cut adds up its drawbacks: 0 is best.";
 
-/// Every promise with its verdict.
+/// Returns the table of checks.
 pub(super) fn checks(checks: &[Check]) -> Markup {
     html! {
         section {
@@ -42,7 +42,7 @@ fn check_line(check: &Check) -> Markup {
     }
 }
 
-/// How good it is, in words, pictures and numbers.
+/// Returns the proof in words, pictures and numbers.
 pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     html! {
         section {
@@ -50,7 +50,7 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
             p class="small" { (READING) }
             @for sentence in words::certificate(sheet) { p { (sentence) } }
             (cost(sheet))
-            (rounds(sheet))
+            (boss_rounds(sheet))
             (figures(pictures, Role::Proof))
             h3 { "Before and after" }
             p class="small" {
@@ -63,10 +63,10 @@ pub(super) fn proof(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     }
 }
 
-/// A column of the table of bodies: its head, its unit, and what stands in it.
+/// A column of the table of bodies: its head, its unit, and its figure.
 type Column = (&'static str, &'static str, fn(&Figures) -> Option<f64>);
 
-/// What is told of a body where it is known.
+/// The columns of the table of bodies; a column is shown if a body has its figure.
 const COLUMNS: [Column; 13] = [
     ("Off the axis", "mm", |body| body.axis_offset_mm),
     ("Axis tilt", "°", |body| body.axis_tilt_deg),
@@ -129,17 +129,17 @@ fn bodies(sheet: &Checklist) -> Markup {
     }
 }
 
-/// The hashes of everything, and what the numbers rest on.
-pub(super) fn files(papers: &PageInputs) -> Markup {
-    let sheet = papers.sheet;
+/// Returns the hashes of all files, and the sources of the numbers.
+pub(super) fn files(inputs: &PageInputs) -> Markup {
+    let sheet = inputs.sheet;
     html! {
         section class="loose" {
             h2 { "Files, software and sources" }
-            p { "Whether a file is the one this sheet speaks of: " code { "equipoise verify" } " compares all of them, " code { "sha256sum" } " each." }
+            p { "To test whether a file belongs to this sheet, " code { "equipoise verify" } " compares all of them, " code { "sha256sum" } " a single one." }
             table class="hashes" {
                 thead { tr { th scope="col" { "What" } th scope="col" { "SHA-256" } } }
                 tbody {
-                    (hash_line("checklist.json", papers.sha256))
+                    (hash_line("checklist.json", inputs.sha256))
                     @for (file, sha256) in &sheet.files { (hash_line(file, sha256)) }
                     (hash_line(&format!("the model, {}", sheet.model.file), &sheet.model.sha256))
                     (hash_line(&format!("the printer profile, {}", sheet.printer.id), &sheet.printer.profile_sha256))
@@ -151,7 +151,7 @@ pub(super) fn files(papers: &PageInputs) -> Markup {
                 code { (sheet.material.id) } ". The same numbers are in checklist.json; job.toml repeats the run."
             }
             @for note in &sheet.notes { p class="small" { (note) } }
-            h3 { "What the printer's numbers rest on, and how sure they are" }
+            h3 { "Sources of the printer's numbers, and how certain they are" }
             ul class="sources small" { @for source in &sheet.printer.sources { li { (source) } } }
         }
     }
@@ -161,14 +161,14 @@ fn hash_line(what: &str, sha256: &str) -> Markup {
     html! { tr { td { (what) } td { code { (sha256) } } } }
 }
 
-/// What the rounds kept solid, and what that cost.
-fn rounds(sheet: &Checklist) -> Markup {
+/// Returns what the rounds kept solid around pins, and what it cost.
+fn boss_rounds(sheet: &Checklist) -> Markup {
     let figure = sheet.certificate.figure;
     html! {
         @for row in &sheet.rounds {
             p {
                 "Boss round " (row.round) ": the walls alone left no room for pins, so material was kept solid around "
-                (listed(&row.bosses)) ". The " (figure.name()) " went from " (quantity(row.before, figure.unit())) " to "
+                (list_bosses(&row.bosses)) ". The " (figure.name()) " went from " (quantity(row.before, figure.unit())) " to "
                 (quantity(row.after, figure.unit())) "; " (quantity(row.kept_solid_mm3, "mm³"))
                 " that could have been emptied stay solid."
             }
@@ -176,7 +176,7 @@ fn rounds(sheet: &Checklist) -> Markup {
     }
 }
 
-fn listed(bosses: &[BossRow]) -> String {
+fn list_bosses(bosses: &[BossRow]) -> String {
     let named = bosses.iter().map(|boss| {
         format!(
             "{} at {} between {}",

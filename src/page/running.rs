@@ -1,17 +1,17 @@
-//! What stands on every printed page: the job, its code, the units and the number of the page.
+//! The margins of every printed page: the job, its QR code, the units and the page number.
 
 use maud::{Markup, html};
 
 use super::job_id::JobId;
 use crate::draw::{base64, code_path};
 
-/// The units of everything on the sheet.
+/// The units on the sheet.
 pub(super) const UNITS: &str = "Lengths in mm, masses in g, angles in degrees.";
 
-/// The side of the code in the running header, CSS pixels (96 an inch): 15 mm, 0.4 mm a module.
+/// Side of the QR code in the running header, CSS pixels (96 per inch): 15 mm, 0.4 mm a module.
 const HEADER_PX: usize = 57;
 
-/// The style of the printed page's margins. Browsers without boxes in the margins leave them empty.
+/// Returns the style of the printed margins. Browsers without margin boxes leave them empty.
 pub(super) fn style(job: &JobId) -> String {
     let name = css_string(&format!("Job {}", job.short()));
     let units = css_string(UNITS);
@@ -29,7 +29,7 @@ pub(super) fn style(job: &JobId) -> String {
     )
 }
 
-/// The code of a job with what it says, for the cover.
+/// Returns the QR code of a job for the cover.
 pub(super) fn code(job: &JobId) -> Markup {
     html! {
         @if let Some((side, dark)) = code_path(&job.text()) {
@@ -41,7 +41,7 @@ pub(super) fn code(job: &JobId) -> Markup {
     }
 }
 
-/// What a screen shows above the sheet in place of the margins of paper.
+/// Returns the line that a screen shows above the sheet, in place of the margins.
 pub(super) fn on_screen(job: &JobId) -> Markup {
     html! {
         p class="screen-only on-screen small" {
@@ -50,7 +50,7 @@ pub(super) fn on_screen(job: &JobId) -> Markup {
     }
 }
 
-/// A string in a style sheet: everything but plain letters, digits and spaces by its number.
+/// Returns a CSS string with all but letters, digits and harmless signs escaped.
 fn css_string(text: &str) -> String {
     let plain = |c: char| c.is_ascii_alphanumeric() || " .,-_:".contains(c);
     let coded: String = text
@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_cannot_leave_its_string() {
+    fn a_name_cannot_end_its_css_string() {
         assert_eq!(
             css_string("a\"}</style>"),
             "\"a\\000022\\00007d\\00003c\\00002fstyle\\00003e\""

@@ -1,4 +1,4 @@
-//! The steps of a job in the order they are done, with boxes to tick and to fill.
+//! The steps of a job in their order, with boxes to tick and fields to fill in.
 
 use maud::{Markup, html};
 
@@ -6,18 +6,17 @@ use super::cleaning::clean_one;
 use super::fields::{blank, mass_window};
 use super::figure::{Picture, Role, figures};
 use super::gluing::{dry_fit, glue};
-use super::hardware::fitting;
-use super::printing::print;
-use super::trials::test;
+use super::hardware::fit_hardware;
+use super::printing::print_step;
+use super::trials::test_step;
 use super::weighing::{weigh_parts, weigh_whole};
 use crate::base::numbers::{coordinates, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::{BallastRow, Checklist};
 use crate::verify::FillOrder;
 
-/// The names of the steps in their order: print, clean, weigh the parts while they can still be
-/// cleaned, dry fit, fill the voids or lay in the ballast where that is asked for, glue, put in
-/// what is not printed, weigh the whole, test.
+/// Returns the names of the steps in their order. Parts are weighed while they can still be
+/// cleaned; filling, ballast and hardware are steps only if the job has them.
 pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
     let names = [
         Some("Print"),
@@ -34,19 +33,19 @@ pub(super) fn step_names(sheet: &Checklist) -> Vec<&'static str> {
     names.into_iter().flatten().collect()
 }
 
-/// Every step with its pictures.
+/// Returns every step with its pictures.
 pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     let steps = [
-        Some(print(sheet)),
+        Some(print_step(sheet)),
         Some(html! { (clean(sheet)) (mouths_note(sheet)) }),
         Some(weigh_parts(sheet)),
         Some(html! { (dry_fit(sheet)) (figures(pictures, Role::Cut)) }),
         sheet.fill.map(|fill| filling(sheet, fill)),
         (!sheet.ballast.is_empty()).then(|| ballast(sheet)),
         Some(html! { (glue(sheet)) (figures(pictures, Role::Exploded)) }),
-        (!sheet.hardware.is_empty()).then(|| fitting(sheet, pictures)),
+        (!sheet.hardware.is_empty()).then(|| fit_hardware(sheet, pictures)),
         Some(weigh_whole(sheet)),
-        Some(test(sheet)),
+        Some(test_step(sheet)),
     ];
     html! {
         @for (index, (name, step)) in step_names(sheet).into_iter().zip(steps.into_iter().flatten()).enumerate() {
@@ -55,11 +54,11 @@ pub(super) fn steps(sheet: &Checklist, pictures: &[Picture]) -> Markup {
     }
 }
 
-/// Where to see what opens the voids.
+/// Returns where to look for drawings of the mouths.
 fn mouths_note(sheet: &Checklist) -> Markup {
     html! {
         @if !sheet.voids.is_empty() && !sheet.cuts.is_empty() {
-            p class="small" { "Where each void opens is drawn below, under “Dry fit”; what it looks like inside is on the first page." }
+            p class="small" { "“Dry fit” below shows where each void opens; the first page shows the inside." }
         }
     }
 }
@@ -92,7 +91,7 @@ fn ballast(sheet: &Checklist) -> Markup {
             }
             @for row in &sheet.ballast { (ballast_line(row)) }
         }
-        p class="small" { "What the sizes and masses rest on:" }
+        p class="small" { "Sources of the sizes and masses:" }
         @for source in ballast_sources(sheet) { p class="small" { (source) } }
     }
 }
@@ -111,7 +110,7 @@ fn ballast_line(row: &BallastRow) -> Markup {
     }
 }
 
-/// The sources of the ballast's numbers, each once.
+/// Returns the sources of the ballast's numbers, each once.
 fn ballast_sources(sheet: &Checklist) -> Vec<&String> {
     let mut sources: Vec<&String> = sheet.ballast.iter().flat_map(|row| &row.sources).collect();
     sources.sort();

@@ -1,34 +1,41 @@
-//! What the pictures of a kit are taken of.
+//! The subject of the pictures of a kit: the uncut result, its parts and all that is put in.
 
 use crate::geom::{Parting, Plane};
 use crate::mesh::TriMesh;
 use crate::verify::{Aim, BallastOrder, Hardware, PartEvidence, Peg, PromisedPart, Shells};
 
-/// What the pictures are taken of.
+/// The subject of the pictures.
 #[derive(Debug, Clone, Copy)]
 pub struct Subject<'a> {
-    /// The shells of the uncut result, model frame.
+    /// Shells of the uncut result, model frame.
     pub shells: &'a Shells,
-    /// The parts, print frame.
+    /// Parts, print frame.
     pub parts: &'a [PartEvidence],
-    /// What was promised of them, in the same order.
+    /// Promises of these parts, in the same order.
     pub promised: &'a [PromisedPart],
-    /// The cuts between them, model frame.
+    /// Cuts between them, model frame.
     pub cuts: &'a [Parting],
-    /// The goal: its axis points up in the pictures.
+    /// Goal; its axis points up in the pictures.
     pub aim: Aim,
-    /// What is put in that is not printed, model frame.
+    /// Hardware, model frame.
     pub hardware: &'a [Hardware],
-    /// The stock parts in their pockets, model frame.
+    /// Stock parts in their pockets, model frame.
     pub ballast: &'a [BallastOrder],
 }
 
 impl Subject<'_> {
-    /// The cuts along which the parts are drawn apart, and the plane between the halves of a yo-yo.
+    /// Returns whether two halves sit on an axle.
+    pub(super) fn has_halves(&self) -> bool {
+        self.hardware.iter().any(|piece| piece.what == "axle")
+    }
+
+    /// Returns the cuts along which the parts are drawn apart, and the plane between the halves of
+    /// a yo-yo.
     pub(super) fn partings(&self) -> Vec<Parting> {
         let frame = self.aim.frame();
-        let has_halves = self.hardware.iter().any(|piece| piece.what == "axle");
-        let between = has_halves.then(|| Plane::through(&frame.origin, &frame.axis()));
+        let between = self
+            .has_halves()
+            .then(|| Plane::through(&frame.origin, &frame.axis()));
         self.cuts
             .iter()
             .cloned()
@@ -37,7 +44,7 @@ impl Subject<'_> {
     }
 }
 
-/// The parts' meshes in the model frame.
+/// Returns the meshes of the parts in the model frame.
 pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
     parts
         .iter()
@@ -45,8 +52,8 @@ pub(super) fn parts_in_model(parts: &[PartEvidence]) -> Vec<TriMesh> {
         .collect()
 }
 
-/// The pins that stand out of a part, by the parts in the order of the sheet.
-pub(super) fn pins(promised: &[PromisedPart]) -> impl Iterator<Item = (usize, &Peg)> {
+/// Returns the pins, each with the index of the part that bears it.
+pub(super) fn pins_by_part(promised: &[PromisedPart]) -> impl Iterator<Item = (usize, &Peg)> {
     promised
         .iter()
         .enumerate()

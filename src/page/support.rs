@@ -1,14 +1,14 @@
-//! Where a part needs support as it lies on the plate, and what is told of it.
+//! The support of each part and of the whole job.
 
 use crate::base::numbers::quantity;
 use crate::base::units::{MM2_PER_CM2, counted};
-use crate::sheet::{Checklist, PartRow, SupportRow};
+use crate::sheet::{Checklist, PartRow, Process, SupportMethod, SupportRow};
 
-/// Below this height over the plate a length is told as lying on it, mm.
+/// Height over the plate up to which overhangs are said to begin on the plate, mm.
 const ON_PLATE_MM: f64 = 0.05;
 
-/// What to set in the slicer for a part, and where support touches it.
-fn words(support: &SupportRow) -> String {
+/// Words the support setting of the slicer for a part, and where support touches it.
+fn support_words(support: &SupportRow) -> String {
     if support.places == 0 {
         return "off, nothing hangs in the air".to_owned();
     }
@@ -16,7 +16,7 @@ fn words(support: &SupportRow) -> String {
         ("outside", support.outside_mm2),
         ("in the open hollow", support.hollow_mm2),
         (
-            "on cut faces and pins, where every rest of it must be cut off flush",
+            "on cut faces and pins, where every remainder must be cut off flush",
             support.cut_face_mm2,
         ),
     ];
@@ -41,13 +41,13 @@ fn words(support: &SupportRow) -> String {
     )
 }
 
-/// What is told of a part's support behind its name; nothing where it is not known by the part.
+/// Words the support of a part; `None` if the printer does not say which surfaces need it.
 pub(super) fn of_part(part: &PartRow) -> Option<String> {
     part.support
-        .map(|support| format!("Support {}.", words(&support)))
+        .map(|support| format!("Support {}.", support_words(&support)))
 }
 
-/// Where support belongs, for the whole job.
+/// Words the support of the whole job.
 pub(super) fn of_all(sheet: &Checklist) -> String {
     let known: Option<Vec<usize>> = sheet
         .parts
@@ -59,30 +59,26 @@ pub(super) fn of_all(sheet: &Checklist) -> String {
             "off for every part: nothing hangs in the air as they lie.".to_owned()
         }
         Some(places) if places.contains(&0) => {
-            "on for some parts and off for others, as told at each below; none in sockets. What stands in an open hollow comes out in the \
-             next step."
+            "on for some parts and off for others, as listed below; none in sockets. Support in an open hollow is removed in the next step."
                 .to_owned()
         }
-        Some(_) => "on for every part, where told at each below; none in sockets. What stands in an open hollow comes out in the next step."
+        Some(_) => "on for every part, as listed below; none in sockets. Support in an open hollow is removed in the next step."
             .to_owned(),
         None => by_process(sheet).to_owned(),
     }
 }
 
-/// Where support belongs by the process alone.
+/// Words the support by the process alone.
 fn by_process(sheet: &Checklist) -> &'static str {
-    match (
-        sheet.printer.support.as_str(),
-        sheet.printer.process.as_str(),
-    ) {
-        ("none", _) => "none; the powder holds every part.",
-        ("breakaway", "sla") => {
-            "on, outside and under what overhangs in an open hollow; none on cut faces, pins and sockets. It comes out in the next step."
+    match (sheet.printer.support, &sheet.printer.process) {
+        (SupportMethod::None, _) => "none; the powder holds every part.",
+        (SupportMethod::Breakaway, Process::Sla) => {
+            "on, outside and under overhangs in an open hollow; none on cut faces, pins and sockets. It is removed in the next step."
         }
-        ("breakaway", _) => {
-            "on where a part overhangs; none in sockets. What stands in an open hollow comes out in the next step."
+        (SupportMethod::Breakaway, _) => {
+            "on where a part overhangs; none in sockets. Support in an open hollow is removed in the next step."
         }
-        _ => "as the machine lays it; what it lays in the voids comes out in the next step.",
+        _ => "as the machine places it. Support in the voids is removed in the next step.",
     }
 }
 
@@ -92,10 +88,10 @@ mod tests {
     use crate::testing::sample;
 
     #[test]
-    fn support_is_told_by_the_part_where_it_is_known_and_by_the_process_where_not() {
+    fn support_is_worded_by_part_if_known_else_by_process() {
         let mut sheet = sample().0;
         let process = of_all(&sheet);
-        assert!(process.contains("as the machine lays it") && of_part(&sheet.parts[0]).is_none());
+        assert!(process.contains("as the machine places it") && of_part(&sheet.parts[0]).is_none());
         sheet
             .parts
             .iter_mut()
@@ -114,9 +110,9 @@ mod tests {
         };
         sheet.parts[0].support = Some(hangs);
         assert!(of_all(&sheet).contains("on for some parts"));
-        let told = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
+        let words = of_part(&sheet.parts[0]).unwrap().replace('\u{a0}', " ");
         assert_eq!(
-            told,
+            words,
             "Support on, under 2 places from 3 mm to 8 mm over the plate: 1.5 cm² in the open hollow."
         );
         sheet

@@ -1,10 +1,10 @@
-//! The page of a sound kit: what it says, and that it says it the same way twice.
+//! Tests of the page of a sound kit: what it says, and that equal runs give equal pages.
 
 use super::*;
 use crate::sheet::{Checklist, Verdict};
 use crate::testing::{sample, sample_pictures};
 
-/// The page of a sheet with every picture and the view.
+/// Returns the page of a sheet with every picture and the view.
 fn whole_page(sheet: &Checklist, evidence: &crate::verify::Evidence) -> String {
     let (pictures, view) = sample_pictures(sheet, evidence);
     page(&PageInputs {
@@ -19,7 +19,7 @@ fn whole_page(sheet: &Checklist, evidence: &crate::verify::Evidence) -> String {
 fn the_page_stands_alone_and_escapes_what_it_is_given() {
     let (sheet, evidence) = sample();
     let page = whole_page(&sheet, &evidence);
-    // The running header's code is an image in the style, whose language has to be named.
+    // The QR code of the running header is an image in the style, and SVG names its namespace.
     let own = page.replace("url(\"data:", "").replace("http-equiv", "");
     for outside in [
         "http:",
@@ -41,7 +41,7 @@ fn the_page_stands_alone_and_escapes_what_it_is_given() {
 }
 
 #[test]
-fn every_picture_and_code_says_in_words_what_it_shows() {
+fn every_picture_and_code_has_a_description() {
     let (sheet, evidence) = sample();
     let page = whole_page(&sheet, &evidence);
     let count = |mark: &str| page.matches(mark).count();

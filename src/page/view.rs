@@ -1,12 +1,11 @@
-//! The assembly to be turned, taken apart and cut on a screen: simplified, packed, and the controls
-//! around it.
+//! The 3D view of the page: the simplified assembly as data for the script, and the controls.
 
 use maud::{Markup, PreEscaped, html};
 use rayon::prelude::*;
 use serde::Serialize;
 
-use super::apart::{lump_shift, of_longest_side_mm, shifts};
-use super::inserts::{drawn, drawn_lump};
+use super::apart::{gap_for_mm, shift_of_lump, shifts};
+use super::inserts::{lump_mesh, rod_mesh};
 use super::subject::{Subject, parts_in_model};
 use crate::draw::{BALLAST, Color, HARDWARE, Hatch, base64, hex, part_color};
 use crate::geom::{Aabb, Vector};
@@ -14,32 +13,32 @@ use crate::mesh::{Csg, TriMesh};
 use crate::repair::weld;
 use crate::sheet::ChecklistError;
 
-/// What runs in the page.
+/// The script that draws the view.
 const SCRIPT: &str = include_str!("view.js");
 
-/// Triangles of all parts together: a packed triangle takes some 12 bytes of the page, so these
-/// take 0.7 MB; more are not seen at the size of a screen.
+/// Greatest number of triangles of all parts together. A packed triangle takes about 12 bytes of
+/// the page, so these take 0.7 MB; a screen cannot show more detail.
 const TRIANGLES: usize = 60_000;
 
-/// The first tolerance of the simplification, as a share of the longest side: a quarter of a pixel
-/// of the view.
+/// First tolerance of the simplification, as a share of the longest side: a quarter of a pixel of
+/// the view.
 const TOLERANCE_RATIO: f64 = 2.5e-4;
 
-/// How often the tolerance is doubled while there are too many triangles; 64 times it is 1.6 % of
-/// the longest side.
+/// Greatest number of times the tolerance is doubled while there are too many triangles. That makes
+/// it 1.6 % of the longest side at most.
 const DOUBLINGS: usize = 6;
 
-/// The greatest number a coordinate is packed into.
+/// Greatest number of a packed coordinate.
 const STEPS: f64 = 65_535.0;
 
-/// What can be turned on a screen.
+/// The 3D view of a kit, packed for the script of the page.
 #[derive(Debug, Clone, PartialEq)]
 pub struct View {
     packed: String,
     items: Vec<(String, Color)>,
 }
 
-/// One thing in the view before it is packed, in the goal's frame.
+/// An object of the view before it is packed, in the goal's frame.
 struct Item {
     name: String,
     mesh: TriMesh,
@@ -48,7 +47,7 @@ struct Item {
     shift: Vector,
 }
 
-/// What the script reads.
+/// The data that the script reads.
 #[derive(Serialize)]
 struct Packed {
     #[serde(rename = "box")]
@@ -56,14 +55,16 @@ struct Packed {
     items: Vec<PackedItem>,
 }
 
-/// One thing for the script: vertices as three 16-bit shares of the box, triangles as 16- or (wide)
-/// 32-bit numbers of them, little endian, in base64.
+/// An object as the script reads it, in base64, little endian. A vertex is three 16-bit shares of
+/// the box, a triangle three 16-bit vertex numbers, or 32-bit ones if it is wide.
 #[derive(Serialize)]
 struct PackedItem {
     color: [f64; 3],
-    /// The ground and the stripes of its cut, and how they run: 0 up, 1 down, 2 both ways.
+    /// Ground of the cut face.
     cut: [f64; 3],
+    /// Stripes of the cut face.
     stripe: [f64; 3],
+    /// Direction of the stripes: 0 up, 1 down, 2 both.
     runs: u8,
     shift: [f64; 3],
     wide: bool,
@@ -72,8 +73,8 @@ struct PackedItem {
 }
 
 impl View {
-    /// The view of a kit; the same bytes on any number of threads. About 10 µs a triangle of the
-    /// parts.
+    /// Packs the view of a kit; the same bytes on any number of threads. Takes about 10 µs per
+    /// triangle of the parts.
     pub fn of(subject: &Subject) -> Result<Self, ChecklistError> {
         let items = items(subject);
         let bounds = items
@@ -82,7 +83,7 @@ impl View {
             .fold(Aabb::EMPTY, |all, next| all.union(&next));
         let packed = Packed {
             bounds: [bounds.min, bounds.max].map(|corner| corner.coords.into()),
-            items: items.iter().map(|item| packed(item, &bounds)).collect(),
+            items: items.iter().map(|item| pack(item, &bounds)).collect(),
         };
         let packed = serde_json::to_string(&packed)?;
         Ok(Self {
@@ -95,7 +96,7 @@ impl View {
     }
 }
 
-/// The parts and the hardware, simplified, in the goal's frame.
+/// Returns the simplified parts, the hardware and the ballast in the goal's frame.
 fn items(subject: &Subject) -> Vec<Item> {
     let in_place = parts_in_model(subject.parts);
     let shifts = shifts(&in_place, &subject.partings());
@@ -110,7 +111,7 @@ fn items(subject: &Subject) -> Vec<Item> {
     let mut items: Vec<Item> = parts
         .map(|(index, ((part, mesh), shift))| Item {
             name: part.id.clone(),
-            mesh: simplified(mesh, budget).in_frame(&frame),
+            mesh: simplify(mesh, budget).in_frame(&frame),
             color: part_color(index),
             hatch: Hatch::PRINTED,
             shift: frame.direction_to_local(shift),
@@ -118,25 +119,25 @@ fn items(subject: &Subject) -> Vec<Item> {
         .collect();
     items.extend(subject.hardware.iter().map(|piece| Item {
         name: piece.id.clone(),
-        mesh: drawn(piece).in_frame(&frame),
+        mesh: rod_mesh(piece).in_frame(&frame),
         color: HARDWARE,
         hatch: Hatch::RODS,
         shift: Vector::zeros(),
     }));
-    let apart_mm = of_longest_side_mm(in_place.iter());
+    let apart_mm = gap_for_mm(in_place.iter());
     items.extend(subject.ballast.iter().map(|order| Item {
         name: order.id.clone(),
-        mesh: drawn_lump(&order.lump).in_frame(&frame),
+        mesh: lump_mesh(&order.lump).in_frame(&frame),
         color: BALLAST,
         hatch: Hatch::BALLAST,
-        shift: frame.direction_to_local(&lump_shift(&order.lump, &subject.partings(), apart_mm)),
+        shift: frame.direction_to_local(&shift_of_lump(&order.lump, &subject.partings(), apart_mm)),
     }));
     items
 }
 
-/// The mesh with no more than `budget` triangles, if that takes no more than the greatest
-/// tolerance; as it is where it cannot be simplified.
-fn simplified(mesh: &TriMesh, budget: usize) -> TriMesh {
+/// Returns the mesh with at most `budget` triangles, if the greatest tolerance suffices. A mesh
+/// that cannot be simplified is returned as it is.
+fn simplify(mesh: &TriMesh, budget: usize) -> TriMesh {
     let welded = weld(mesh);
     let tolerance_mm = TOLERANCE_RATIO * welded.longest_side_mm();
     let simple = Csg::of_mesh(&welded).and_then(|mut body| {
@@ -155,7 +156,7 @@ fn simplified(mesh: &TriMesh, budget: usize) -> TriMesh {
     simple.unwrap_or(welded)
 }
 
-fn packed(item: &Item, bounds: &Aabb) -> PackedItem {
+fn pack(item: &Item, bounds: &Aabb) -> PackedItem {
     let (size, vertices) = (bounds.size(), item.mesh.vertices());
     let share = |value: f64, low: f64, size: f64| {
         ((value - low) / size.max(f64::MIN_POSITIVE) * STEPS).round() as u16
@@ -176,7 +177,7 @@ fn packed(item: &Item, bounds: &Aabb) -> PackedItem {
         color: shares(item.color),
         cut: shares(item.hatch.dark),
         stripe: shares(item.hatch.pale),
-        runs: item.hatch.runs as u8,
+        runs: item.hatch.stripes as u8,
         shift: item.shift.into(),
         wide,
         vertices: base64(&coordinates.flat_map(u16::to_le_bytes).collect::<Vec<u8>>()),
@@ -184,28 +185,28 @@ fn packed(item: &Item, bounds: &Aabb) -> PackedItem {
     }
 }
 
-/// A colour as shares of white.
+/// Returns a colour as shares of white.
 fn shares(color: Color) -> [f64; 3] {
     color.map(|channel| f64::from(channel) / 255.0)
 }
 
-/// The view with its controls, hidden until the script finds that it can draw.
+/// Returns the view with its controls, hidden until the script finds that it can draw.
 pub(super) fn viewer(view: &View) -> Markup {
     html! {
         section id="view" class="screen-only" aria-labelledby="view-title" hidden {
-            h2 id="view-title" { "Turn it and take it apart" }
+            h2 id="view-title" { "3D view" }
             canvas id="view-canvas" tabindex="0" role="application"
-                aria-label="The assembly in three dimensions. Drag or press the arrow keys to turn it, plus and minus to zoom, Home to start again. The pictures of this sheet show the same." {}
+                aria-label="The assembly in three dimensions. Drag or press the arrow keys to turn it, plus and minus to zoom, Home to reset. The pictures of this sheet show the same." {}
             div class="controls" {
                 label for="view-explode" { "Take apart" }
                 input id="view-explode" type="range" min="0" max="100" value="0";
                 label for="view-axis" { "Cut open" }
                 span {
                     select id="view-axis" {
-                        option value="-1" selected { "not" }
-                        option value="0" { "across, left to right" }
-                        option value="1" { "across, front to back" }
-                        option value="2" { "level" }
+                        option value="-1" selected { "off" }
+                        option value="0" { "side" }
+                        option value="1" { "front" }
+                        option value="2" { "top" }
                     }
                     " " span id="view-place" {}
                 }
@@ -220,7 +221,7 @@ pub(super) fn viewer(view: &View) -> Markup {
                         }
                     }
                 }
-                button id="view-reset" type="button" { "Start again" }
+                button id="view-reset" type="button" { "Reset view" }
             }
             // The packed text has no `<`, so nothing in it can end the script.
             script id="view-data" type="application/json" { (PreEscaped(&view.packed)) }
@@ -238,16 +239,16 @@ mod tests {
     #[test]
     fn a_fine_ball_is_simplified_to_the_budget_and_stays_a_ball() {
         let fine = ball(Point::origin(), 10.0, 256);
-        let simple = simplified(&fine, 5000);
+        let simple = simplify(&fine, 5000);
         assert!(simple.triangles().len() <= 5000 && fine.triangles().len() > 50_000);
-        // The greatest tolerance is 64 · 2.5e-4 of 20 mm; it takes less of the volume than its
-        // shell.
+        // The greatest tolerance is 64 · 2.5e-4 of 20 mm; the lost volume is less than a shell of
+        // it.
         let lost = 1.0 - simple.signed_volume_mm3() / fine.signed_volume_mm3();
         assert!(lost.abs() < 3.0 * 64.0 * TOLERANCE_RATIO * 2.0, "{lost}");
     }
 
     #[test]
-    fn coordinates_are_packed_to_a_65_thousandth_of_the_box() {
+    fn coordinates_are_packed_in_16_bits() {
         let mesh = ball(Point::new(1.0, 2.0, 3.0), 5.0, 12);
         let item = Item {
             name: "x".into(),
@@ -256,7 +257,7 @@ mod tests {
             hatch: Hatch::PRINTED,
             shift: Vector::zeros(),
         };
-        let packed = packed(&item, &mesh.aabb());
+        let packed = pack(&item, &mesh.aabb());
         assert!(!packed.wide && packed.color == [1.0, 0.0, 0.0]);
         assert_eq!(
             packed.triangles,
@@ -269,7 +270,7 @@ mod tests {
                     .collect::<Vec<_>>()
             )
         );
-        // 6 bytes a vertex, four letters for three bytes.
+        // 6 bytes per vertex, four letters for three bytes.
         assert_eq!(
             packed.vertices.len(),
             (6 * mesh.vertices().len()).div_ceil(3) * 4

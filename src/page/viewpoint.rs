@@ -1,30 +1,28 @@
-//! How the whole is looked at.
+//! The view of the whole object: the camera and the plane of the cut-away.
 
 use super::subject::Subject;
-use crate::draw::{Camera, LABEL_RATIO, camera, turned};
+use crate::draw::{Camera, view_direction};
 use crate::geom::{Frame, Plane, Point, Vector};
 use crate::mesh::TriMesh;
 
-/// How far the viewer stands to the right of the cut's normal and above the ground, radians: enough
-/// to tell depth from shape, not so much that the cut is foreshortened.
-const TURN: f64 = 0.45;
+/// Angles of the viewer to the right of the cut's normal and above the ground, radians. They show
+/// depth without foreshortening the cut much.
+const TURN_AND_LIFT: [f64; 2] = [0.45, 0.35];
 
-const LIFT: f64 = 0.35;
-
-/// How the model is looked at: upright, from the side that shows most of it.
+/// The view of the whole object, upright, from the side that shows most of it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Viewpoint {
-    /// From a little to the right and above.
+    /// Camera, a little to the right and above.
     pub camera: Camera,
-    /// The plane of the cut-away, through the axis and the wider side.
+    /// Plane of the cut-away, through the axis and the wider side.
     pub cut: Plane,
 }
 
 impl Viewpoint {
+    /// Returns the view of a model whose goal has this frame, with the cut through its middle.
     pub fn of(outer: &TriMesh, frame: &Frame) -> Self {
         let local = outer.in_frame(frame).aabb();
         let size = local.size();
-        // The cut holds the axis and the wider side.
         let normal = if size.x < size.y {
             Vector::x()
         } else {
@@ -34,38 +32,25 @@ impl Viewpoint {
             &frame.to_model(&local.center()),
             &frame.direction_to_model(&normal),
         );
-        let toward = turned(&cut.normal, &frame.axis(), [TURN, LIFT]);
+        let toward = view_direction(&cut.normal, &frame.axis(), TURN_AND_LIFT);
         Self {
-            camera: camera(toward, frame.axis()),
+            camera: Camera::new(toward, frame.axis()),
             cut,
         }
     }
 
-    /// The same with its cut through what is not printed: through the axis where there is hardware
-    /// on it, else through the first piece of ballast.
-    pub fn through(self, subject: &Subject) -> Self {
+    /// Returns the view with room for names, and its cut through the axis if there is hardware,
+    /// else through the first piece of ballast.
+    pub fn through_inserts(self, subject: &Subject) -> Self {
         let rods = (!subject.hardware.is_empty()).then(|| subject.aim.frame().origin);
-        let lump = subject
-            .ballast
-            .first()
-            .map(|order| Point::from(order.lump.center_mm));
-        let cut = rods
-            .or(lump)
-            .map_or(self.cut, |at| Plane::through(&at, &self.cut.normal));
-        let margin_ratio = [
-            if rods.or(lump).is_some() {
-                LABEL_RATIO
-            } else {
-                0.0
+        let lump = subject.ballast.first();
+        let lump = lump.map(|order| Point::from(order.lump.center_mm));
+        match rods.or(lump) {
+            Some(at) => Self {
+                camera: self.camera.with_label_margins(),
+                cut: Plane::through(&at, &self.cut.normal),
             },
-            0.0,
-        ];
-        Self {
-            camera: Camera {
-                margin_ratio,
-                ..self.camera
-            },
-            cut,
+            None => self,
         }
     }
 }

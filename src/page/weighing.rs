@@ -1,21 +1,20 @@
-//! The two steps at the scales: every part before anything is glued, and at last the whole with all
-//! that is in it.
+//! The two weighings: every part before gluing, and the whole at the end.
 
 use maud::{Markup, html};
 
-use super::fields::{blank, left_inside, mass_window, mass_with_window, printed_g};
+use super::fields::{blank, mass_of_parts_g, mass_window, mass_with_window, residue};
 use crate::base::numbers::{number, quantity};
 use crate::base::units::MM3_PER_CM3;
 use crate::sheet::Checklist;
 
-/// Every part on the scales, while it can still be cleaned.
+/// Returns the weighing of every part, while it can still be cleaned.
 pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
     let is_known = sheet.material.density_spread_ratio.is_some();
     html! {
         @if !is_known {
             p {
-                "The density was not measured, so there is no window to weigh in, only each part's share of all parts, which no density changes. "
-                "Print and weigh coupons for a window: " code { "equipoise coupon --printer " (sheet.printer.id) }
+                "The density was not measured, so the masses are approximate. Check each part's share of all parts, which does not depend on the density. "
+                "For weighing windows, print and weigh coupons: " code { "equipoise coupon --printer " (sheet.printer.id) }
             }
         }
         table {
@@ -24,14 +23,14 @@ pub(super) fn weigh_parts(sheet: &Checklist) -> Markup {
                 @for part in &sheet.parts {
                     tr { td { (part.id) } td class="n" { (mass_with_window(sheet, part.mass_g)) } td { (blank()) } td { (tick_or_blank(sheet)) } }
                 }
-                tr { td { strong { "all parts" } } td class="n" { (mass_with_window(sheet, printed_g(sheet))) } td { (blank()) } td { (tick_or_blank(sheet)) } }
+                tr { td { strong { "all parts" } } td class="n" { (mass_with_window(sheet, mass_of_parts_g(sheet))) } td { (blank()) } td { (tick_or_blank(sheet)) } }
             }
         }
-        p class="small" { "A part too heavy still holds " (left_inside(&sheet.printer.process)) ": clean it again before gluing. A part too light was not printed solid." }
+        p class="small" { "A part too heavy still holds " (residue(&sheet.printer.process)) ": clean it again before gluing. A part too light was not printed solid." }
     }
 }
 
-/// A box to tick where there is a window, a line to write a share on where there is none.
+/// Returns a box to tick if there is a window, else a line for the share.
 fn tick_or_blank(sheet: &Checklist) -> Markup {
     if sheet.material.density_spread_ratio.is_some() {
         html! { "☐" }
@@ -40,17 +39,17 @@ fn tick_or_blank(sheet: &Checklist) -> Markup {
     }
 }
 
-/// Something that is weighed with the whole.
+/// A component of the whole.
 struct Share {
     what: String,
     mass_g: f64,
 }
 
-/// Everything the whole is made of; the masses add up to the whole's.
+/// Returns the components of the whole; their masses add up to its mass.
 fn shares(sheet: &Checklist) -> Vec<Share> {
     let parts = Share {
         what: "all parts".to_owned(),
-        mass_g: printed_g(sheet),
+        mass_g: mass_of_parts_g(sheet),
     };
     let hardware = sheet
         .hardware
@@ -88,7 +87,7 @@ fn shares(sheet: &Checklist) -> Vec<Share> {
         .collect()
 }
 
-/// The whole on the scales, with what each kind of thing adds to it.
+/// Returns the weighing of the whole, with its components.
 pub(super) fn weigh_whole(sheet: &Checklist) -> Markup {
     let shares = shares(sheet);
     let whole_g = sheet.assembly.mass_g;
@@ -113,8 +112,7 @@ fn all_together(sheet: &Checklist) -> &'static str {
     }
 }
 
-/// The mass of everything, with the window that the print's density and the pieces of ballast
-/// leave.
+/// Returns the mass of the whole, with the window due to the print's density and the ballast.
 fn whole_mass(sheet: &Checklist) -> Markup {
     let spread_g: f64 = sheet
         .ballast
@@ -123,8 +121,8 @@ fn whole_mass(sheet: &Checklist) -> Markup {
         .sum();
     let mass_g = sheet.assembly.mass_g;
     match sheet.material.density_spread_ratio {
-        // A filling is as heavy as it was mixed: its own spread is not known here.
-        Some(ratio) => mass_window(mass_g, (ratio * printed_g(sheet) + spread_g) / mass_g),
+        // The spread of a filling is not known.
+        Some(ratio) => mass_window(mass_g, (ratio * mass_of_parts_g(sheet) + spread_g) / mass_g),
         None => html! { (quantity(mass_g, "g")) },
     }
 }
@@ -136,7 +134,7 @@ mod tests {
     use crate::verify::FillOrder;
 
     #[test]
-    fn what_the_whole_is_made_of_adds_up() {
+    fn the_components_add_up_to_the_whole() {
         let mut sheet = sample().0;
         sheet.fill = Some(FillOrder { density_g_cm3: 2.0 });
         let filled_g = 2.0 * sheet.voids[0].volume_mm3 / MM3_PER_CM3;

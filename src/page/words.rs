@@ -1,20 +1,20 @@
-//! Goals, promises and proofs as people read them.
+//! Goals, promises and proofs in words.
 
 use crate::base::numbers::{coordinates, number, quantity, quantity_or_dash};
 use crate::goal::GoalKind;
-use crate::sheet::{Certificate, Checklist, GoalRow, WallRow};
+use crate::sheet::{Certificate, Checklist, GoalRow, ObjectiveName, WallRow};
 use crate::verify::Figures;
 
-/// Below this a number is written with a power of ten.
-const SMALL: f64 = 1e-3;
+/// Relative difference up to which the ordered and the printed wall count as equal.
+const SAME_WALL_RATIO: f64 = 1e-3;
 
-/// Below this share the gap of a certificate is rounding, of either sign.
+/// Relative gap of a certificate up to which it is rounding, of either sign.
 const NO_GAP_RATIO: f64 = 1e-9;
 
-/// What the object is to do and what was made best, in one sentence.
+/// Words the goal and the objective, in one sentence.
 pub fn goal(goal: &GoalRow) -> String {
     let [at, along] = [&goal.aim.origin_mm, &goal.aim.axis].map(coordinates);
-    let best = best(&goal.objective) + &weights(goal);
+    let best = best(goal.objective).to_owned() + &weights(goal);
     match goal.aim.kind {
         GoalKind::Top => {
             format!(
@@ -45,7 +45,8 @@ pub fn goal(goal: &GoalRow) -> String {
     }
 }
 
-/// The weights of Spin-It's functional, where there are any to tell of.
+/// Words the weights of Spin-It's functional; empty without weights, and for a yo-yo, which has
+/// only one.
 fn weights(goal: &GoalRow) -> String {
     match (goal.aim.kind, goal.spin_it_weights) {
         (GoalKind::Top, Some([c, i])) => format!(" (γ_c = {}, γ_I = {})", number(c), number(i)),
@@ -53,22 +54,21 @@ fn weights(goal: &GoalRow) -> String {
     }
 }
 
-/// What an objective of the checklist asks for.
-fn best(objective: &str) -> String {
+/// Words what an objective asks for.
+fn best(objective: ObjectiveName) -> &'static str {
     match objective {
-        "critical_speed" => "the least speed at which it stays upright".to_owned(),
-        "spin_it" => "the least value of Spin-It's functional".to_owned(),
-        "dominance" => "the most dominant axis".to_owned(),
-        "toppling_angle" => "the largest tilt before it topples".to_owned(),
-        "lowest_center" => "the lowest centre of mass".to_owned(),
-        "metacentric_height" => "the greatest metacentric height".to_owned(),
-        "least_removed" => "the least material removed that balances it".to_owned(),
-        "least_unbalance" => "the least unbalance".to_owned(),
-        other => format!("the best {}", other.replace('_', " ")),
+        ObjectiveName::CriticalSpeed => "the least speed at which it stays upright",
+        ObjectiveName::SpinIt => "the least value of Spin-It's functional",
+        ObjectiveName::Dominance => "the most dominant axis",
+        ObjectiveName::TopplingAngle => "the largest tilt before it topples",
+        ObjectiveName::LowestCenter => "the lowest centre of mass",
+        ObjectiveName::MetacentricHeight => "the greatest metacentric height",
+        ObjectiveName::LeastRemoved => "the least material removed that balances it",
+        ObjectiveName::LeastUnbalance => "the least unbalance",
     }
 }
 
-/// What the finished object does, in one sentence with its figure.
+/// Words what the finished object does, in one sentence with its figure.
 pub fn promise(sheet: &Checklist) -> String {
     let body = &sheet.assembly;
     match (
@@ -95,7 +95,7 @@ pub fn promise(sheet: &Checklist) -> String {
     }
 }
 
-/// How it floats.
+/// Words how it floats.
 fn floats(sheet: &Checklist) -> String {
     match sheet.assembly.afloat {
         Some(afloat) if afloat.metacentric_height_mm > 0.0 => format!(
@@ -108,7 +108,7 @@ fn floats(sheet: &Checklist) -> String {
     }
 }
 
-/// How true a rotor runs, before and after.
+/// Words how well a rotor is balanced, before and after.
 fn runs_true(sheet: &Checklist) -> String {
     let grade = |body: &Figures| body.unbalance.map(|unbalance| number(unbalance.grade_mm_s));
     match (
@@ -124,7 +124,7 @@ fn runs_true(sheet: &Checklist) -> String {
     }
 }
 
-/// The certificate in plain words.
+/// Words the certificate, a sentence each.
 pub fn certificate(sheet: &Checklist) -> Vec<String> {
     let (proof, unit) = (&sheet.certificate, sheet.certificate.figure.unit());
     let is_top = sheet.goal.aim.kind == GoalKind::Top;
@@ -137,7 +137,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
         format!(
             "It is proved that no hollowing of this model with a wall of {}{}{} has a {} {better} than {}.",
             quantity(sheet.wall.required_mm, "mm"),
-            kept_solid(proof),
+            solid_places(proof),
             if is_top {
                 " and its centre of mass at this height"
             } else {
@@ -154,7 +154,7 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
     ];
     words.extend(is_top.then(|| other_heights(proof)));
     words.extend(proof.written_value.map(|written| {
-        let share = reached_ratio(proof, written);
+        let share = share_of_best(proof, written);
         format!(
             "The files of this kit, with pins, sockets and rounding, reach {}: {:.2} % of the best possible.",
             quantity(written, unit),
@@ -164,13 +164,13 @@ pub fn certificate(sheet: &Checklist) -> Vec<String> {
     words
 }
 
-/// The wall that was asked for, what the printer makes of it, and what was measured.
+/// Words the wall as it was ordered, as the printer makes it, and as measured.
 pub fn wall(wall: &WallRow) -> String {
     let given = quantity(wall.required_mm, "mm");
     let ordered = match wall.asked_mm {
-        Some(asked_mm) if (asked_mm - wall.required_mm).abs() > SMALL * asked_mm => {
+        Some(asked_mm) if (asked_mm - wall.required_mm).abs() > SAME_WALL_RATIO * asked_mm => {
             format!(
-                "{} ordered, {given} as the printer gives it",
+                "{} ordered, {given} as the printer makes it",
                 quantity(asked_mm, "mm")
             )
         }
@@ -183,8 +183,8 @@ pub fn wall(wall: &WallRow) -> String {
     )
 }
 
-/// What the proof takes as solid besides the wall.
-fn kept_solid(proof: &Certificate) -> String {
+/// Words what the proof assumes solid besides the wall; empty if nothing.
+fn solid_places(proof: &Certificate) -> String {
     let by_plan = proof.cleaning_rounds.iter().any(|round| round.by_plan);
     let reasons = [
         (
@@ -194,32 +194,32 @@ fn kept_solid(proof: &Certificate) -> String {
         (by_plan, "where the plan keeps it so"),
         (proof.bosses_mm3 > 0.0, "in bosses around pins"),
     ];
-    let said: Vec<&str> = reasons
+    let words: Vec<&str> = reasons
         .into_iter()
         .filter_map(|(is_so, words)| is_so.then_some(words))
         .collect();
-    if said.is_empty() {
+    if words.is_empty() {
         String::new()
     } else {
-        format!(", solid {},", said.join(" and "))
+        format!(", solid {},", words.join(" and "))
     }
 }
 
-/// What is known of a top's centre of mass at other heights.
+/// Words the proof for other heights of a top's centre of mass.
 fn other_heights(proof: &Certificate) -> String {
     let Some(over) = proof.over_heights else {
         return "Other heights of the centre of mass were searched, and none was better; a proof for them is missing."
             .to_owned();
     };
     format!(
-        "At any other height of the centre of mass the {} could be lower by {} of it at most (proved on columns {} apart).",
+        "At any other height of the centre of mass the {} could be lower by at most {} of it (proved on columns {} apart).",
         proof.figure.name(),
         number(1.0 - over.bound / over.value),
         quantity(over.pitch_mm, "mm")
     )
 }
 
-/// The distance between the optimum and its proof, in words.
+/// Words the relative distance between the optimum and its proved bound.
 fn gap(ratio: f64) -> String {
     if ratio.abs() <= NO_GAP_RATIO {
         format!("less than {} of it", number(NO_GAP_RATIO))
@@ -228,8 +228,8 @@ fn gap(ratio: f64) -> String {
     }
 }
 
-/// The share of the best possible that was reached, 1 at the bound.
-fn reached_ratio(proof: &Certificate, written: f64) -> f64 {
+/// Returns the written value as a share of the best possible, 1 at the bound.
+fn share_of_best(proof: &Certificate, written: f64) -> f64 {
     if proof.figure.more_is_better() {
         written / proof.bound
     } else {
@@ -244,7 +244,7 @@ mod tests {
     use crate::testing::sample;
 
     #[test]
-    fn the_proof_says_that_it_holds_with_solid_places_where_there_are_any() {
+    fn the_proof_names_the_places_that_stay_solid() {
         let (mut sheet, _) = sample();
         let is_said = |sheet: &Checklist| {
             certificate(sheet)[0].contains("solid where voids could not be cleaned")
@@ -269,8 +269,8 @@ mod tests {
     }
 
     #[test]
-    fn a_wall_is_told_as_it_was_ordered_and_as_the_printer_gives_it() {
-        let told = |asked_mm| {
+    fn a_wall_is_worded_as_ordered_and_as_printed() {
+        let words = |asked_mm| {
             wall(&WallRow {
                 required_mm: 1.016,
                 asked_mm,
@@ -278,9 +278,10 @@ mod tests {
             })
         };
         assert!(
-            told(Some(1.0)).starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer gives it")
+            words(Some(1.0))
+                .starts_with("1\u{a0}mm ordered, 1.016\u{a0}mm as the printer makes it")
         );
-        assert!(told(Some(1.016)).starts_with("1.016\u{a0}mm ordered; thinnest"));
-        assert!(told(None).contains("the least this printer makes"));
+        assert!(words(Some(1.016)).starts_with("1.016\u{a0}mm ordered; thinnest"));
+        assert!(words(None).contains("the least this printer makes"));
     }
 }

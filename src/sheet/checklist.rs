@@ -1,4 +1,4 @@
-//! The checklist as data: everything a kit says about itself, key for key as in `checklist.json`.
+//! The checklist: everything a kit says about itself.
 
 use std::collections::BTreeMap;
 
@@ -15,122 +15,120 @@ use crate::verify::{Check, Figures, FillOrder, Hardware, PromisedFigure, SCHEMA}
 
 /// The job sheet of a kit, for machines; the room `page` renders the same for people.
 ///
-/// Lengths in mm, masses in g, angles in degrees, as the keys say. Every number must be finite:
-/// [`Checklist::to_json`] refuses the rest. Equal runs give equal bytes as long as `timing_s` is
-/// left out, which the kit writer does; `--json` prints it.
+/// Lengths are in mm, masses in g, angles in degrees, as the keys say. Every number must be finite:
+/// [`Checklist::to_json`] refuses others. Equal runs give equal bytes without `timing_s`, which
+/// [`Checklist::without_timing`] leaves out.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Checklist {
-    /// The version of the keys: 1.
+    /// Version of the keys: 1.
     pub schema: u32,
     /// The program that wrote it.
     pub tool: Tool,
-    /// The name of the job, used in file names.
+    /// Name of the job, used in file names.
     pub job: String,
-    /// What went in.
+    /// Model.
     pub model: ModelRow,
-    /// What it will be printed on.
+    /// Printer.
     pub printer: PrinterRow,
-    /// What it will be printed of.
+    /// Material.
     pub material: MaterialRow,
-    /// What it must do.
+    /// Goal as it was placed on the model.
     pub goal: GoalRow,
-    /// The figure the buyer may rely on, if the goal has one.
+    /// Figure the buyer may rely on, if the goal has one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub promise: Option<PromisedFigure>,
-    /// The model filled solid.
+    /// Figures of the model filled solid.
     pub solid: Figures,
-    /// The uncut result.
+    /// Figures of the uncut result.
     pub hollowed: Figures,
-    /// The parts put together, as written.
+    /// Figures of the written parts put together.
     pub assembly: Figures,
-    /// How near to the best possible the result is.
+    /// Proof of how near the result is to the best possible.
     pub certificate: Certificate,
-    /// The wall.
+    /// Wall as ordered and as measured.
     pub wall: WallRow,
-    /// The voids.
+    /// Voids.
     pub voids: Vec<VoidRow>,
-    /// The cuts.
+    /// Cuts.
     pub cuts: Vec<CutRow>,
-    /// The parts.
+    /// Parts.
     pub parts: Vec<PartRow>,
-    /// The glue joints, in the order they are made.
+    /// Glue joints, in the order they are made.
     pub joints: Vec<JointRow>,
-    /// What the machine's pixels, lines and layers make of walls, pins and cut faces.
+    /// Lengths of walls, pins and cut faces as the machine's pixels, lines and layers make them.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub grid: Vec<GridRow>,
-    /// What is put in that is not printed.
+    /// Hardware, which is put in and not printed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub hardware: Vec<Hardware>,
-    /// The dowels in its joints, each in its place.
+    /// Dowels in the joints, each in its place.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dowels: Vec<Hardware>,
-    /// What dowels are to be cut.
+    /// Dowels to cut.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub cut_list: Vec<CutListRow>,
-    /// How far the halves of a yo-yo are apart, mm; none where there is one body.
+    /// Gap between the halves of a yo-yo, mm; `None` for a single body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub string_gap_mm: Option<f64>,
-    /// The extent of the finished object with its hardware, along the model's own axes, mm; none in
+    /// Extent of the finished object with its hardware, along the model's own axes, mm; `None` in
     /// kits of older versions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub finished_size_mm: Option<[f64; 3]>,
-    /// What becomes of a yo-yo whose halves are not turned true against each other; none where
-    /// there is one body.
+    /// Effect of turning one half of a yo-yo against the other; `None` for a single body.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<TurnRow>,
-    /// How a top stands when it does not spin; none where it falls over, as a top does, and where
-    /// it is no top.
+    /// Stand of a top that does not spin; `None` if it falls over, as tops do, or is no top.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub foot: Option<FootRow>,
-    /// The stock parts that are laid in before gluing.
+    /// Stock parts that are laid in before gluing.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ballast: Vec<BallastRow>,
-    /// What the voids are filled with; none for air.
+    /// Filling of the voids; `None` for air.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fill: Option<FillOrder>,
-    /// The rounds in which material was kept solid around pins.
+    /// Rounds in which material was kept solid around pins.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub rounds: Vec<RoundRow>,
-    /// Every promise with its verdict.
+    /// Checks of all promises.
     pub checks: Vec<Check>,
-    /// Whether every promise is kept.
+    /// Verdict over all checks.
     pub verdict: Verdict,
-    /// What a person must know before printing.
+    /// Warnings that a person must read before printing.
     pub warnings: Vec<String>,
-    /// What a person may like to know.
+    /// Notes that a person may want to read.
     pub notes: Vec<String>,
-    /// The SHA-256 of the other files of the kit, by path relative to its folder.
+    /// SHA-256 of the other files of the kit, by path relative to its folder.
     pub files: BTreeMap<String, String>,
-    /// How long each stage took, s; left out of a kit, so that equal runs write equal bytes.
+    /// Duration of each stage, s; left out of a kit, so that equal runs write equal bytes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub timing_s: Option<Timing>,
-    /// What the solver did, one row a step.
+    /// Steps of the solver.
     pub log: Vec<LogRow>,
 }
 
 /// The program that wrote a checklist.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Tool {
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// Its version.
+    /// Version.
     pub version: String,
 }
 
-/// The model as it was used: scaled to mm.
+/// The model as it was used, scaled to mm.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ModelRow {
-    /// The name of its file, without the folder.
+    /// Name of its file, without the folder.
     pub file: String,
-    /// The SHA-256 of that file.
+    /// SHA-256 of that file.
     pub sha256: String,
-    /// How many triangles it has after repair.
+    /// Number of triangles after repair.
     pub triangles: usize,
-    /// Its extent along the axes, mm.
+    /// Extent along the axes, mm.
     pub size_mm: [f64; 3],
-    /// Its volume filled solid, mm³.
+    /// Volume filled solid, mm³.
     pub volume_mm3: f64,
-    /// What it was multiplied by.
+    /// Factor it was scaled by.
     pub scale_ratio: f64,
 }
 
@@ -145,7 +143,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// The verdict over these checks: pass if every one passes.
+    /// Returns the verdict over these checks: pass if all pass.
     pub fn of(checks: &[Check]) -> Self {
         if checks.iter().all(|check| check.pass) {
             Self::Pass
@@ -158,15 +156,16 @@ impl Verdict {
 /// One step of the solver.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct LogRow {
-    /// What it was doing.
+    /// Phase of the solver.
     pub phase: String,
-    /// Its numbers, by name with unit.
+    /// Numbers of the step, by name with unit.
     #[serde(flatten)]
     pub figures: BTreeMap<String, f64>,
 }
 
-/// Why a checklist cannot be written.
+/// The reason why a checklist cannot be written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ChecklistError {
     /// A number is infinite or not a number.
     #[error(
@@ -182,24 +181,26 @@ pub enum ChecklistError {
 }
 
 impl Checklist {
-    /// The version of the keys this program writes.
+    /// Version of the keys that this program writes.
     pub const SCHEMA: u32 = SCHEMA;
 
-    /// The checklist as indented JSON that ends in a newline, with keys in the order of the struct;
-    /// reading it back gives an equal checklist. Fails on the first number that is not finite.
+    /// Returns the checklist as indented JSON that ends in a newline, with keys in the order of the
+    /// struct. Reading it back gives an equal checklist. Fails on the first number that is not
+    /// finite.
     pub fn to_json(&self) -> Result<String, ChecklistError> {
         let text = serde_json::to_string_pretty(self)? + "\n";
         match serde_json::from_str::<Self>(&text) {
             Ok(back) if back == *self => Ok(text),
-            // JSON has no NaN: serde writes null, which is either refused on reading or read as a
-            // missing value.
+            // JSON has no NaN: serde writes null, which is refused on reading or read as a missing
+            // value.
             _ => Err(ChecklistError::NotFinite {
-                key: first_unfinite_key(&format!("{self:#?}")),
+                key: first_non_finite_key(&format!("{self:#?}")),
             }),
         }
     }
 
-    /// The same checklist as it goes into a kit: without the timings, which differ from run to run.
+    /// Returns the checklist as it goes into a kit: without the timings, which differ from run to
+    /// run.
     #[must_use]
     pub fn without_timing(&self) -> Self {
         Self {
@@ -209,8 +210,8 @@ impl Checklist {
     }
 }
 
-/// The key of the first number in an indented debug print that is NaN or infinite.
-fn first_unfinite_key(debug: &str) -> String {
+/// Returns the key of the first number in an indented debug print that is NaN or infinite.
+fn first_non_finite_key(debug: &str) -> String {
     let mut key = "";
     for line in debug.lines().map(str::trim) {
         let (name, value) = line.split_once(": ").unwrap_or((key, line));

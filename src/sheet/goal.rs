@@ -1,50 +1,101 @@
-//! The goal as it was placed, and how the finished object behaves.
+//! The goal as it was placed, and the behaviour of the finished object.
 
 use serde::{Deserialize, Serialize};
 
+use crate::goal::Objective;
 use crate::verify::Aim;
 
 /// The goal as it was placed on the model.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GoalRow {
-    /// What it must do, and about which point and axis.
+    /// Kind of the goal, and the point and axis it is about.
     #[serde(flatten)]
     pub aim: Aim,
-    /// What was made as small or large as possible, such as `critical_speed`.
-    pub objective: String,
-    /// The weights γ_c of a low centre and γ_I of a flat tensor in Spin-It's functional (its eq.
-    /// 7), where that was it.
+    /// Objective that was made as small or as large as possible.
+    pub objective: ObjectiveName,
+    /// Weights γ_c of a low centre and γ_I of a flat tensor in Spin-It's functional (its eq. 7), if
+    /// that was the objective.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spin_it_weights: Option<[f64; 2]>,
-    /// How far the contact point hangs below the surface, mm; zero when the surface is touched. A
-    /// tip piece of this length is needed.
+    /// Depth of the contact point below the surface, mm; zero if the surface touches it. A tip of
+    /// this length is needed.
     pub contact_gap_mm: f64,
-    /// How the axis was chosen, where the job left it open.
+    /// Reason for the choice of the axis, if the job left it open.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
 }
 
-/// How a top stands on its contact when it does not spin; see [`crate::goal::Resting`].
+/// An [`Objective`] without its weights.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ObjectiveName {
+    /// Top: the least speed at which it stays upright.
+    CriticalSpeed,
+    /// Top and yo-yo: the least value of Spin-It's functional.
+    SpinIt,
+    /// Yo-yo: the most dominant axis.
+    Dominance,
+    /// Stand: the largest tilt before it topples.
+    TopplingAngle,
+    /// Stand: the lowest centre of mass.
+    LowestCenter,
+    /// Float: the greatest metacentric height.
+    MetacentricHeight,
+    /// Balance: the least material removed.
+    LeastRemoved,
+    /// Balance: the least unbalance.
+    LeastUnbalance,
+}
+
+impl From<Objective> for ObjectiveName {
+    fn from(objective: Objective) -> Self {
+        match objective {
+            Objective::CriticalSpeed => Self::CriticalSpeed,
+            Objective::SpinIt { .. } => Self::SpinIt,
+            Objective::Dominance => Self::Dominance,
+            Objective::TopplingAngle => Self::TopplingAngle,
+            Objective::LowestCenter => Self::LowestCenter,
+            Objective::MetacentricHeight => Self::MetacentricHeight,
+            Objective::LeastRemoved => Self::LeastRemoved,
+            Objective::LeastUnbalance => Self::LeastUnbalance,
+        }
+    }
+}
+
+/// The stand of a top that does not spin; see [`crate::goal::Resting`].
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct FootRow {
-    /// The radius of curvature of the contact over a tilt of a degree, mm: larger than the height,
-    /// so it stands.
+    /// Radius of curvature of the contact over a tilt of a degree, mm. It is larger than the height
+    /// of the centre of mass, so the top stands.
     pub radius_mm: f64,
-    /// The height of the centre of mass over the floor, mm.
+    /// Height of the centre of mass over the floor, mm.
     pub center_height_mm: f64,
-    /// It rights itself up to this tilt, to a degree, degrees; 45 where it does so at least up to
-    /// there.
+    /// Tilt from which it still rights itself, to a degree, degrees; 45 if it does so from at least
+    /// 45°.
     pub rights_to_deg: f64,
 }
 
-/// What becomes of a yo-yo whose half A is glued on its axle a degree off its turn.
+/// The effect on a yo-yo if half A is glued on the axle one degree off.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct TurnRow {
-    /// How far half A's own centre of mass is from the axis, mm: what the other half has to make up
-    /// for.
+    /// Distance of half A's own centre of mass from the axis, mm: the other half balances it.
     pub half_offset_mm: f64,
-    /// How far a degree takes the centre of mass of the whole off the axis, mm.
+    /// Distance by which one degree moves the centre of mass of the whole off the axis, mm.
     pub offset_mm_per_deg: f64,
-    /// How far a degree leans the axis of the greatest moment, degrees.
+    /// Angle by which one degree tilts the axis of the greatest moment, degrees.
     pub tilt_deg_per_deg: f64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn objectives_keep_their_words_with_underscores() {
+        for word in Objective::WORDS {
+            let objective: Objective = word.parse().unwrap();
+            let name = serde_json::to_value(ObjectiveName::from(objective)).unwrap();
+            assert_eq!(name, word.replace('-', "_"));
+        }
+    }
 }

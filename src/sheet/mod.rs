@@ -1,4 +1,4 @@
-//! The job sheet as data: the checklist and its rows, as `checklist.json` holds them.
+//! The job sheet as data: the checklist and its rows, key for key as in `checklist.json`.
 
 mod certificate;
 mod checklist;
@@ -14,10 +14,10 @@ mod voids;
 
 pub use certificate::{Certificate, CleaningRow, Course, HeightProof, KeptRow, PassRow, SpeedRow};
 pub use checklist::{Checklist, ChecklistError, LogRow, ModelRow, Tool, Verdict};
-pub use goal::{FootRow, GoalRow, TurnRow};
+pub use goal::{FootRow, GoalRow, ObjectiveName, TurnRow};
 pub use joints::{BallastRow, BossRow, CutListRow, JointRow, RoundRow};
-pub use parts::{PartRow, SupportRow, finished_size_mm, part_picture_file};
-pub use printer::{GridRow, MaterialRow, PrinterRow, WallRow};
+pub use parts::{Half, PartRow, SupportRow, finished_size_mm, part_picture_file};
+pub use printer::{GridRow, MaterialRow, PrinterRow, Process, SupportMethod, WallRow};
 pub use timing::Timing;
 pub(crate) use voids::checks_of_void;
 pub use voids::{CutRow, SideRow, VoidRow, is_clean};

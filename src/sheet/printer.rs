@@ -1,4 +1,6 @@
-//! The printer, its material, the wall, and what the machine makes of lengths.
+//! The rows of the printer, its material, the wall, and lengths as the machine makes them.
+
+use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
@@ -7,88 +9,172 @@ use crate::verify::Cleaning;
 /// The printer, as far as the shop and the judge need it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct PrinterRow {
-    /// The id of its profile.
+    /// Id of its profile.
     pub id: String,
-    /// The SHA-256 of that profile and the ones it inherits from.
+    /// SHA-256 of that profile and the ones it inherits from.
     #[serde(default)]
     pub profile_sha256: String,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// The process, such as `polyjet` or `fdm`.
-    pub process: String,
+    /// Process.
+    pub process: Process,
     /// Pixels or line widths along x and y, mm.
     pub pixel_mm: [f64; 2],
-    /// The height of a layer, mm.
+    /// Height of a layer, mm.
     pub layer_mm: f64,
-    /// The edges of the build volume, mm; unknown for some machines.
+    /// Edges of the build volume, mm; unknown for some machines.
     pub build_volume_mm: Option<[f64; 3]>,
-    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal
-    /// size; none where files are nominal.
+    /// Factors by which files are enlarged along x, y and z to make up for shrinkage; `None` if
+    /// files are nominal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub print_scale_ratio: Option<[f64; 3]>,
-    /// What holds overhangs and must come out of the voids: `soluble`, `breakaway`, `water-jet` or
-    /// `none`.
-    pub support: String,
-    /// The least wall the process prints, mm.
+    /// Way in which support is removed.
+    pub support: SupportMethod,
+    /// Least wall the process prints, mm.
     pub minimum_wall_mm: f64,
-    /// The least opening through which a void can be cleaned, mm.
+    /// Least opening through which a void can be cleaned, mm.
     pub minimum_opening_mm: f64,
-    /// When a void counts as clean.
+    /// Rule by which a void counts as clean.
     pub cleaning: Cleaning,
-    /// What each of these numbers rests on, in words: sources, and what is only assumed.
+    /// Sources of these numbers, in words, and which of them are assumed.
     pub sources: Vec<String>,
 }
 
-/// The material the masses rest on.
+/// A printing process.
+///
+/// In JSON it is its word; a shop's own process keeps the word of its profile.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(from = "String", into = "String")]
+pub enum Process {
+    /// `fdm`: filament.
+    Fdm,
+    /// `mjf`: powder fused by an agent and heat.
+    Mjf,
+    /// `mjp`: jetted resin with wax support.
+    Mjp,
+    /// `polyjet`: jetted resin.
+    Polyjet,
+    /// `sla`: resin in a vat.
+    Sla,
+    /// `sls`: powder sintered by a laser.
+    Sls,
+    /// Any other word; empty if the profile names no process.
+    Other(String),
+}
+
+impl From<String> for Process {
+    fn from(word: String) -> Self {
+        match word.as_str() {
+            "fdm" => Self::Fdm,
+            "mjf" => Self::Mjf,
+            "mjp" => Self::Mjp,
+            "polyjet" => Self::Polyjet,
+            "sla" => Self::Sla,
+            "sls" => Self::Sls,
+            _ => Self::Other(word),
+        }
+    }
+}
+
+impl From<Process> for String {
+    fn from(process: Process) -> Self {
+        process.to_string()
+    }
+}
+
+impl fmt::Display for Process {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Fdm => "fdm",
+            Self::Mjf => "mjf",
+            Self::Mjp => "mjp",
+            Self::Polyjet => "polyjet",
+            Self::Sla => "sla",
+            Self::Sls => "sls",
+            Self::Other(word) => word,
+        })
+    }
+}
+
+/// The way in which support is removed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SupportMethod {
+    /// It dissolves in a bath.
+    Soluble,
+    /// It is broken off.
+    Breakaway,
+    /// A water jet flushes it out.
+    WaterJet,
+    /// The process needs no support.
+    None,
+}
+
+/// The material on which the masses rest.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct MaterialRow {
-    /// The id of its profile.
+    /// Id of its profile.
     pub id: String,
-    /// Its name.
+    /// Name.
     pub name: String,
-    /// g/cm³.
+    /// Density, g/cm³.
     pub density_g_cm3: f64,
-    /// Where the density is from.
+    /// Source of the density.
     pub density_source: String,
-    /// How sure that source is, such as `read` or `recalled`.
+    /// Certainty of that source, such as `read` or `recalled`.
     pub density_sure: String,
-    /// How far the mass of a sound print may be from volume × density, as a share; no weighing
-    /// window is printed where it is not known.
+    /// Allowed relative deviation of the mass of a sound print from volume × density. Without it
+    /// the sheet shows no weighing window.
     pub density_spread_ratio: Option<f64>,
 }
 
-/// The wall that was ordered and the one that was measured.
+/// The wall as ordered and as measured.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct WallRow {
-    /// The least wall promised, mm: what was asked for, rounded up to what the printer makes.
+    /// Least wall promised, mm: the ordered one, rounded up to what the printer makes.
     pub required_mm: f64,
-    /// What was asked for, mm; none where the printer's least was taken.
+    /// Ordered wall, mm; `None` if the printer's least wall was used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub asked_mm: Option<f64>,
-    /// The least distance between a void and the outside on the written surfaces, mm; none without
+    /// Least distance between a void and the outside on the written surfaces, mm; `None` without
     /// voids.
     pub measured_min_mm: Option<f64>,
 }
 
-/// A length as it was asked for, as it is drawn, and as the machine makes it.
+/// A length as it was ordered, as it is drawn, and as the machine makes it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct GridRow {
-    /// What it is, such as `wall` or `pin N1, diameter`.
+    /// Name of the length, such as `wall` or `pin N1, diameter`.
     pub what: String,
-    /// Along which direction of the printer: `x`, `y`, `z`, or `tilted`.
+    /// Direction of the printer: `x`, `y`, `z`, or `tilted`.
     pub along: String,
-    /// What was asked for, mm.
+    /// Ordered length, mm.
     pub asked_mm: f64,
-    /// What the files have, mm.
+    /// Length in the files, mm.
     pub drawn_mm: f64,
-    /// What the machine's steps are called: `pixels`, `line widths` or `layers`.
+    /// Name of the machine's steps: `pixels`, `line widths` or `layers`.
     pub steps_of: String,
-    /// One step, mm.
+    /// Size of a step, mm.
     pub step_mm: f64,
-    /// How many whole steps it becomes; the least where that depends on where it lies between them.
+    /// Number of whole steps it becomes; the least number if that depends on its position.
     pub steps: u32,
-    /// What the machine makes of it, mm: `steps` of `step_mm`.
+    /// Length that the machine makes, mm: `steps` of `step_mm`.
     pub given_mm: f64,
-    /// Whether what is drawn is a whole number of steps.
+    /// `true` if the drawn length is a whole number of steps.
     pub is_whole: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_process_reads_back_from_its_word() {
+        for word in ["fdm", "mjf", "mjp", "polyjet", "sla", "sls", "ours", ""] {
+            let process = Process::from(word.to_owned());
+            let is_other = matches!(process, Process::Other(_));
+            assert_eq!(serde_json::to_value(&process).unwrap(), word);
+            assert_eq!(is_other, matches!(word, "ours" | ""));
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! The checklist of a sound kit: its keys, and that it reads back as it was written.
+//! Tests of the checklist of a sound kit: its keys, and that it reads back as it was written.
 
 use super::*;
 use crate::testing::sample;

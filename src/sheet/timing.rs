@@ -1,10 +1,10 @@
-//! How long each stage took, in the order they ran.
+//! The duration of each stage of a run.
 
 use serde::de::{MapAccess, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
-/// Stage and seconds, in the order the stages ran; a JSON object.
+/// Names and seconds of the stages, in the order they ran; a JSON object.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Timing(pub Vec<(String, f64)>);
 
@@ -14,7 +14,7 @@ impl Timing {
         self.0.push((stage.to_owned(), seconds));
     }
 
-    /// All stages together, s.
+    /// Returns the duration of all stages together, s.
     pub fn total_s(&self) -> f64 {
         self.0.iter().map(|(_, seconds)| seconds).sum()
     }
@@ -36,7 +36,7 @@ impl<'de> Deserialize<'de> for Timing {
     }
 }
 
-/// Reads a map without losing its order.
+/// Reads a JSON object and keeps the order of its keys.
 struct InOrder;
 
 impl<'de> Visitor<'de> for InOrder {

@@ -1,48 +1,48 @@
-//! The voids, the cuts that open them, and the checks that they are clean.
+//! The rows of voids and of the cuts that open them, and the checks of a void.
 
 use serde::{Deserialize, Serialize};
 
 use crate::verify::Check;
 
-/// One void and how it is cleaned.
+/// A void and how it is cleaned.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VoidRow {
-    /// Its name on the sheet, such as `V1`.
+    /// Name on the sheet, such as `V1`.
     pub id: String,
-    /// mm³.
+    /// Volume, mm³.
     pub volume_mm3: f64,
-    /// The ids of the cuts that open it.
+    /// Ids of the cuts that open it.
     pub opened_by: Vec<String>,
-    /// The ids of the parts that hold a piece of it.
+    /// Ids of the parts that hold a piece of it.
     #[serde(default)]
     pub parts: Vec<String>,
-    /// The diameter of the largest disc that passes the opening of each of its pieces, mm.
+    /// Diameter of the largest disc that passes through the openings of all its pieces, mm.
     pub opening_mm: f64,
-    /// The least opening it needs, mm.
+    /// Least opening it needs, mm.
     pub least_opening_mm: f64,
-    /// How far its deepest point lies from the opening, mm.
+    /// Distance of its deepest point from the opening, mm.
     pub depth_mm: f64,
-    /// The share of its wall in sight of the openings of its own piece and within the tool's reach;
-    /// none where it was not measured.
+    /// Share of its wall in sight of the openings of its own piece and within reach of the tool;
+    /// `None` if it was not measured.
     pub sight_ratio: Option<f64>,
     /// The printer's cleaning rule, in words.
     pub method: String,
-    /// Whether it is open and clean by that rule, as the judge found in the written parts.
+    /// `true` if the judge found it open and clean by that rule in the written parts.
     pub is_clean: bool,
-    /// How to clean it, in a sentence.
+    /// Instruction to clean it, in a sentence.
     pub clean: String,
 }
 
-/// One cut.
+/// A cut.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutRow {
-    /// Its name on the sheet, such as `C1`.
+    /// Name on the sheet, such as `C1`.
     pub id: String,
-    /// A point of its plane, model frame, mm.
+    /// Point of its plane, model frame, mm.
     pub point_mm: [f64; 3],
-    /// The unit normal of its plane, model frame.
+    /// Unit normal of its plane, model frame.
     pub normal: [f64; 3],
-    /// The sides of other cuts on which alone it is made; everywhere where there are none.
+    /// Sides of other cuts to which it is limited; empty if it is made everywhere.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub within: Vec<SideRow>,
 }
@@ -50,18 +50,18 @@ pub struct CutRow {
 /// A side of a cut.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct SideRow {
-    /// The cut's name on the sheet.
+    /// Name of the cut on the sheet.
     pub cut: String,
-    /// `above` where its normal points to, `below` where it points away from.
+    /// `above` for the side to which its normal points, `below` for the other.
     pub side: String,
 }
 
-/// Whether the checks of a void pass.
+/// Returns whether all checks of a void pass.
 pub fn is_clean(checks: &[Check], void: &str) -> bool {
     checks_of_void(checks, void).all(|check| check.pass)
 }
 
-/// The checks that are about a void.
+/// Returns the checks of a void.
 pub fn checks_of_void<'a>(checks: &'a [Check], void: &str) -> impl Iterator<Item = &'a Check> {
     checks
         .iter()

@@ -1,4 +1,4 @@
-//! A sound checklist for the tests of the paperwork: the hollow box of the judge's tests.
+//! The checklist, the pictures and the view of a sound kit: the hollow box of the judge's tests.
 
 use crate::geom::{Parting, Plane, Point, Vector};
 use crate::page::{CutFace, Mouth, Picture, Region, Subject, View, album, drawings};
@@ -8,10 +8,10 @@ use crate::sheet::*;
 use crate::verify::judge_tests::sound;
 use crate::verify::{
     Cleaning, Evidence, FigureName, Judgement, PartFacts, Promise, PromisedCut, PromisedFigure,
-    PromisedVoid, Shells, judge,
+    PromisedPart, PromisedVoid, Shells, judge,
 };
 
-/// The rule of a water jet.
+/// The cleaning rule of a water jet.
 const CLEANING: Cleaning = Cleaning {
     rule: crate::verify::CleaningRule::InSight,
     sight_ratio: 0.95,
@@ -20,10 +20,11 @@ const CLEANING: Cleaning = Cleaning {
     overhang_deg: None,
 };
 
-/// What the sheet says of the void's wall: less than is found, within what two samples may differ.
+/// Stated share of the void's wall in sight: less than is found, within the difference of two
+/// samples.
 const SIGHT_RATIO: f64 = 0.96;
 
-/// The promise of a kit whose void is cut at z = 16 and to be cleaned.
+/// Adds a cut at z = 16 mm and a void to clean to a promise.
 fn order_cleaning(promise: &mut Promise) {
     promise.printer.minimum_opening_mm = Some(4.0);
     promise.printer.cleaning = Some(CLEANING);
@@ -39,7 +40,7 @@ fn order_cleaning(promise: &mut Promise) {
     }];
 }
 
-/// The checklist of a sound kit, and what it was judged on.
+/// Returns the checklist of a sound kit, and the evidence on which it was judged.
 pub fn sample() -> (Checklist, Evidence) {
     let mut evidence = sound();
     order_cleaning(&mut evidence.promise);
@@ -47,7 +48,7 @@ pub fn sample() -> (Checklist, Evidence) {
     (checklist(&evidence, &found), evidence)
 }
 
-/// Its pictures and its view.
+/// Returns the pictures and the 3D view of the sample.
 pub fn sample_pictures(sheet: &Checklist, evidence: &Evidence) -> (Vec<Picture>, View) {
     let shells = Shells::of_mesh(&weld(&evidence.hollowed));
     let cuts = [Parting::everywhere(Plane::through(
@@ -104,19 +105,12 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
             version: "0.1.0".into(),
         },
         job: "box".into(),
-        model: ModelRow {
-            file: "box <&> lid.stl".into(),
-            sha256: "ab".repeat(32),
-            triangles: 12,
-            size_mm: [60.0, 40.0, 12.0],
-            volume_mm3: found.solid.volume_mm3,
-            scale_ratio: 1.0,
-        },
+        model: model(found),
         printer: printer(),
         material: material(),
         goal: GoalRow {
             aim: evidence.promise.goal,
-            objective: "critical_speed".into(),
+            objective: ObjectiveName::CriticalSpeed,
             spin_it_weights: None,
             contact_gap_mm: 10.0,
             choice: None,
@@ -128,42 +122,15 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
         solid: found.solid.clone(),
         hollowed: found.hollowed.clone(),
         assembly: found.assembly.clone(),
-        certificate: Certificate {
-            figure: FigureName::CriticalSpeedRpm,
-            value: speed,
-            bound: speed,
-            gap_ratio: 1e-9,
-            kept_solid_mm3: 0.0,
-            value_before_cleaning: Some(speed),
-            cleaning_rounds: vec![],
-            bosses_mm3: 0.0,
-            over_heights: Some(HeightProof {
-                pitch_mm: 0.5,
-                value: speed,
-                bound: 0.998 * speed,
-            }),
-            written_value: Some(speed),
-            course: Some(course(speed)),
-        },
+        certificate: certificate(speed),
         wall: WallRow {
             required_mm: 3.0,
             asked_mm: None,
             measured_min_mm: found.wall_min_mm,
         },
         voids: vec![the_void()],
-        cuts: vec![CutRow {
-            id: "C1".into(),
-            point_mm: [0.0, 0.0, 16.0],
-            normal: [0.0, 0.0, 1.0],
-            within: Vec::new(),
-        }],
-        parts: evidence
-            .promise
-            .parts
-            .iter()
-            .zip(&found.parts)
-            .map(part)
-            .collect(),
+        cuts: vec![cut()],
+        parts: parts(evidence, found),
         joints: vec![joint()],
         grid: vec![grid_row()],
         hardware: vec![],
@@ -191,7 +158,38 @@ fn checklist(evidence: &Evidence, found: &Judgement) -> Checklist {
     }
 }
 
-/// Three passes to a speed, and the speeds about its height.
+fn model(found: &Judgement) -> ModelRow {
+    ModelRow {
+        file: "box <&> lid.stl".into(),
+        sha256: "ab".repeat(32),
+        triangles: 12,
+        size_mm: [60.0, 40.0, 12.0],
+        volume_mm3: found.solid.volume_mm3,
+        scale_ratio: 1.0,
+    }
+}
+
+fn certificate(speed: f64) -> Certificate {
+    Certificate {
+        figure: FigureName::CriticalSpeedRpm,
+        value: speed,
+        bound: speed,
+        gap_ratio: 1e-9,
+        kept_solid_mm3: 0.0,
+        value_before_cleaning: Some(speed),
+        cleaning_rounds: vec![],
+        bosses_mm3: 0.0,
+        over_heights: Some(HeightProof {
+            pitch_mm: 0.5,
+            value: speed,
+            bound: 0.998 * speed,
+        }),
+        written_value: Some(speed),
+        course: Some(course(speed)),
+    }
+}
+
+/// Returns three passes to a speed, and the speeds around its height.
 fn course(speed: f64) -> Course {
     let pass = |share: f64| PassRow {
         value: speed * (1.0 + share),
@@ -212,12 +210,12 @@ fn printer() -> PrinterRow {
         id: "objet-connex350".into(),
         profile_sha256: "ef".repeat(32),
         name: "Objet Connex350".into(),
-        process: "polyjet".into(),
+        process: Process::Polyjet,
         pixel_mm: [0.0423, 0.0423],
         layer_mm: 0.016,
         build_volume_mm: Some([100.0, 100.0, 6.0]),
         print_scale_ratio: None,
-        support: "water-jet".into(),
+        support: SupportMethod::WaterJet,
         minimum_wall_mm: 1.0,
         minimum_opening_mm: 4.0,
         cleaning: CLEANING,
@@ -266,6 +264,15 @@ fn the_void() -> VoidRow {
     }
 }
 
+fn cut() -> CutRow {
+    CutRow {
+        id: "C1".into(),
+        point_mm: [0.0, 0.0, 16.0],
+        normal: [0.0, 0.0, 1.0],
+        within: Vec::new(),
+    }
+}
+
 fn joint() -> JointRow {
     JointRow {
         id: "J1".into(),
@@ -279,7 +286,15 @@ fn joint() -> JointRow {
     }
 }
 
-fn part((promised, facts): (&crate::verify::PromisedPart, &PartFacts)) -> PartRow {
+fn parts(evidence: &Evidence, found: &Judgement) -> Vec<PartRow> {
+    let promised = evidence.promise.parts.iter();
+    let pairs = promised.zip(&found.parts);
+    pairs
+        .map(|(promised, facts)| part(promised, facts))
+        .collect()
+}
+
+fn part(promised: &PromisedPart, facts: &PartFacts) -> PartRow {
     PartRow {
         id: promised.id.clone(),
         file: promised.file.clone(),

@@ -1,4 +1,4 @@
-//! What the tests of several rooms share.
+//! Samples shared by the tests of several rooms.
 
 mod kit;
 

@@ -1,7 +1,7 @@
 //! The certificate of the solution, and the log of the solver.
 
 use super::facts::Facts;
-use super::figures::{figure_name, shown};
+use super::figures::{figure_name, in_sheet_unit};
 use super::joints::bosses_mm3;
 use super::voids::cleaning_rows;
 use crate::goal::figures;
@@ -10,30 +10,31 @@ use crate::run::HeightProof;
 use crate::sheet::{Certificate, Course, LogRow, PassRow, SpeedRow};
 use crate::verify::FigureName;
 
+/// Returns the certificate in the units of the sheet.
 pub fn certificate(facts: &Facts) -> Certificate {
     let certificate = &facts.made.solution.certificate;
     let figure = figure_name(certificate.figure);
-    let shown = |value: f64| shown(facts.placed, certificate.figure, value);
+    let convert = |value: f64| in_sheet_unit(facts.placed, certificate.figure, value);
     Certificate {
         figure,
-        value: shown(certificate.value),
-        bound: shown(certificate.bound),
+        value: convert(certificate.value),
+        bound: convert(certificate.bound),
         gap_ratio: certificate.gap_ratio,
         kept_solid_mm3: facts.made.refused_mm3,
-        value_before_cleaning: Some(shown(facts.made.value_before_cleaning)),
-        cleaning_rounds: cleaning_rows(&facts.made.cleaning, shown),
+        value_before_cleaning: Some(convert(facts.made.value_before_cleaning)),
+        cleaning_rounds: cleaning_rows(&facts.made.cleaning, convert),
         bosses_mm3: bosses_mm3(facts),
         over_heights: facts.made.height_proof.map(height_proof),
         written_value: written_value(facts, figure),
-        course: course(&facts.made.course, shown),
+        course: course(&facts.made.course, convert),
     }
 }
 
-/// How the answer came about, in the units of the sheet.
-fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Course> {
+/// Returns the course of the search in the units of the sheet; `None` if it was not recorded.
+fn course(found: &hollow::TopCourse, convert: impl Fn(f64) -> f64) -> Option<Course> {
     let pass = |pass: &hollow::Pass| PassRow {
-        value: shown(pass.value),
-        bound: shown(pass.bound),
+        value: convert(pass.value),
+        bound: convert(pass.bound),
     };
     let speed = |&[height_mm, critical_speed_rpm]: &[f64; 2]| SpeedRow {
         height_mm,
@@ -46,8 +47,8 @@ fn course(found: &hollow::TopCourse, shown: impl Fn(f64) -> f64) -> Option<Cours
     (!found.passes.is_empty()).then_some(Course { passes, speeds })
 }
 
-/// The certificate's figure of the written assembly; Spin-It's functional with the weights it was
-/// optimised with.
+/// Returns the certificate's figure of the written assembly. Spin-It's functional has the weights
+/// with which it was optimised.
 fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
     let (placed, goal) = (facts.placed, &facts.placed.placement.goal);
     if figure != FigureName::SpinItRatio {
@@ -58,6 +59,7 @@ fn written_value(facts: &Facts, figure: FigureName) -> Option<f64> {
     figures(goal, &whole.in_frame(&goal.frame)).spin_it
 }
 
+/// Returns a step of the solver with its finite numbers.
 pub fn log_row(row: &hollow::LogRow) -> LogRow {
     let figures = [
         ("passes", row.passes as f64),

@@ -103,7 +103,7 @@ fn goal_row(placed: &Placed) -> GoalRow {
     };
     GoalRow {
         aim: aim(placed),
-        objective: asked.word().replace('-', "_"),
+        objective: asked.into(),
         spin_it_weights,
         contact_gap_mm: gap.unwrap_or(0.0),
         choice: placed.choice.as_ref().map(ToString::to_string),

@@ -1,16 +1,16 @@
-//! The facts that a checklist is filled from.
+//! The facts from which a checklist is filled.
 
 use crate::run::{Made, Placed};
 use crate::verify::{Judgement, PromisedFigure};
 
-/// Everything that a checklist is filled from.
+/// The facts from which a checklist is filled.
 pub struct Facts<'a> {
-    /// The goal in its model, on its printer.
+    /// Goal in its model, on its printer.
     pub placed: &'a Placed,
-    /// The parts that were made.
+    /// Parts that were made.
     pub made: &'a Made,
-    /// The findings of the judge.
+    /// Findings of the judge.
     pub judgement: &'a Judgement,
-    /// The figure that the buyer is promised.
+    /// Figure that the buyer is promised.
     pub promised: Option<PromisedFigure>,
 }

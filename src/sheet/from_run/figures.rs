@@ -5,7 +5,7 @@ use crate::hollow;
 use crate::run::Placed;
 use crate::verify::FigureName;
 
-/// The figure a goal is judged by.
+/// Returns the figure by which a goal is judged.
 pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
     match (kind, objective) {
         (GoalKind::Top, _) => FigureName::CriticalSpeedRpm,
@@ -18,8 +18,8 @@ pub fn promised_figure(kind: GoalKind, objective: Objective) -> FigureName {
     }
 }
 
-/// A value of a certificate's figure in the unit in which it is shown.
-pub fn shown(placed: &Placed, figure: hollow::Figure, value: f64) -> f64 {
+/// Returns a value of a certificate's figure in the unit of the sheet.
+pub fn in_sheet_unit(placed: &Placed, figure: hollow::Figure, value: f64) -> f64 {
     match figure {
         hollow::Figure::TopplingAngleRad => value.to_degrees(),
         hollow::Figure::VolumeMm3 => value * placed.shop.material.density_g_mm3(),
@@ -27,7 +27,7 @@ pub fn shown(placed: &Placed, figure: hollow::Figure, value: f64) -> f64 {
     }
 }
 
-/// The figure that a certificate speaks of, as the judge names it.
+/// Returns the judge's name of a certificate's figure.
 pub fn figure_name(figure: hollow::Figure) -> FigureName {
     use hollow::Figure;
     match figure {

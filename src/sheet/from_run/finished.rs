@@ -1,5 +1,4 @@
-//! The checklist's rows about the finished object: what a turn of a yo-yo's half does, and what
-//! prints as a closed cup.
+//! The rows about the finished object: the effect of turning a yo-yo's half, and closed cups.
 
 use std::collections::BTreeMap;
 
@@ -9,13 +8,13 @@ use crate::mass::{Body, Moments};
 use crate::mesh::TriMesh;
 use crate::mesh::union_find::UnionFind;
 use crate::repair::weld;
-use crate::sheet::{PartRow, TurnRow};
+use crate::sheet::{Half, PartRow, TurnRow};
 
-/// How far above the plate a corner may be and still lie on it, mm: files round to 1e-5 mm, and no
+/// Greatest height over the plate of a vertex that lies on it, mm. Files round to 1e-5 mm, and no
 /// layer is thinner than this.
 const ON_PLATE_MM: f64 = 1e-3;
 
-/// What becomes of a yo-yo whose half A is turned by a degree; none where there is one body.
+/// Returns the effect of turning half A of a yo-yo by a degree; `None` for a single body.
 pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
     let (placed, made) = (facts.placed, facts.made);
     placed.string_gap_mm()?;
@@ -24,7 +23,7 @@ pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
         .parts
         .iter()
         .zip(parts)
-        .filter(|(_, row)| row.half.as_deref() == Some("A"));
+        .filter(|(_, row)| row.half == Some(Half::A));
     let half = written
         .fold(Moments::default(), |sum, (part, _)| {
             sum + part.evidence().moments()
@@ -33,11 +32,11 @@ pub fn turn_row(facts: &Facts, parts: &[PartRow]) -> Option<TurnRow> {
     let whole = made.written_moments()
         + placed.joining_moments(&made.plan)
         + placed.moments_inside(&made.load, &made.hollowed);
-    turned(&half, &whole.in_frame(frame))
+    turn_effect(&half, &whole.in_frame(frame))
 }
 
-/// The same by the moments of the half and of the whole about the axis, which is z.
-fn turned(half: &Moments, whole: &Moments) -> Option<TurnRow> {
+/// Returns the effect of the turn from the moments of the half and of the whole; the axis is z.
+fn turn_effect(half: &Moments, whole: &Moments) -> Option<TurnRow> {
     let (sin, cos) = 1f64.to_radians().sin_cos();
     let degree = Matrix::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
     let after = *whole - *half + half.rotated(&degree);
@@ -51,7 +50,7 @@ fn turned(half: &Moments, whole: &Moments) -> Option<TurnRow> {
     })
 }
 
-/// The axis of the greatest moment, upward.
+/// Returns the axis of the greatest moment, pointing up.
 fn greatest_axis(moments: &Moments) -> Vector {
     let axis: Vector = Body::new(moments, 1.0)
         .principal()
@@ -61,11 +60,11 @@ fn greatest_axis(moments: &Moments) -> Vector {
     axis * axis.z.signum()
 }
 
-/// The volume of all hollows of a part in print pose whose only mouth lies flat on the plate, mm³;
-/// exact for the file.
+/// Returns the volume of all hollows of a part in print pose whose only mouth lies flat on the
+/// plate, mm³; exact for the file.
 ///
-/// Without the triangles on the plate the surface falls into the outside and such hollows: each of
-/// those holds, down to the plate, minus its flux volume ∫ z n_z dA.
+/// Without the triangles on the plate, the surface separates into the outside and these hollows.
+/// The volume of a hollow above the plate is its negative flux −∫ z n_z dA.
 pub fn cup_mm3(printed: &TriMesh) -> f64 {
     let mesh = weld(printed);
     let floor_mm = mesh.aabb().min.z;
@@ -94,7 +93,7 @@ pub fn cup_mm3(printed: &TriMesh) -> f64 {
         .sum::<f64>()
 }
 
-/// The volume between a triangle and the plate, negative where it faces down, mm³.
+/// Returns the volume between a triangle and the plate, mm³; negative if it faces down.
 fn under_mm3([a, b, c]: [Point; 3], floor_mm: f64) -> f64 {
     let flat_mm2 = 0.5 * (b - a).cross(&(c - a)).z;
     flat_mm2 * ((a.z + b.z + c.z) / 3.0 - floor_mm)
@@ -111,7 +110,7 @@ mod tests {
     }
 
     #[test]
-    fn a_hollow_open_downward_is_a_cup_and_one_with_a_second_mouth_or_open_upward_is_none() {
+    fn only_a_hollow_open_just_downward_is_a_cup() {
         let body = block([0.0; 3], [20.0; 3]);
         let body = Csg::of_mesh(&body).unwrap();
         let cup = |hollow: &TriMesh| {
@@ -125,19 +124,19 @@ mod tests {
 
     #[test]
     fn a_turned_half_moves_the_centre_by_its_lever_and_its_share() {
-        // Half A is a cube 3 mm beside the axis, half B its mirror image: a degree moves the
-        // whole's centre by half of 2·3·sin(0.5°).
+        // Half A is a cube 3 mm beside the axis, half B its mirror image. One degree moves the
+        // centre of the whole by half of 2·3·sin(0.5°).
         let cube = |x: f64, z: f64| {
             let (low, high) = ([x - 1.0, -1.0, z - 1.0], [x + 1.0, 1.0, z + 1.0]);
             moments_of_mesh(&block(low, high))
         };
         let (half, other) = (cube(3.0, 2.0), cube(-3.0, -2.0));
-        let row = turned(&half, &(half + other)).unwrap();
+        let row = turn_effect(&half, &(half + other)).unwrap();
         assert!((row.half_offset_mm - 3.0).abs() < 1e-12);
         assert!((row.offset_mm_per_deg - 3.0 * 0.5f64.to_radians().sin()).abs() < 1e-12);
         assert!(row.tilt_deg_per_deg > 0.1);
         assert!(
-            turned(&cube(0.0, 2.0), &(cube(0.0, 2.0) + cube(0.0, -2.0)))
+            turn_effect(&cube(0.0, 2.0), &(cube(0.0, 2.0) + cube(0.0, -2.0)))
                 .unwrap()
                 .offset_mm_per_deg
                 < 1e-12

@@ -1,12 +1,11 @@
-//! What to mind of a top that stands still on its contact: its written figures, and the surface
-//! that touches the floor.
+//! The foot of a top that stands on its contact without spinning.
 
 use super::facts::Facts;
 use crate::geom::Point;
 use crate::goal::{GoalKind, Warning, resting};
 use crate::sheet::FootRow;
 
-/// How a top stands on its foot without spinning; none where it falls over, as a top must.
+/// Returns how a top stands on its foot without spinning; `None` if it falls over, as tops do.
 pub fn foot_row(facts: &Facts) -> Option<FootRow> {
     let (placed, goal) = (facts.placed, &facts.placed.placement.goal);
     if goal.kind != GoalKind::Top {
@@ -18,7 +17,7 @@ pub fn foot_row(facts: &Facts) -> Option<FootRow> {
         .iter()
         .map(|p| goal.frame.to_local(p))
         .collect();
-    // A tip piece touches with its end, which is the origin.
+    // The end of a tip touches the floor; it is the origin.
     let has_tip = placed
         .request
         .hardware
@@ -34,7 +33,7 @@ pub fn foot_row(facts: &Facts) -> Option<FootRow> {
     })
 }
 
-/// What to mind of such a foot.
+/// Returns the warning of such a foot.
 pub fn flat_foot(foot: &FootRow) -> Warning {
     let FootRow {
         radius_mm,

@@ -1,4 +1,4 @@
-//! Rows for what the machine makes of walls, pins, sockets, cut faces and the solver's pitch.
+//! The rows of walls, pins, sockets, cut faces and the solver's pitch as the machine makes them.
 
 use super::facts::Facts;
 use crate::cut::PinSite;
@@ -7,14 +7,14 @@ use crate::printer::{Grid, whole_steps};
 use crate::run::{Placed, WrittenPart};
 use crate::sheet::GridRow;
 
-/// How far from a whole number of steps a length may be and still be one, in steps: files round to
-/// 1e-5 mm, and cuts keep some 1e-6 mm off vertices.
+/// Deviation up to which a length counts as a whole number of steps, in steps. Files round to 1e-5
+/// mm, and cuts keep about 1e-6 mm off vertices.
 const WHOLE_TOLERANCE: f64 = 1e-3;
 
-/// A direction whose z is this much of it stands upright in the printer, within 0.03°.
+/// Least z of a unit vector that counts as upright in the printer: within 0.03°.
 const UPRIGHT: f64 = 1.0 - 1e-7;
 
-/// A grid of the printer along one direction.
+/// The grid of the printer along one direction.
 #[derive(Clone, Copy)]
 struct Ruler {
     along: &'static str,
@@ -22,14 +22,14 @@ struct Ruler {
     step_mm: f64,
 }
 
-/// What is asked for and what is drawn, mm.
+/// A length as it was ordered and as it is drawn, mm.
 struct Length {
     what: String,
     asked_mm: f64,
     drawn_mm: f64,
 }
 
-/// Every row, equal ones once.
+/// Returns all rows, equal ones once.
 pub fn grid_rows(facts: &Facts) -> Vec<GridRow> {
     let rulers = rulers(facts.placed);
     let parts = facts.made.parts.iter();
@@ -48,7 +48,7 @@ pub fn grid_rows(facts: &Facts) -> Vec<GridRow> {
     rows
 }
 
-/// The printer's grids along x, y and z.
+/// Returns the printer's grids along x, y and z.
 fn rulers(placed: &Placed) -> [Ruler; 3] {
     let printer = &placed.shop.printer;
     let steps_of = printer.grid.steps();
@@ -72,12 +72,12 @@ fn rulers(placed: &Placed) -> [Ruler; 3] {
 }
 
 impl Ruler {
-    /// The row of a length that becomes at least its whole steps.
+    /// Returns the row of a length that becomes at least its whole steps.
     fn at_least(&self, length: Length) -> GridRow {
         self.row(whole_steps(length.drawn_mm, self.step_mm).max(0.0), length)
     }
 
-    /// The row of a length that becomes the nearest number of steps.
+    /// Returns the row of a length that becomes the nearest number of steps.
     fn nearest(&self, length: Length) -> GridRow {
         self.row((length.drawn_mm / self.step_mm).round(), length)
     }
@@ -105,7 +105,7 @@ impl Ruler {
     }
 }
 
-/// The wall along x, y and z.
+/// Returns the rows of the wall along x, y and z.
 fn walls(placed: &Placed, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow> {
     let size_mm = placed.model.solid.mesh().longest_side_mm();
     let asked_mm = placed
@@ -123,7 +123,7 @@ fn walls(placed: &Placed, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow> {
     })
 }
 
-/// The pitch of the solver's columns, where they stand at whole pixels.
+/// Returns the rows of the pitch of the solver's columns, if it is at least a pixel.
 fn pitches(placed: &Placed, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow> {
     let asked_mm = placed.job.pitch.map(|pitch| pitch.mm());
     let pitches = placed.shop.pitch_mm.into_iter().zip(rulers);
@@ -138,7 +138,7 @@ fn pitches(placed: &Placed, rulers: [Ruler; 3]) -> impl Iterator<Item = GridRow>
     pitches.map(row).filter(|row| row.steps > 0)
 }
 
-/// The heights over the plate at which the level cut faces of a part end.
+/// Returns the rows of the heights of level cut faces over the plate.
 fn faces<'a>(
     facts: &'a Facts,
     written: &'a WrittenPart,
@@ -163,16 +163,16 @@ fn faces<'a>(
         let what = format!("cut face {} of {}, height over the plate", cut.id, part.id);
         let length = Length {
             what,
-            asked_mm: shown_mm(height_mm - moved_mm),
-            drawn_mm: shown_mm(height_mm),
+            asked_mm: without_rounding_mm(height_mm - moved_mm),
+            drawn_mm: without_rounding_mm(height_mm),
         };
-        // What lies on the plate is at no height.
+        // A face on the plate has no height.
         (is_level && length.drawn_mm > 0.0).then(|| ruler.nearest(length))
     })
 }
 
-/// A height without what rounding leaves of zero.
-fn shown_mm(height_mm: f64) -> f64 {
+/// Returns a height with rounding errors of zero removed.
+fn without_rounding_mm(height_mm: f64) -> f64 {
     const ROUNDING_MM: f64 = 1e-6;
     if height_mm.abs() < ROUNDING_MM {
         0.0
@@ -181,7 +181,7 @@ fn shown_mm(height_mm: f64) -> f64 {
     }
 }
 
-/// The diameters and lengths of a part's pins and sockets.
+/// Returns the rows of the diameters and lengths of a part's pins and sockets.
 fn pegs<'a>(
     placed: &'a Placed,
     written: &'a WrittenPart,
@@ -202,7 +202,7 @@ fn pegs<'a>(
     let is_of_lines = placed.shop.printer.grid == Grid::Line;
     let pins = pins.flat_map(move |(upright, lengths)| peg_rows(upright, lengths, rulers));
     let sockets = sockets.flat_map(move |(upright, lengths)| {
-        // A hole is not made of lines: only its depth is one of layers.
+        // A hole is not made of lines; only its depth is made of layers.
         peg_rows(upright, lengths, rulers)
             .into_iter()
             .filter(move |row| !is_of_lines || row.along == "z")
@@ -210,8 +210,8 @@ fn pegs<'a>(
     pins.chain(sockets)
 }
 
-/// The rows of a peg's diameter and length: along the grid where it stands upright, along none
-/// where it lies tilted.
+/// Returns the rows of a peg's diameter and length, along the grid if it stands upright. For a
+/// tilted peg they are in the coarser pixels and the layers.
 fn peg_rows(
     is_upright: bool,
     [diameter, length]: [Length; 2],
@@ -235,7 +235,7 @@ fn peg_rows(
     vec![x.nearest(diameter), y.nearest(again), z.nearest(length)]
 }
 
-/// A pin's diameter and length: as asked by the profile for that diameter, and as drawn.
+/// Returns a pin's diameter and length, as the profile asks for that diameter and as drawn.
 fn pin_lengths(placed: &Placed, pin: &PinSite) -> [Length; 2] {
     let printer = &placed.shop.printer;
     let asked_mm = pin.diameter_mm * printer.pin_length_ratio.value;
@@ -254,7 +254,7 @@ fn pin_lengths(placed: &Placed, pin: &PinSite) -> [Length; 2] {
     ]
 }
 
-/// A socket's diameter and depth: as asked by the clearance and the extra depth, and as drawn.
+/// Returns a socket's diameter and depth, by clearance and extra depth and as drawn.
 fn socket_lengths(placed: &Placed, pin: &PinSite) -> [Length; 2] {
     let printer = &placed.shop.printer;
     let asked_mm = pin.diameter_mm + 2.0 * printer.clearance_per_side_mm.value;

@@ -6,10 +6,11 @@ use crate::hardware::{Kind, Piece};
 use crate::mass::moments_of_mesh;
 use crate::mesh::{TriMesh, bodies, winding_number};
 use crate::run::{Placed, WrittenPart};
+use crate::sheet::Half;
 use crate::verify::Hardware;
 
-/// Corners of a part that are looked at to tell its half.
-const SAMPLED_CORNERS: usize = 8;
+/// Number of vertices of a part that are sampled to find its half.
+const SAMPLED_VERTICES: usize = 8;
 
 /// Returns the hardware as the judge reads it.
 pub fn hardware(placed: &Placed) -> Vec<Hardware> {
@@ -18,7 +19,7 @@ pub fn hardware(placed: &Placed) -> Vec<Hardware> {
     numbered.map(|(index, piece)| order(index, piece)).collect()
 }
 
-/// What to mind of an axle that goes in by less than its diameter, where the model is thin.
+/// Warns of an axle that goes in by less than its diameter because the model is thin.
 pub fn shallow_axle(placed: &Placed) -> Option<String> {
     let pieces = placed.fitted.iter().flat_map(|fitted| &fitted.pieces);
     let axle = pieces.into_iter().find(|piece| piece.kind == Kind::Axle)?;
@@ -32,7 +33,7 @@ pub fn shallow_axle(placed: &Placed) -> Option<String> {
     (depth_mm < diameter_mm).then(words)
 }
 
-/// The halves of a yo-yo, the one above the spin point first; none where there is one body.
+/// Returns the halves of a yo-yo, the one above the spin point first; empty for a single body.
 pub fn halves(placed: &Placed) -> Vec<TriMesh> {
     if placed.string_gap_mm().is_none() {
         return Vec::new();
@@ -44,20 +45,20 @@ pub fn halves(placed: &Placed) -> Vec<TriMesh> {
     halves
 }
 
-/// The half that holds the corners of a part: about those on a surface it winds in part, the other
-/// not at all.
-pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<String> {
+/// Returns the half of which a part is made: its winding numbers at the part's vertices are
+/// greater. `None` if there are no halves.
+pub fn half_of(written: &WrittenPart, halves: &[TriMesh]) -> Option<Half> {
     let corners = written.part.solid.mesh().vertices();
-    let looks = || {
+    let samples = || {
         corners
             .iter()
-            .step_by(corners.len().div_ceil(SAMPLED_CORNERS).max(1))
+            .step_by(corners.len().div_ceil(SAMPLED_VERTICES).max(1))
     };
-    let share = |half: &TriMesh| looks().map(|p| winding_number(half, p)).sum::<f64>();
-    let shares = halves.iter().map(share).zip(["A", "B"]);
+    let share = |half: &TriMesh| samples().map(|p| winding_number(half, p)).sum::<f64>();
+    let shares = halves.iter().map(share).zip([Half::A, Half::B]);
     shares
         .max_by(|a, b| a.0.total_cmp(&b.0))
-        .map(|(_, half)| half.to_owned())
+        .map(|(_, half)| half)
 }
 
 fn order(index: usize, piece: &Piece) -> Hardware {
@@ -77,7 +78,7 @@ fn order(index: usize, piece: &Piece) -> Hardware {
     }
 }
 
-/// The dowels as the judge sees them.
+/// Returns the dowels as the judge reads them.
 pub fn dowels(plan: &CutPlan) -> Vec<Hardware> {
     plan.pins.iter().filter_map(dowel).collect()
 }

@@ -1,16 +1,16 @@
-//! The checklist's rows of how parts are joined.
+//! The rows of joints, dowels and bosses.
 
 use std::collections::BTreeMap;
 
 use super::facts::Facts;
-use super::figures::shown;
+use super::figures::in_sheet_unit;
 use crate::base::units::MM3_PER_CM3;
 use crate::cut::{CutPlan, Dowel, JointNote, RodSource};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
 use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::verify::PromisedJoint;
 
-/// What dowels are to be cut, alike ones together, in the order of their rods.
+/// Returns the dowels to cut, equal ones together, in the order of their pins.
 pub fn cut_list(facts: &Facts) -> Vec<CutListRow> {
     let dowels = facts
         .made
@@ -37,7 +37,7 @@ fn row_of(facts: &Facts, dowel: &Dowel) -> Option<CutListRow> {
         .rods
         .iter()
         .find(|rod| rod.id == dowel.rod);
-    let said = |source: &RodSource| format!("{}: {}", source.sure, source.source);
+    let words = |source: &RodSource| format!("{}: {}", source.sure, source.source);
     let pin = facts
         .made
         .plan
@@ -53,12 +53,12 @@ fn row_of(facts: &Facts, dowel: &Dowel) -> Option<CutListRow> {
         length_mm: dowel.length_mm,
         mass_g: bar.moments().volume() * dowel.density_g_cm3 / MM3_PER_CM3,
         sources: rod.map_or(Vec::new(), |rod| {
-            [&rod.size_source, &rod.density_source].map(said).to_vec()
+            [&rod.size_source, &rod.density_source].map(words).to_vec()
         }),
     })
 }
 
-/// What is ordered of each joint.
+/// Returns the promises of the joints.
 pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
     let clearance_mm = placed.shop.printer.clearance_per_side_mm.value;
     let joints = plan.joints.iter().enumerate();
@@ -71,12 +71,12 @@ pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
         .collect()
 }
 
-/// The name of the joint with this index.
+/// Returns the name of the joint with this index.
 pub fn joint_id(index: usize) -> String {
     format!("J{}", index + 1)
 }
 
-/// The joints of the checklist.
+/// Returns the rows of the joints.
 pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
     let joints = facts.made.plan.joints.iter().enumerate();
     joints
@@ -88,13 +88,14 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
             pins: joint.pins.len(),
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
             glue: facts.placed.glue_film(joint),
-            note: to_mind(joint).map(|mind| [refused(facts.made, joint), mind.to_owned()].concat()),
+            note: joint_warning(joint)
+                .map(|warning| [why_no_bosses(facts.made, joint), warning.to_owned()].concat()),
         })
         .collect()
 }
 
-/// What to mind of a joint that has not at least two pins that fit one way only.
-fn to_mind(joint: &JointNote) -> Option<&'static str> {
+/// Returns the warning of a joint whose pins do not align it fully; `None` if they do.
+fn joint_warning(joint: &JointNote) -> Option<&'static str> {
     match joint.pins.len() {
         0 => Some("no room for pins: align the outlines by eye and touch"),
         1 => Some("room for one pin only: mind the turn, align the outlines"),
@@ -105,9 +106,9 @@ fn to_mind(joint: &JointNote) -> Option<&'static str> {
     }
 }
 
-/// Returns why no bosses were made around pins of a joint, to be read before what to mind of it;
-/// empty if that was not tried.
-fn refused(made: &Made, joint: &JointNote) -> String {
+/// Returns why no bosses were made around the pins of a joint, to be read before its warning. Empty
+/// if bosses were not tried.
+fn why_no_bosses(made: &Made, joint: &JointNote) -> String {
     let why = made.remarks.iter().find_map(|remark| match remark {
         Remark::NoBosses { parts, why } if *parts == joint.parts => Some(why),
         _ => None,
@@ -117,38 +118,38 @@ fn refused(made: &Made, joint: &JointNote) -> String {
     })
 }
 
-/// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and
-/// which parts bear no id at the printing.
-pub fn is_told_in_a_step(note: &str) -> bool {
+/// Returns whether a note of the plan appears at its step: in the row of a joint, or where parts
+/// without an id are printed.
+pub fn is_shown_at_its_step(note: &str) -> bool {
     ["joint ", "no room for an id "]
         .iter()
         .any(|start| note.starts_with(start))
 }
 
-/// The joints that are to be minded, in one warning; none where all fit one way only.
-pub fn joints_to_mind(plan: &CutPlan) -> Option<String> {
-    let minded = plan
+/// Returns the warnings of all joints in one sentence; `None` if pins align every joint.
+pub fn warn_of_joints(plan: &CutPlan) -> Option<String> {
+    let warned = plan
         .joints
         .iter()
         .enumerate()
-        .filter_map(|(index, joint)| Some((index, to_mind(joint)?)));
+        .filter_map(|(index, joint)| Some((index, joint_warning(joint)?)));
     let mut by_what: BTreeMap<&str, Vec<String>> = BTreeMap::new();
-    minded.for_each(|(index, what)| by_what.entry(what).or_default().push(joint_id(index)));
-    let told: Vec<String> = by_what
+    warned.for_each(|(index, what)| by_what.entry(what).or_default().push(joint_id(index)));
+    let words: Vec<String> = by_what
         .into_iter()
         .map(|(what, joints)| format!("{}: {what}", joints.join(", ")))
         .collect();
-    (!told.is_empty()).then(|| told.join("; "))
+    (!words.is_empty()).then(|| words.join("; "))
 }
 
-/// The boss rounds of a run.
+/// Returns the rows of the rounds in which bosses were kept.
 pub fn round_rows(facts: &Facts) -> Vec<RoundRow> {
     let row = |(index, round): (usize, &BossRound)| RoundRow {
         round: index + 1,
         bosses: round.bosses.iter().map(boss_row).collect(),
         kept_solid_mm3: round.kept_mm3,
-        before: shown(facts.placed, round.before.figure, round.before.value),
-        after: shown(facts.placed, round.after.figure, round.after.value),
+        before: in_sheet_unit(facts.placed, round.before.figure, round.before.value),
+        after: in_sheet_unit(facts.placed, round.after.figure, round.after.value),
         gap_ratio: round.after.gap_ratio,
     };
     facts.made.bosses.iter().enumerate().map(row).collect()
@@ -163,7 +164,7 @@ fn boss_row(boss: &KeptBoss) -> BossRow {
     }
 }
 
-/// What could have been emptied in all bosses, mm³.
+/// Returns the volume in all bosses that could have been emptied, mm³.
 pub fn bosses_mm3(facts: &Facts) -> f64 {
     facts.made.bosses.last().map_or(0.0, |round| round.kept_mm3)
 }

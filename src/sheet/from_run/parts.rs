@@ -1,4 +1,4 @@
-//! The parts as they are written.
+//! The rows of the written parts.
 
 use super::facts::Facts;
 use super::finished::cup_mm3;
@@ -11,7 +11,7 @@ use crate::run::WrittenPart;
 use crate::sheet::{PartRow, part_picture_file};
 use crate::verify::{Fingerprint, PartFacts, Peg};
 
-/// A face whose normal has this much of the vertical is level, within 0.8°.
+/// Least vertical component of the normal of a level face: within 0.8°.
 const LEVEL_COSINE: f64 = 0.9999;
 
 /// Returns a row for each part.
@@ -34,7 +34,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
             volume_mm3,
             mass_g: volume_mm3 * facts.placed.shop.material.density_g_mm3(),
             size_mm: measured.size_mm,
-            lies: lies(written, facts),
+            lies: pose_words(written, facts),
             print_from_model: written.evidence().pose,
             support: support_row(facts.placed, &surfaces, written, [&pins, &sockets]),
             pins,
@@ -48,8 +48,8 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
     parts.map(row).collect()
 }
 
-/// How a part lies on the plate, in words: which of its cut faces looks down or up.
-fn lies(written: &WrittenPart, facts: &Facts) -> String {
+/// Words the pose of a part on the plate: the cut faces that look down or up.
+fn pose_words(written: &WrittenPart, facts: &Facts) -> String {
     let pose = written.evidence().pose;
     let center = written.part.solid.mesh().aabb().center();
     let facing = |cut: &crate::cut::Cut| {

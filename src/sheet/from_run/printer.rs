@@ -1,22 +1,22 @@
-//! The checklist's rows about the printer and its material, and what their numbers rest on.
+//! The rows of the printer and its material, with the sources of their numbers.
 
 use crate::printer::Support;
 use crate::run::Placed;
-use crate::sheet::{MaterialRow, PrinterRow};
+use crate::sheet::{MaterialRow, PrinterRow, SupportMethod};
 
-/// The printer, as far as the shop and the judge need it.
+/// Returns the printer as far as the shop and the judge need it.
 pub fn printer_row(placed: &Placed) -> PrinterRow {
     let printer = &placed.shop.printer;
     PrinterRow {
         id: printer.id.clone(),
         profile_sha256: printer.profile_sha256.clone(),
         name: printer.name.clone(),
-        process: printer.process.clone().unwrap_or_default(),
+        process: printer.process.clone().unwrap_or_default().into(),
         pixel_mm: [printer.pixel_x_mm.value, printer.pixel_y_mm.value],
         layer_mm: printer.layer_mm.value,
         build_volume_mm: printer.usable_volume_mm(),
-        print_scale_ratio: scaled(printer.print_scale_ratio()),
-        support: support_word(printer.support).to_owned(),
+        print_scale_ratio: enlargement(printer.print_scale_ratio()),
+        support: support_method(printer.support),
         minimum_wall_mm: placed.minimum_wall_mm(),
         minimum_opening_mm: printer.min_opening_mm.value,
         cleaning: printer.cleaning_rule(),
@@ -24,8 +24,7 @@ pub fn printer_row(placed: &Placed) -> PrinterRow {
     }
 }
 
-/// What the printer's numbers rest on, a sentence each, those of the process marked so; and what is
-/// not known.
+/// Returns the sources of the printer's numbers, a sentence each, and what is not known.
 fn sources(placed: &Placed) -> Vec<String> {
     let printer = &placed.shop.printer;
     let words = |key: &str| key.trim_end_matches("_mm").replace('_', " ");
@@ -62,12 +61,12 @@ fn sources(placed: &Placed) -> Vec<String> {
         .collect()
 }
 
-/// What files are multiplied by; none where they are of nominal size.
-pub fn scaled(ratio: [f64; 3]) -> Option<[f64; 3]> {
+/// Returns the factors by which files are enlarged; `None` if they have nominal size.
+pub fn enlargement(ratio: [f64; 3]) -> Option<[f64; 3]> {
     (ratio != [1.0; 3]).then_some(ratio)
 }
 
-/// The material; its window only where its density was measured.
+/// Returns the material, with a weighing window if its density was measured.
 pub fn material_row(placed: &Placed) -> MaterialRow {
     let material = &placed.shop.material;
     MaterialRow {
@@ -80,7 +79,7 @@ pub fn material_row(placed: &Placed) -> MaterialRow {
     }
 }
 
-/// What to mind of files that make up for shrinkage.
+/// Returns the note on files that make up for shrinkage.
 pub fn scale_note([x, y, z]: [f64; 3]) -> String {
     format!(
         "part files are larger than the parts by {x:.5}, {y:.5} and {z:.5} along x, y and z, as this machine does not make up for \
@@ -88,11 +87,11 @@ pub fn scale_note([x, y, z]: [f64; 3]) -> String {
     )
 }
 
-fn support_word(support: Support) -> &'static str {
+fn support_method(support: Support) -> SupportMethod {
     match support {
-        Support::Soluble => "soluble",
-        Support::Breakaway => "breakaway",
-        Support::WaterJet => "water-jet",
-        Support::None => "none",
+        Support::Soluble => SupportMethod::Soluble,
+        Support::Breakaway => SupportMethod::Breakaway,
+        Support::WaterJet => SupportMethod::WaterJet,
+        Support::None => SupportMethod::None,
     }
 }

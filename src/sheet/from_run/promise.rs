@@ -1,8 +1,8 @@
-//! The promise that the files are held against, as the judge reads it.
+//! The promise against which the files are judged.
 
 use super::hardware::{dowels, hardware};
 use super::joints::{joint_id, promised_joints};
-use super::printer::scaled;
+use super::printer::enlargement;
 use super::voids::{promised_cuts, promised_voids};
 use crate::ballast::{Load, Placed as PlacedPart};
 use crate::base::digest::sha256_hex;
@@ -22,7 +22,7 @@ pub fn promise(placed: &Placed, made: &Made) -> Promise {
         schema: SCHEMA,
         printer: PrinterLimits {
             build_volume_mm: printer.usable_volume_mm(),
-            print_scale_ratio: scaled(printer.print_scale_ratio()),
+            print_scale_ratio: enlargement(printer.print_scale_ratio()),
             minimum_wall_mm: placed.minimum_wall_mm(),
             minimum_opening_mm: Some(printer.min_opening_mm.value),
             cleaning: Some(printer.cleaning_rule()),
@@ -63,7 +63,7 @@ fn promised_part(written: &WrittenPart, plan: &CutPlan) -> PromisedPart {
     }
 }
 
-/// The goal as the judge sees it.
+/// Returns the goal as the judge reads it.
 pub fn aim(placed: &Placed) -> Aim {
     let goal = &placed.placement.goal;
     let rotor = goal.spindle.map(|spindle| {
@@ -98,7 +98,7 @@ pub fn aim(placed: &Placed) -> Aim {
     }
 }
 
-/// A pin as the sheet names it.
+/// Returns a pin as the sheet names it.
 pub fn pin(site: &PinSite, plan: &CutPlan) -> Peg {
     Peg {
         id: site.id.clone(),
@@ -111,7 +111,7 @@ pub fn pin(site: &PinSite, plan: &CutPlan) -> Peg {
     }
 }
 
-/// The pin's socket as the sheet names it.
+/// Returns the pin's socket as the sheet names it.
 pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
     Peg {
         diameter_mm: site.socket_diameter_mm,
@@ -121,7 +121,7 @@ pub fn socket(site: &PinSite, plan: &CutPlan) -> Peg {
     }
 }
 
-/// The name of the joint a pin belongs to.
+/// Returns the name of the joint to which a pin belongs; empty if there is none.
 fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
     let joint = plan
         .joints
@@ -130,7 +130,7 @@ fn joint_of(pin: &PinSite, plan: &CutPlan) -> String {
     joint.map(joint_id).unwrap_or_default()
 }
 
-/// The ballast as the judge sees it.
+/// Returns the ballast as the judge reads it.
 pub fn ballast_orders(load: &Load) -> Vec<BallastOrder> {
     let order = |(index, placed): (usize, &PlacedPart)| BallastOrder {
         id: format!("B{}", index + 1),
@@ -139,14 +139,14 @@ pub fn ballast_orders(load: &Load) -> Vec<BallastOrder> {
     load.parts.iter().enumerate().map(order).collect()
 }
 
-/// The filling as the judge sees it.
+/// Returns the filling as the judge reads it.
 pub fn fill_order(placed: &Placed) -> Option<FillOrder> {
     placed.job.fill.map(|filling| FillOrder {
         density_g_cm3: filling.density_g_cm3(),
     })
 }
 
-/// A label as the judge sees it.
+/// Returns a label as the judge reads it.
 pub fn mark(label: &Label) -> Mark {
     Mark {
         text: label.text.clone(),

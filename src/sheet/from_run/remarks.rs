@@ -3,23 +3,23 @@
 use super::facts::Facts;
 use super::foot::flat_foot;
 use super::hardware::shallow_axle;
-use super::joints::{is_told_in_a_step, joints_to_mind};
-use super::printer::{scale_note, scaled};
+use super::joints::{is_shown_at_its_step, warn_of_joints};
+use super::printer::{enlargement, scale_note};
 use crate::goal::GoalKind;
 use crate::run::Remark;
 use crate::sheet::FootRow;
 
-/// Less than this left solid is not worth a warning, mm³: it would be told as nothing.
-const LEAST_TOLD_MM3: f64 = 0.05;
+/// Least volume left solid that gets a warning, mm³: less would be shown as zero.
+const LEAST_REPORTED_MM3: f64 = 0.05;
 
-/// What must be minded of anything hollow in water.
+/// Warning for all that floats.
 const SEAL: &str = "seal every joint: a void that fills with water sinks it or turns it over";
 
-/// What must be minded of anything that floats, if its density was not measured.
-const UNWEIGHED: &str = "how deep it floats rests on a density that was not measured: weigh coupons \
+/// Warning for all that floats, if the density was not measured.
+const UNWEIGHED: &str = "how deep it floats depends on a density that was not measured: weigh coupons \
     (equipoise coupon) and prepare again; every part too heavy by 1 % takes 1 % more water";
 
-/// Returns what the shop must mind.
+/// Returns the warnings for the shop.
 pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
     let placed = facts.placed;
     let foot = foot.map(flat_foot);
@@ -37,28 +37,28 @@ pub fn warnings(facts: &Facts, foot: Option<&FootRow>) -> Vec<String> {
     } else {
         "that could not be cleaned"
     };
-    let small = (refused >= LEAST_TOLD_MM3)
+    let small = (refused >= LEAST_REPORTED_MM3)
         .then(|| format!("{refused:.1} mm³ of voids {which} stay solid"));
     let floats = placed.placement.goal.kind == GoalKind::Float;
     let seal = floats.then(|| SEAL.to_owned());
     let unweighed = (floats && !placed.shop.material.is_measured()).then(|| UNWEIGHED.to_owned());
-    let told = placement
+    let warnings = placement
         .chain(repairs)
         .chain(small)
         .chain(seal)
         .chain(unweighed)
         .chain(shallow_axle(placed));
-    told.chain(joints_to_mind(&facts.made.plan)).collect()
+    warnings.chain(warn_of_joints(&facts.made.plan)).collect()
 }
 
-/// Returns what a person should know: of the wall, of the files' scale, of cuts and pins.
+/// Returns notes on the wall, on the scale of the files, on cuts and pins.
 ///
 /// Remarks on single joints stand in the rows of these joints.
 pub fn notes(facts: &Facts) -> Vec<String> {
     let Facts { placed, made, .. } = facts;
     let wall = placed.shop.wall.why.clone();
-    let scale = scaled(placed.shop.printer.print_scale_ratio()).map(scale_note);
-    let is_general = |note: &&String| !is_told_in_a_step(note);
+    let scale = enlargement(placed.shop.printer.print_scale_ratio()).map(scale_note);
+    let is_general = |note: &&String| !is_shown_at_its_step(note);
     let planned = made.plan.notes.iter().filter(is_general).cloned();
     let is_of_joint = |remark: &&Remark| matches!(remark, Remark::NoBosses { .. });
     let remarks = made.remarks.iter().filter(|remark| !is_of_joint(remark));

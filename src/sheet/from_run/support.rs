@@ -1,4 +1,4 @@
-//! Where each part hangs in the air as it lies on the plate: what its row tells of support.
+//! The overhangs of each part in print pose, which need support.
 
 use std::collections::BTreeMap;
 
@@ -10,16 +10,17 @@ use crate::run::{Made, Placed, WrittenPart};
 use crate::sheet::SupportRow;
 use crate::verify::Peg;
 
-/// How far from a surface of the uncut body a place of a part may be and still lie on it, mm: files
-/// round to 1e-5 mm and mended folds move by less than this; no wall is thinner.
+/// Distance up to which a point lies on a surface of the uncut body, mm. Files round to 1e-5 mm and
+/// repaired folds move by less than this; no wall is thinner.
 const ON_SURFACE_MM: f64 = 0.01;
-/// How much wider than a socket the search for its roof is, mm: rounding.
+/// Margin around a socket in the search for its roof, mm: it allows for rounding.
 const SOCKET_ROOM_MM: f64 = 0.01;
-/// A place smaller than a square of so many line widths a side is carried by the lines beside it:
-/// with fewer every facet is a place, with more a fingertip is printed in the air.
+/// Side of the smallest square that needs support, in line widths: the lines beside it carry less.
+/// With a smaller side every facet would need support, with a larger one a fingertip would get
+/// none.
 const LEAST_LINES: f64 = 3.0;
 
-/// Where a place of a part's surface is.
+/// The kind of surface at a point of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Side {
     Outside,
@@ -29,7 +30,7 @@ enum Side {
     Bridged,
 }
 
-/// The surfaces by which places are told, model frame.
+/// The surfaces that tell the kind of a place, model frame.
 pub struct Surfaces {
     outer: MeshDistance,
     voids: MeshDistance,
@@ -37,7 +38,7 @@ pub struct Surfaces {
 }
 
 impl Surfaces {
-    /// Those of what was made.
+    /// Returns the surfaces of what was made.
     pub fn of(made: &Made) -> Self {
         let hollowed = &made.hollowed;
         let voids = hollowed
@@ -56,7 +57,7 @@ impl Surfaces {
         }
     }
 
-    /// Where a point of a part's surface is.
+    /// Returns the kind of surface at a point of a part.
     fn side(&self, at: &Point, [pins, sockets]: [&[Peg]; 2]) -> Side {
         let is_on =
             |surface: &MeshDistance| surface.bvh().closest(at, ON_SURFACE_MM, &[]).is_some();
@@ -80,7 +81,7 @@ impl Surfaces {
     }
 }
 
-/// Whether a point is in a pin or a socket, its rim included.
+/// Returns whether a point is in a pin or a socket, its rim included.
 fn is_in_peg(peg: &Peg, at: &Point) -> bool {
     let from_base = at - Point::from(peg.center_mm);
     let axis = Vector::from(peg.axis);
@@ -91,7 +92,8 @@ fn is_in_peg(peg: &Peg, at: &Point) -> bool {
         && aside < 0.5 * peg.diameter_mm + SOCKET_ROOM_MM
 }
 
-/// What of a part needs support; none where the printer does not say which surfaces print without.
+/// Returns the overhangs of a part; `None` if the printer does not say which surfaces print without
+/// support.
 pub fn support_row(
     placed: &Placed,
     surfaces: &Surfaces,
@@ -106,20 +108,20 @@ pub fn support_row(
         least_mm2: (LEAST_LINES * placed.shop.printer.pixel_x_mm.value).powi(2),
     };
     let side = |at: &Point| surfaces.side(&pose.to_model(at), pegs);
-    Some(hanging(&weld(&written.read_back), &rule, side))
+    Some(find_overhangs(&weld(&written.read_back), &rule, side))
 }
 
-/// Which surfaces hang in the air.
+/// The rule by which a surface needs support.
 struct Rule {
-    /// The greatest share of the downward direction in a normal that prints without support.
+    /// Greatest downward component of a normal that prints without support.
     steepest: f64,
-    /// What lies lower than a layer lies on the plate, mm.
+    /// Height of a layer, mm; all below it lies on the plate.
     layer_mm: f64,
-    /// Smaller places are carried by their neighbours, mm².
+    /// Least area that needs support, mm²; neighbours carry smaller places.
     least_mm2: f64,
 }
 
-/// One place that hangs.
+/// A place that needs support.
 #[derive(Default)]
 struct Place {
     area_mm2: f64,
@@ -128,20 +130,22 @@ struct Place {
 }
 
 impl Place {
-    fn reaches(&mut self, z: f64) {
+    /// Extends the place to this height.
+    fn extend_to(&mut self, z: f64) {
         let [low, high] = self.heights_mm.unwrap_or([z, z]);
         self.heights_mm = Some([low.min(z), high.max(z)]);
     }
 }
 
-/// What hangs of a part in print pose, where `side` tells where a point of its surface is:
-/// triangles that look down too steeply, connected through corners on the same side, and corners at
-/// which material begins in the air.
-fn hanging(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> SupportRow {
+/// Returns the overhangs of a part in print pose; `side` returns the kind of surface at a point.
+///
+/// A place is a set of triangles of the same kind that look down too steeply and share vertices. A
+/// vertex at which material begins in the air is a place too.
+fn find_overhangs(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> SupportRow {
     let floor_mm = mesh.aabb().min.z;
     let height = |corner: u32| mesh.vertices()[corner as usize].z - floor_mm;
     let mut sets = UnionFind::new(mesh.vertices().len());
-    let mut hung: Vec<(Side, [u32; 3], f64)> = Vec::new();
+    let mut steep: Vec<(Side, [u32; 3], f64)> = Vec::new();
     for (index, &corners) in mesh.triangles().iter().enumerate() {
         let [a, b, c] = mesh.corners(index);
         let normal = (b - a).cross(&(c - a));
@@ -150,32 +154,32 @@ fn hanging(mesh: &TriMesh, rule: &Rule, side: impl Fn(&Point) -> Side) -> Suppor
             continue;
         }
         let middle = Point::from((a.coords + b.coords + c.coords) / 3.0);
-        hung.push((side(&middle), corners, -0.5 * normal.z));
+        steep.push((side(&middle), corners, -0.5 * normal.z));
         sets.merge(corners[0], corners[1]);
         sets.merge(corners[1], corners[2]);
     }
     let mut places: BTreeMap<(u32, Side), Place> = BTreeMap::new();
-    for (side, corners, area_mm2) in hung {
+    for (side, corners, area_mm2) in steep {
         let place = places.entry((sets.root(corners[0]), side)).or_default();
         place.area_mm2 += area_mm2;
         corners
             .iter()
-            .for_each(|&corner| place.reaches(height(corner)));
+            .for_each(|&corner| place.extend_to(height(corner)));
     }
-    for corner in starts(mesh, rule.layer_mm) {
+    for corner in find_starts(mesh, rule.layer_mm) {
         let place = places
             .entry((sets.root(corner), side(&mesh.vertices()[corner as usize])))
             .or_default();
         place.starts = true;
-        place.reaches(height(corner));
+        place.extend_to(height(corner));
     }
     places.retain(|(_, side), place| {
         *side != Side::Bridged && (place.starts || place.area_mm2 >= rule.least_mm2)
     });
-    row(&places)
+    to_row(&places)
 }
 
-fn row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
+fn to_row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
     let area_mm2 = |wanted: Side| {
         let of_side = places.iter().filter(|((_, side), _)| *side == wanted);
         of_side.fold(0.0, |sum, (_, place)| sum + place.area_mm2)
@@ -192,11 +196,12 @@ fn row(places: &BTreeMap<(u32, Side), Place>) -> SupportRow {
     }
 }
 
-/// The corners at which material begins in the air: lowest of all about them, looking down, off the
-/// plate, and a layer or more below where they meet what began lower (the persistence of the
-/// height: Edelsbrunner, Letscher and Zomorodian, "Topological persistence and simplification",
-/// Discrete & Computational Geometry 28, 2002).
-fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
+/// Returns the vertices at which material begins in the air. They are local minima off the plate
+/// that look down. They lie a layer or more below the height at which they meet older material.
+///
+/// That difference is the persistence of the height: Edelsbrunner, Letscher and Zomorodian,
+/// "Topological persistence and simplification", Discrete & Computational Geometry 28, 2002.
+fn find_starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
     let vertices = mesh.vertices();
     let floor_mm = mesh.aabb().min.z;
     let mut order: Vec<u32> = (0..vertices.len() as u32).collect();
@@ -210,7 +215,7 @@ fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
     for (rank, &corner) in order.iter().enumerate() {
         ranks[corner as usize] = rank as u32;
     }
-    // Edges by the rank of their upper end: sets merge at the height at which both ends are there.
+    // Edges by the rank of their upper end: sets merge at the height at which both ends exist.
     let mut edges: Vec<[u32; 2]> = mesh
         .triangles()
         .iter()
@@ -238,7 +243,7 @@ fn starts(mesh: &TriMesh, layer_mm: f64) -> Vec<u32> {
         .collect()
 }
 
-/// Those of some corners about which more of the surface looks down than up.
+/// Returns the vertices around which more of the surface looks down than up.
 fn looks_down(mesh: &TriMesh, corners: &[u32]) -> Vec<u32> {
     let mut up_mm2: BTreeMap<u32, f64> = corners.iter().map(|&corner| (corner, 0.0)).collect();
     for (index, triangle) in mesh.triangles().iter().enumerate() {
@@ -273,11 +278,11 @@ mod tests {
     }
 
     fn outside(mesh: &TriMesh) -> SupportRow {
-        hanging(mesh, &RULE, |_| Side::Outside)
+        find_overhangs(mesh, &RULE, |_| Side::Outside)
     }
 
     #[test]
-    fn a_block_needs_nothing_and_a_table_its_top_without_the_leg() {
+    fn a_block_needs_no_support_and_a_table_does_beside_its_leg() {
         let leg = block([0.0; 3], [10.0, 10.0, 20.0]);
         assert_eq!(outside(&leg.to_mesh().unwrap()), SupportRow::default());
         let table = leg
@@ -291,7 +296,7 @@ mod tests {
     }
 
     #[test]
-    fn a_roof_of_a_socket_is_bridged_and_what_is_smaller_than_three_lines_is_carried() {
+    fn socket_roofs_and_places_under_three_lines_need_no_support() {
         let hole = |side: f64| {
             let cut = block([4.0, 4.0, -1.0], [4.0 + side, 4.0 + side, 5.0]);
             block([0.0; 3], [10.0, 10.0, 20.0])
@@ -300,21 +305,24 @@ mod tests {
                 .to_mesh()
                 .unwrap()
         };
-        assert_eq!(hanging(&hole(4.0), &RULE, |_| Side::Bridged).places, 0);
+        assert_eq!(
+            find_overhangs(&hole(4.0), &RULE, |_| Side::Bridged).places,
+            0
+        );
         // 1.3² = 1.69 mm² is less than 1.35² = 1.82 mm², 1.4² = 1.96 mm² is more.
         assert_eq!(outside(&hole(1.3)).places, 0);
         assert_eq!(outside(&hole(1.4)).places, 1);
     }
 
     #[test]
-    fn a_steep_tip_that_begins_in_the_air_needs_support_though_no_surface_overhangs() {
+    fn a_steep_tip_that_begins_in_the_air_needs_support() {
         let body = block([0.0; 3], [10.0, 10.0, 20.0]);
         let arm = block([10.0, 2.0, 10.0], [20.0, 8.0, 20.0]);
         let bare = body.union(&arm).unwrap().to_mesh().unwrap();
         let fall =
             |p: &Point| Point::new(p.x, p.y, if p.x > 19.0 && p.z < 11.0 { 2.0 } else { p.z });
-        // Its lower face falls 8 mm over 10 mm outward: 39° from the level, so it overhangs; made
-        // steeper it does not.
+        // Its lower face falls 8 mm over 10 mm outward: 39° from level, so it overhangs. A steeper
+        // one does not.
         let leaning = bare.map_vertices(|p| fall(p));
         assert_eq!(outside(&leaning).places, 1);
         let steep = leaning.map_vertices(|p| {

@@ -1,4 +1,4 @@
-//! The checklist's rows about voids: how each is opened and cleaned, and what cleaning cost.
+//! The rows of voids and cuts, and the rounds in which voids were made smaller.
 
 use super::facts::Facts;
 use crate::cut::{Cut, CutPlan, CutSide, VoidAccess};
@@ -7,13 +7,13 @@ use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
 use crate::verify::{PromisedCut, PromisedVoid};
 
-/// How near to a void's wall a corner lies on it, mm: the booleans keep corners to 1e-6 mm.
+/// Distance up to which a vertex lies on a void's wall, mm; booleans keep vertices to 1e-6 mm.
 const SAME_MM: f64 = 1e-5;
-/// Corners on a void's wall that make a part one of those that hold it: a pin may touch a mouth's
-/// rim with fewer.
-const LEAST_CORNERS: usize = 8;
+/// Least number of vertices on a void's wall of a part that holds it: a pin may touch the rim of a
+/// mouth with fewer.
+const LEAST_VERTICES: usize = 8;
 
-/// One row for each void.
+/// Returns a row for each void.
 pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
     let (placed, made) = (facts.placed, facts.made);
     let row = |access: &VoidAccess| {
@@ -35,8 +35,8 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
     made.plan.voids.iter().map(row).collect()
 }
 
-/// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does
-/// not cut.
+/// Returns the ids of the parts that have vertices of a void's wall: a cut keeps the vertices
+/// beside it.
 fn holders(made: &Made, void: usize) -> Vec<String> {
     let Some(body) = made.hollowed.voids.get(void) else {
         return Vec::new();
@@ -45,7 +45,7 @@ fn holders(made: &Made, void: usize) -> Vec<String> {
     let holds = |written: &&WrittenPart| {
         let corners = written.part.solid.mesh().vertices().iter();
         let on_wall = |p: &&Point| wall.closest(p, SAME_MM, &[]).is_some();
-        corners.filter(on_wall).take(LEAST_CORNERS).count() == LEAST_CORNERS
+        corners.filter(on_wall).take(LEAST_VERTICES).count() == LEAST_VERTICES
     };
     made.parts
         .iter()
@@ -54,12 +54,12 @@ fn holders(made: &Made, void: usize) -> Vec<String> {
         .collect()
 }
 
-/// The name of a void on the sheet.
+/// Returns the name of a void on the sheet.
 pub fn void_id(void: usize) -> String {
     format!("V{}", void + 1)
 }
 
-/// The opening a void needs, mm: that of what is laid into it, or the printer's.
+/// Returns the opening that a void needs, mm: for its ballast, else the printer's least.
 fn least_opening_mm(placed: &Placed, made: &Made, void: usize) -> f64 {
     let (loads, plan) = (&made.load.parts, &made.plan);
     let first = plan.voids.len().saturating_sub(loads.len());
@@ -69,7 +69,7 @@ fn least_opening_mm(placed: &Placed, made: &Made, void: usize) -> f64 {
     })
 }
 
-/// The voids as the judge sees them.
+/// Returns the voids as the judge reads them.
 pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     let promised = |access: &VoidAccess| PromisedVoid {
         id: void_id(access.void),
@@ -79,7 +79,7 @@ pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     made.plan.voids.iter().map(promised).collect()
 }
 
-/// The cuts as the sheet lists them.
+/// Returns the rows of the cuts.
 pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
     let side = |side: &CutSide| SideRow {
         cut: side.cut.clone(),
@@ -94,7 +94,7 @@ pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
     plan.cuts.iter().map(row).collect()
 }
 
-/// The cuts as the judge sees them.
+/// Returns the cuts as the judge reads them.
 pub fn promised_cuts(plan: &CutPlan) -> Vec<PromisedCut> {
     plan.cuts
         .iter()
@@ -105,8 +105,9 @@ pub fn promised_cuts(plan: &CutPlan) -> Vec<PromisedCut> {
         .collect()
 }
 
-/// The rounds in which something was kept solid, with their values as `shown` tells them.
-pub fn cleaning_rows(rounds: &[CleaningRound], shown: impl Fn(f64) -> f64) -> Vec<CleaningRow> {
+/// Returns the rounds in which something was kept solid; `convert` changes values to the unit of
+/// the sheet.
+pub fn cleaning_rows(rounds: &[CleaningRound], convert: impl Fn(f64) -> f64) -> Vec<CleaningRow> {
     let kept = |kept: &KeptSolid| KeptRow {
         void: void_id(kept.void),
         why: kept.cause.to_string(),
@@ -114,8 +115,8 @@ pub fn cleaning_rows(rounds: &[CleaningRound], shown: impl Fn(f64) -> f64) -> Ve
     let row = |round: &CleaningRound| CleaningRow {
         voids: round.kept.iter().map(kept).collect(),
         volume_mm3: round.volume_mm3,
-        value_before: shown(round.value_before),
-        value_after: round.value_after.map(&shown),
+        value_before: convert(round.value_before),
+        value_after: round.value_after.map(&convert),
         by_plan: round.by_plan,
     };
     rounds.iter().map(row).collect()

@@ -1,25 +1,25 @@
-//! What is seen where on a picture: so that a line from a name ends on what it names.
+//! The item seen at each pixel of a picture, so that the line from a name ends on what it names.
 
 use super::svg::Spot;
 
-/// How far behind what is seen a point may lie and still be told as seen, as a share of the
-/// picture's depth: its own surface is drawn at pixels beside it.
+/// Distance behind the seen surface at which a point still counts as seen, as a share of the
+/// picture's depth. Its own surface is drawn at the pixels beside it.
 const BEHIND_RATIO: f64 = 0.01;
 
-/// What is seen at every pixel of a picture.
+/// The item and the depth at every pixel of a picture.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Seen {
+pub struct Visibility {
     /// Pixels in a row.
     pub width: usize,
-    /// The item seen, by its place in the scene; none for paper and for the face of the cut.
+    /// The index of the item seen; `None` for paper and for the cut face.
     pub items: Vec<Option<u32>>,
-    /// How near it is to the viewer, mm; minus infinity for paper.
+    /// The coordinate toward the viewer, mm; minus infinity for paper.
     pub nearness_mm: Vec<f64>,
 }
 
-impl Seen {
-    /// The middle of where an item is seen: the pixel farthest from everything else; none where it
-    /// is hidden.
+impl Visibility {
+    /// Returns the middle of the visible region of an item: its pixel farthest from all others.
+    /// `None` if the item is hidden.
     pub fn middle_of(&self, item: usize) -> Option<Spot> {
         let depths = self.depths_of(item as u32);
         let deepest = (0..depths.len()).rev().max_by_key(|&at| depths[at])?;
@@ -27,7 +27,7 @@ impl Seen {
             .then(|| [deepest % self.width, deepest / self.width].map(|pixel| pixel as f64 + 0.5))
     }
 
-    /// Whether nothing is drawn in front of a point that falls on this spot.
+    /// Returns whether nothing is drawn in front of a point at this spot and depth.
     pub fn shows(&self, [x, y]: Spot, nearness_mm: f64) -> bool {
         let (low, high) = self
             .nearness_mm
@@ -42,9 +42,9 @@ impl Seen {
             .is_none_or(|near| nearness_mm >= near - BEHIND_RATIO * (high - low))
     }
 
-    /// How many pixels every pixel of an item is from what is not the item, in steps along rows,
-    /// columns and diagonals, by a pass down and one up (Rosenfeld and Pfaltz, "Sequential
-    /// operations in digital picture processing", 1966).
+    /// Returns the distance of each pixel of an item from the pixels of other things, zero outside
+    /// the item. A step goes along a row, a column or a diagonal. One pass down and one up
+    /// (Rosenfeld and Pfaltz, "Sequential operations in digital picture processing", 1966).
     fn depths_of(&self, item: u32) -> Vec<u32> {
         let width = self.width;
         let mut depths: Vec<u32> = self
@@ -86,8 +86,8 @@ impl Seen {
 mod tests {
     use super::*;
 
-    /// A picture of letters: every letter an item, dots paper.
-    fn seen(rows: &[&str]) -> Seen {
+    /// Returns a picture from letters: each letter is an item, dots are paper.
+    fn picture_of(rows: &[&str]) -> Visibility {
         let items: Vec<Option<u32>> = rows
             .concat()
             .bytes()
@@ -97,7 +97,7 @@ mod tests {
             .iter()
             .map(|item| item.map_or(f64::NEG_INFINITY, f64::from))
             .collect();
-        Seen {
+        Visibility {
             width: rows[0].len(),
             items,
             nearness_mm,
@@ -105,8 +105,8 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_a_thing_is_on_it_where_most_of_it_is_seen() {
-        let picture = seen(&[
+    fn the_middle_of_an_item_is_where_most_of_it_is_seen() {
+        let picture = picture_of(&[
             ".........",
             ".aaa.....",
             ".aaabbb..",
@@ -122,8 +122,8 @@ mod tests {
     }
 
     #[test]
-    fn what_lies_behind_another_thing_is_not_shown() {
-        let picture = seen(&["...", ".b.", ".a."]);
+    fn a_point_behind_another_item_is_hidden() {
+        let picture = picture_of(&["...", ".b.", ".a."]);
         assert!(picture.shows([1.5, 1.5], 1.0) && !picture.shows([1.5, 1.5], 0.5));
         assert!(
             picture.shows([0.5, 0.5], -9.0),
