@@ -16,8 +16,8 @@ use std::path::Path;
 use std::time::Instant;
 
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings, PinSite,
-    PlanRequest, PosePreference, Side, parts, plan_by, rods,
+    Cut, CutError, CutId, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings,
+    PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
@@ -195,7 +195,7 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
         let within = (i > 0 && dice.below(2) == 0).then(|| side(dice, i));
         let within = within.into_iter().collect();
         Cut {
-            id: format!("C{}", i + 1),
+            id: CutId::of(i),
             point_mm: point.into(),
             normal: normal.into(),
             within,
@@ -212,7 +212,7 @@ fn side(dice: &mut Dice, cuts: usize) -> CutSide {
         Side::Below
     };
     CutSide {
-        cut: format!("C{}", 1 + dice.below(cuts)),
+        cut: CutId::of(dice.below(cuts)),
         side,
     }
 }

@@ -1,9 +1,12 @@
 //! Why no cut plan or no parts could be made.
 
-use crate::{base::toml_text::TextFault, mesh::ClipError};
+use crate::{
+    base::toml_text::TextFault,
+    cut::ids::{CutId, PartId, PinId, VoidId},
+    mesh::ClipError,
+};
 
-/// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by
-/// their ids.
+/// Why no cut plan or no parts could be made. The message counts voids from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum CutError {
     /// A length of the request is not positive or not finite.
@@ -29,7 +32,7 @@ pub enum CutError {
     )]
     Unopenable {
         /// The voids.
-        voids: Vec<usize>,
+        voids: Vec<VoidId>,
         /// The widest opening found for the worst of them, mm.
         widest_mm: f64,
         /// The opening asked for, mm.
@@ -41,7 +44,7 @@ pub enum CutError {
     )]
     DegenerateCut {
         /// The cut's id.
-        cut: String,
+        cut: CutId,
     },
     /// Cuts that are made within each other, on both sides of one, or within one that is not there.
     #[error(
@@ -49,10 +52,12 @@ pub enum CutError {
     )]
     CircularCuts,
     /// A part would enclose a cavity.
-    #[error("the cuts leave {cavities} of its voids closed in a part (P{:02}); add a cut through them, or take `--cut auto`", part + 1)]
+    #[error(
+        "the cuts leave {cavities} of its voids closed in a part ({part}); add a cut through them, or take `--cut auto`"
+    )]
     ClosedCavity {
-        /// Which part, from 0.
-        part: usize,
+        /// The part.
+        part: PartId,
         /// How many cavities.
         cavities: usize,
     },
@@ -62,7 +67,7 @@ pub enum CutError {
     )]
     PinOffFace {
         /// The pin's id.
-        pin: String,
+        pin: PinId,
     },
     /// The catalogue of rods cannot be read.
     #[error(transparent)]
@@ -72,11 +77,11 @@ pub enum CutError {
     Clip(#[from] ClipError),
 }
 
-/// The numbers with commas between them.
-fn list(numbers: &[usize]) -> String {
-    numbers
+/// The indices with commas between them.
+fn list(voids: &[VoidId]) -> String {
+    voids
         .iter()
-        .map(usize::to_string)
+        .map(|void| void.index().to_string())
         .collect::<Vec<_>>()
         .join(", ")
 }

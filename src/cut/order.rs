@@ -1,14 +1,16 @@
 //! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and
 //! read again.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::{
     base::toml_text::{self, TextFault},
     cut::{
-        ids::cut_id,
+        ids::{CutId, PinId},
         joints::pin_shape::PinSite,
-        plan::{Cut, CutPlan, SolidEnd, UncutFace, tree_of},
+        plan::{Cut, CutPlan, SolidEnd, UncutFace, index_of, tree_of},
     },
 };
 
@@ -54,26 +56,24 @@ struct Given {
 /// Why an order makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OrderError {
-    /// Two cuts or two pins of one name.
-    #[error("{what} {id} is there twice; remedy: give each its own id")]
-    Twice {
-        /// `cut` or `pin`.
-        what: &'static str,
-        /// The id.
-        id: String,
-    },
+    /// Two cuts of one name.
+    #[error("cut {0} is there twice; remedy: give each its own id")]
+    TwinCuts(CutId),
+    /// Two pins of one name.
+    #[error("pin {0} is there twice; remedy: give each its own id")]
+    TwinPins(PinId),
     /// A plane that is none.
     #[error(
         "cut {0} has no direction, or numbers that are not finite; remedy: give a normal X, Y, Z and a point in mm"
     )]
-    NoPlane(String),
+    NoPlane(CutId),
     /// A pin, an uncut face or a cut that names a cut that is not in the order.
-    #[error("{what} names cut {cut}, which is not there; remedy: name one of the cuts")]
+    #[error("{by} names cut {cut}, which is not there; remedy: name one of the cuts")]
     NoCut {
         /// What names the cut.
-        what: String,
+        by: Namer,
         /// The cut it names.
-        cut: String,
+        cut: CutId,
     },
     /// Cuts that are made within each other, or beyond both sides of one.
     #[error(
@@ -89,10 +89,31 @@ pub enum OrderError {
     #[error("pin {id}: {reason}")]
     BadPin {
         /// The pin's id.
-        id: String,
+        id: PinId,
         /// What is wrong with it, and the remedy.
         reason: &'static str,
     },
+}
+
+/// An entry of an order that names a cut.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Namer {
+    /// A cut that is made on a side of another.
+    Cut(CutId),
+    /// A face that is left whole.
+    UncutFace,
+    /// A pin.
+    Pin(PinId),
+}
+
+impl fmt::Display for Namer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cut(id) => write!(f, "cut {id}"),
+            Self::UncutFace => f.write_str("an uncut face"),
+            Self::Pin(id) => write!(f, "pin {id}"),
+        }
+    }
 }
 
 impl CutOrder {
@@ -108,9 +129,9 @@ impl CutOrder {
 
     /// The same order with its cuts called as the planner calls them: C1, C2, …
     pub(crate) fn numbered(&self) -> Self {
-        let number = |id: &mut String| {
-            if let Some(index) = self.cuts.iter().position(|cut| cut.id == *id) {
-                *id = cut_id(index);
+        let number = |id: &mut CutId| {
+            if let Some(index) = index_of(&self.cuts, id) {
+                *id = CutId::of(index);
             }
         };
         let mut own = self.clone();
@@ -148,19 +169,22 @@ impl TryFrom<Given> for CutOrder {
             uncut,
             solid,
         } = given;
-        let ids = |what, ids: Vec<&String>| no_twin(what, ids);
-        ids("cut", cuts.iter().map(|cut| &cut.id).collect())?;
-        ids("pin", pins.iter().flatten().map(|pin| &pin.id).collect())?;
+        if let Some(id) = twin(cuts.iter().map(|cut| &cut.id)) {
+            return Err(OrderError::TwinCuts(id.clone()));
+        }
+        if let Some(id) = twin(pins.iter().flatten().map(|pin| &pin.id)) {
+            return Err(OrderError::TwinPins(id.clone()));
+        }
         if let Some(cut) = cuts.iter().find(|cut| cut.plane().is_err()) {
             return Err(OrderError::NoPlane(cut.id.clone()));
         }
-        let known = |id: &str| cuts.iter().any(|cut| cut.id == id);
+        let known = |id: &CutId| index_of(&cuts, id).is_some();
         let mut sides = cuts
             .iter()
             .flat_map(|cut| cut.within.iter().map(move |side| (cut, side)));
         if let Some((cut, side)) = sides.find(|(_, side)| !known(&side.cut)) {
             return Err(OrderError::NoCut {
-                what: format!("cut {}", cut.id),
+                by: Namer::Cut(cut.id.clone()),
                 cut: side.cut.clone(),
             });
         }
@@ -169,14 +193,14 @@ impl TryFrom<Given> for CutOrder {
         }
         if let Some(face) = uncut.iter().find(|face| !known(&face.cut)) {
             return Err(OrderError::NoCut {
-                what: "an uncut face".to_owned(),
+                by: Namer::UncutFace,
                 cut: face.cut.clone(),
             });
         }
         for pin in pins.iter().flatten() {
             if !known(&pin.cut) {
                 return Err(OrderError::NoCut {
-                    what: format!("pin {}", pin.id),
+                    by: Namer::Pin(pin.id.clone()),
                     cut: pin.cut.clone(),
                 });
             }
@@ -197,15 +221,12 @@ impl TryFrom<Given> for CutOrder {
     }
 }
 
-fn no_twin(what: &'static str, mut ids: Vec<&String>) -> Result<(), OrderError> {
+/// The least id that stands there twice; `None` if each is there once.
+fn twin<'a, T: Ord>(ids: impl Iterator<Item = &'a T>) -> Option<&'a T> {
+    let mut ids: Vec<&T> = ids.collect();
     ids.sort_unstable();
-    let twin = ids.windows(2).find(|pair| pair[0] == pair[1]);
-    twin.map_or(Ok(()), |pair| {
-        Err(OrderError::Twice {
-            what,
-            id: pair[0].clone(),
-        })
-    })
+    let mut pairs = ids.windows(2);
+    pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 /// What keeps a pin from being made.

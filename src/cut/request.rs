@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    cut::{joints::rod::Rod, seat::Seat},
+    cut::{ids::VoidId, joints::rod::Rod, seat::Seat},
     geom::{Point, Vector},
     printer::Cleaning,
 };
@@ -51,15 +51,16 @@ pub struct PlanRequest {
 
 impl PlanRequest {
     /// The seat that a void is, of a body with so many voids.
-    pub(crate) fn seat_of(&self, void: usize, voids: usize) -> Option<&Seat> {
+    pub(crate) fn seat_of(&self, void: VoidId, voids: usize) -> Option<&Seat> {
         let first = voids.saturating_sub(self.seats.len());
-        void.checked_sub(first)
+        void.index()
+            .checked_sub(first)
             .and_then(|seat| self.seats.get(seat))
     }
 
     /// Diameter of the disc that must pass through a void's opening, mm: a seat, all of it in sight
     /// once it is open, must let its part in; any other void must let itself be cleaned.
-    pub(crate) fn needed_mm(&self, void: usize, voids: usize) -> f64 {
+    pub(crate) fn needed_mm(&self, void: VoidId, voids: usize) -> f64 {
         self.seat_of(void, voids)
             .map_or(self.min_opening_mm, |seat| seat.opening_mm)
     }

@@ -78,7 +78,7 @@ fn a_ball_with_one_void_is_cut_once_into_two_parts_with_pins_that_fit_one_way() 
         "{:?}",
         plan.notes
     );
-    assert_eq!(parts[0].voids, vec![0]);
+    assert_eq!(parts[0].voids, [VoidId::of(0)]);
     assert_eq!(parts[0].pins.len() + parts[1].pins.len(), plan.pins.len());
     assert_eq!(
         parts[0].sockets.len() + parts[1].sockets.len(),
@@ -168,7 +168,7 @@ fn no_two_joints_can_be_confused() {
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
     let planes: Vec<Cut> = (1..3)
         .map(|i| Cut {
-            id: format!("C{i}"),
+            id: CutId::from(format!("C{i}").as_str()),
             point_mm: [20.0 * f64::from(i), 0.0, 0.0],
             normal: [1.0, 0.0, 0.0],
             within: Vec::new(),
@@ -262,7 +262,7 @@ fn a_void_too_narrow_to_open_is_named() {
     );
     let refused = plan(&body, &request()).unwrap_err();
     assert!(
-        matches!(&refused, CutError::Unopenable { voids, .. } if *voids == vec![1]),
+        matches!(&refused, CutError::Unopenable { voids, .. } if *voids == [VoidId::of(1)]),
         "{refused}"
     );
 }
@@ -439,11 +439,11 @@ fn a_body_left_uncut_keeps_its_closed_voids_in_one_part() {
 fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
     let body = |radius| with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, radius]]);
     let plan = plan(&body(12.0), &request()).unwrap();
-    let ids = |radius| -> Vec<(String, usize)> {
+    let ids = |radius| -> Vec<(PartId, usize)> {
         let parts = parts(&body(radius), &plan, &request()).unwrap();
         parts
             .iter()
-            .map(|part| (part.id.clone(), part.pins.len()))
+            .map(|part| (part.id, part.pins.len()))
             .collect()
     };
     assert_eq!(ids(12.0), ids(12.02));

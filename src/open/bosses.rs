@@ -291,7 +291,7 @@ impl<'r, 'a> Search<'r, 'a> {
     fn take(&mut self, found: &[Boss], held: Vec<Boss>, settled: Settled, kept_mm3: f64) {
         let kept = |boss: &Boss| KeptBoss {
             pin: boss.pin.clone(),
-            parts: boss.parts.clone(),
+            parts: boss.parts,
             volume_mm3: boss.body.signed_volume_mm3(),
         };
         let state = &mut self.state;

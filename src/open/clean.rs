@@ -2,7 +2,7 @@
 
 use super::plan::plan_once;
 use super::resolve::Resolver;
-use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, Unclean, unclean};
+use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, Unclean, VoidId, unclean};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
@@ -112,24 +112,27 @@ fn uncleaned(
 }
 
 /// Keeps voids solid that no cut opens.
-fn keep_unopenable(voids: &Voids, closed: &[usize], margin_openings: f64) -> Keep {
-    let body = |&void: &usize| Some((void, voids.hollowed.voids.get(void)?.mesh().clone()));
-    let (indices, bodies): (Vec<usize>, Vec<TriMesh>) = closed.iter().filter_map(body).unzip();
+fn keep_unopenable(voids: &Voids, closed: &[VoidId], margin_openings: f64) -> Keep {
+    let body = |&void: &VoidId| {
+        let body = voids.hollowed.voids.get(void.index())?;
+        Some((void, body.mesh().clone()))
+    };
+    let (ids, bodies): (Vec<VoidId>, Vec<TriMesh>) = closed.iter().filter_map(body).unzip();
     let kept = |void| KeptSolid {
         void,
         cause: KeptCause::Unopenable,
     };
     Keep {
-        kept: indices.into_iter().map(kept).collect(),
+        kept: ids.into_iter().map(kept).collect(),
         bodies,
         margin_openings,
     }
 }
 
 /// Returns whether none of these voids holds ballast, which cannot stay solid.
-fn are_empty(voids: &Voids, indices: &[usize], request: &PlanRequest) -> bool {
+fn are_empty(voids: &Voids, ids: &[VoidId], request: &PlanRequest) -> bool {
     let empty = voids.hollowed.voids.len() - request.seats.len();
-    indices.iter().all(|&void| void < empty)
+    ids.iter().all(|void| void.index() < empty)
 }
 
 /// Keeps parts of the interior solid and solves again; `None` if nothing can be emptied there, or
@@ -149,9 +152,12 @@ pub fn without_ends(
     let nearest = |end: &SolidEnd| {
         let depth = |wall: &MeshDistance| wall.signed(&end.at_mm.into());
         let depths = walls.iter().map(depth).enumerate();
-        let (void, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (index, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let cause = cause.clone();
-        Some(KeptSolid { void, cause })
+        Some(KeptSolid {
+            void: VoidId::of(index),
+            cause,
+        })
     };
     let keep = Keep {
         kept: ends.iter().filter_map(nearest).collect(),

@@ -119,7 +119,7 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     let count = plan.voids.len();
     let mut unclean = unclean(&voids.hollowed, plan, terms.request, false)?;
     unclean.retain(|found| {
-        let void = &plan.voids[found.void];
+        let void = &plan.voids[found.void.index()];
         !void.is_clean_without_margin(terms.request, count)
     });
     Ok(unclean)

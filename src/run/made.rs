@@ -72,7 +72,7 @@ impl WrittenPart {
             rows: self.part.pose.print_from_model,
         };
         PartEvidence {
-            id: self.part.id.clone(),
+            id: self.part.id.to_string(),
             mesh: self.read_back.clone(),
             pose,
         }

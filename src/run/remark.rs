@@ -5,6 +5,7 @@ use std::fmt;
 use super::Rung;
 use crate::advice::Reached;
 use crate::base::units::counted;
+use crate::cut::PartId;
 use crate::goal::{Request, Up};
 
 /// A note for the job sheet.
@@ -14,7 +15,7 @@ pub enum Remark {
     /// A joint got no bosses around pins.
     NoBosses {
         /// The parts below and above the joint.
-        parts: [String; 2],
+        parts: [PartId; 2],
         /// The reason.
         why: Refusal,
     },
@@ -207,7 +208,7 @@ mod tests {
     #[test]
     fn a_remark_says_which_joint_and_why() {
         let remark = Remark::NoBosses {
-            parts: ["P01".to_owned(), "P02".to_owned()],
+            parts: [PartId::of(0), PartId::of(1)],
             why: Refusal::FillVoids { ratio: 0.612 },
         };
         let words =

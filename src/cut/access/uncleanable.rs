@@ -7,11 +7,11 @@ use crate::{
         access::{
             chamber::Chamber,
             sight::Seen,
-            void_access::{Mouths, Opened, asked_ratio},
+            void_access::{Mouths, Opened, VoidAccess, asked_ratio},
         },
         error::CutError,
         geometry::tree::CutTree,
-        ids::part_id,
+        ids::VoidId,
         pieces::{
             part::pieces,
             split::{Joint, Piece, joints},
@@ -43,8 +43,8 @@ const SAME_CORNER_MM: f64 = 1e-9;
 /// A void that the plan does not let be cleaned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unclean {
-    /// The void's index in the hollowed body.
-    pub void: usize,
+    /// The void.
+    pub void: VoidId,
     /// Why, in words with numbers.
     pub why: String,
     /// What of it is to be kept solid, as bodies.
@@ -61,7 +61,7 @@ pub fn unclean(
 ) -> Result<Vec<Unclean>, CutError> {
     let tree = plan.tree()?;
     let count = hollowed.voids.len();
-    let is_plain = |void: usize| request.seat_of(void, count).is_none();
+    let is_plain = |void: VoidId| request.seat_of(void, count).is_none();
     let dirty: Vec<_> = plan
         .voids
         .iter()
@@ -72,7 +72,7 @@ pub fn unclean(
     } else {
         Chamber::all(hollowed)?
     };
-    let of = |access: &&crate::cut::access::void_access::VoidAccess| {
+    let of = |access: &&VoidAccess| {
         let opened = Opened::new(&chambers, access.void, &tree, request);
         let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
         let lumps = if whole {
@@ -109,6 +109,7 @@ pub fn closed(
         .voids
         .iter()
         .enumerate()
+        .map(|(void, solid)| (VoidId::of(void), solid))
         .filter(|(void, _)| request.seat_of(*void, count).is_none());
     let is_met = |solid: &Solid, cut: usize| {
         let there: Vec<Point> = solid
@@ -121,7 +122,7 @@ pub fn closed(
         tree.planes[cut].passes_through(&there)
     };
     let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
-    let all = |(void, solid): (usize, &Solid)| Unclean {
+    let all = |(void, solid): (VoidId, &Solid)| Unclean {
         void,
         why: "no cut opens it".to_owned(),
         lumps: vec![solid.mesh().clone()],
@@ -143,7 +144,7 @@ pub fn beyond(
     let count = hollowed.voids.len();
     let chambers = Chamber::all(hollowed)?;
     let mut inside: Vec<(usize, Piece)> = Vec::new();
-    for void in (0..count).filter(|&void| request.seat_of(void, count).is_none()) {
+    for void in (0..count).filter(|&void| request.seat_of(VoidId::of(void), count).is_none()) {
         for piece in chambers[void].split(&tree)? {
             let part = parts
                 .iter()
@@ -159,7 +160,7 @@ pub fn beyond(
             .sum()
     };
     let lacks_pins = |joint: &&Joint| {
-        let ids = [joint.below, joint.above].map(part_id);
+        let ids = joint.parts();
         let is_it = |note: &&JointNote| note.parts == ids && note.cut == plan.cuts[joint.cut].id;
         plan.joints
             .iter()

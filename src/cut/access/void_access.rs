@@ -11,7 +11,7 @@ use crate::{
         },
         error::CutError,
         geometry::{opening::is_dimple, tree::CutTree},
-        ids::cut_id,
+        ids::{CutId, VoidId},
         pieces::split::{Cap, Piece},
         request::PlanRequest,
     },
@@ -33,11 +33,11 @@ const LAST_MARGIN_RATIO: f64 = 0.002;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VoidAccess {
     /// The void's index in the hollowed body.
-    pub void: usize,
+    pub void: VoidId,
     /// The void's volume, mm³.
     pub volume_mm3: f64,
     /// The ids of the cuts that pass through it.
-    pub opened_by: Vec<String>,
+    pub opened_by: Vec<CutId>,
     /// The diameter of the largest disc that passes the widest mouth of its pieces; of the piece
     /// where that is least, mm. Dimples in plain sight are not asked. 0 when the void stays closed.
     pub opening_mm: f64,
@@ -54,7 +54,7 @@ pub struct VoidAccess {
 
 impl VoidAccess {
     /// A void that no cut opens.
-    pub(crate) fn closed(void: usize, solid: &Solid) -> Self {
+    pub(crate) fn closed(void: VoidId, solid: &Solid) -> Self {
         Self {
             void,
             volume_mm3: solid.mesh().signed_volume_mm3(),
@@ -104,7 +104,7 @@ pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
 
 /// A void and what is asked of its openings.
 pub(crate) struct Opened<'a> {
-    pub(crate) void: usize,
+    pub(crate) void: VoidId,
     pub(crate) chamber: &'a Chamber<'a>,
     pub(crate) tree: &'a CutTree,
     pub(crate) request: &'a PlanRequest,
@@ -122,7 +122,7 @@ pub(crate) fn accesses(
 ) -> Result<Vec<VoidAccess>, CutError> {
     (0..chambers.len())
         .into_par_iter()
-        .map(|void| access(chambers, void, tree, request))
+        .map(|void| access(chambers, VoidId::of(void), tree, request))
         .collect()
 }
 
@@ -136,7 +136,7 @@ pub(crate) fn report(
     let of = |void| {
         Opened {
             is_told: true,
-            ..Opened::new(&chambers, void, tree, request)
+            ..Opened::new(&chambers, VoidId::of(void), tree, request)
         }
         .access()
     };
@@ -146,7 +146,7 @@ pub(crate) fn report(
 /// How the cuts open one void.
 pub(crate) fn access(
     chambers: &[Chamber],
-    void: usize,
+    void: VoidId,
     tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<VoidAccess, CutError> {
@@ -157,14 +157,14 @@ impl<'a> Opened<'a> {
     /// A void of a body under these cuts.
     pub(crate) fn new(
         chambers: &'a [Chamber],
-        void: usize,
+        void: VoidId,
         tree: &'a CutTree,
         request: &'a PlanRequest,
     ) -> Self {
         let needed_mm = request.needed_mm(void, chambers.len());
         Self {
             void,
-            chamber: &chambers[void],
+            chamber: &chambers[void.index()],
             tree,
             request,
             needed_mm,
@@ -195,7 +195,7 @@ impl<'a> Opened<'a> {
             volume_mm3: self.chamber.solid.mesh().signed_volume_mm3(),
             opened_by: (0..self.tree.planes.len())
                 .filter(met)
-                .map(cut_id)
+                .map(CutId::of)
                 .collect(),
             opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
             depth_mm: mouths

@@ -1,7 +1,12 @@
 //! A pin with the material that is kept solid around it, and what bosses are asked for.
 
 use crate::{
-    cut::{joints::pin_shape::PinSite, plan::CutPlan, request::PlanRequest},
+    cut::{
+        ids::{CutId, PartId},
+        joints::pin_shape::PinSite,
+        plan::CutPlan,
+        request::PlanRequest,
+    },
     geom::{Frame, Quadric},
     mesh::{Hollowed, TriMesh},
 };
@@ -30,9 +35,9 @@ pub struct BossOrder<'a> {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointName {
     /// The cut's id.
-    pub cut: String,
+    pub cut: CutId,
     /// The ids of the parts below and above the cut.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
 }
 
 /// A pin with the material that is to be kept solid around it and its socket.
@@ -41,7 +46,7 @@ pub struct Boss {
     /// The pin; its id is not settled yet.
     pub pin: PinSite,
     /// The ids of the parts it joins.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
     /// Closed, facing outward, model frame, mm; it reaches into the wall.
     pub body: TriMesh,
     /// Whether something of it is empty so far. A boss that is solid already is kept so when
@@ -54,7 +59,7 @@ impl Boss {
     pub fn joint(&self) -> JointName {
         JointName {
             cut: self.pin.cut.clone(),
-            parts: self.parts.clone(),
+            parts: self.parts,
         }
     }
 }

@@ -12,6 +12,7 @@ use crate::{
             opening::opening,
             tree::{CutTree, reached},
         },
+        ids::VoidId,
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
@@ -52,7 +53,11 @@ impl<'a> BossView<'a> {
         let plain = voids.saturating_sub(request.seats.len());
         let chambers = Chamber::all(hollowed)?;
         let view = |(void, chamber): (usize, Chamber<'a>)| {
-            View::new(chamber, (tree, request), request.needed_mm(void, voids))
+            View::new(
+                chamber,
+                (tree, request),
+                request.needed_mm(VoidId::of(void), voids),
+            )
         };
         let views = chambers
             .into_iter()

@@ -10,7 +10,6 @@ use crate::{
             chart::{Chart, Point2},
             outline::Outline,
         },
-        ids::part_id,
         joints::{
             boss::{Boss, BossOrder, JointName},
             boss_maker::{BossMaker, MARGIN_MM, PinAxis},
@@ -27,7 +26,7 @@ use crate::{
             rejoin::rejoined,
             split::{Joint, joints, split},
         },
-        plan::{JointNote, bridges_on},
+        plan::{JointNote, bridges_on, index_of},
     },
     geom::{Point, Vector},
     mesh::{Hollowed, TriMesh},
@@ -147,12 +146,7 @@ impl Search<'_> {
 
     /// The boss of an ordered pin that has its material, or could have.
     fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
-        let cut = self
-            .order
-            .plan
-            .cuts
-            .iter()
-            .position(|cut| cut.id == pin.cut)?;
+        let cut = index_of(&self.order.plan.cuts, &pin.cut)?;
         let (plane, outline) = (&self.filled.tree.planes[cut], self.maker.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
@@ -304,7 +298,7 @@ impl Search<'_> {
         let cut = self.order.plan.cuts[joint.cut].id.clone();
         JointName {
             cut,
-            parts: [part_id(joint.below), part_id(joint.above)],
+            parts: joint.parts(),
         }
     }
 

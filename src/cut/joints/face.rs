@@ -4,6 +4,7 @@
 use crate::{
     cut::{
         geometry::chart::{Chart, Point2},
+        ids::{CutId, PinId},
         joints::{
             pattern::Peg,
             pin_shape::PinSite,
@@ -238,8 +239,8 @@ impl<'a> Face<'a> {
 
     fn site(&self, p: &Point2, size: &Size) -> PinSite {
         PinSite {
-            id: String::new(),
-            cut: String::new(),
+            id: PinId::default(),
+            cut: CutId::default(),
             center_mm: Chart::of_plane(&self.plane).lift(&self.plane, p).into(),
             direction: (self.plane.normal * self.sign).into(),
             diameter_mm: size.diameter,

@@ -5,7 +5,7 @@ use crate::{
     cut::{
         error::CutError,
         geometry::chart::Chart,
-        ids::{cut_id, pin_id},
+        ids::{CutId, PinId},
         joints::{
             face::{Face, face_points},
             pattern::Peg,
@@ -59,7 +59,7 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
     let pins = pins
         .flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
     for (count, (site, joint)) in pins.enumerate() {
-        (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
+        (site.id, site.cut) = (PinId::of(count), CutId::of(joint.cut));
     }
     placements
 }
@@ -98,7 +98,7 @@ pub(crate) fn seated(
             let plane = &scene.tree.planes[joint.cut];
             let center = Point::from(pin.center_mm);
             let at = Chart::of_plane(plane).flat(&center);
-            pin.cut == cut_id(joint.cut)
+            pin.cut == CutId::of(joint.cut)
                 && plane.distance(&center).abs() <= ON_CUT_MM
                 && joint.faces.iter().any(|face| face.holds(&at))
         };

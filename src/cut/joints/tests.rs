@@ -217,7 +217,7 @@ fn no_two_dowelled_joints_can_be_confused_from_either_side() {
     };
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
     let at = |x: f64| Cut {
-        id: format!("C{x}"),
+        id: CutId::from(format!("C{x}").as_str()),
         point_mm: [x, 0.0, 0.0],
         normal: [1.0, 0.0, 0.0],
         within: Vec::new(),

@@ -8,14 +8,14 @@ use crate::{
     cut::{
         error::CutError,
         geometry::{chart::Chart, tree::CutTree},
-        ids::part_id,
+        ids::{PartId, VoidId},
         joints::{contact::refaced, label::Label, pin_shape::PinSite},
         pieces::{
             pose::{Pose, laid, sides_down},
             rejoin::rejoined,
             split::{Piece, check_no_cavity, piece_at, split},
         },
-        plan::CutPlan,
+        plan::{CutPlan, index_of},
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
@@ -26,7 +26,7 @@ use crate::{
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// The part's name: P01, P02, …
-    pub id: String,
+    pub id: PartId,
     /// The part in the model frame, mm.
     pub solid: Solid,
     /// How it is laid in the printer.
@@ -38,8 +38,8 @@ pub struct Part {
     pub sockets: Vec<PinSite>,
     /// The ids sunk into its cut faces.
     pub labels: Vec<Label>,
-    /// The voids that it holds a piece of, as indices into the hollowed body's.
-    pub voids: Vec<usize>,
+    /// The voids that it holds a piece of, ascending.
+    pub voids: Vec<VoidId>,
 }
 
 impl Part {
@@ -142,12 +142,12 @@ fn parts_of(
         let labels: Vec<Label> = plan
             .labels
             .iter()
-            .filter(|label| label.part == part_id(index))
+            .filter(|label| label.part == PartId::of(index))
             .cloned()
             .collect();
         let solid = fitted(piece, (&pins, &sockets), &labels)?;
         Ok(Part {
-            id: part_id(index),
+            id: PartId::of(index),
             pose: laid(
                 solid.mesh(),
                 &sides_down(piece, planes, &pin_cuts, request),
@@ -173,11 +173,7 @@ fn seat<'a>(
     let lost = || CutError::PinOffFace {
         pin: site.id.clone(),
     };
-    let cut = plan
-        .cuts
-        .iter()
-        .position(|cut| cut.id == site.cut)
-        .ok_or_else(lost)?;
+    let cut = index_of(&plan.cuts, &site.cut).ok_or_else(lost)?;
     let at = Chart::of_plane(&planes[cut]).flat(&Point::from(site.center_mm));
     let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
     let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
@@ -243,10 +239,15 @@ fn has_short_edge(mesh: &TriMesh) -> bool {
 }
 
 /// Which void each vertex of a void belongs to, by the bits of its coordinates.
-fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], usize> {
+fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
     let voids = hollowed.voids.iter().enumerate();
     voids
-        .flat_map(|(i, void)| void.mesh().vertices().iter().map(move |p| (bits(p), i)))
+        .flat_map(|(i, void)| {
+            void.mesh()
+                .vertices()
+                .iter()
+                .map(move |p| (bits(p), VoidId::of(i)))
+        })
         .collect()
 }
 
@@ -255,8 +256,8 @@ fn bits(p: &Point) -> [u64; 3] {
 }
 
 /// The voids whose vertices the piece has, ascending.
-fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], usize>) -> Vec<usize> {
-    let mut voids: Vec<usize> = piece
+fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], VoidId>) -> Vec<VoidId> {
+    let mut voids: Vec<VoidId> = piece
         .mesh
         .vertices()
         .iter()

@@ -2,7 +2,7 @@
 
 use crate::{
     cut::{
-        ids::cut_id,
+        ids::CutId,
         pieces::split::Piece,
         request::{PlanRequest, PosePreference},
     },
@@ -51,7 +51,7 @@ impl Rest {
     fn laid(&self, sign: f64, word: &str) -> Side {
         Side {
             down: self.outward * sign,
-            lies: format!("cut face {} {word}", cut_id(self.cut)),
+            lies: format!("cut face {} {word}", CutId::of(self.cut)),
         }
     }
 }

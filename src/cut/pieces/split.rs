@@ -11,6 +11,7 @@ use crate::{
             overlap::Flat,
             tree::CutTree,
         },
+        ids::PartId,
     },
     geom::{Plane, Vector},
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
@@ -62,6 +63,11 @@ impl Joint {
     /// Whether a piece is one of the two.
     pub(crate) fn touches(&self, piece: usize) -> bool {
         self.below == piece || self.above == piece
+    }
+
+    /// The ids of the parts that the pieces below and above become.
+    pub(crate) fn parts(&self) -> [PartId; 2] {
+        [self.below, self.above].map(PartId::of)
     }
 
     /// The area of the faces in which the two meet, mm².
@@ -128,6 +134,7 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
             .filter(|shell| shell.signed_volume_mm3() < 0.0)
             .count();
         if cavities > 0 {
+            let part = PartId::of(part);
             return Err(CutError::ClosedCavity { part, cavities });
         }
     }

@@ -7,7 +7,7 @@ use crate::{
         access::void_access::{Opened, VoidAccess, access, accesses, asked_ratio},
         error::CutError,
         geometry::tree::CutTree,
-        ids::cut_id,
+        ids::{CutId, VoidId},
         planner::score::{Scene, burden},
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
@@ -141,18 +141,19 @@ pub(crate) fn looked_at_again(
 }
 
 /// Whether a plane passes through a void.
-fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
-    plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
+fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
+    plane.passes_through(scene.hollowed.voids[void.index()].mesh().vertices())
 }
 
 /// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
 /// in sight.
-fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
+fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
     let asked = asked_ratio(scene.request);
     if asked == 0.0 {
         return 0.0;
     }
-    (asked - scene.chambers[void].glance(&CutTree::everywhere(planes), scene.request)).max(0.0)
+    (asked - scene.chambers[void.index()].glance(&CutTree::everywhere(planes), scene.request))
+        .max(0.0)
 }
 
 /// The first of the plans with which every void can be cleaned; the cleanest where there is none.
@@ -162,7 +163,7 @@ fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
     let glance = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
-            .map(|void| glanced_lack_ratio(scene, void, planes))
+            .map(|void| glanced_lack_ratio(scene, VoidId::of(void), planes))
             .fold(0.0, f64::max)
     };
     let mut trial = Trial { scene, best: None };
@@ -245,14 +246,14 @@ fn note(before: &Tried, after: &Tried) -> String {
     let told = changed.map(|(b, a)| {
         let (was, is) = (percent(b.sight_ratio), percent(a.sight_ratio));
         format!(
-            "void V{}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
-            a.void + 1
+            "void {}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
+            a.void
         )
     });
     let told: Vec<String> = told.collect();
     format!(
         "cut {}: so that voids can be cleaned ({})",
-        cut_id(before.planes.len()),
+        CutId::of(before.planes.len()),
         told.join("; ")
     )
 }
@@ -301,13 +302,16 @@ fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
 
 /// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
 /// of the points.
-fn through(scene: &Scene, void: usize, hidden: &[Point]) -> Vec<Plane> {
+fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
-    let own = Body::new(&moments_of_mesh(scene.hollowed.voids[void].mesh()), 1.0)
-        .principal()
-        .axes;
+    let own = Body::new(
+        &moments_of_mesh(scene.hollowed.voids[void.index()].mesh()),
+        1.0,
+    )
+    .principal()
+    .axes;
     normals.extend((0..3).map(|i| own.column(i).into_owned()));
     normals.extend(axes_of(hidden));
     let at = |normal: &Vector| {

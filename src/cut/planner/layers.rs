@@ -6,7 +6,7 @@ use crate::{
         access::void_access::{VoidAccess, accesses},
         error::CutError,
         geometry::chart::Chart,
-        ids::{cut_id, part_id},
+        ids::{CutId, PartId},
         joints::{pin_shape::PinSite, pins::Pins},
         pieces::{
             pose::{apply, laid, sides_down},
@@ -69,8 +69,8 @@ pub(crate) fn at_layers(
         );
     }
     let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
-        cut: cut_id(cut),
-        part: part_id(part),
+        cut: CutId::of(cut),
+        part: PartId::of(part),
         moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
@@ -158,11 +158,11 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
 
 /// The cuts on whose faces pins stand out of the part.
 fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
-    let id = part_id(part);
+    let id = PartId::of(part);
     let carries = |cut: usize| {
         plan.joints
             .iter()
-            .filter(|joint| joint.cut == cut_id(cut))
+            .filter(|joint| joint.cut == CutId::of(cut))
             .any(|joint| {
                 let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
                 let pins = plan.pins.iter().filter(stands);

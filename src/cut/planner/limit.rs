@@ -125,7 +125,7 @@ mod tests {
     use super::*;
     use crate::{
         cut::{
-            CutOrder, PlanRequest,
+            CutId, CutOrder, PlanRequest,
             access::void_access::accesses,
             joints::pins::Pins,
             parts,
@@ -193,7 +193,7 @@ mod tests {
         );
         assert_eq!(
             kept.voids[1].opened_by,
-            ["C1", "C2"],
+            [CutId::of(0), CutId::of(1)],
             "its other half is cut along"
         );
         assert!(
@@ -326,7 +326,7 @@ mod tests {
         .unwrap();
         assert_eq!(
             (&named.cuts[1].within[0].cut, named.joints.len()),
-            (&"waist".to_owned(), 3)
+            (&CutId::from("waist"), 3)
         );
         let volume: f64 = parts(&body, &plan, &request)
             .unwrap()

@@ -17,7 +17,7 @@ use crate::{
         access::void_access::{accesses, report},
         error::CutError,
         geometry::tree::{CutTree, Limit},
-        ids::cut_id,
+        ids::CutId,
         joints::pins::Pins,
         order::CutOrder,
         pieces::{pose::fits, rejoin::rejoined, split::Piece},
@@ -201,12 +201,17 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutErr
 /// Which cuts are made on a side of others only.
 fn side_notes(tree: &CutTree) -> impl Iterator<Item = String> {
     let note = |cut: usize| {
-        let side =
-            |limit: &Limit| format!("{} {}", Side::of(limit.is_above).word(), cut_id(limit.cut));
+        let side = |limit: &Limit| {
+            format!(
+                "{} {}",
+                Side::of(limit.is_above).word(),
+                CutId::of(limit.cut)
+            )
+        };
         let sides: Vec<String> = tree.limits(cut).iter().map(side).collect();
         let words = format!(
             "cut {}: only {}; beyond it nothing needs it",
-            cut_id(cut),
+            CutId::of(cut),
             sides.join(" and ")
         );
         (!sides.is_empty()).then_some(words)
@@ -224,7 +229,7 @@ fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
     let sum: f64 = terms.iter().map(|(_, value)| value).sum();
     format!(
         "cut {}: score {sum:.2}, 0 at best ({})",
-        cut_id(cut),
+        CutId::of(cut),
         told.join(", ")
     )
 }
@@ -264,7 +269,7 @@ fn fit_build_volume(
         *layout = Layout::new(scene, planes, voids)?;
         notes.push(format!(
             "cut {}: a part would not fit the build volume",
-            cut_id(layout.tree.planes.len() - 1)
+            CutId::of(layout.tree.planes.len() - 1)
         ));
     }
     Ok(())

@@ -6,6 +6,7 @@ use crate::{
     cut::{
         error::CutError,
         geometry::opening::Opening,
+        ids::VoidId,
         planner::{
             cover::{MAX_VOIDS, VoidSet, covers_of_size, greedy_cover, smallest_cover},
             family::{Candidate, candidates},
@@ -264,7 +265,7 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
         .map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
     CutError::Unopenable {
-        voids,
+        voids: voids.into_iter().map(VoidId::of).collect(),
         widest_mm,
         needed_mm,
     }
@@ -272,5 +273,7 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
 
 /// Diameter of the disc that must pass through the opening of a void, mm.
 fn needed_mm(scene: &Scene, void: usize) -> f64 {
-    scene.request.needed_mm(void, scene.hollowed.voids.len())
+    scene
+        .request
+        .needed_mm(VoidId::of(void), scene.hollowed.voids.len())
 }

@@ -9,7 +9,7 @@ use crate::{
             chart::Chart,
             tree::{CutTree, Limit},
         },
-        ids::{cut_id, part_id},
+        ids::{CutId, PartId},
         joints::{
             contact::contact,
             label::labels,
@@ -18,7 +18,7 @@ use crate::{
             placement::{PinScene, Placement},
         },
         pieces::split::{Joint, check_no_cavity, joints},
-        plan::{Bridge, Cut, CutPlan, CutSide, JointNote, Side, UncutFace},
+        plan::{Bridge, Cut, CutPlan, CutSide, JointNote, Side, UncutFace, index_of},
         planner::{layout::Layout, score::Scene},
         request::PlanRequest,
     },
@@ -80,8 +80,8 @@ pub(crate) fn to_plan(
 
 /// The plan with its cuts called as in the order it was made by: the planner numbers them.
 pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
-    let name = |id: &mut String| {
-        let index = plan.cuts.iter().position(|cut| cut.id == *id);
+    let name = |id: &mut CutId| {
+        let index = index_of(&plan.cuts, id);
         if let Some(cut) = index.and_then(|index| cuts.get(index)) {
             id.clone_from(&cut.id);
         }
@@ -106,15 +106,15 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     let plane = &planes[bridge.cut];
     let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
     UncutFace {
-        cut: cut_id(bridge.cut),
+        cut: CutId::of(bridge.cut),
         point_mm,
     }
 }
 
 fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
     JointNote {
-        cut: cut_id(joint.cut),
-        parts: [part_id(joint.below), part_id(joint.above)],
+        cut: CutId::of(joint.cut),
+        parts: joint.parts(),
         area_mm2: joint.area_mm2(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
@@ -125,8 +125,10 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
 /// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket
 /// behind one of them.
 fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
-    let (index, opening) = (void.void, void.opening_mm);
-    let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());
+    let (index, opening) = (void.void.index(), void.opening_mm);
+    let asked = scene
+        .request
+        .needed_mm(void.void, scene.hollowed.voids.len());
     let note = || {
         format!(
             "void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm"
@@ -137,7 +139,11 @@ fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
 
 /// What to say of a joint that has not at least two pins that fit one way only.
 fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<String> {
-    let name = format!("joint {}–{}", part_id(joint.below), part_id(joint.above));
+    let name = format!(
+        "joint {}–{}",
+        PartId::of(joint.below),
+        PartId::of(joint.above)
+    );
     let (widest, needed) = (placement.widest_mm, needed_room_mm(request));
     match placement.sites.len() {
         0 if widest < needed => Some(format!(
@@ -159,12 +165,12 @@ fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Opti
 fn cut(tree: &CutTree, index: usize) -> Cut {
     let plane = &tree.planes[index];
     let side = |limit: &Limit| CutSide {
-        cut: cut_id(limit.cut),
+        cut: CutId::of(limit.cut),
         side: Side::of(limit.is_above),
     };
     let within = tree.limits(index).iter().map(side).collect();
     Cut {
-        id: cut_id(index),
+        id: CutId::of(index),
         point_mm: plane.foot().into(),
         normal: plane.normal.into(),
         within,

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::facts::Facts;
 use super::figures::shown;
 use crate::base::units::MM3_PER_CM3;
-use crate::cut::{CutPlan, Dowel, JointNote, RodSource};
+use crate::cut::{CutPlan, Dowel, JointId, JointNote, RodSource};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
 use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::verify::PromisedJoint;
@@ -73,7 +73,7 @@ pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
 
 /// The name of the joint with this index.
 pub fn joint_id(index: usize) -> String {
-    format!("J{}", index + 1)
+    JointId::of(index).to_string()
 }
 
 /// The joints of the checklist.
@@ -82,8 +82,8 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
     joints
         .map(|(index, joint)| JointRow {
             id: joint_id(index),
-            cut: joint.cut.clone(),
-            parts: joint.parts.clone(),
+            cut: joint.cut.to_string(),
+            parts: joint.parts.map(|id| id.to_string()),
             area_mm2: joint.area_mm2,
             pins: joint.pins.len(),
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
@@ -156,8 +156,8 @@ pub fn round_rows(facts: &Facts) -> Vec<RoundRow> {
 
 fn boss_row(boss: &KeptBoss) -> BossRow {
     BossRow {
-        pin: boss.pin.id.clone(),
-        parts: boss.parts.clone(),
+        pin: boss.pin.id.to_string(),
+        parts: boss.parts.map(|id| id.to_string()),
         center_mm: boss.pin.center_mm,
         volume_mm3: boss.volume_mm3,
     }

@@ -1,7 +1,7 @@
 //! The checklist's rows about voids: how each is opened and cleaned, and what cleaning cost.
 
 use super::facts::Facts;
-use crate::cut::{Cut, CutPlan, CutSide, VoidAccess};
+use crate::cut::{Cut, CutPlan, CutSide, VoidAccess, VoidId};
 use crate::geom::{Bvh, Point};
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
@@ -17,10 +17,10 @@ const LEAST_CORNERS: usize = 8;
 pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
     let (placed, made) = (facts.placed, facts.made);
     let row = |access: &VoidAccess| {
-        let id = void_id(access.void);
+        let id = access.void.to_string();
         VoidRow {
             volume_mm3: access.volume_mm3,
-            opened_by: access.opened_by.clone(),
+            opened_by: access.opened_by.iter().map(ToString::to_string).collect(),
             parts: holders(facts.made, access.void),
             opening_mm: access.opening_mm,
             least_opening_mm: least_opening_mm(placed, made, access.void),
@@ -37,8 +37,8 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
 
 /// The ids of the parts on whose surface corners of a void lie: cutting keeps those that it does
 /// not cut.
-fn holders(made: &Made, void: usize) -> Vec<String> {
-    let Some(body) = made.hollowed.voids.get(void) else {
+fn holders(made: &Made, void: VoidId) -> Vec<String> {
+    let Some(body) = made.hollowed.voids.get(void.index()) else {
         return Vec::new();
     };
     let wall = Bvh::new(body.mesh().iter_corners());
@@ -50,20 +50,16 @@ fn holders(made: &Made, void: usize) -> Vec<String> {
     made.parts
         .iter()
         .filter(holds)
-        .map(|written| written.part.id.clone())
+        .map(|written| written.part.id.to_string())
         .collect()
 }
 
-/// The name of a void on the sheet.
-pub fn void_id(void: usize) -> String {
-    format!("V{}", void + 1)
-}
-
 /// The opening a void needs, mm: that of what is laid into it, or the printer's.
-fn least_opening_mm(placed: &Placed, made: &Made, void: usize) -> f64 {
+fn least_opening_mm(placed: &Placed, made: &Made, void: VoidId) -> f64 {
     let (loads, plan) = (&made.load.parts, &made.plan);
     let first = plan.voids.len().saturating_sub(loads.len());
-    let laid = void.checked_sub(first).and_then(|index| loads.get(index));
+    let laid = void.index().checked_sub(first);
+    let laid = laid.and_then(|index| loads.get(index));
     laid.map_or(placed.shop.printer.min_opening_mm.value, |placed| {
         2.0 * placed.lump.shape.radius_mm()
     })
@@ -72,7 +68,7 @@ fn least_opening_mm(placed: &Placed, made: &Made, void: usize) -> f64 {
 /// The voids as the judge sees them.
 pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     let promised = |access: &VoidAccess| PromisedVoid {
-        id: void_id(access.void),
+        id: access.void.to_string(),
         sight_ratio: Some(access.sight_ratio),
         least_opening_mm: Some(least_opening_mm(placed, made, access.void)),
     };
@@ -82,11 +78,11 @@ pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
 /// The cuts as the sheet lists them.
 pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
     let side = |side: &CutSide| SideRow {
-        cut: side.cut.clone(),
+        cut: side.cut.to_string(),
         side: side.side.word().to_owned(),
     };
     let row = |cut: &Cut| CutRow {
-        id: cut.id.clone(),
+        id: cut.id.to_string(),
         point_mm: cut.point_mm,
         normal: cut.normal,
         within: cut.within.iter().map(side).collect(),
@@ -108,7 +104,7 @@ pub fn promised_cuts(plan: &CutPlan) -> Vec<PromisedCut> {
 /// The rounds in which something was kept solid, with their values as `shown` tells them.
 pub fn cleaning_rows(rounds: &[CleaningRound], shown: impl Fn(f64) -> f64) -> Vec<CleaningRow> {
     let kept = |kept: &KeptSolid| KeptRow {
-        void: void_id(kept.void),
+        void: kept.void.to_string(),
         why: kept.cause.to_string(),
     };
     let row = |round: &CleaningRound| CleaningRow {
