@@ -15,8 +15,9 @@
 use std::path::Path;
 use std::time::Instant;
 
+use equipoise::base::verdict::Verdict;
 use equipoise::cut::{
-    Cut, CutError, CutId, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings,
+    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Obstacle, Part, PinSettings,
     PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
@@ -238,11 +239,18 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
         body.voids.len(),
         order.cuts.len()
     );
-    let plan = match plan_by(&body, &request, &order) {
-        Err(CutError::ClosedCavity { .. }) => return format!("{told}: a void stays closed"),
-        plan => plan.unwrap_or_else(|error| panic!("{told}: {error}")),
+    let plan = plan_by(&body, &request, &order).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let plan = match plan {
+        Verdict::Found(plan) => plan,
+        Verdict::No(Obstacle::ClosedCavity { .. }) => {
+            return format!("{told}: a void stays closed");
+        }
+        Verdict::No(obstacle) => panic!("{told}: {obstacle}"),
     };
     let made = parts(&body, &plan, &request).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let made: Vec<Part> = made
+        .or_error()
+        .unwrap_or_else(|why: Obstacle| panic!("{told}: {why}"));
     assert_nothing_is_lost(&told, &body, &plan, &made);
     assert_written_parts_are_sound(&told, &made);
     format!("{told}: {} parts, {} pins", made.len(), plan.pins.len())

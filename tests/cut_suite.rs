@@ -62,6 +62,7 @@ fn block() -> Solid {
 /// How many cuts the planner makes, and how many voids it leaves narrower than asked.
 fn planned(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
     let plan = plan(&Hollowed { outer, voids }, &request()).unwrap();
+    let plan = plan.found().unwrap();
     (
         plan.cuts.len(),
         plan.voids

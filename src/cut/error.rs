@@ -1,30 +1,16 @@
 //! Why no cut plan or no parts could be made.
 
 use crate::{
-    base::toml_text::TextFault,
+    base::{toml_text::TextFault, verdict::Verdict},
     cut::ids::{CutId, PartId, PinId, VoidId},
     mesh::ClipError,
 };
 
-/// Why no cut plan or no parts could be made. The message counts voids from 0.
+/// Why a body has no plan, or a plan no parts: an answer, not a failure. The message counts voids
+/// from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
-pub enum CutError {
-    /// A length of the request is not positive or not finite.
-    #[error("{name} is {value}, but must be a positive number")]
-    BadRequest {
-        /// The field of the request.
-        name: &'static str,
-        /// Its value.
-        value: f64,
-    },
-    /// More voids than a plan can tell apart.
-    #[error("there are {voids} voids, but a plan handles at most {limit}; fill the smallest")]
-    TooManyVoids {
-        /// How many there are.
-        voids: usize,
-        /// How many a plan handles.
-        limit: usize,
-    },
+#[non_exhaustive]
+pub enum Obstacle {
     /// No plane of the family opens these voids wide enough.
     #[error(
         "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; fill the void or accept a smaller opening",
@@ -38,19 +24,6 @@ pub enum CutError {
         /// The opening asked for, mm.
         needed_mm: f64,
     },
-    /// A cut of the plan has a normal without length or a point that is not finite.
-    #[error(
-        "cut {cut} is degenerate: its normal must have a length and all its numbers must be finite"
-    )]
-    DegenerateCut {
-        /// The cut's id.
-        cut: CutId,
-    },
-    /// Cuts that are made within each other, on both sides of one, or within one that is not there.
-    #[error(
-        "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
-    )]
-    CircularCuts,
     /// A part would enclose a cavity.
     #[error(
         "the cuts leave {cavities} of its voids closed in a part ({part}); add a cut through them, or take `--cut auto`"
@@ -69,6 +42,44 @@ pub enum CutError {
         /// The pin's id.
         pin: PinId,
     },
+}
+
+/// Why planning or cutting failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CutError {
+    /// A length of the request is not positive or not finite.
+    #[error("{name} is {value}, but must be a positive number")]
+    BadRequest {
+        /// The field of the request.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// More voids than a plan can tell apart.
+    #[error("there are {voids} voids, but a plan handles at most {limit}; fill the smallest")]
+    TooManyVoids {
+        /// How many there are.
+        voids: usize,
+        /// How many a plan handles.
+        limit: usize,
+    },
+    /// A cut of the plan has a normal without length or a point that is not finite.
+    #[error(
+        "cut {cut} is degenerate: its normal must have a length and all its numbers must be finite"
+    )]
+    DegenerateCut {
+        /// The cut's id.
+        cut: CutId,
+    },
+    /// Cuts that are made within each other, on both sides of one, or within one that is not there.
+    #[error(
+        "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
+    )]
+    CircularCuts,
+    /// There is no plan or there are no parts, where there must be.
+    #[error(transparent)]
+    Obstacle(#[from] Obstacle),
     /// The catalogue of rods cannot be read.
     #[error(transparent)]
     Rods(#[from] TextFault),
@@ -84,4 +95,13 @@ fn list(voids: &[VoidId]) -> String {
         .map(|void| void.index().to_string())
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// Makes an obstacle the answer no; other errors stay errors.
+pub(crate) fn verdict<T>(result: Result<T, CutError>) -> Result<Verdict<T, Obstacle>, CutError> {
+    match result {
+        Ok(found) => Ok(Verdict::Found(found)),
+        Err(CutError::Obstacle(why)) => Ok(Verdict::No(why)),
+        Err(error) => Err(error),
+    }
 }

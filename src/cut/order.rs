@@ -90,8 +90,8 @@ pub enum OrderError {
     BadPin {
         /// The pin's id.
         id: PinId,
-        /// What is wrong with it, and the remedy.
-        reason: &'static str,
+        /// What is wrong with it.
+        reason: PinFault,
     },
 }
 
@@ -114,6 +114,38 @@ impl fmt::Display for Namer {
             Self::Pin(id) => write!(f, "pin {id}"),
         }
     }
+}
+
+/// Why a pin cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PinFault {
+    /// Its centre or direction is not finite, or its direction has no length.
+    #[error("its centre and direction must be finite, and the direction have a length")]
+    NoPlace,
+    /// A diameter, its length or its depth is no positive number.
+    #[error("its diameters, length and depth must be positive numbers, mm")]
+    NoSize,
+    /// A chamfer is negative.
+    #[error("its chamfers must be zero or positive, mm")]
+    NegativeChamfer,
+    /// The density of its dowel is no positive number.
+    #[error("its dowel's density must be a positive number, g/cm³")]
+    NoDensity,
+    /// Its dowel is longer than both sockets are deep.
+    #[error("its dowel must be no longer than both sockets are deep")]
+    LongDowel,
+    /// Its chamfer takes all of its tip.
+    #[error("its chamfer must be less than its radius and its length")]
+    WideChamfer,
+    /// The chamfer of its socket takes all of the socket.
+    #[error("its socket's chamfer must be less than the socket's depth")]
+    DeepChamfer,
+    /// Its socket does not hold it.
+    #[error(
+        "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance"
+    )]
+    TightSocket,
 }
 
 impl CutOrder {
@@ -230,7 +262,7 @@ fn twin<'a, T: Ord>(ids: impl Iterator<Item = &'a T>) -> Option<&'a T> {
 }
 
 /// What keeps a pin from being made.
-fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
+fn check_pin(pin: &PinSite) -> Result<(), PinFault> {
     let sizes = [
         pin.diameter_mm,
         pin.length_mm,
@@ -240,35 +272,33 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
     let chamfers = [pin.chamfer_mm, pin.socket_chamfer_mm];
     let places = [pin.center_mm, pin.direction];
     if !places.as_flattened().iter().all(|x| x.is_finite()) || pin.direction == [0.0; 3] {
-        return Err("its centre and direction must be finite, and the direction have a length");
+        return Err(PinFault::NoPlace);
     }
     if !sizes.iter().all(|size| size.is_finite() && *size > 0.0) {
-        return Err("its diameters, length and depth must be positive numbers, mm");
+        return Err(PinFault::NoSize);
     }
     if !chamfers
         .iter()
         .all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0)
     {
-        return Err("its chamfers must be zero or positive, mm");
+        return Err(PinFault::NegativeChamfer);
     }
     if let Some(dowel) = &pin.dowel {
         if !(dowel.density_g_cm3 > 0.0 && dowel.density_g_cm3.is_finite()) {
-            return Err("its dowel's density must be a positive number, g/cm³");
+            return Err(PinFault::NoDensity);
         }
         if !(dowel.length_mm > 0.0 && dowel.length_mm <= 2.0 * pin.socket_depth_mm) {
-            return Err("its dowel must be no longer than both sockets are deep");
+            return Err(PinFault::LongDowel);
         }
     }
     if 2.0 * pin.chamfer_mm >= pin.diameter_mm || pin.chamfer_mm >= pin.length_mm {
-        return Err("its chamfer must be less than its radius and its length");
+        return Err(PinFault::WideChamfer);
     }
     if pin.socket_chamfer_mm >= pin.socket_depth_mm {
-        return Err("its socket's chamfer must be less than the socket's depth");
+        return Err(PinFault::DeepChamfer);
     }
     if pin.socket_diameter_mm <= pin.diameter_mm || pin.socket_depth_mm < pin.length_mm {
-        return Err(
-            "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance",
-        );
+        return Err(PinFault::TightSocket);
     }
     Ok(())
 }
@@ -276,10 +306,7 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{
-        plan, plan_by,
-        scenes::{ball, request, with_balls},
-    };
+    use crate::cut::scenes::{ball, plan, plan_by, request, with_balls};
 
     fn planned() -> (crate::mesh::Hollowed, CutPlan) {
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
@@ -383,7 +410,11 @@ mod tests {
         order.pins = Some(pins);
         let made = plan_by(&body, &request(), &order).unwrap();
         assert!(
-            !made.joints[0].one_way && made.notes.iter().any(|n| n.contains("more than one way")),
+            !made.joints[0].one_way
+                && made
+                    .notes
+                    .iter()
+                    .any(|n| n.to_string().contains("more than one way")),
             "{made:?}"
         );
     }

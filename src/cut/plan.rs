@@ -10,6 +10,8 @@ use crate::{
         },
         ids::{CutId, PartId, PinId, VoidId},
         joints::{label::Label, pin_shape::PinSite},
+        remark::Remark,
+        side::{CutSide, Side},
     },
     geom::{Aabb, Parting, Plane, Point, Vector},
     mass::FlatFace,
@@ -41,12 +43,9 @@ pub struct CutPlan {
     /// of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
-    /// How the number of its cuts came about: the first of the notes.
-    #[serde(skip)]
-    pub proofs: Vec<String>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for
     /// pins.
-    pub notes: Vec<String>,
+    pub notes: Vec<Remark>,
 }
 
 /// A plane cut.
@@ -62,40 +61,6 @@ pub struct Cut {
     /// The sides of other cuts on which alone it cuts; everywhere where there are none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub within: Vec<CutSide>,
-}
-
-/// What lies on one side of a cut, where that cut is made.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CutSide {
-    /// The cut's id.
-    pub cut: CutId,
-    /// Which side of it.
-    pub side: Side,
-}
-
-/// A side of a cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Side {
-    /// Where its normal points to.
-    Above,
-    /// Where its normal points away from.
-    Below,
-}
-
-impl Side {
-    pub(crate) fn of(is_above: bool) -> Self {
-        if is_above { Self::Above } else { Self::Below }
-    }
-
-    /// `above` or `below`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Above => "above",
-            Self::Below => "below",
-        }
-    }
 }
 
 /// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing
@@ -178,7 +143,6 @@ impl CutPlan {
             uncut: Vec::new(),
             solid: Vec::new(),
             moves: Vec::new(),
-            proofs: Vec::new(),
             notes: Vec::new(),
         }
     }
@@ -208,6 +172,11 @@ impl CutPlan {
         self.cuts
             .iter()
             .filter(move |cut| joints().any(|joint| joint.cut == cut.id))
+    }
+
+    /// Returns the notes on how its cuts were found.
+    pub fn proofs(&self) -> impl Iterator<Item = &Remark> {
+        self.notes.iter().filter(|note| note.is_proof())
     }
 
     /// Its cuts as they are made, in their order.

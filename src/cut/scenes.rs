@@ -1,7 +1,9 @@
 //! Bodies and requests for the tests of this folder.
 
 use crate::{
-    cut::{GoalAxis, PinSettings, PlanRequest, PosePreference},
+    cut::{
+        self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference,
+    },
     geom::{Point, Vector},
     mesh::{Hollowed, Solid, TriMesh},
     printer::Cleaning,
@@ -107,4 +109,27 @@ pub(crate) fn request() -> PlanRequest {
         rods: Vec::new(),
         labels: None,
     }
+}
+
+/// A plan as in [`cut::plan`], an obstacle being an error.
+pub(crate) fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
+    cut::plan(hollowed, request)?.or_error()
+}
+
+/// A plan as in [`cut::plan_by`], an obstacle being an error.
+pub(crate) fn plan_by(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    order: &CutOrder,
+) -> Result<CutPlan, CutError> {
+    cut::plan_by(hollowed, request, order)?.or_error()
+}
+
+/// The parts as in [`cut::parts`], an obstacle being an error.
+pub(crate) fn parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<Vec<Part>, CutError> {
+    cut::parts(hollowed, plan, request)?.or_error()
 }

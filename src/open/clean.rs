@@ -2,7 +2,8 @@
 
 use super::plan::plan_once;
 use super::resolve::Resolver;
-use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, Unclean, VoidId, unclean};
+use crate::base::verdict::Verdict;
+use crate::cut::{CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, unclean};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
@@ -41,10 +42,10 @@ pub fn clean(
     let mut request = request.clone();
     loop {
         resolver.watch().check()?;
-        let plan = plan_once(placed, &voids, &request);
+        let plan = plan_once(placed, &voids, &request)?;
         let dirty = uncleaned(placed, &voids, &plan, &request, rounds.len())?;
         if dirty.bodies.is_empty() || rounds.len() == placed.policy.cleaning_rounds {
-            let plan = plan?;
+            let plan = plan.or_error::<CutError>()?;
             return Ok(Cleaned {
                 voids,
                 plan,
@@ -58,10 +59,10 @@ pub fn clean(
                 rounds.push(round);
             }
             // Rather any further cut than a goal that cannot be met.
-            (None, Ok(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
+            (None, Verdict::Found(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
             (None, plan) => {
                 rounds.push(round);
-                let plan = plan?;
+                let plan = plan.or_error::<CutError>()?;
                 return Ok(Cleaned {
                     voids,
                     plan,
@@ -76,14 +77,14 @@ pub fn clean(
 fn uncleaned(
     placed: &Placed,
     voids: &Voids,
-    plan: &Result<CutPlan, CutError>,
+    plan: &Verdict<CutPlan, Obstacle>,
     request: &PlanRequest,
     rounds: usize,
 ) -> Result<Keep, Error> {
     let policy = &placed.policy;
     let whole = rounds >= policy.shrinking_rounds;
     let (unclean, margin_openings) = match plan {
-        Ok(plan) if placed.job.cut != CutMode::Never => (
+        Verdict::Found(plan) if placed.job.cut != CutMode::Never => (
             unclean(&voids.hollowed, plan, request, whole)?,
             if whole {
                 policy.refused_margin_openings
@@ -91,7 +92,9 @@ fn uncleaned(
                 policy.cleaning_margin_openings
             },
         ),
-        Err(CutError::Unopenable { voids: closed, .. }) if are_empty(voids, closed, request) => {
+        Verdict::No(Obstacle::Unopenable { voids: closed, .. })
+            if are_empty(voids, closed, request) =>
+        {
             let keep = keep_unopenable(voids, closed, policy.refused_margin_openings);
             return Ok(keep);
         }
@@ -99,7 +102,7 @@ fn uncleaned(
     };
     let kept = |unclean: &Unclean| KeptSolid {
         void: unclean.void,
-        cause: KeptCause::Uncleanable(unclean.why.clone()),
+        cause: KeptCause::Uncleanable(unclean.cause),
     };
     Ok(Keep {
         kept: unclean.iter().map(kept).collect(),

@@ -5,7 +5,7 @@ use std::fmt;
 use super::Rung;
 use crate::advice::Reached;
 use crate::base::units::counted;
-use crate::cut::PartId;
+use crate::cut::{PartId, UncleanCause};
 use crate::goal::{Request, Up};
 
 /// A note for the job sheet.
@@ -134,7 +134,7 @@ impl fmt::Display for Refusal {
 }
 
 /// Why a part of a void is kept solid.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeptCause {
     /// It lies beyond a joint without room for pins.
     BeyondJoint,
@@ -142,18 +142,18 @@ pub enum KeptCause {
     Ordered,
     /// No cut opens the void.
     Unopenable,
-    /// It cannot be cleaned, in the words of the cleaning rule.
-    Uncleanable(String),
+    /// It cannot be cleaned.
+    Uncleanable(UncleanCause),
 }
 
 impl fmt::Display for KeptCause {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::BeyondJoint => "the end beyond a joint without room for pins",
-            Self::Ordered => "the plan keeps it solid",
-            Self::Unopenable => "no cut opens it wide enough",
-            Self::Uncleanable(why) => why,
-        })
+        match self {
+            Self::BeyondJoint => f.write_str("the end beyond a joint without room for pins"),
+            Self::Ordered => f.write_str("the plan keeps it solid"),
+            Self::Unopenable => f.write_str("no cut opens it wide enough"),
+            Self::Uncleanable(cause) => cause.fmt(f),
+        }
     }
 }
 

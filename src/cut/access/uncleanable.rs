@@ -17,6 +17,7 @@ use crate::{
             split::{Joint, Piece, joints},
         },
         plan::{Cut, CutPlan, JointNote, SolidEnd, tree_of},
+        remark::UncleanCause,
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
@@ -45,8 +46,8 @@ const SAME_CORNER_MM: f64 = 1e-9;
 pub struct Unclean {
     /// The void.
     pub void: VoidId,
-    /// Why, in words with numbers.
-    pub why: String,
+    /// The reason.
+    pub cause: UncleanCause,
     /// What of it is to be kept solid, as bodies.
     pub lumps: Vec<TriMesh>,
 }
@@ -80,19 +81,18 @@ pub fn unclean(
         } else {
             lumps(&opened)?
         };
-        let why = if access.sight_ratio < asked {
-            let percent = |ratio: f64| 100.0 * ratio;
-            let (seen, asked) = (percent(access.sight_ratio), percent(asked));
-            format!(
-                "{seen:.1} % of its wall in sight, asked are {asked:.1} %, the planner's margin with it"
-            )
+        let cause = if access.sight_ratio < asked {
+            UncleanCause::Hidden {
+                sight_ratio: access.sight_ratio,
+                asked_ratio: asked,
+            }
         } else {
-            format!(
-                "it opens by {:.2} mm, asked are {needed_mm:.2} mm",
-                access.opening_mm
-            )
+            UncleanCause::Narrow {
+                opening_mm: access.opening_mm,
+                least_opening_mm: needed_mm,
+            }
         };
-        Ok(Unclean { void, why, lumps })
+        Ok(Unclean { void, cause, lumps })
     };
     dirty.par_iter().map(of).collect()
 }
@@ -124,7 +124,7 @@ pub fn closed(
     let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
     let all = |(void, solid): (VoidId, &Solid)| Unclean {
         void,
-        why: "no cut opens it".to_owned(),
+        cause: UncleanCause::Closed,
         lumps: vec![solid.mesh().clone()],
     };
     Ok(shut.map(all).collect())
@@ -336,7 +336,10 @@ fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutErr
 mod tests {
     use super::*;
     use crate::{
-        cut::{CutOrder, plan_by, scenes::request},
+        cut::{
+            CutOrder,
+            scenes::{plan_by, request},
+        },
         mesh::primitives,
         printer::{Cleaning, CleaningRule},
     };
@@ -390,7 +393,7 @@ mod tests {
         );
         let lump = found[0].lumps[0].aabb();
         assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
-        assert!(found[0].why.contains("in sight"));
+        assert!(matches!(found[0].cause, UncleanCause::Hidden { .. }));
         let all = unclean(&hollowed, &plan, &request, true).unwrap();
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
     }
@@ -473,7 +476,7 @@ mod tests {
     #[test]
     fn the_planner_cuts_along_the_bend_so_that_all_is_seen() {
         let (hollowed, request, _) = bent();
-        let plan = crate::cut::plan(&hollowed, &request).unwrap();
+        let plan = crate::cut::scenes::plan(&hollowed, &request).unwrap();
         assert!(plan.voids[0].is_clean, "{:?}", plan.voids);
         assert_eq!(plan.cuts.len(), 1, "{:?}", plan.cuts);
     }

@@ -9,6 +9,7 @@ use crate::{
             placement::{PinScene, Placement},
         },
         pieces::split::{Cap, Joint},
+        remark::Remark,
         request::LabelStyle,
     },
     geom::{Bvh, Plane, Point, Vector},
@@ -179,7 +180,7 @@ pub(crate) fn labels(
     scene: &PinScene,
     joints: &[Joint],
     placements: &[Placement],
-) -> (Vec<Label>, Vec<String>) {
+) -> (Vec<Label>, Vec<Remark>) {
     let Some(style) = scene.request.labels else {
         return (Vec::new(), Vec::new());
     };
@@ -200,11 +201,10 @@ pub(crate) fn labels(
         for part in [joint.below, joint.above] {
             match marker.label(joint, part) {
                 Some(label) => labels.push(label),
-                None => notes.push(format!(
-                    "no room for an id in the face of {} in cut {}: write it on",
-                    PartId::of(part),
-                    CutId::of(joint.cut)
-                )),
+                None => notes.push(Remark::NoRoomForLabel {
+                    part: PartId::of(part),
+                    cut: CutId::of(joint.cut),
+                }),
             }
         }
     }

@@ -3,7 +3,7 @@
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::chart::Chart,
         ids::{CutId, PinId},
         joints::{
@@ -91,7 +91,7 @@ pub(crate) fn seated(
 ) -> Result<Vec<Placement>, CutError> {
     let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
     for pin in pins {
-        let lost = || CutError::PinOffFace {
+        let lost = || Obstacle::PinOffFace {
             pin: pin.id.clone(),
         };
         let is_under = |joint: &Joint| {

@@ -3,7 +3,7 @@
 use crate::{
     cut::{
         joints::pin_shape::SIDES,
-        scenes::{ball, cuboid, request, with_balls},
+        scenes::{ball, cuboid, parts, plan, plan_by, request, with_balls},
         tests::{assert_volumes_add_up, cuts, kit},
         *,
     },
@@ -65,7 +65,10 @@ fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_t
         pins: Some(found.iter().map(|boss| boss.pin.clone()).collect()),
         ..CutOrder::of(&plan)
     };
-    let plan = plan_around(&body, &request(), &order).unwrap();
+    let plan = plan_around(&body, &request(), &order)
+        .unwrap()
+        .found()
+        .unwrap();
     assert!(
         plan.joints[0].one_way && plan.pins.len() == 2,
         "{:?}",
@@ -199,7 +202,7 @@ fn dowels_have_a_socket_in_either_part_and_leave_all_cut_faces_flat() {
     }
     for part in &parts {
         assert!(
-            part.pins.is_empty() && part.pose.lies.ends_with("down"),
+            part.pins.is_empty() && matches!(part.pose.lies, Lie::CutFaceDown(_)),
             "{}",
             part.pose.lies
         );

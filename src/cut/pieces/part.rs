@@ -5,8 +5,9 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::{
+    base::verdict::Verdict,
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
         ids::{PartId, VoidId},
         joints::{contact::refaced, label::Label, pin_shape::PinSite},
@@ -73,14 +74,9 @@ pub fn parts(
     hollowed: &Hollowed,
     plan: &CutPlan,
     request: &PlanRequest,
-) -> Result<Vec<Part>, CutError> {
-    let tree = plan.tree()?;
-    parts_of(
-        hollowed,
-        plan,
-        (&tree, &pieces(hollowed, plan, &tree)?),
-        request,
-    )
+) -> Result<Verdict<Vec<Part>, Obstacle>, CutError> {
+    let parts = parts_and_faces(hollowed, plan, request)?;
+    Ok(parts.map(|(parts, _)| parts))
 }
 
 /// The parts, and the plan with the faces of its joints as they are in this body.
@@ -88,10 +84,24 @@ pub fn parts_and_faces(
     hollowed: &Hollowed,
     plan: &CutPlan,
     request: &PlanRequest,
+) -> Result<Verdict<(Vec<Part>, CutPlan), Obstacle>, CutError> {
+    verdict(make_parts(hollowed, plan, request))
+}
+
+fn make_parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
 ) -> Result<(Vec<Part>, CutPlan), CutError> {
     let tree = plan.tree()?;
     let pieces = pieces(hollowed, plan, &tree)?;
-    let parts = parts_of(hollowed, plan, (&tree, &pieces), request)?;
+    let maker = PartMaker {
+        hollowed,
+        plan,
+        tree: &tree,
+        request,
+    };
+    let parts = maker.parts(&pieces)?;
     Ok((parts, refaced(&pieces, &tree, plan.clone())))
 }
 
@@ -109,58 +119,64 @@ pub(crate) fn pieces(
     Ok(pieces)
 }
 
-fn parts_of(
-    hollowed: &Hollowed,
-    plan: &CutPlan,
-    (tree, pieces): (&CutTree, &[Piece]),
-    request: &PlanRequest,
-) -> Result<Vec<Part>, CutError> {
-    let planes = &tree.planes;
-    let seats = plan
-        .pins
-        .iter()
-        .map(|pin| seat(plan, planes, pieces, pin))
-        .collect::<Result<Vec<_>, _>>()?;
-    let void_of = void_vertices(hollowed);
-    let part = |(index, piece): (usize, &Piece)| {
-        let carried = || seats.iter().filter(move |seat| seat.carrier == index);
-        let received = || seats.iter().filter(move |seat| seat.receiver == index);
-        let standing = carried().filter(|seat| seat.site.dowel.is_none());
-        let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
-        let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
-        let pins: Vec<PinSite> = carried()
-            .filter(is_printed)
-            .map(|seat| seat.site.clone())
-            .collect();
-        let second = carried()
-            .filter(|seat| !is_printed(seat))
-            .map(|seat| seat.site.mirrored());
-        let sockets: Vec<PinSite> = received()
-            .map(|seat| seat.site.clone())
-            .chain(second)
-            .collect();
-        let labels: Vec<Label> = plan
-            .labels
+/// A plan and the body that it cuts.
+struct PartMaker<'a> {
+    hollowed: &'a Hollowed,
+    plan: &'a CutPlan,
+    tree: &'a CutTree,
+    request: &'a PlanRequest,
+}
+
+impl PartMaker<'_> {
+    fn parts(&self, pieces: &[Piece]) -> Result<Vec<Part>, CutError> {
+        let Self { plan, request, .. } = *self;
+        let planes = &self.tree.planes;
+        let seats = plan
+            .pins
             .iter()
-            .filter(|label| label.part == PartId::of(index))
-            .cloned()
-            .collect();
-        let solid = fitted(piece, (&pins, &sockets), &labels)?;
-        Ok(Part {
-            id: PartId::of(index),
-            pose: laid(
-                solid.mesh(),
-                &sides_down(piece, planes, &pin_cuts, request),
-                request,
-            ),
-            solid,
-            pins,
-            sockets,
-            labels,
-            voids: voids_of(piece, &void_of),
-        })
-    };
-    pieces.par_iter().enumerate().map(part).collect()
+            .map(|pin| seat(plan, planes, pieces, pin))
+            .collect::<Result<Vec<_>, _>>()?;
+        let void_of = void_vertices(self.hollowed);
+        let part = |(index, piece): (usize, &Piece)| {
+            let carried = || seats.iter().filter(move |seat| seat.carrier == index);
+            let received = || seats.iter().filter(move |seat| seat.receiver == index);
+            let standing = carried().filter(|seat| seat.site.dowel.is_none());
+            let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
+            let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
+            let pins: Vec<PinSite> = carried()
+                .filter(is_printed)
+                .map(|seat| seat.site.clone())
+                .collect();
+            let second = carried()
+                .filter(|seat| !is_printed(seat))
+                .map(|seat| seat.site.mirrored());
+            let sockets: Vec<PinSite> = received()
+                .map(|seat| seat.site.clone())
+                .chain(second)
+                .collect();
+            let labels: Vec<Label> = plan
+                .labels
+                .iter()
+                .filter(|label| label.part == PartId::of(index))
+                .cloned()
+                .collect();
+            let solid = fitted(piece, (&pins, &sockets), &labels)?;
+            Ok(Part {
+                id: PartId::of(index),
+                pose: laid(
+                    solid.mesh(),
+                    &sides_down(piece, planes, &pin_cuts, request),
+                    request,
+                ),
+                solid,
+                pins,
+                sockets,
+                labels,
+                voids: voids_of(piece, &void_of),
+            })
+        };
+        pieces.par_iter().enumerate().map(part).collect()
+    }
 }
 
 /// Which pieces a pin joins.
@@ -170,7 +186,7 @@ fn seat<'a>(
     pieces: &[Piece],
     site: &'a PinSite,
 ) -> Result<Seat<'a>, CutError> {
-    let lost = || CutError::PinOffFace {
+    let lost = || Obstacle::PinOffFace {
         pin: site.id.clone(),
     };
     let cut = index_of(&plan.cuts, &site.cut).ok_or_else(lost)?;

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::{
             chart::{Chart, Point2},
             outline::Outline,
@@ -135,7 +135,7 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
             .count();
         if cavities > 0 {
             let part = PartId::of(part);
-            return Err(CutError::ClosedCavity { part, cavities });
+            return Err(Obstacle::ClosedCavity { part, cavities }.into());
         }
     }
     Ok(())

@@ -9,6 +9,7 @@ use crate::{
         geometry::tree::CutTree,
         ids::{CutId, VoidId},
         planner::score::{Scene, burden},
+        remark::{Remark, SightGain},
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
     mass::{Body, moments_of_mesh},
@@ -214,7 +215,7 @@ impl Trial<'_> {
 pub(crate) fn add_extra_cuts(
     scene: &Scene,
     mut tried: Tried,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Remark>,
 ) -> Result<Tried, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
         if tried.is_nearly_clean(scene) {
@@ -229,33 +230,25 @@ pub(crate) fn add_extra_cuts(
         {
             break;
         }
-        notes.push(note(&tried, &next));
+        notes.push(cleaning_cut(&tried, &next));
         tried = next;
     }
     Ok(tried)
 }
 
-/// What a further cut is for.
-fn note(before: &Tried, after: &Tried) -> String {
-    let changed = before
-        .voids
-        .iter()
-        .zip(&after.voids)
-        .filter(|(b, a)| a.sight_ratio > b.sight_ratio);
-    let percent = |ratio: f64| 100.0 * ratio;
-    let told = changed.map(|(b, a)| {
-        let (was, is) = (percent(b.sight_ratio), percent(a.sight_ratio));
-        format!(
-            "void {}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
-            a.void
-        )
-    });
-    let told: Vec<String> = told.collect();
-    format!(
-        "cut {}: so that voids can be cleaned ({})",
-        CutId::of(before.planes.len()),
-        told.join("; ")
-    )
+/// The remark on a further cut: the voids of which it brings more into sight.
+fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
+    let pairs = before.voids.iter().zip(&after.voids);
+    let changed = pairs.filter(|(b, a)| a.sight_ratio > b.sight_ratio);
+    let gain = |(b, a): (&VoidAccess, &VoidAccess)| SightGain {
+        void: a.void,
+        before_ratio: b.sight_ratio,
+        after_ratio: a.sight_ratio,
+    };
+    Remark::CleaningCut {
+        cut: CutId::of(before.planes.len()),
+        gains: changed.map(gain).collect(),
+    }
 }
 
 /// The cuts with the one more that lets the void that lacks most be cleaned best.

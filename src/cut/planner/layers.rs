@@ -15,6 +15,7 @@ use crate::{
         },
         plan::{CutMove, CutPlan},
         planner::{layout::Layout, score::Scene, to_plan::to_plan},
+        remark::Remark,
         request::PlanRequest,
     },
     geom::{Plane, Vector},
@@ -51,7 +52,7 @@ pub(crate) fn at_layers(
     scene: &Scene,
     layout: &Layout,
     plan: CutPlan,
-    notes: Vec<String>,
+    notes: Vec<Remark>,
 ) -> Result<CutPlan, CutError> {
     let moves = moves(scene.request, layout, &plan);
     if moves.is_empty() {
@@ -79,7 +80,7 @@ pub(crate) fn at_layers(
     };
     Ok(CutPlan {
         moves: moved,
-        ..to_plan(scene, &layout, (Pins::Placed, notes))?
+        ..to_plan(scene, &layout, Pins::Placed, notes)?
     })
 }
 
@@ -212,8 +213,8 @@ fn still_open(
 mod tests {
     use crate::{
         cut::{
-            PlanRequest, PosePreference, apply, parts, plan,
-            scenes::{cuboid, request, with_balls},
+            PlanRequest, PosePreference, apply,
+            scenes::{cuboid, parts, plan, request, with_balls},
         },
         geom::{Point, Vector},
     };

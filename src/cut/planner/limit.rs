@@ -128,11 +128,9 @@ mod tests {
             CutId, CutOrder, PlanRequest,
             access::void_access::accesses,
             joints::pins::Pins,
-            parts,
             pieces::split::joints,
-            plan_by,
             planner::{layout::Layout, to_plan::to_plan},
-            scenes::{cuboid, request, with_balls},
+            scenes::{cuboid, parts, plan_by, request, with_balls},
         },
         geom::Vector,
         mesh::Hollowed,
@@ -299,7 +297,7 @@ mod tests {
             pieces,
             bridges: Vec::new(),
         };
-        let plan = to_plan(&scene, &layout, (Pins::Placed, Vec::new())).unwrap();
+        let plan = to_plan(&scene, &layout, Pins::Placed, Vec::new()).unwrap();
         assert!(
             plan.joints.iter().all(|joint| joint.is_aligned()),
             "{:?}",

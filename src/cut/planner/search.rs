@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::opening::Opening,
         ids::VoidId,
         planner::{
@@ -12,6 +12,7 @@ use crate::{
             family::{Candidate, candidates},
             score::{AMPLE_OPENING_RATIO, Burden, Scene, burden, opening_penalty},
         },
+        remark::Proof,
     },
     geom::Plane,
 };
@@ -51,6 +52,18 @@ pub(crate) struct Found {
     pub(crate) nodes: u64,
     /// Whether no plan of the family has fewer cuts.
     pub(crate) is_proved: bool,
+}
+
+impl Found {
+    /// The number of cuts, and how it was proved.
+    pub(crate) fn proof(&self) -> Proof {
+        Proof {
+            cuts: self.plans.first().map_or(0, Vec::len),
+            family: self.family,
+            nodes: self.nodes,
+            is_proved: self.is_proved,
+        }
+    }
 }
 
 /// The smallest plans from the family. At least one void is required.
@@ -256,7 +269,7 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
 }
 
 /// Which voids none of the planes opens wide enough.
-fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
+fn unopenable(scene: &Scene, exact: &[Exact]) -> Obstacle {
     let widest = |&void: &usize| widest_mm(exact.iter(), void);
     let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
@@ -264,7 +277,7 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
         .first()
         .map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
-    CutError::Unopenable {
+    Obstacle::Unopenable {
         voids: voids.into_iter().map(VoidId::of).collect(),
         widest_mm,
         needed_mm,

@@ -9,7 +9,7 @@ use crate::{
             chart::Chart,
             tree::{CutTree, Limit},
         },
-        ids::{CutId, PartId},
+        ids::CutId,
         joints::{
             contact::contact,
             label::labels,
@@ -18,8 +18,9 @@ use crate::{
             placement::{PinScene, Placement},
         },
         pieces::split::{Joint, check_no_cavity, joints},
-        plan::{Bridge, Cut, CutPlan, CutSide, JointNote, Side, UncutFace, index_of},
+        plan::{Bridge, Cut, CutPlan, JointNote, UncutFace, index_of},
         planner::{layout::Layout, score::Scene},
+        remark::{PinLack, Remark},
         request::PlanRequest,
     },
     geom::Plane,
@@ -29,7 +30,8 @@ use crate::{
 pub(crate) fn to_plan(
     scene: &Scene,
     layout: &Layout,
-    (pins, mut notes): (Pins, Vec<String>),
+    pins: Pins,
+    mut notes: Vec<Remark>,
 ) -> Result<CutPlan, CutError> {
     let Layout {
         tree,
@@ -45,14 +47,13 @@ pub(crate) fn to_plan(
     };
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
-    let proofs = notes.clone();
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let told = joints.iter().zip(&placements);
     notes.extend(
         told.clone()
-            .filter_map(|(joint, placement)| shortage(scene.request, joint, placement)),
+            .filter_map(|(joint, placement)| pin_lack(scene.request, joint, placement)),
     );
-    notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
+    notes.extend(voids.iter().filter_map(|void| narrow_piece(scene, void)));
     notes.extend(unlabelled);
     Ok(CutPlan {
         cuts: (0..tree.planes.len())
@@ -74,7 +75,6 @@ pub(crate) fn to_plan(
         notes,
         solid: Vec::new(),
         moves: Vec::new(),
-        proofs,
     })
 }
 
@@ -122,53 +122,37 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
     }
 }
 
-/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket
-/// behind one of them.
-fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
-    let (index, opening) = (void.void.index(), void.opening_mm);
-    let asked = scene
-        .request
-        .needed_mm(void.void, scene.hollowed.voids.len());
-    let note = || {
-        format!(
-            "void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm"
-        )
-    };
-    (opening < asked).then(note)
+/// The remark on a void one of whose pieces has a narrow mouth.
+fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
+    let voids = scene.hollowed.voids.len();
+    let least_opening_mm = scene.request.needed_mm(void.void, voids);
+    (void.opening_mm < least_opening_mm).then_some(Remark::NarrowPiece {
+        void: void.void,
+        opening_mm: void.opening_mm,
+        least_opening_mm,
+    })
 }
 
-/// What to say of a joint that has not at least two pins that fit one way only.
-fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<String> {
-    let name = format!(
-        "joint {}–{}",
-        PartId::of(joint.below),
-        PartId::of(joint.above)
-    );
-    let (widest, needed) = (placement.widest_mm, needed_room_mm(request));
-    match placement.sites.len() {
-        0 if widest < needed => Some(format!(
-            "{name}: no room for pins: widest section {widest:.1} mm, needs {needed:.1} mm"
-        )),
-        0 => Some(format!(
-            "{name}: no room for pins: the material behind the cut is too thin for a socket"
-        )),
-        1 => Some(format!(
-            "{name}: room for one pin only; mind the turn when gluing"
-        )),
-        _ if !placement.is_one_way => Some(format!(
-            "{name}: the pins fit in more than one way; mind the turn when gluing"
-        )),
-        _ => None,
-    }
+/// The remark on a joint that has not at least two pins that fit one way only.
+fn pin_lack(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<Remark> {
+    let (widest_mm, needed_mm) = (placement.widest_mm, needed_room_mm(request));
+    let cause = match placement.sites.len() {
+        0 if widest_mm < needed_mm => PinLack::TooNarrow {
+            widest_mm,
+            needed_mm,
+        },
+        0 => PinLack::TooThin,
+        1 => PinLack::OnePin,
+        _ if !placement.is_one_way => PinLack::Ambiguous,
+        _ => return None,
+    };
+    let parts = joint.parts();
+    Some(Remark::LacksPins { parts, cause })
 }
 
 fn cut(tree: &CutTree, index: usize) -> Cut {
     let plane = &tree.planes[index];
-    let side = |limit: &Limit| CutSide {
-        cut: CutId::of(limit.cut),
-        side: Side::of(limit.is_above),
-    };
-    let within = tree.limits(index).iter().map(side).collect();
+    let within = tree.limits(index).iter().map(Limit::side).collect();
     Cut {
         id: CutId::of(index),
         point_mm: plane.foot().into(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::facts::Facts;
 use super::figures::shown;
 use crate::base::units::MM3_PER_CM3;
-use crate::cut::{CutPlan, Dowel, JointId, JointNote, RodSource};
+use crate::cut::{self, CutPlan, Dowel, JointId, JointNote, RodSource};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
 use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::verify::PromisedJoint;
@@ -119,10 +119,9 @@ fn refused(made: &Made, joint: &JointNote) -> String {
 
 /// Whether a note of the plan is told where it is needed: what to mind of a joint in its row, and
 /// which parts bear no id at the printing.
-pub fn is_told_in_a_step(note: &str) -> bool {
-    ["joint ", "no room for an id "]
-        .iter()
-        .any(|start| note.starts_with(start))
+pub fn is_told_in_a_step(note: &cut::Remark) -> bool {
+    use cut::Remark::{LacksPins, NoRoomForLabel};
+    matches!(note, LacksPins { .. } | NoRoomForLabel { .. })
 }
 
 /// The joints that are to be minded, in one warning; none where all fit one way only.
