@@ -17,14 +17,14 @@ use std::time::Instant;
 
 use equipoise::base::verdict::Verdict;
 use equipoise::cut::{
-    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Obstacle, Part, PinSettings,
-    PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
+    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, Obstacle, Part,
+    PinSettings, PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
 use equipoise::make::write;
 use equipoise::mass::moments_of_mesh;
-use equipoise::mesh::{Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, primitives};
+use equipoise::mesh::{Crossings, Csg, MeshDistance, Solid, TriMesh, primitives};
 use equipoise::printer::Cleaning;
 use equipoise::repair::{one_body, repair, weld};
 
@@ -142,7 +142,6 @@ fn request(dice: &mut Dice) -> PlanRequest {
         hole_step_mm: if pixel_mm < 0.45 { pixel_mm } else { 0.0 },
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
-        seats: Vec::new(),
         rods: if dice.below(4) == 0 {
             rods().unwrap()
         } else {
@@ -229,7 +228,7 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
     let request = request(&mut dice);
     let outer = Solid::new(mesh).unwrap();
     let voids = voids(&mut dice, outer.mesh(), request.wall_mm);
-    let body = Hollowed { outer, voids };
+    let body = Hollowed::new(outer, voids);
     let order = CutOrder {
         cuts: cuts(&mut dice, &body),
         ..CutOrder::default()

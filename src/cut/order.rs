@@ -308,7 +308,7 @@ mod tests {
     use super::*;
     use crate::cut::scenes::{ball, plan, plan_by, request, with_balls};
 
-    fn planned() -> (crate::mesh::Hollowed, CutPlan) {
+    fn planned() -> (crate::cut::Hollowed, CutPlan) {
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         let plan = plan(&body, &request()).unwrap();
         (body, plan)

@@ -8,6 +8,7 @@ use crate::{
             chart::{Chart, Point2},
             tree::{CutTree, Limit},
         },
+        hollowed::{Hollowed, Void},
         ids::{CutId, PartId, PinId, VoidId},
         joints::{label::Label, pin_shape::PinSite},
         remark::Remark,
@@ -15,7 +16,7 @@ use crate::{
     },
     geom::{Aabb, Parting, Plane, Point, Vector},
     mass::FlatFace,
-    mesh::{Hollowed, Solid, TriMesh},
+    mesh::TriMesh,
 };
 use serde::{Deserialize, Serialize};
 
@@ -133,7 +134,7 @@ impl JointNote {
 impl CutPlan {
     /// The plan that cuts nothing and leaves every void closed.
     pub fn uncut(hollowed: &Hollowed) -> Self {
-        let closed = |(void, solid): (usize, &Solid)| VoidAccess::closed(VoidId::of(void), solid);
+        let closed = |(index, void): (usize, &Void)| VoidAccess::closed(VoidId::of(index), void);
         Self {
             cuts: Vec::new(),
             pins: Vec::new(),

@@ -2,10 +2,11 @@
 
 use crate::{
     cut::{
-        self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest, PosePreference,
+        self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest,
+        PosePreference, hollowed::Hollowed,
     },
     geom::{Point, Vector},
-    mesh::{Hollowed, Solid, TriMesh},
+    mesh::{Solid, TriMesh},
     printer::Cleaning,
 };
 
@@ -77,7 +78,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
         .iter()
         .map(|&[x, y, z, radius]| ball([x, y, z], radius))
         .collect();
-    Hollowed { outer, voids }
+    Hollowed::new(outer, voids)
 }
 
 /// Settings like those of a PolyJet printer, about an axis along z through a point below
@@ -105,7 +106,6 @@ pub(crate) fn request() -> PlanRequest {
         hole_step_mm: 0.042,
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
-        seats: Vec::new(),
         rods: Vec::new(),
         labels: None,
     }

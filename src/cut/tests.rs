@@ -8,7 +8,7 @@ use crate::{
     },
     geom::{Point, Vector},
     mass::moments_of_mesh,
-    mesh::{Csg, Hollowed, Solid, shells},
+    mesh::{Csg, Solid, shells},
 };
 
 fn volume(solid: &Solid) -> f64 {
@@ -119,13 +119,7 @@ fn a_table_with_a_void_in_every_leg_needs_one_cut() {
     }
     let outer = body.to_solid().unwrap();
     let voids = legs.map(|[x, y]| cuboid([x - 3.0, y - 3.0, 4.0], [x + 3.0, y + 3.0, 25.0]));
-    let (plan, _) = kit(
-        &Hollowed {
-            outer,
-            voids: voids.to_vec(),
-        },
-        &request(),
-    );
+    let (plan, _) = kit(&Hollowed::new(outer, voids.to_vec()), &request());
     assert_eq!(plan.cuts.len(), 1);
 }
 
@@ -455,7 +449,7 @@ fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
 
 /// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of
 /// room.
-fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
+fn with_pockets(pockets: &[[f64; 3]]) -> Hollowed {
     let voids = [
         &[[15.0, 15.0, 15.0, 9.0]][..],
         &pockets
@@ -463,26 +457,23 @@ fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
             .map(|&[x, y, z]| [x, y, z, 2.7])
             .collect::<Vec<_>>(),
     ];
-    let body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &voids.concat());
+    let mut body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &voids.concat());
     let seat = |&center: &[f64; 3]| Seat {
         center: Point::from(center),
         axis: None,
         radius_mm: 2.7,
         opening_mm: 5.0,
     };
-    (
-        body,
-        PlanRequest {
-            seats: pockets.iter().map(seat).collect(),
-            ..request()
-        },
-    )
+    for (void, center) in body.voids[1..].iter_mut().zip(pockets) {
+        void.holds = Some(seat(center));
+    }
+    body
 }
 
 #[test]
 fn one_cut_opens_a_void_and_lets_a_ball_into_its_pocket() {
-    let (body, request) = with_pockets(&[[50.0, 22.0, 8.0]]);
-    let (plan, _) = kit(&body, &request);
+    let body = with_pockets(&[[50.0, 22.0, 8.0]]);
+    let (plan, _) = kit(&body, &request());
     assert_eq!(plan.cuts.len(), 1);
     assert!(plan.voids[1].opening_mm >= 5.0, "{:?}", plan.voids);
     let plane = plan.cuts[0].plane().unwrap();
@@ -492,8 +483,8 @@ fn one_cut_opens_a_void_and_lets_a_ball_into_its_pocket() {
 
 #[test]
 fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
-    let (body, request) = with_pockets(&[[40.0, 6.0, 22.0], [54.0, 24.0, 7.0], [36.0, 22.0, 11.0]]);
-    let (plan, _) = kit(&body, &request);
+    let body = with_pockets(&[[40.0, 6.0, 22.0], [54.0, 24.0, 7.0], [36.0, 22.0, 11.0]]);
+    let (plan, _) = kit(&body, &request());
     assert!(plan.cuts.len() <= 2, "{:?}", plan.notes);
     assert!(
         plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0),

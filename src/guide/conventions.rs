@@ -20,7 +20,7 @@
 //!
 //! # Orientation
 //! Triangles are counter-clockwise seen from outside the material. A void on its own is a solid of
-//! air, oriented outward; inside a [`crate::mesh::Hollowed`] written as one mesh it is turned
+//! air, oriented outward; inside a [`crate::cut::Hollowed`] written as one mesh it is turned
 //! inside out, so the divergence theorem subtracts it.
 //!
 //! # Ten moments

@@ -92,9 +92,7 @@ fn uncleaned(
                 policy.cleaning_margin_openings
             },
         ),
-        Verdict::No(Obstacle::Unopenable { voids: closed, .. })
-            if are_empty(voids, closed, request) =>
-        {
+        Verdict::No(Obstacle::Unopenable { voids: closed, .. }) if are_empty(voids, closed) => {
             let keep = keep_unopenable(voids, closed, policy.refused_margin_openings);
             return Ok(keep);
         }
@@ -133,9 +131,9 @@ fn keep_unopenable(voids: &Voids, closed: &[VoidId], margin_openings: f64) -> Ke
 }
 
 /// Returns whether none of these voids holds ballast, which cannot stay solid.
-fn are_empty(voids: &Voids, ids: &[VoidId], request: &PlanRequest) -> bool {
-    let empty = voids.hollowed.voids.len() - request.seats.len();
-    ids.iter().all(|void| void.index() < empty)
+fn are_empty(voids: &Voids, ids: &[VoidId]) -> bool {
+    let is_empty = |void: &VoidId| voids.hollowed.voids[void.index()].holds.is_none();
+    ids.iter().all(is_empty)
 }
 
 /// Keeps parts of the interior solid and solves again; `None` if nothing can be emptied there, or

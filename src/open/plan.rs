@@ -32,7 +32,6 @@ pub fn plan_once(
 /// Returns whether every void of a plan is clean by the printer's rule, without the planner's own
 /// margin: to solve again for that margin costs more than any boss.
 pub fn are_clean(plan: &CutPlan, request: &PlanRequest) -> bool {
-    let count = plan.voids.len();
     let mut voids = plan.voids.iter();
-    voids.all(|void| void.is_clean_without_margin(request, count))
+    voids.all(|void| void.is_clean_without_margin(request))
 }

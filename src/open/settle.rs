@@ -97,7 +97,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
             }))
         }
         Verdict::No(Obstacle::ClosedCavity { .. }) => {
-            let closed = closed(&voids.hollowed, &terms.order.cuts, terms.request)?;
+            let closed = closed(&voids.hollowed, &terms.order.cuts)?;
             Ok(if closed.is_empty() {
                 Verdict::No(Refusal::CloseVoid)
             } else {
@@ -117,11 +117,10 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     if !terms.must_be_clean || are_clean(plan, terms.request) {
         return Ok(Vec::new());
     }
-    let count = plan.voids.len();
     let mut unclean = unclean(&voids.hollowed, plan, terms.request, false)?;
     unclean.retain(|found| {
         let void = &plan.voids[found.void.index()];
-        !void.is_clean_without_margin(terms.request, count)
+        !void.is_clean_without_margin(terms.request)
     });
     Ok(unclean)
 }

@@ -1,10 +1,9 @@
 //! Voids with the cuts that open them, and the rounds that led there.
 
 use super::{KeptCause, Remark, Rung};
-use crate::cut::{CutPlan, PartId, PinSite, PlanRequest, VoidId};
+use crate::cut::{CutPlan, Hollowed, PartId, PinSite, PlanRequest, VoidId};
 use crate::hollow::{Certificate, Solution};
 use crate::mass::Moments;
-use crate::mesh::Hollowed;
 
 /// The voids of a solution.
 #[derive(Debug, Clone)]

@@ -11,6 +11,7 @@ use crate::{
         },
         error::CutError,
         geometry::tree::CutTree,
+        hollowed::{Hollowed, Void},
         ids::VoidId,
         pieces::{
             part::pieces,
@@ -21,7 +22,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Csg, Hollowed, Solid, TriMesh, bodies, union_find::UnionFind},
+    mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
 };
 
 /// Hidden points nearer to each other than this many times their spacing are one place.
@@ -61,12 +62,11 @@ pub fn unclean(
     whole: bool,
 ) -> Result<Vec<Unclean>, CutError> {
     let tree = plan.tree()?;
-    let count = hollowed.voids.len();
-    let is_plain = |void: VoidId| request.seat_of(void, count).is_none();
+    let is_empty = |void: VoidId| hollowed.voids[void.index()].holds.is_none();
     let dirty: Vec<_> = plan
         .voids
         .iter()
-        .filter(|void| !void.is_clean && is_plain(void.void))
+        .filter(|void| !void.is_clean && is_empty(void.void))
         .collect();
     let chambers = if dirty.is_empty() {
         Vec::new()
@@ -77,7 +77,7 @@ pub fn unclean(
         let opened = Opened::new(&chambers, access.void, &tree, request);
         let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
         let lumps = if whole {
-            vec![opened.chamber.solid.mesh().clone()]
+            vec![opened.chamber.void.mesh().clone()]
         } else {
             lumps(&opened)?
         };
@@ -98,22 +98,13 @@ pub fn unclean(
 }
 
 /// The plain voids that none of the cuts meets: all of them must go.
-pub fn closed(
-    hollowed: &Hollowed,
-    cuts: &[Cut],
-    request: &PlanRequest,
-) -> Result<Vec<Unclean>, CutError> {
+pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
     let tree = tree_of(cuts)?;
-    let count = hollowed.voids.len();
-    let voids = hollowed
-        .voids
-        .iter()
-        .enumerate()
-        .map(|(void, solid)| (VoidId::of(void), solid))
-        .filter(|(void, _)| request.seat_of(*void, count).is_none());
-    let is_met = |solid: &Solid, cut: usize| {
-        let there: Vec<Point> = solid
-            .mesh()
+    let voids = hollowed.voids.iter().enumerate();
+    let voids = voids.map(|(index, void)| (VoidId::of(index), void));
+    let empty = voids.filter(|(_, void)| void.holds.is_none());
+    let is_met = |body: &TriMesh, cut: usize| {
+        let there: Vec<Point> = body
             .vertices()
             .iter()
             .filter(|p| tree.acts_at(cut, p))
@@ -121,31 +112,33 @@ pub fn closed(
             .collect();
         tree.planes[cut].passes_through(&there)
     };
-    let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
-    let all = |(void, solid): (VoidId, &Solid)| Unclean {
-        void,
+    let shut = empty.filter(|(_, void)| !(0..cuts.len()).any(|cut| is_met(void.mesh(), cut)));
+    let all = |(id, void): (VoidId, &Void)| Unclean {
+        void: id,
         cause: UncleanCause::Closed,
-        lumps: vec![solid.mesh().clone()],
+        lumps: vec![void.mesh().clone()],
     };
     Ok(shut.map(all).collect())
 }
 
 /// What of voids lies beyond joints that have not at least two pins that fit one way only: the
-/// pieces within that of the two parts in which less is empty, and what lies so many minimum
-/// openings around them. Kept solid, they leave the joint material for pins, or no need of it.
+/// pieces within that of the two parts in which less is empty, and what lies within a
+/// margin around them. Kept solid, they leave the joint material for pins, or no need of it.
 /// Seats for parts stay.
 pub fn beyond(
     hollowed: &Hollowed,
     plan: &CutPlan,
-    (request, openings): (&PlanRequest, f64),
+    margin_mm: f64,
 ) -> Result<Vec<SolidEnd>, CutError> {
     let tree = plan.tree()?;
     let parts = pieces(hollowed, plan, &tree)?;
-    let count = hollowed.voids.len();
     let chambers = Chamber::all(hollowed)?;
     let mut inside: Vec<(usize, Piece)> = Vec::new();
-    for void in (0..count).filter(|&void| request.seat_of(VoidId::of(void), count).is_none()) {
-        for piece in chambers[void].split(&tree)? {
+    for chamber in chambers
+        .iter()
+        .filter(|chamber| chamber.void.holds.is_none())
+    {
+        for piece in chamber.split(&tree)? {
             let part = parts
                 .iter()
                 .position(|part| borders(part, &piece.mesh, &tree));
@@ -178,7 +171,6 @@ pub fn beyond(
         .filter(lacks_pins)
         .filter_map(lesser)
         .collect();
-    let margin_mm = openings * request.min_opening_mm;
     let end = |(_, piece): &(usize, Piece)| {
         let at = farthest_corner(&piece.mesh, &tree)?;
         Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
@@ -340,7 +332,7 @@ mod tests {
             CutOrder,
             scenes::{plan_by, request},
         },
-        mesh::primitives,
+        mesh::{Solid, primitives},
         printer::{Cleaning, CleaningRule},
     };
 
@@ -351,10 +343,7 @@ mod tests {
         let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
         let arm = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [40.0, 6.0, -22.0])).unwrap();
         let outer = Solid::new(cuboid([-15.0, -15.0, -40.0], [50.0, 15.0, 20.0])).unwrap();
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![shaft.union(&arm).unwrap().to_solid().unwrap()],
-        };
+        let hollowed = Hollowed::new(outer, vec![shaft.union(&arm).unwrap().to_solid().unwrap()]);
         let cleaning = Cleaning {
             rule: CleaningRule::InSight,
             sight_ratio: 0.95,
@@ -419,10 +408,7 @@ mod tests {
             [[-20.0, -20.0, 5.0], [20.0, 20.0, 25.0]],
             [[-2.5, -2.0, 15.0], [2.5, 2.0, 59.0]],
         );
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![void],
-        };
+        let hollowed = Hollowed::new(outer, vec![void]);
         let level = |id: &str, z: f64| Cut {
             id: id.into(),
             point_mm: [0.0, 0.0, z],
@@ -445,7 +431,7 @@ mod tests {
             pins.contains(&0) && pins.iter().any(|&count| count >= 2),
             "{pins:?}"
         );
-        let found = beyond(&hollowed, &plan, (&request, 0.0)).unwrap();
+        let found = beyond(&hollowed, &plan, 0.0).unwrap();
         let [end] = found[..] else {
             panic!("{found:?}")
         };
@@ -453,12 +439,12 @@ mod tests {
             [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
         assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
-        let wider = beyond(&hollowed, &plan, (&request, 2.0)).unwrap()[0];
+        let wider = beyond(&hollowed, &plan, 2.0 * request.min_opening_mm).unwrap()[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
         // With its joints pinned nothing need go.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
-        assert_eq!(beyond(&hollowed, &pinned, (&request, 0.0)).unwrap(), vec![]);
+        assert_eq!(beyond(&hollowed, &pinned, 0.0).unwrap(), vec![]);
     }
 
     #[test]

@@ -2,13 +2,14 @@
 
 use crate::{
     cut::{
+        hollowed::Hollowed,
         ids::{CutId, PartId},
         joints::pin_shape::PinSite,
         plan::CutPlan,
         request::PlanRequest,
     },
     geom::{Frame, Quadric},
-    mesh::{Hollowed, TriMesh},
+    mesh::TriMesh,
 };
 
 /// What bosses are to be found for.

@@ -29,7 +29,6 @@ use crate::{
         plan::{JointNote, bridges_on, index_of},
     },
     geom::{Point, Vector},
-    mesh::{Hollowed, TriMesh},
 };
 use rayon::prelude::*;
 
@@ -52,7 +51,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
     let pieces = rejoined(split(&material, &tree)?, &tree, &bridges)?;
-    let filled = filled(order);
+    let filled = order.hollowed.without_empty_voids().to_mesh();
     let scene = |material| PinScene {
         request: order.request,
         tree: &tree,
@@ -72,17 +71,6 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         Some(pins) => Ok(search.for_all_ordered(&joints, pins)),
         None => search.for_joints(&joints, placements),
     }
-}
-
-/// The body with nothing empty but what holds parts.
-fn filled(order: &BossOrder) -> TriMesh {
-    let Hollowed { outer, voids } = order.hollowed;
-    let seats = voids.len().saturating_sub(order.request.seats.len());
-    Hollowed {
-        outer: outer.clone(),
-        voids: voids[seats..].to_vec(),
-    }
-    .to_mesh()
 }
 
 struct Search<'a> {

@@ -8,7 +8,7 @@ use crate::{
         *,
     },
     geom::{Point, Quadric, Vector},
-    mesh::{Csg, Hollowed},
+    mesh::Csg,
 };
 
 /// A shell of a ball too thin for pins, cut through its middle, and the price of filling it.
@@ -46,13 +46,10 @@ const EVEN: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
 
 /// The body with bosses kept solid in its one void.
 fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
-    let void = Csg::of_solid(&body.voids[0]).unwrap();
+    let void = Csg::of_solid(&body.voids[0].body).unwrap();
     let bodies = bosses.iter().map(|boss| Csg::of_mesh(&boss.body).unwrap());
     let rest = bodies.fold(void, |rest, boss| rest.subtract(&boss).unwrap());
-    Hollowed {
-        outer: body.outer.clone(),
-        voids: vec![rest.to_solid().unwrap()],
-    }
+    Hollowed::new(body.outer.clone(), vec![rest.to_solid().unwrap()])
 }
 
 #[test]
@@ -93,10 +90,10 @@ fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_t
 #[test]
 fn where_no_place_leaves_the_void_open_two_pins_are_found_that_close_it() {
     // A tube of 10 mm whose bore of 7 mm must stay open by nearly all of it.
-    let body = Hollowed {
-        outer: cuboid([0.0; 3], [10.0, 10.3, 60.0]),
-        voids: vec![cuboid([1.5, 1.5, 2.0], [8.5, 8.8, 58.0])],
-    };
+    let body = Hollowed::new(
+        cuboid([0.0; 3], [10.0, 10.3, 60.0]),
+        vec![cuboid([1.5, 1.5, 2.0], [8.5, 8.8, 58.0])],
+    );
     let request = PlanRequest {
         min_opening_mm: 6.5,
         ..request()

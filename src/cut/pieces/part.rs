@@ -9,6 +9,7 @@ use crate::{
     cut::{
         error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
+        hollowed::Hollowed,
         ids::{PartId, VoidId},
         joints::{contact::refaced, label::Label, pin_shape::PinSite},
         pieces::{
@@ -20,7 +21,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Crossings, Csg, Hollowed, Solid, TriMesh},
+    mesh::{Crossings, Csg, Solid, TriMesh},
 };
 
 /// One part of a kit.
@@ -58,7 +59,7 @@ impl Part {
 }
 
 /// The pieces that carry a pin and its socket.
-struct Seat<'a> {
+struct SeatedPin<'a> {
     site: &'a PinSite,
     carrier: usize,
     receiver: usize,
@@ -142,7 +143,7 @@ impl PartMaker<'_> {
             let received = || seats.iter().filter(move |seat| seat.receiver == index);
             let standing = carried().filter(|seat| seat.site.dowel.is_none());
             let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
-            let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
+            let is_printed = |seat: &&SeatedPin| seat.site.dowel.is_none();
             let pins: Vec<PinSite> = carried()
                 .filter(is_printed)
                 .map(|seat| seat.site.clone())
@@ -185,7 +186,7 @@ fn seat<'a>(
     planes: &[Plane],
     pieces: &[Piece],
     site: &'a PinSite,
-) -> Result<Seat<'a>, CutError> {
+) -> Result<SeatedPin<'a>, CutError> {
     let lost = || Obstacle::PinOffFace {
         pin: site.id.clone(),
     };
@@ -194,7 +195,7 @@ fn seat<'a>(
     let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
     let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
     let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(lost)?;
-    Ok(Seat {
+    Ok(SeatedPin {
         site,
         carrier,
         receiver,

@@ -114,7 +114,7 @@ impl LimitedCuts {
 
 /// Whether a void can be cleaned less than before.
 fn is_worse(scene: &Scene, before: &VoidAccess, after: &VoidAccess) -> bool {
-    let needed_mm = scene.request.needed_mm(after.void, scene.chambers.len());
+    let needed_mm = after.least_opening_mm(scene.request);
     let is_narrower = after.opening_mm < before.opening_mm && after.opening_mm < needed_mm;
     let is_hidden = !after.is_clean && after.sight_ratio < before.sight_ratio;
     is_narrower || is_hidden || (before.is_clean && !after.is_clean)
@@ -125,7 +125,7 @@ mod tests {
     use super::*;
     use crate::{
         cut::{
-            CutId, CutOrder, PlanRequest,
+            CutId, CutOrder, Hollowed, PlanRequest,
             access::void_access::accesses,
             joints::pins::Pins,
             pieces::split::joints,
@@ -133,7 +133,6 @@ mod tests {
             scenes::{cuboid, parts, plan_by, request, with_balls},
         },
         geom::Vector,
-        mesh::Hollowed,
         printer::{Cleaning, CleaningRule},
     };
 

@@ -17,6 +17,7 @@ use crate::{
         access::void_access::{accesses, report},
         error::{CutError, Obstacle, verdict},
         geometry::tree::{CutTree, Limit},
+        hollowed::Hollowed,
         ids::CutId,
         joints::pins::Pins,
         order::CutOrder,
@@ -35,7 +36,7 @@ use crate::{
         side::CutSide,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, off_faces, off_vertices},
+    mesh::{off_faces, off_vertices},
 };
 
 /// How many further cuts may be made so that parts fit the build volume.

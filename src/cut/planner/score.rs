@@ -27,6 +27,7 @@ use crate::{
             sides::Sides,
             tree::CutTree,
         },
+        hollowed::Hollowed,
         joints::pin_size::needed_room_mm,
         pieces::split::{Piece, split_body},
         remark::Term,
@@ -34,7 +35,7 @@ use crate::{
     },
     geom::{Aabb, Plane, Point},
     mass::moments_of_mesh,
-    mesh::{Csg, Hollowed, TriMesh},
+    mesh::{Csg, TriMesh},
 };
 
 /// The body that is to be cut, with what every plane is compared against.

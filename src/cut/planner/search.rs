@@ -191,9 +191,10 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
         covers.push(known.to_vec());
     }
     // A seat's opening is wide enough or not; more of it is of no use.
-    let plain = voids.saturating_sub(scene.request.seats.len());
+    let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
+    let empty: Vec<usize> = (0..voids).filter(holds_nothing).collect();
     let by_opening = |cover: &Vec<usize>| {
-        opening_penalty(scene, openings_mm(exact, cover, plain))
+        opening_penalty(scene, openings_mm(exact, cover, &empty))
             + CROSSED_WEIGHT * crossed(exact, cover, voids)
     };
     let mut covers: Vec<(f64, Vec<usize>)> =
@@ -251,13 +252,14 @@ fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> V
     burdens
 }
 
-/// For each void the widest of its openings by the cover's planes, mm.
+/// For each of the voids the widest of its openings by the cover's planes, mm.
 fn openings_mm<'a>(
     exact: &'a [Exact],
     cover: &'a [usize],
-    voids: usize,
+    voids: &'a [usize],
 ) -> impl Iterator<Item = f64> + 'a {
-    (0..voids).map(move |void| widest_mm(cover.iter().map(|&i| &exact[i]), void))
+    let planes = move || cover.iter().map(|&i| &exact[i]);
+    voids.iter().map(move |&void| widest_mm(planes(), void))
 }
 
 /// The widest opening of a void by some planes, mm.
@@ -286,7 +288,5 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> Obstacle {
 
 /// Diameter of the disc that must pass through the opening of a void, mm.
 fn needed_mm(scene: &Scene, void: usize) -> f64 {
-    scene
-        .request
-        .needed_mm(VoidId::of(void), scene.hollowed.voids.len())
+    scene.hollowed.voids[void].least_opening_mm(scene.request)
 }

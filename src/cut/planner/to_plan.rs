@@ -124,8 +124,7 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
 
 /// The remark on a void one of whose pieces has a narrow mouth.
 fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
-    let voids = scene.hollowed.voids.len();
-    let least_opening_mm = scene.request.needed_mm(void.void, voids);
+    let least_opening_mm = void.least_opening_mm(scene.request);
     (void.opening_mm < least_opening_mm).then_some(Remark::NarrowPiece {
         void: void.void,
         opening_mm: void.opening_mm,

@@ -111,8 +111,9 @@ fn goal_row(placed: &Placed) -> GoalRow {
 }
 
 fn ballast_rows(facts: &Facts) -> Vec<BallastRow> {
-    let (load, voids) = (&facts.made.load, &facts.made.plan.voids);
-    let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
+    let load = &facts.made.load;
+    let voids = facts.made.plan.voids.iter();
+    let pockets = voids.filter(|void| void.part_opening_mm.is_some());
     let rows = ballast_orders(load)
         .into_iter()
         .zip(&load.parts)

@@ -23,7 +23,7 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
             opened_by: access.opened_by.iter().map(ToString::to_string).collect(),
             parts: holders(facts.made, access.void),
             opening_mm: access.opening_mm,
-            least_opening_mm: least_opening_mm(placed, made, access.void),
+            least_opening_mm: least_opening_mm(placed, access),
             depth_mm: access.depth_mm,
             sight_ratio: Some(access.sight_ratio),
             method: placed.shop.printer.cleaning_rule().rule.words().to_owned(),
@@ -55,14 +55,11 @@ fn holders(made: &Made, void: VoidId) -> Vec<String> {
 }
 
 /// The opening a void needs, mm: that of what is laid into it, or the printer's.
-fn least_opening_mm(placed: &Placed, made: &Made, void: VoidId) -> f64 {
-    let (loads, plan) = (&made.load.parts, &made.plan);
-    let first = plan.voids.len().saturating_sub(loads.len());
-    let laid = void.index().checked_sub(first);
-    let laid = laid.and_then(|index| loads.get(index));
-    laid.map_or(placed.shop.printer.min_opening_mm.value, |placed| {
-        2.0 * placed.lump.shape.radius_mm()
-    })
+fn least_opening_mm(placed: &Placed, access: &VoidAccess) -> f64 {
+    let printer = &placed.shop.printer;
+    access
+        .part_opening_mm
+        .unwrap_or(printer.min_opening_mm.value)
 }
 
 /// The voids as the judge sees them.
@@ -70,7 +67,7 @@ pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     let promised = |access: &VoidAccess| PromisedVoid {
         id: access.void.to_string(),
         sight_ratio: Some(access.sight_ratio),
-        least_opening_mm: Some(least_opening_mm(placed, made, access.void)),
+        least_opening_mm: Some(least_opening_mm(placed, access)),
     };
     made.plan.voids.iter().map(promised).collect()
 }
