@@ -29,7 +29,7 @@ pub use geometry::section::{Ring, Section};
 pub use geometry::tree::reached;
 pub use hollowed::{Hollowed, Void};
 pub use ids::{CutId, IdError, JointId, PartId, PinId, VoidId};
-pub use joints::boss::{Boss, BossOrder, JointName};
+pub use joints::boss::{Boss, BossOrder, JointName, MaterialPrice};
 pub use joints::bosses::bosses;
 pub use joints::label::Label;
 pub use joints::pin_shape::PinSite;

@@ -7,7 +7,8 @@ use super::resolve::Resolver;
 use super::settle::{Settled, Terms, settle};
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    Boss, BossOrder, CutError, CutOrder, CutPlan, PinSite, PlanRequest, bosses, plan_by,
+    Boss, BossOrder, CutError, CutOrder, CutPlan, MaterialPrice, PinSite, PlanRequest, bosses,
+    plan_by,
 };
 use crate::error::Error;
 use crate::mesh::TriMesh;
@@ -192,7 +193,10 @@ impl<'r, 'a> Search<'r, 'a> {
             ordered: self.ordered,
             given_up: &failed.given_up,
             refused: &failed.places,
-            price: (voids.solution.quadric, frame),
+            price: MaterialPrice {
+                quadric: voids.solution.quadric,
+                frame,
+            },
         })?)
     }
 

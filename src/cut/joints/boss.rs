@@ -28,8 +28,18 @@ pub struct BossOrder<'a> {
     pub given_up: &'a [JointName],
     /// Where bosses stood that cost too much, model frame, mm: none is looked for beside them.
     pub refused: &'a [[f64; 3]],
-    /// The quadric whose positive side is empty, and the frame it is given in.
-    pub price: (Quadric, Frame),
+    /// The price of keeping material solid.
+    pub price: MaterialPrice,
+}
+
+/// What keeping material solid costs: near an optimum the objective changes, to first order, by the
+/// integral of the optimal quadric over what is filled.
+#[derive(Debug, Clone, Copy)]
+pub struct MaterialPrice {
+    /// The quadric whose positive side is empty.
+    pub quadric: Quadric,
+    /// The frame that it is given in.
+    pub frame: Frame,
 }
 
 /// A joint by the names of what meets there.

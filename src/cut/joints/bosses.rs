@@ -19,7 +19,7 @@ use crate::{
             pin_shape::PinSite,
             pin_size::{Size, short_pairs, size_pairs},
             pins::seated,
-            placement::{PinScene, Placement, is_confused},
+            placement::{Facing, PinScene, Placement, is_confused},
         },
         order::CutOrder,
         pieces::{
@@ -155,7 +155,11 @@ impl Search<'_> {
         let plane = &scene.tree.planes[joint.cut];
         let is_upward = plane.normal.dot(&Vector::from(pin.direction)) > 0.0;
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
-        Face::bare(scene, joint, (&[], is_upward)).has_meat(&at, &Size::of(pin))
+        let facing = Facing {
+            others: &[],
+            is_upward,
+        };
+        Face::bare(scene, joint, facing).has_meat(&at, &Size::of(pin))
     }
 
     /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit
@@ -174,7 +178,7 @@ impl Search<'_> {
         for (must_open, sizes) in ways {
             let mut best: Option<(Cost, Placement)> = None;
             for is_upward in [true, false] {
-                let found = self.along(joint, (others, is_upward), sizes, must_open)?;
+                let found = self.along(joint, Facing { others, is_upward }, sizes, must_open)?;
                 best = match (best, found) {
                     (Some(best), Some(found)) if found.0.order(&best.0).is_ge() => Some(best),
                     (best, found) => found.or(best),
@@ -192,8 +196,8 @@ impl Search<'_> {
     fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
         let [_, size] = size_pairs(self.order.request).pop()?;
         let along = |is_upward: bool| {
-            let face = Face::bare(self.filled, joint, (others, is_upward));
-            let sites = self.sites(joint, &face, (&size, is_upward)).into_iter();
+            let face = Face::bare(self.filled, joint, Facing { others, is_upward });
+            let sites = self.sites(joint, &face, &size).into_iter();
             let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
             let (cost, at) = costs.min_by(|a, b| a.0.order(&b.0))?;
             Some((cost, face.placement(&[(at, size)], false)))
@@ -209,12 +213,12 @@ impl Search<'_> {
     fn along(
         &self,
         joint: &Joint,
-        (others, is_upward): (&[&Placement], bool),
+        facing: Facing,
         sizes: &[Size; 2],
         must_open: bool,
     ) -> Result<Option<(Cost, Placement)>, CutError> {
-        let face = Face::bare(self.filled, joint, (others, is_upward));
-        let sites = self.sites(joint, &face, (&sizes[0], is_upward));
+        let face = Face::bare(self.filled, joint, facing);
+        let sites = self.sites(joint, &face, &sizes[0]);
         let mut open = OpenPairs::new(
             &self.view,
             &sites,
@@ -223,7 +227,7 @@ impl Search<'_> {
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_taken = !is_confused(&face.end_views(&pattern), others)
+            let is_taken = !is_confused(&face.end_views(&pattern), facing.others)
                 && (!must_open || open.holds(pair.sites)?);
             if is_taken {
                 return Ok(Some((pair.cost, face.placement(&pattern, true))));
@@ -237,7 +241,7 @@ impl Search<'_> {
 
     /// The places of a joint where a boss of this size joins its wall and keeps off the outside,
     /// with their prices.
-    fn sites(&self, joint: &Joint, face: &Face, (size, is_upward): (&Size, bool)) -> Vec<Site> {
+    fn sites(&self, joint: &Joint, face: &Face, size: &Size) -> Vec<Site> {
         let request = self.order.request;
         let plane = &self.filled.tree.planes[joint.cut];
         let outline = self.maker.outline(joint.cut);
@@ -262,10 +266,9 @@ impl Search<'_> {
             .collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
         let priced = |&at: &Point2| -> Option<Site> {
-            let sign = if is_upward { 1.0 } else { -1.0 };
             let axis = PinAxis {
                 middle: chart.lift(plane, &at),
-                along: plane.normal * sign,
+                along: face.along(),
             };
             let body = self.maker.body(joint, &axis, size)?;
             Some(Site {

@@ -11,7 +11,7 @@ use crate::{
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{short_pairs, size_pairs},
-            placement::{PinScene, Placement, is_confused, peg},
+            placement::{Facing, PinScene, Placement, is_confused, peg},
         },
         pieces::split::Joint,
     },
@@ -69,11 +69,18 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
 ///
 /// Both directions are tried, the normal's first; the one that aligns better wins.
 fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
-    let upward = place_along(scene, joint, (placed, true));
+    let along = |is_upward: bool| {
+        let facing = Facing {
+            others: placed,
+            is_upward,
+        };
+        place_along(scene, joint, facing)
+    };
+    let upward = along(true);
     if upward.is_sound() {
         return upward;
     }
-    let downward = place_along(scene, joint, (placed, false));
+    let downward = along(false);
     let worth = |p: &Placement| (p.is_sound(), p.sites.len());
     if worth(&downward) > worth(&upward) {
         downward
@@ -124,12 +131,9 @@ pub(crate) fn seated(
 }
 
 /// The pins of a joint that stand out upward, or downward.
-fn place_along(
-    scene: &PinScene,
-    joint: &Joint,
-    (placed, is_upward): (&[&Placement], bool),
-) -> Placement {
-    let face = Face::new(scene, joint, (placed, is_upward));
+fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
+    let placed = facing.others;
+    let face = Face::new(scene, joint, facing);
     let mut fallback = Placement {
         widest_mm: face.widest_mm,
         ..Placement::default()

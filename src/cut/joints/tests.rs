@@ -25,7 +25,10 @@ fn order_of<'a>(
     price: Quadric,
     request: &'a PlanRequest,
 ) -> BossOrder<'a> {
-    let price = (price, crate::geom::Frame::identity());
+    let price = MaterialPrice {
+        quadric: price,
+        frame: crate::geom::Frame::identity(),
+    };
     BossOrder {
         hollowed,
         request,
@@ -147,7 +150,10 @@ fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
         .into_iter()
         .map(|boss| boss.pin)
         .collect();
-    let price = (EVEN, crate::geom::Frame::identity());
+    let price = MaterialPrice {
+        quadric: EVEN,
+        frame: crate::geom::Frame::identity(),
+    };
     let ask = |pins: &[PinSite]| {
         let order = BossOrder {
             hollowed: &body,

@@ -79,7 +79,7 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
         if !is_host[index]
             && !is_guest[host]
             && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
-            && comes_free(cutting, pieces, (joint, index))
+            && comes_free(cutting, pieces, joint, index)
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
@@ -161,7 +161,7 @@ fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
 
 /// Whether what lies on the piece's side of the cut can be taken off along the normal while the
 /// piece stays.
-fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
+fn comes_free(cutting: &Cutting, pieces: &[Piece], joint: &Joint, index: usize) -> bool {
     let plane = &cutting.tree.planes[joint.cut];
     let is_above = joint.above == index;
     let sign = if is_above { 1.0 } else { -1.0 };

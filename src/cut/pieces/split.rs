@@ -336,7 +336,7 @@ fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
             continue;
         };
         if flat.is_crossed_by(own, plane) {
-            (flat, is_whole) = (flat.on_side(own, (plane, is_above)), false);
+            (flat, is_whole) = (flat.on_side(own, plane, is_above), false);
         }
     }
     if is_whole {

@@ -102,11 +102,7 @@ impl Tried {
     /// The same cuts and one more; the voids that it does not meet stay as they are.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let voids = looked_at_again(
-            scene,
-            &self.voids,
-            (&CutTree::everywhere(&planes), &[plane]),
-        )?;
+        let voids = looked_at_again(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -129,7 +125,8 @@ impl Tried {
 pub(crate) fn looked_at_again(
     scene: &Scene,
     before: &[VoidAccess],
-    (tree, changed): (&CutTree, &[Plane]),
+    tree: &CutTree,
+    changed: &[Plane],
 ) -> Result<Vec<VoidAccess>, CutError> {
     let again = |known: &VoidAccess| {
         if changed.iter().any(|plane| meets(scene, known.void, plane)) {

@@ -70,7 +70,7 @@ impl LimitedCuts {
             .filter(|&other| is_changed(other))
             .map(|other| tree.planes[other])
             .collect();
-        let voids = looked_at_again(scene, &self.voids, (&tree, &changed))?;
+        let voids = looked_at_again(scene, &self.voids, &tree, &changed)?;
         if self
             .voids
             .iter()

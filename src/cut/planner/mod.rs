@@ -11,6 +11,9 @@ pub(crate) mod score;
 pub(crate) mod search;
 pub(crate) mod to_plan;
 
+#[cfg(test)]
+mod tests;
+
 use crate::{
     base::verdict::Verdict,
     cut::{

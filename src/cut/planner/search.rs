@@ -82,7 +82,8 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let family = promising_first(
         candidates(scene.hollowed, scene.request),
-        (all, ample_guess_mm(scene)),
+        all,
+        ample_guess_mm(scene),
     );
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
@@ -114,7 +115,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 /// each direction, then the second best, and so on, each by the opening guessed. Guesses above
 /// `ample_mm` are equal, so that the axes, which lead the family, come before skew directions that
 /// are no better.
-fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
+fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<Candidate> {
     let classes = classes(&family, all);
     let class_of = |c: &Candidate| {
         classes
