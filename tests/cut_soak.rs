@@ -15,15 +15,16 @@
 use std::path::Path;
 use std::time::Instant;
 
+use equipoise::base::verdict::Verdict;
 use equipoise::cut::{
-    Cut, CutError, CutOrder, CutPlan, CutSide, GoalAxis, LabelStyle, Part, PinSettings, PinSite,
-    PlanRequest, PosePreference, Side, parts, plan_by, rods,
+    Cut, CutId, CutOrder, CutPlan, CutSide, GoalAxis, Hollowed, LabelStyle, Obstacle, Part,
+    PinSettings, PinSite, PlanRequest, PosePreference, Side, parts, plan_by, rods,
 };
 use equipoise::geom::{Bvh, Point, Vector};
 use equipoise::io::read_model;
 use equipoise::make::write;
 use equipoise::mass::moments_of_mesh;
-use equipoise::mesh::{Crossings, Csg, Hollowed, MeshDistance, Solid, TriMesh, primitives};
+use equipoise::mesh::{Crossings, Csg, MeshDistance, Solid, TriMesh, primitives};
 use equipoise::printer::Cleaning;
 use equipoise::repair::{one_body, repair, weld};
 
@@ -141,7 +142,6 @@ fn request(dice: &mut Dice) -> PlanRequest {
         hole_step_mm: if pixel_mm < 0.45 { pixel_mm } else { 0.0 },
         layer_mm: [0.016, 0.05, 0.2][dice.below(3)],
         pose: [PosePreference::CutFaceDown, PosePreference::OpenHollowUp][dice.below(2)],
-        seats: Vec::new(),
         rods: if dice.below(4) == 0 {
             rods().unwrap()
         } else {
@@ -195,7 +195,7 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
         let within = (i > 0 && dice.below(2) == 0).then(|| side(dice, i));
         let within = within.into_iter().collect();
         Cut {
-            id: format!("C{}", i + 1),
+            id: CutId::of(i),
             point_mm: point.into(),
             normal: normal.into(),
             within,
@@ -212,7 +212,7 @@ fn side(dice: &mut Dice, cuts: usize) -> CutSide {
         Side::Below
     };
     CutSide {
-        cut: format!("C{}", 1 + dice.below(cuts)),
+        cut: CutId::of(dice.below(cuts)),
         side,
     }
 }
@@ -228,7 +228,7 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
     let request = request(&mut dice);
     let outer = Solid::new(mesh).unwrap();
     let voids = voids(&mut dice, outer.mesh(), request.wall_mm);
-    let body = Hollowed { outer, voids };
+    let body = Hollowed::new(outer, voids);
     let order = CutOrder {
         cuts: cuts(&mut dice, &body),
         ..CutOrder::default()
@@ -238,11 +238,18 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
         body.voids.len(),
         order.cuts.len()
     );
-    let plan = match plan_by(&body, &request, &order) {
-        Err(CutError::ClosedCavity { .. }) => return format!("{told}: a void stays closed"),
-        plan => plan.unwrap_or_else(|error| panic!("{told}: {error}")),
+    let plan = plan_by(&body, &request, &order).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let plan = match plan {
+        Verdict::Found(plan) => plan,
+        Verdict::No(Obstacle::ClosedCavity { .. }) => {
+            return format!("{told}: a void stays closed");
+        }
+        Verdict::No(obstacle) => panic!("{told}: {obstacle}"),
     };
     let made = parts(&body, &plan, &request).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let made: Vec<Part> = made
+        .or_error()
+        .unwrap_or_else(|why: Obstacle| panic!("{told}: {why}"));
     assert_nothing_is_lost(&told, &body, &plan, &made);
     assert_written_parts_are_sound(&told, &made);
     format!("{told}: {} parts, {} pins", made.len(), plan.pins.len())

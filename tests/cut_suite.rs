@@ -11,9 +11,9 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-use equipoise::cut::{GoalAxis, PinSettings, PlanRequest, PosePreference, plan};
+use equipoise::cut::{GoalAxis, Hollowed, PinSettings, PlanRequest, PosePreference, plan};
 use equipoise::geom::{Point, Vector};
-use equipoise::mesh::{Csg, Hollowed, Solid, TriMesh, primitives};
+use equipoise::mesh::{Csg, Solid, TriMesh, primitives};
 use equipoise::printer::Cleaning;
 
 /// The disc that must pass through every opening, mm.
@@ -42,7 +42,6 @@ fn request() -> PlanRequest {
         hole_step_mm: 0.05,
         layer_mm: 0.05,
         pose: PosePreference::CutFaceDown,
-        seats: Vec::new(),
         rods: Vec::new(),
         labels: None,
     }
@@ -61,7 +60,8 @@ fn block() -> Solid {
 
 /// How many cuts the planner makes, and how many voids it leaves narrower than asked.
 fn planned(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
-    let plan = plan(&Hollowed { outer, voids }, &request()).unwrap();
+    let plan = plan(&Hollowed::new(outer, voids), &request()).unwrap();
+    let plan = plan.found().unwrap();
     (
         plan.cuts.len(),
         plan.voids

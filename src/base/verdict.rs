@@ -21,6 +21,14 @@ impl<T, W> Verdict<T, W> {
         }
     }
 
+    /// Returns what was found; the reason as an error if the answer is no.
+    pub fn or_error<E: From<W>>(self) -> Result<T, E> {
+        match self {
+            Self::Found(found) => Ok(found),
+            Self::No(why) => Err(why.into()),
+        }
+    }
+
     /// Applies a function to what was found.
     pub fn map<U>(self, map: impl FnOnce(T) -> U) -> Verdict<U, W> {
         match self {

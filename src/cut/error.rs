@@ -1,10 +1,52 @@
 //! Why no cut plan or no parts could be made.
 
-use crate::{base::toml_text::TextFault, mesh::ClipError};
+use crate::{
+    base::{toml_text::TextFault, verdict::Verdict},
+    cut::ids::{CutId, PartId, PinId, VoidId},
+    mesh::ClipError,
+};
 
-/// Why no cut plan or no parts could be made. Parts and voids are counted from 0, cuts and pins by
-/// their ids.
+/// Why a body has no plan, or a plan no parts: an answer, not a failure. The message counts voids
+/// from 0.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Obstacle {
+    /// No plane of the family opens these voids wide enough.
+    #[error(
+        "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; fill the void or accept a smaller opening",
+        list(voids)
+    )]
+    Unopenable {
+        /// The voids.
+        voids: Vec<VoidId>,
+        /// The widest opening found for the worst of them, mm.
+        widest_mm: f64,
+        /// The opening asked for, mm.
+        needed_mm: f64,
+    },
+    /// A part would enclose a cavity.
+    #[error(
+        "the cuts leave {cavities} of its voids closed in a part ({part}); add a cut through them, or take `--cut auto`"
+    )]
+    ClosedCavity {
+        /// The part.
+        part: PartId,
+        /// How many cavities.
+        cavities: usize,
+    },
+    /// A pin of the plan does not stand on a cut face.
+    #[error(
+        "pin {pin} does not stand between two cut faces; move it or drop it from the plan; without any pins in it they are placed anew"
+    )]
+    PinOffFace {
+        /// The pin's id.
+        pin: PinId,
+    },
+}
+
+/// Why planning or cutting failed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CutError {
     /// A length of the request is not positive or not finite.
     #[error("{name} is {value}, but must be a positive number")]
@@ -22,48 +64,22 @@ pub enum CutError {
         /// How many a plan handles.
         limit: usize,
     },
-    /// No plane of the family opens these voids wide enough.
-    #[error(
-        "no plane opens void {} wide enough: the widest opening found is {widest_mm:.2} mm, asked are {needed_mm:.2} mm; fill the void or accept a smaller opening",
-        list(voids)
-    )]
-    Unopenable {
-        /// The voids.
-        voids: Vec<usize>,
-        /// The widest opening found for the worst of them, mm.
-        widest_mm: f64,
-        /// The opening asked for, mm.
-        needed_mm: f64,
-    },
     /// A cut of the plan has a normal without length or a point that is not finite.
     #[error(
         "cut {cut} is degenerate: its normal must have a length and all its numbers must be finite"
     )]
     DegenerateCut {
         /// The cut's id.
-        cut: String,
+        cut: CutId,
     },
     /// Cuts that are made within each other, on both sides of one, or within one that is not there.
     #[error(
         "a cut is kept to a side of one that is not there, or to both sides of one, or two wait for each other; name in `within` one side of cuts that can be made before"
     )]
     CircularCuts,
-    /// A part would enclose a cavity.
-    #[error("the cuts leave {cavities} of its voids closed in a part (P{:02}); add a cut through them, or take `--cut auto`", part + 1)]
-    ClosedCavity {
-        /// Which part, from 0.
-        part: usize,
-        /// How many cavities.
-        cavities: usize,
-    },
-    /// A pin of the plan does not stand on a cut face.
-    #[error(
-        "pin {pin} does not stand between two cut faces; move it or drop it from the plan; without any pins in it they are placed anew"
-    )]
-    PinOffFace {
-        /// The pin's id.
-        pin: String,
-    },
+    /// There is no plan or there are no parts, where there must be.
+    #[error(transparent)]
+    Obstacle(#[from] Obstacle),
     /// The catalogue of rods cannot be read.
     #[error(transparent)]
     Rods(#[from] TextFault),
@@ -72,11 +88,20 @@ pub enum CutError {
     Clip(#[from] ClipError),
 }
 
-/// The numbers with commas between them.
-fn list(numbers: &[usize]) -> String {
-    numbers
+/// The indices with commas between them.
+fn list(voids: &[VoidId]) -> String {
+    voids
         .iter()
-        .map(usize::to_string)
+        .map(|void| void.index().to_string())
         .collect::<Vec<_>>()
         .join(", ")
+}
+
+/// Makes an obstacle the answer no; other errors stay errors.
+pub(crate) fn verdict<T>(result: Result<T, CutError>) -> Result<Verdict<T, Obstacle>, CutError> {
+    match result {
+        Ok(found) => Ok(Verdict::Found(found)),
+        Err(CutError::Obstacle(why)) => Ok(Verdict::No(why)),
+        Err(error) => Err(error),
+    }
 }

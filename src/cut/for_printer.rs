@@ -1,6 +1,6 @@
 //! Requests for cuts that a printer can make.
 
-use super::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
+use crate::cut::request::{GoalAxis, LabelStyle, PinSettings, PlanRequest, PosePreference};
 use crate::printer::{Grid, PrintPose, Printer, Quantity};
 
 impl PlanRequest {
@@ -11,8 +11,8 @@ impl PlanRequest {
     /// Returns the request for a model whose longest side is `size_mm`, in the printer's walls,
     /// openings, pins and grid.
     ///
-    /// Cuts keep away from the point of `axis`. Pins are printed, ids are sunk into the cut faces,
-    /// and no void holds a part: change `rods`, `labels` and `seats` for anything else.
+    /// Cuts keep away from the point of `axis`. Pins are printed, and ids are sunk into the cut
+    /// faces: change `rods` and `labels` for anything else.
     pub fn for_printer(printer: &Printer, size_mm: f64, axis: GoalAxis) -> Self {
         let elephant_foot = printer.number(Quantity::ElephantFootMm);
         let elephant_foot_mm = elephant_foot.map_or(0.0, |foot| foot.value);
@@ -44,7 +44,6 @@ impl PlanRequest {
                 PrintPose::OpenHollowsUp => PosePreference::OpenHollowUp,
                 PrintPose::CutFaceDown => PosePreference::CutFaceDown,
             },
-            seats: Vec::new(),
             rods: Vec::new(),
             labels: Some(LabelStyle::for_printer(printer)),
         }

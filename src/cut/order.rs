@@ -1,14 +1,16 @@
 //! Cuts and pins ordered by a person: the part of a plan that is written to a file, edited, and
 //! read again.
 
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 use crate::{
     base::toml_text::{self, TextFault},
     cut::{
-        ids::cut_id,
+        ids::{CutId, PinId},
         joints::pin_shape::PinSite,
-        plan::{Cut, CutPlan, SolidEnd, UncutFace, tree_of},
+        plan::{Cut, CutPlan, SolidEnd, UncutFace, index_of, tree_of},
     },
 };
 
@@ -54,26 +56,24 @@ struct Given {
 /// Why an order makes no sense.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum OrderError {
-    /// Two cuts or two pins of one name.
-    #[error("{what} {id} is there twice; remedy: give each its own id")]
-    Twice {
-        /// `cut` or `pin`.
-        what: &'static str,
-        /// The id.
-        id: String,
-    },
+    /// Two cuts of one name.
+    #[error("cut {0} is there twice; remedy: give each its own id")]
+    TwinCuts(CutId),
+    /// Two pins of one name.
+    #[error("pin {0} is there twice; remedy: give each its own id")]
+    TwinPins(PinId),
     /// A plane that is none.
     #[error(
         "cut {0} has no direction, or numbers that are not finite; remedy: give a normal X, Y, Z and a point in mm"
     )]
-    NoPlane(String),
+    NoPlane(CutId),
     /// A pin, an uncut face or a cut that names a cut that is not in the order.
-    #[error("{what} names cut {cut}, which is not there; remedy: name one of the cuts")]
+    #[error("{by} names cut {cut}, which is not there; remedy: name one of the cuts")]
     NoCut {
         /// What names the cut.
-        what: String,
+        by: Namer,
         /// The cut it names.
-        cut: String,
+        cut: CutId,
     },
     /// Cuts that are made within each other, or beyond both sides of one.
     #[error(
@@ -89,10 +89,63 @@ pub enum OrderError {
     #[error("pin {id}: {reason}")]
     BadPin {
         /// The pin's id.
-        id: String,
-        /// What is wrong with it, and the remedy.
-        reason: &'static str,
+        id: PinId,
+        /// What is wrong with it.
+        reason: PinFault,
     },
+}
+
+/// An entry of an order that names a cut.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Namer {
+    /// A cut that is made on a side of another.
+    Cut(CutId),
+    /// A face that is left whole.
+    UncutFace,
+    /// A pin.
+    Pin(PinId),
+}
+
+impl fmt::Display for Namer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Cut(id) => write!(f, "cut {id}"),
+            Self::UncutFace => f.write_str("an uncut face"),
+            Self::Pin(id) => write!(f, "pin {id}"),
+        }
+    }
+}
+
+/// Why a pin cannot be made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PinFault {
+    /// Its centre or direction is not finite, or its direction has no length.
+    #[error("its centre and direction must be finite, and the direction have a length")]
+    NoPlace,
+    /// A diameter, its length or its depth is no positive number.
+    #[error("its diameters, length and depth must be positive numbers, mm")]
+    NoSize,
+    /// A chamfer is negative.
+    #[error("its chamfers must be zero or positive, mm")]
+    NegativeChamfer,
+    /// The density of its dowel is no positive number.
+    #[error("its dowel's density must be a positive number, g/cm³")]
+    NoDensity,
+    /// Its dowel is longer than both sockets are deep.
+    #[error("its dowel must be no longer than both sockets are deep")]
+    LongDowel,
+    /// Its chamfer takes all of its tip.
+    #[error("its chamfer must be less than its radius and its length")]
+    WideChamfer,
+    /// The chamfer of its socket takes all of the socket.
+    #[error("its socket's chamfer must be less than the socket's depth")]
+    DeepChamfer,
+    /// Its socket does not hold it.
+    #[error(
+        "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance"
+    )]
+    TightSocket,
 }
 
 impl CutOrder {
@@ -108,9 +161,9 @@ impl CutOrder {
 
     /// The same order with its cuts called as the planner calls them: C1, C2, …
     pub(crate) fn numbered(&self) -> Self {
-        let number = |id: &mut String| {
-            if let Some(index) = self.cuts.iter().position(|cut| cut.id == *id) {
-                *id = cut_id(index);
+        let number = |id: &mut CutId| {
+            if let Some(index) = index_of(&self.cuts, id) {
+                *id = CutId::of(index);
             }
         };
         let mut own = self.clone();
@@ -148,19 +201,22 @@ impl TryFrom<Given> for CutOrder {
             uncut,
             solid,
         } = given;
-        let ids = |what, ids: Vec<&String>| no_twin(what, ids);
-        ids("cut", cuts.iter().map(|cut| &cut.id).collect())?;
-        ids("pin", pins.iter().flatten().map(|pin| &pin.id).collect())?;
+        if let Some(id) = twin(cuts.iter().map(|cut| &cut.id)) {
+            return Err(OrderError::TwinCuts(id.clone()));
+        }
+        if let Some(id) = twin(pins.iter().flatten().map(|pin| &pin.id)) {
+            return Err(OrderError::TwinPins(id.clone()));
+        }
         if let Some(cut) = cuts.iter().find(|cut| cut.plane().is_err()) {
             return Err(OrderError::NoPlane(cut.id.clone()));
         }
-        let known = |id: &str| cuts.iter().any(|cut| cut.id == id);
+        let known = |id: &CutId| index_of(&cuts, id).is_some();
         let mut sides = cuts
             .iter()
             .flat_map(|cut| cut.within.iter().map(move |side| (cut, side)));
         if let Some((cut, side)) = sides.find(|(_, side)| !known(&side.cut)) {
             return Err(OrderError::NoCut {
-                what: format!("cut {}", cut.id),
+                by: Namer::Cut(cut.id.clone()),
                 cut: side.cut.clone(),
             });
         }
@@ -169,14 +225,14 @@ impl TryFrom<Given> for CutOrder {
         }
         if let Some(face) = uncut.iter().find(|face| !known(&face.cut)) {
             return Err(OrderError::NoCut {
-                what: "an uncut face".to_owned(),
+                by: Namer::UncutFace,
                 cut: face.cut.clone(),
             });
         }
         for pin in pins.iter().flatten() {
             if !known(&pin.cut) {
                 return Err(OrderError::NoCut {
-                    what: format!("pin {}", pin.id),
+                    by: Namer::Pin(pin.id.clone()),
                     cut: pin.cut.clone(),
                 });
             }
@@ -197,19 +253,16 @@ impl TryFrom<Given> for CutOrder {
     }
 }
 
-fn no_twin(what: &'static str, mut ids: Vec<&String>) -> Result<(), OrderError> {
+/// The least id that stands there twice; `None` if each is there once.
+fn twin<'a, T: Ord>(ids: impl Iterator<Item = &'a T>) -> Option<&'a T> {
+    let mut ids: Vec<&T> = ids.collect();
     ids.sort_unstable();
-    let twin = ids.windows(2).find(|pair| pair[0] == pair[1]);
-    twin.map_or(Ok(()), |pair| {
-        Err(OrderError::Twice {
-            what,
-            id: pair[0].clone(),
-        })
-    })
+    let mut pairs = ids.windows(2);
+    pairs.find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
 }
 
 /// What keeps a pin from being made.
-fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
+fn check_pin(pin: &PinSite) -> Result<(), PinFault> {
     let sizes = [
         pin.diameter_mm,
         pin.length_mm,
@@ -219,35 +272,33 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
     let chamfers = [pin.chamfer_mm, pin.socket_chamfer_mm];
     let places = [pin.center_mm, pin.direction];
     if !places.as_flattened().iter().all(|x| x.is_finite()) || pin.direction == [0.0; 3] {
-        return Err("its centre and direction must be finite, and the direction have a length");
+        return Err(PinFault::NoPlace);
     }
     if !sizes.iter().all(|size| size.is_finite() && *size > 0.0) {
-        return Err("its diameters, length and depth must be positive numbers, mm");
+        return Err(PinFault::NoSize);
     }
     if !chamfers
         .iter()
         .all(|chamfer| chamfer.is_finite() && *chamfer >= 0.0)
     {
-        return Err("its chamfers must be zero or positive, mm");
+        return Err(PinFault::NegativeChamfer);
     }
     if let Some(dowel) = &pin.dowel {
         if !(dowel.density_g_cm3 > 0.0 && dowel.density_g_cm3.is_finite()) {
-            return Err("its dowel's density must be a positive number, g/cm³");
+            return Err(PinFault::NoDensity);
         }
         if !(dowel.length_mm > 0.0 && dowel.length_mm <= 2.0 * pin.socket_depth_mm) {
-            return Err("its dowel must be no longer than both sockets are deep");
+            return Err(PinFault::LongDowel);
         }
     }
     if 2.0 * pin.chamfer_mm >= pin.diameter_mm || pin.chamfer_mm >= pin.length_mm {
-        return Err("its chamfer must be less than its radius and its length");
+        return Err(PinFault::WideChamfer);
     }
     if pin.socket_chamfer_mm >= pin.socket_depth_mm {
-        return Err("its socket's chamfer must be less than the socket's depth");
+        return Err(PinFault::DeepChamfer);
     }
     if pin.socket_diameter_mm <= pin.diameter_mm || pin.socket_depth_mm < pin.length_mm {
-        return Err(
-            "its socket must be wider than it and as deep as it is long; remedy: add the printer's clearance",
-        );
+        return Err(PinFault::TightSocket);
     }
     Ok(())
 }
@@ -255,12 +306,9 @@ fn check_pin(pin: &PinSite) -> Result<(), &'static str> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cut::{
-        plan, plan_by,
-        scenes::{ball, request, with_balls},
-    };
+    use crate::cut::scenes::{ball, plan, plan_by, request, with_balls};
 
-    fn planned() -> (crate::mesh::Hollowed, CutPlan) {
+    fn planned() -> (crate::cut::Hollowed, CutPlan) {
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         let plan = plan(&body, &request()).unwrap();
         (body, plan)
@@ -362,7 +410,11 @@ mod tests {
         order.pins = Some(pins);
         let made = plan_by(&body, &request(), &order).unwrap();
         assert!(
-            !made.joints[0].one_way && made.notes.iter().any(|n| n.contains("more than one way")),
+            !made.joints[0].one_way
+                && made
+                    .notes
+                    .iter()
+                    .any(|n| n.to_string().contains("more than one way")),
             "{made:?}"
         );
     }

@@ -8,11 +8,15 @@ use crate::{
             chart::{Chart, Point2},
             tree::{CutTree, Limit},
         },
+        hollowed::{Hollowed, Void},
+        ids::{CutId, PartId, PinId, VoidId},
         joints::{label::Label, pin_shape::PinSite},
+        remark::Remark,
+        side::{CutSide, Side},
     },
     geom::{Aabb, Parting, Plane, Point, Vector},
     mass::FlatFace,
-    mesh::{Hollowed, Solid, TriMesh},
+    mesh::TriMesh,
 };
 use serde::{Deserialize, Serialize};
 
@@ -40,12 +44,9 @@ pub struct CutPlan {
     /// of its file.
     #[serde(skip)]
     pub moves: Vec<CutMove>,
-    /// How the number of its cuts came about: the first of the notes.
-    #[serde(skip)]
-    pub proofs: Vec<String>,
     /// What a person should know: the proof that fewer cuts do not do, joints without room for
     /// pins.
-    pub notes: Vec<String>,
+    pub notes: Vec<Remark>,
 }
 
 /// A plane cut.
@@ -53,7 +54,7 @@ pub struct CutPlan {
 #[serde(deny_unknown_fields)]
 pub struct Cut {
     /// The cut's name: C1, C2, …
-    pub id: String,
+    pub id: CutId,
     /// A point of the plane in the model frame, mm.
     pub point_mm: [f64; 3],
     /// The unit normal.
@@ -63,47 +64,13 @@ pub struct Cut {
     pub within: Vec<CutSide>,
 }
 
-/// What lies on one side of a cut, where that cut is made.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CutSide {
-    /// The cut's id.
-    pub cut: String,
-    /// Which side of it.
-    pub side: Side,
-}
-
-/// A side of a cut.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Side {
-    /// Where its normal points to.
-    Above,
-    /// Where its normal points away from.
-    Below,
-}
-
-impl Side {
-    pub(crate) fn of(is_above: bool) -> Self {
-        if is_above { Self::Above } else { Self::Below }
-    }
-
-    /// `above` or `below`.
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Above => "above",
-            Self::Below => "below",
-        }
-    }
-}
-
 /// A face that a cut leaves whole: the plane passes through an ear or a finger there, but nothing
 /// would be opened.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct UncutFace {
     /// The cut's id.
-    pub cut: String,
+    pub cut: CutId,
     /// A point of the face in the model frame, mm.
     pub point_mm: [f64; 3],
 }
@@ -112,13 +79,13 @@ pub struct UncutFace {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct JointNote {
     /// The cut's id.
-    pub cut: String,
+    pub cut: CutId,
     /// The ids of the parts below and above the cut.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
     /// The area to be glued, sockets not taken off, mm².
     pub area_mm2: f64,
     /// The ids of the pins between them.
-    pub pins: Vec<String>,
+    pub pins: Vec<PinId>,
     /// Whether the pins let the parts together one way only.
     pub one_way: bool,
     /// Where the parts touch: the section less the mouths of the sockets.
@@ -142,9 +109,9 @@ pub struct SolidEnd {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CutMove {
     /// The cut's id.
-    pub cut: String,
+    pub cut: CutId,
     /// The part whose face decided.
-    pub part: String,
+    pub part: PartId,
     /// How far the plane was moved along its normal, mm: half a layer at most.
     pub moved_mm: f64,
 }
@@ -167,7 +134,7 @@ impl JointNote {
 impl CutPlan {
     /// The plan that cuts nothing and leaves every void closed.
     pub fn uncut(hollowed: &Hollowed) -> Self {
-        let closed = |(void, solid): (usize, &Solid)| VoidAccess::closed(void, solid);
+        let closed = |(index, void): (usize, &Void)| VoidAccess::closed(VoidId::of(index), void);
         Self {
             cuts: Vec::new(),
             pins: Vec::new(),
@@ -177,7 +144,6 @@ impl CutPlan {
             uncut: Vec::new(),
             solid: Vec::new(),
             moves: Vec::new(),
-            proofs: Vec::new(),
             notes: Vec::new(),
         }
     }
@@ -201,12 +167,17 @@ impl CutPlan {
     }
 
     /// The cuts in which a part meets others.
-    pub fn cuts_of<'a>(&'a self, part: &'a str) -> impl Iterator<Item = &'a Cut> {
-        let meets = move |joint: &JointNote| joint.parts.iter().any(|id| id == part);
+    pub fn cuts_of(&self, part: PartId) -> impl Iterator<Item = &Cut> {
+        let meets = move |joint: &JointNote| joint.parts.contains(&part);
         let joints = move || self.joints.iter().filter(move |joint| meets(joint));
         self.cuts
             .iter()
             .filter(move |cut| joints().any(|joint| joint.cut == cut.id))
+    }
+
+    /// Returns the notes on how its cuts were found.
+    pub fn proofs(&self) -> impl Iterator<Item = &Remark> {
+        self.notes.iter().filter(|note| note.is_proof())
     }
 
     /// Its cuts as they are made, in their order.
@@ -225,11 +196,16 @@ impl CutPlan {
     }
 }
 
+/// The index of the cut with an id; `None` if there is none.
+pub(crate) fn index_of(cuts: &[Cut], id: &CutId) -> Option<usize> {
+    cuts.iter().position(|cut| cut.id == *id)
+}
+
 /// The planes of cuts, and where each cuts.
 pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
     let planes = cuts.iter().map(Cut::plane).collect::<Result<Vec<_>, _>>()?;
     let limit = |side: &CutSide| {
-        let cut = cuts.iter().position(|cut| cut.id == side.cut)?;
+        let cut = index_of(cuts, &side.cut)?;
         Some(Limit {
             cut,
             is_above: side.side == Side::Above,
@@ -247,7 +223,7 @@ pub(crate) fn tree_of(cuts: &[Cut]) -> Result<CutTree, CutError> {
 /// out.
 pub(crate) fn bridges_on(planes: &[Plane], cuts: &[Cut], uncut: &[UncutFace]) -> Vec<Bridge> {
     let bridge = |face: &UncutFace| {
-        let cut = cuts.iter().position(|cut| cut.id == face.cut)?;
+        let cut = index_of(cuts, &face.cut)?;
         Some(Bridge {
             cut,
             at: Chart::of_plane(&planes[cut]).flat(&Point::from(face.point_mm)),

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
-    cut::{joints::rod::Rod, seat::Seat},
+    cut::joints::rod::Rod,
     geom::{Point, Vector},
     printer::Cleaning,
 };
@@ -41,28 +41,10 @@ pub struct PlanRequest {
     pub layer_mm: f64,
     /// How parts are laid in the printer.
     pub pose: PosePreference,
-    /// The last voids of the body hold parts, in this order.
-    pub seats: Vec<Seat>,
     /// The rods that dowels are cut from, in place of printed pins; none for printed ones.
     pub rods: Vec<Rod>,
     /// How part ids are sunk into cut faces; none where they are not.
     pub labels: Option<LabelStyle>,
-}
-
-impl PlanRequest {
-    /// The seat that a void is, of a body with so many voids.
-    pub(crate) fn seat_of(&self, void: usize, voids: usize) -> Option<&Seat> {
-        let first = voids.saturating_sub(self.seats.len());
-        void.checked_sub(first)
-            .and_then(|seat| self.seats.get(seat))
-    }
-
-    /// Diameter of the disc that must pass through a void's opening, mm: a seat, all of it in sight
-    /// once it is open, must let its part in; any other void must let itself be cleaned.
-    pub(crate) fn needed_mm(&self, void: usize, voids: usize) -> f64 {
-        self.seat_of(void, voids)
-            .map_or(self.min_opening_mm, |seat| seat.opening_mm)
-    }
 }
 
 /// The axis of the goal in the model frame.

@@ -1,9 +1,12 @@
 //! Bodies and requests for the tests of this folder.
 
 use crate::{
-    cut::{GoalAxis, PinSettings, PlanRequest, PosePreference},
+    cut::{
+        self, CutError, CutOrder, CutPlan, GoalAxis, Part, PinSettings, PlanRequest,
+        PosePreference, hollowed::Hollowed,
+    },
     geom::{Point, Vector},
-    mesh::{Hollowed, Solid, TriMesh},
+    mesh::{Solid, TriMesh},
     printer::Cleaning,
 };
 
@@ -75,7 +78,7 @@ pub(crate) fn with_balls(outer: Solid, balls: &[[f64; 4]]) -> Hollowed {
         .iter()
         .map(|&[x, y, z, radius]| ball([x, y, z], radius))
         .collect();
-    Hollowed { outer, voids }
+    Hollowed::new(outer, voids)
 }
 
 /// Settings like those of a PolyJet printer, about an axis along z through a point below
@@ -103,8 +106,30 @@ pub(crate) fn request() -> PlanRequest {
         hole_step_mm: 0.042,
         layer_mm: 0.03,
         pose: PosePreference::CutFaceDown,
-        seats: Vec::new(),
         rods: Vec::new(),
         labels: None,
     }
+}
+
+/// A plan as in [`cut::plan`], an obstacle being an error.
+pub(crate) fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
+    cut::plan(hollowed, request)?.or_error()
+}
+
+/// A plan as in [`cut::plan_by`], an obstacle being an error.
+pub(crate) fn plan_by(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+    order: &CutOrder,
+) -> Result<CutPlan, CutError> {
+    cut::plan_by(hollowed, request, order)?.or_error()
+}
+
+/// The parts as in [`cut::parts`], an obstacle being an error.
+pub(crate) fn parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
+) -> Result<Vec<Part>, CutError> {
+    cut::parts(hollowed, plan, request)?.or_error()
 }

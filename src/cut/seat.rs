@@ -39,7 +39,7 @@ impl Seat {
 }
 
 /// Normals of planes that pass through the middles of several seats, and across the seats' axes.
-pub(crate) fn normals(seats: &[Seat]) -> Vec<Vector> {
+pub(crate) fn normals(seats: &[&Seat]) -> Vec<Vector> {
     let axes = seats
         .iter()
         .filter_map(|seat| seat.axis.map(|(axis, _)| axis));
@@ -124,6 +124,6 @@ mod tests {
             let heights = seats.iter().map(|seat| seat.height_mm(normal));
             heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min) < 1e-9
         };
-        assert!(normals(&seats).iter().any(passes));
+        assert!(normals(&seats.each_ref()).iter().any(passes));
     }
 }

@@ -3,12 +3,12 @@
 use crate::{
     cut::{
         joints::pin_shape::SIDES,
-        scenes::{ball, cuboid, request, with_balls},
+        scenes::{ball, cuboid, parts, plan, plan_by, request, with_balls},
         *,
     },
     geom::{Point, Vector},
     mass::moments_of_mesh,
-    mesh::{Csg, Hollowed, Solid, shells},
+    mesh::{Solid, shells},
 };
 
 fn volume(solid: &Solid) -> f64 {
@@ -78,7 +78,7 @@ fn a_ball_with_one_void_is_cut_once_into_two_parts_with_pins_that_fit_one_way() 
         "{:?}",
         plan.notes
     );
-    assert_eq!(parts[0].voids, vec![0]);
+    assert_eq!(parts[0].voids, [VoidId::of(0)]);
     assert_eq!(parts[0].pins.len() + parts[1].pins.len(), plan.pins.len());
     assert_eq!(
         parts[0].sockets.len() + parts[1].sockets.len(),
@@ -87,88 +87,11 @@ fn a_ball_with_one_void_is_cut_once_into_two_parts_with_pins_that_fit_one_way() 
 }
 
 #[test]
-fn pearls_on_a_skew_string_need_one_cut() {
-    let direction = Vector::new(1.0, 2.0, -1.5).normalize();
-    let pearls: Vec<[f64; 4]> = (-3..=3)
-        .map(|i| direction * (7.0 * f64::from(i)))
-        .map(|p| [p.x, p.y, p.z, 3.0])
-        .collect();
-    let (plan, _) = kit(&with_balls(ball([0.0; 3], 32.0), &pearls), &request());
-    assert_eq!(plan.cuts.len(), 1);
-}
-
-#[test]
-fn two_voids_side_by_side_only_in_a_skew_direction_need_one_cut() {
-    // Their extents along x, along y and along z do not overlap, so no plane normal to an axis
-    // meets both.
-    let body = with_balls(
-        cuboid([-30.0; 3], [30.0; 3]),
-        &[[-15.0, -15.0, -15.0, 6.0], [15.0, 15.0, 15.0, 6.0]],
-    );
-    let (plan, _) = kit(&body, &request());
-    assert_eq!(plan.cuts.len(), 1);
-}
-
-#[test]
-fn a_table_with_a_void_in_every_leg_needs_one_cut() {
-    let legs = [[5.0, 5.0], [45.0, 5.0], [5.0, 45.0], [45.0, 45.0]];
-    let mut body = Csg::of_solid(&cuboid([0.0, 0.0, 30.0], [50.0, 50.0, 40.0])).unwrap();
-    for [x, y] in legs {
-        let leg = cuboid([x - 5.0, y - 5.0, 0.0], [x + 5.0, y + 5.0, 31.0]);
-        body = body.union(&Csg::of_solid(&leg).unwrap()).unwrap();
-    }
-    let outer = body.to_solid().unwrap();
-    let voids = legs.map(|[x, y]| cuboid([x - 3.0, y - 3.0, 4.0], [x + 3.0, y + 3.0, 25.0]));
-    let (plan, _) = kit(
-        &Hollowed {
-            outer,
-            voids: voids.to_vec(),
-        },
-        &request(),
-    );
-    assert_eq!(plan.cuts.len(), 1);
-}
-
-#[test]
-fn three_voids_in_a_triangle_need_the_one_plane_through_them_all() {
-    let body = with_balls(
-        ball([0.0; 3], 40.0),
-        &[
-            [20.0, 0.0, 12.0, 4.0],
-            [-12.0, 18.0, -4.0, 4.0],
-            [-10.0, -18.0, 0.0, 4.0],
-        ],
-    );
-    let (plan, _) = kit(&body, &request());
-    assert_eq!(plan.cuts.len(), 1);
-}
-
-#[test]
-fn four_small_voids_at_the_corners_of_a_tetrahedron_need_two_cuts() {
-    // A plane within 1.5 mm of three corners misses the fourth, some 40 mm off; two planes take two
-    // corners each.
-    let corner = |x: f64, y: f64, z: f64| [15.0 * x, 15.0 * y, 15.0 * z, 2.5];
-    let tetrahedron = [
-        corner(1.0, 1.0, 1.0),
-        corner(1.0, -1.0, -1.0),
-        corner(-1.0, 1.0, -1.0),
-        corner(-1.0, -1.0, 1.0),
-    ];
-    let (plan, parts) = kit(
-        &with_balls(cuboid([-25.0; 3], [25.0; 3]), &tetrahedron),
-        &request(),
-    );
-    assert_eq!(plan.cuts.len(), 2);
-    assert!(plan.notes[0].contains("fewer do not"), "{:?}", plan.notes);
-    assert!(parts.len() >= 3);
-}
-
-#[test]
 fn no_two_joints_can_be_confused() {
     let body = with_balls(cuboid([0.0; 3], [60.0, 20.0, 20.0]), &[]);
     let planes: Vec<Cut> = (1..3)
         .map(|i| Cut {
-            id: format!("C{i}"),
+            id: CutId::from(format!("C{i}").as_str()),
             point_mm: [20.0 * f64::from(i), 0.0, 0.0],
             normal: [1.0, 0.0, 0.0],
             within: Vec::new(),
@@ -245,26 +168,14 @@ fn a_thin_shell_has_no_room_for_pins_and_the_plan_says_so() {
     let (plan, parts) = kit(&body, &request());
     assert!(plan.pins.is_empty());
     assert!(
-        plan.notes
-            .iter()
-            .any(|note| note.contains("no room for pins: widest section 1.")),
+        plan.notes.iter().any(|note| {
+            note.to_string()
+                .contains("no room for pins: widest section 1.")
+        }),
         "{:?}",
         plan.notes
     );
     assert_eq!(parts.len(), 2);
-}
-
-#[test]
-fn a_void_too_narrow_to_open_is_named() {
-    let body = with_balls(
-        cuboid([0.0; 3], [30.0; 3]),
-        &[[10.0, 10.0, 10.0, 5.0], [22.0, 22.0, 22.0, 1.0]],
-    );
-    let refused = plan(&body, &request()).unwrap_err();
-    assert!(
-        matches!(&refused, CutError::Unopenable { voids, .. } if *voids == vec![1]),
-        "{refused}"
-    );
 }
 
 #[test]
@@ -347,7 +258,6 @@ fn a_plan_survives_being_written_and_read() {
         read,
         CutPlan {
             moves: Vec::new(),
-            proofs: Vec::new(),
             ..plan.clone()
         },
         "how its cuts were moved is not in the file"
@@ -379,7 +289,7 @@ fn degenerate_cuts_and_requests_are_refused_without_panic() {
     };
     assert!(matches!(
         plan_by(&body, &request(), &cuts(vec![aside])),
-        Err(CutError::ClosedCavity { .. })
+        Err(CutError::Obstacle(Obstacle::ClosedCavity { .. }))
     ));
     let asked = PlanRequest {
         wall_mm: f64::NAN,
@@ -431,7 +341,7 @@ fn a_body_left_uncut_keeps_its_closed_voids_in_one_part() {
     let plan = CutPlan::uncut(&body);
     let parts = parts(&body, &plan, &request()).unwrap();
     assert_eq!((parts.len(), plan.voids[0].opening_mm), (1, 0.0));
-    assert_eq!(parts[0].pose.lies, "upright");
+    assert_eq!(parts[0].pose.lies, Lie::Upright);
     assert_volumes_add_up(&body, &parts);
 }
 
@@ -439,61 +349,12 @@ fn a_body_left_uncut_keeps_its_closed_voids_in_one_part() {
 fn a_plan_still_cuts_a_body_whose_voids_have_changed_a_little() {
     let body = |radius| with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, radius]]);
     let plan = plan(&body(12.0), &request()).unwrap();
-    let ids = |radius| -> Vec<(String, usize)> {
+    let ids = |radius| -> Vec<(PartId, usize)> {
         let parts = parts(&body(radius), &plan, &request()).unwrap();
         parts
             .iter()
-            .map(|part| (part.id.clone(), part.pins.len()))
+            .map(|part| (part.id, part.pins.len()))
             .collect()
     };
     assert_eq!(ids(12.0), ids(12.02));
-}
-
-/// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of
-/// room.
-fn with_pockets(pockets: &[[f64; 3]]) -> (Hollowed, PlanRequest) {
-    let voids = [
-        &[[15.0, 15.0, 15.0, 9.0]][..],
-        &pockets
-            .iter()
-            .map(|&[x, y, z]| [x, y, z, 2.7])
-            .collect::<Vec<_>>(),
-    ];
-    let body = with_balls(cuboid([0.0; 3], [60.0, 30.0, 30.0]), &voids.concat());
-    let seat = |&center: &[f64; 3]| Seat {
-        center: Point::from(center),
-        axis: None,
-        radius_mm: 2.7,
-        opening_mm: 5.0,
-    };
-    (
-        body,
-        PlanRequest {
-            seats: pockets.iter().map(seat).collect(),
-            ..request()
-        },
-    )
-}
-
-#[test]
-fn one_cut_opens_a_void_and_lets_a_ball_into_its_pocket() {
-    let (body, request) = with_pockets(&[[50.0, 22.0, 8.0]]);
-    let (plan, _) = kit(&body, &request);
-    assert_eq!(plan.cuts.len(), 1);
-    assert!(plan.voids[1].opening_mm >= 5.0, "{:?}", plan.voids);
-    let plane = plan.cuts[0].plane().unwrap();
-    // √(2.7² − 2.5²) of its middle.
-    assert!(plane.distance(&Point::new(50.0, 22.0, 8.0)).abs() <= 1.02);
-}
-
-#[test]
-fn three_pockets_without_order_are_opened_by_the_plane_through_them() {
-    let (body, request) = with_pockets(&[[40.0, 6.0, 22.0], [54.0, 24.0, 7.0], [36.0, 22.0, 11.0]]);
-    let (plan, _) = kit(&body, &request);
-    assert!(plan.cuts.len() <= 2, "{:?}", plan.notes);
-    assert!(
-        plan.voids[1..].iter().all(|void| void.opening_mm >= 5.0),
-        "{:?}",
-        plan.voids
-    );
 }

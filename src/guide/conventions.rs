@@ -20,7 +20,7 @@
 //!
 //! # Orientation
 //! Triangles are counter-clockwise seen from outside the material. A void on its own is a solid of
-//! air, oriented outward. Inside a [`crate::mesh::Hollowed`] written as one mesh it is turned
+//! air, oriented outward. Inside a [`crate::cut::Hollowed`] written as one mesh it is turned
 //! inside out, so that the divergence theorem subtracts it.
 //!
 //! # Ten moments

@@ -85,7 +85,7 @@ fn pack(placed: &Placed, part: &WrittenPart, object: &[Object]) -> Result<File, 
 }
 
 fn object(index: usize, part: &WrittenPart, printed: &TriMesh) -> Object {
-    Object::new(&part.part.id, part_color(index), printed)
+    Object::new(&part.part.id.to_string(), part_color(index), printed)
 }
 
 fn package(

@@ -3,8 +3,9 @@
 use rayon::prelude::*;
 
 use super::write::write;
+use crate::base::verdict::Verdict;
 use crate::base::watch::{Phase, Watch};
-use crate::cut::{self, CutError, CutPlan, PlanRequest, parts_and_faces};
+use crate::cut::{self, CutError, CutPlan, Obstacle, PlanRequest, parts_and_faces};
 use crate::error::Error;
 use crate::mass::{Moments, moments_of_mesh};
 use crate::open::{Candidate, Resolver, defect_ratio, finish, plan_once};
@@ -122,14 +123,17 @@ impl Corrector<'_, '_> {
         voids: &Voids,
         mut plan: CutPlan,
     ) -> Result<(Vec<WrittenPart>, CutPlan), Error> {
-        let (parts, plan) = match parts_and_faces(&voids.hollowed, &plan, self.request) {
-            Err(CutError::ClosedCavity { .. }) => {
+        let (parts, plan) = match parts_and_faces(&voids.hollowed, &plan, self.request)? {
+            Verdict::No(Obstacle::ClosedCavity { .. }) => {
                 let solid = std::mem::take(&mut plan.solid);
                 let anew = plan_once(self.placed, voids, self.request)?;
-                parts_and_faces(&voids.hollowed, &CutPlan { solid, ..anew }, self.request)?
+                let anew = anew.or_error::<CutError>()?;
+                let anew = CutPlan { solid, ..anew };
+                parts_and_faces(&voids.hollowed, &anew, self.request)?
             }
-            parts => parts?,
-        };
+            parts => parts,
+        }
+        .or_error::<CutError>()?;
         self.watch.check()?;
         let job = self.placed.name();
         let scale_ratio = self.placed.shop.printer.print_scale_ratio();

@@ -6,7 +6,10 @@ use super::plan::are_clean;
 use super::resolve::Resolver;
 use super::settle::{Settled, Terms, settle};
 use crate::base::verdict::Verdict;
-use crate::cut::{Boss, BossOrder, CutOrder, CutPlan, PinSite, PlanRequest, bosses, plan_by};
+use crate::cut::{
+    Boss, BossOrder, CutError, CutOrder, CutPlan, MaterialPrice, PinSite, PlanRequest, bosses,
+    plan_by,
+};
 use crate::error::Error;
 use crate::mesh::TriMesh;
 use crate::run::{Achieved, BossRound, KeptBoss, Policy, Refusal, Remark, Voids};
@@ -115,7 +118,8 @@ pub fn add_bosses(
             pins: Some(pins.to_vec()),
             ..CutOrder::of(&state.plan)
         };
-        state.plan = plan_by(&state.voids.hollowed, request, &order)?;
+        let plan = plan_by(&state.voids.hollowed, request, &order)?;
+        state.plan = plan.or_error::<CutError>()?;
     }
     Ok(state)
 }
@@ -189,7 +193,10 @@ impl<'r, 'a> Search<'r, 'a> {
             ordered: self.ordered,
             given_up: &failed.given_up,
             refused: &failed.places,
-            price: (voids.solution.quadric, frame),
+            price: MaterialPrice {
+                quadric: voids.solution.quadric,
+                frame,
+            },
         })?)
     }
 
@@ -291,7 +298,7 @@ impl<'r, 'a> Search<'r, 'a> {
     fn take(&mut self, found: &[Boss], held: Vec<Boss>, settled: Settled, kept_mm3: f64) {
         let kept = |boss: &Boss| KeptBoss {
             pin: boss.pin.clone(),
-            parts: boss.parts.clone(),
+            parts: boss.parts,
             volume_mm3: boss.body.signed_volume_mm3(),
         };
         let state = &mut self.state;
@@ -302,12 +309,10 @@ impl<'r, 'a> Search<'r, 'a> {
             before: state.voids.solution.certificate,
             after: settled.voids.solution.certificate,
         });
-        let CutPlan { proofs, moves, .. } = state.plan.clone();
         let plan = settled.plan;
         state.plan = CutPlan {
-            notes: [proofs.clone(), plan.notes].concat(),
-            proofs,
-            moves,
+            notes: state.plan.proofs().cloned().chain(plan.notes).collect(),
+            moves: std::mem::take(&mut state.plan.moves),
             ..plan
         };
         (state.voids, state.held) = (settled.voids, held);

@@ -2,7 +2,8 @@
 
 use super::plan::plan_once;
 use super::resolve::Resolver;
-use crate::cut::{CutError, CutPlan, PlanRequest, SolidEnd, Unclean, unclean};
+use crate::base::verdict::Verdict;
+use crate::cut::{CutError, CutPlan, Obstacle, PlanRequest, SolidEnd, Unclean, VoidId, unclean};
 use crate::error::Error;
 use crate::job::CutMode;
 use crate::mesh::{MeshDistance, TriMesh};
@@ -41,10 +42,10 @@ pub fn clean(
     let mut request = request.clone();
     loop {
         resolver.watch().check()?;
-        let plan = plan_once(placed, &voids, &request);
+        let plan = plan_once(placed, &voids, &request)?;
         let dirty = uncleaned(placed, &voids, &plan, &request, rounds.len())?;
         if dirty.bodies.is_empty() || rounds.len() == placed.policy.cleaning_rounds {
-            let plan = plan?;
+            let plan = plan.or_error::<CutError>()?;
             return Ok(Cleaned {
                 voids,
                 plan,
@@ -58,10 +59,10 @@ pub fn clean(
                 rounds.push(round);
             }
             // Rather any further cut than a goal that cannot be met.
-            (None, Ok(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
+            (None, Verdict::Found(_)) if request.worth_ratio > 0.0 => request.worth_ratio = 0.0,
             (None, plan) => {
                 rounds.push(round);
-                let plan = plan?;
+                let plan = plan.or_error::<CutError>()?;
                 return Ok(Cleaned {
                     voids,
                     plan,
@@ -76,14 +77,14 @@ pub fn clean(
 fn uncleaned(
     placed: &Placed,
     voids: &Voids,
-    plan: &Result<CutPlan, CutError>,
+    plan: &Verdict<CutPlan, Obstacle>,
     request: &PlanRequest,
     rounds: usize,
 ) -> Result<Keep, Error> {
     let policy = &placed.policy;
     let whole = rounds >= policy.shrinking_rounds;
     let (unclean, margin_openings) = match plan {
-        Ok(plan) if placed.job.cut != CutMode::Never => (
+        Verdict::Found(plan) if placed.job.cut != CutMode::Never => (
             unclean(&voids.hollowed, plan, request, whole)?,
             if whole {
                 policy.refused_margin_openings
@@ -91,7 +92,7 @@ fn uncleaned(
                 policy.cleaning_margin_openings
             },
         ),
-        Err(CutError::Unopenable { voids: closed, .. }) if are_empty(voids, closed, request) => {
+        Verdict::No(Obstacle::Unopenable { voids: closed, .. }) if are_empty(voids, closed) => {
             let keep = keep_unopenable(voids, closed, policy.refused_margin_openings);
             return Ok(keep);
         }
@@ -99,7 +100,7 @@ fn uncleaned(
     };
     let kept = |unclean: &Unclean| KeptSolid {
         void: unclean.void,
-        cause: KeptCause::Uncleanable(unclean.why.clone()),
+        cause: KeptCause::Uncleanable(unclean.cause),
     };
     Ok(Keep {
         kept: unclean.iter().map(kept).collect(),
@@ -112,24 +113,27 @@ fn uncleaned(
 }
 
 /// Keeps voids solid that no cut opens.
-fn keep_unopenable(voids: &Voids, closed: &[usize], margin_openings: f64) -> Keep {
-    let body = |&void: &usize| Some((void, voids.hollowed.voids.get(void)?.mesh().clone()));
-    let (indices, bodies): (Vec<usize>, Vec<TriMesh>) = closed.iter().filter_map(body).unzip();
+fn keep_unopenable(voids: &Voids, closed: &[VoidId], margin_openings: f64) -> Keep {
+    let body = |&void: &VoidId| {
+        let body = voids.hollowed.voids.get(void.index())?;
+        Some((void, body.mesh().clone()))
+    };
+    let (ids, bodies): (Vec<VoidId>, Vec<TriMesh>) = closed.iter().filter_map(body).unzip();
     let kept = |void| KeptSolid {
         void,
         cause: KeptCause::Unopenable,
     };
     Keep {
-        kept: indices.into_iter().map(kept).collect(),
+        kept: ids.into_iter().map(kept).collect(),
         bodies,
         margin_openings,
     }
 }
 
 /// Returns whether none of these voids holds ballast, which cannot stay solid.
-fn are_empty(voids: &Voids, indices: &[usize], request: &PlanRequest) -> bool {
-    let empty = voids.hollowed.voids.len() - request.seats.len();
-    indices.iter().all(|&void| void < empty)
+fn are_empty(voids: &Voids, ids: &[VoidId]) -> bool {
+    let is_empty = |void: &VoidId| voids.hollowed.voids[void.index()].holds.is_none();
+    ids.iter().all(is_empty)
 }
 
 /// Keeps parts of the interior solid and solves again; `None` if nothing can be emptied there, or
@@ -149,9 +153,12 @@ pub fn without_ends(
     let nearest = |end: &SolidEnd| {
         let depth = |wall: &MeshDistance| wall.signed(&end.at_mm.into());
         let depths = walls.iter().map(depth).enumerate();
-        let (void, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let (index, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
         let cause = cause.clone();
-        Some(KeptSolid { void, cause })
+        Some(KeptSolid {
+            void: VoidId::of(index),
+            cause,
+        })
     };
     let keep = Keep {
         kept: ends.iter().filter_map(nearest).collect(),

@@ -61,7 +61,7 @@ impl Failed {
     /// Returns a remark for every joint that got no bosses.
     pub fn remarks(&self) -> Vec<Remark> {
         let remark = |(name, why): &(JointName, Refusal)| Remark::NoBosses {
-            parts: name.parts.clone(),
+            parts: name.parts,
             why: *why,
         };
         self.reasons.iter().map(remark).collect()

@@ -83,7 +83,7 @@ impl<'a> Ladder<'a> {
     /// Draws the voids, without what the job's plan keeps solid.
     fn new(placed: &'a Placed, solved: Solved, watch: &Watch) -> Result<Self, Error> {
         watch.enter(Phase::Shell);
-        let request = request(placed, &solved.load);
+        let request = request(placed);
         let mut resolver = Resolver::new(placed, solved, watch)?;
         watch.enter(Phase::Voids);
         let voids = resolver.draw()?;
@@ -253,8 +253,8 @@ impl<'a> Ladder<'a> {
         let mut solid = Vec::new();
         for _ in 0..self.policy.max_ends {
             let last = ended.last().unwrap_or(base);
-            let margin = (&self.request, self.policy.ends_margin_openings);
-            let ends = beyond(&last.bossed.voids.hollowed, &last.bossed.plan, margin);
+            let margin_mm = self.policy.ends_margin_openings * self.request.min_opening_mm;
+            let ends = beyond(&last.bossed.voids.hollowed, &last.bossed.plan, margin_mm);
             let ends = unless_refused(ends.map_err(Error::from))?.unwrap_or_default();
             if ends.is_empty() {
                 break;

@@ -1,6 +1,7 @@
 //! One plan for voids as they are: the planner's, or the one that a person ordered.
 
-use crate::cut::{self, CutError, CutOrder, CutPlan, PlanRequest, plan_by};
+use crate::base::verdict::Verdict;
+use crate::cut::{self, CutError, CutOrder, CutPlan, Obstacle, PlanRequest, plan_by};
 use crate::job::CutMode;
 use crate::run::{Placed, Voids};
 
@@ -9,19 +10,19 @@ pub fn plan_once(
     placed: &Placed,
     voids: &Voids,
     request: &PlanRequest,
-) -> Result<CutPlan, CutError> {
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
     let hollowed = &voids.hollowed;
     match (&placed.job.plan, placed.job.cut) {
-        (Some(order), _) => match plan_by(hollowed, request, order) {
+        (Some(order), _) => match plan_by(hollowed, request, order)? {
             // The pin may stand in a boss that is still to be kept solid.
-            Err(CutError::PinOffFace { .. }) => {
+            Verdict::No(Obstacle::PinOffFace { .. }) => {
                 let without_pins = CutOrder {
                     pins: Some(Vec::new()),
                     ..order.clone()
                 };
                 plan_by(hollowed, request, &without_pins)
             }
-            plan => plan,
+            plan => Ok(plan),
         },
         (None, CutMode::Auto) => cut::plan(hollowed, request),
         (None, CutMode::Never) => plan_by(hollowed, request, &CutOrder::default()),
@@ -31,7 +32,6 @@ pub fn plan_once(
 /// Returns whether every void of a plan is clean by the printer's rule, without the planner's own
 /// margin: to solve again for that margin costs more than any boss.
 pub fn are_clean(plan: &CutPlan, request: &PlanRequest) -> bool {
-    let count = plan.voids.len();
     let mut voids = plan.voids.iter();
-    voids.all(|void| void.is_clean_without_margin(request, count))
+    voids.all(|void| void.is_clean_without_margin(request))
 }

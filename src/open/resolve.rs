@@ -4,13 +4,14 @@
 use rayon::prelude::*;
 
 use super::defect::defect_ratio;
+use crate::ballast::{Load, Placed as PlacedPart, Pocket};
 use crate::base::watch::Watch;
-use crate::cut::SolidEnd;
+use crate::cut::{Hollowed, Seat, SolidEnd, Void};
 use crate::error::Error;
 use crate::geom::{Aabb, Point};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Hollowed, Solid, TriMesh};
+use crate::mesh::{Solid, TriMesh};
 use crate::run::{HeightProof, Placed, Solved, Voids};
 use crate::voids::{Cavity, CavitySpec, VoidError, grown, without_slivers};
 
@@ -194,14 +195,8 @@ impl<'a> Resolver<'a> {
         let refused = bodies.refused.into_iter().filter(is_significant);
         let refused: Vec<TriMesh> = refused.collect();
         self.refuse(&refused, policy.refused_margin_openings)?;
-        let mut hollowed = Hollowed {
-            outer: self.placed.solid().clone(),
-            voids: bodies.bodies,
-        };
-        for pocket in self.solved.load.pockets() {
-            let body = Solid::new(pocket.mesh()).map_err(VoidError::from)?;
-            hollowed.voids.push(body);
-        }
+        let mut hollowed = Hollowed::new(self.placed.solid().clone(), bodies.bodies);
+        hollowed.voids.extend(pockets(&self.solved.load)?);
         Ok(Voids {
             solution,
             fixed,
@@ -239,10 +234,31 @@ impl<'a> Resolver<'a> {
     }
 }
 
+/// Returns the pockets of ballast, each with the seat of its part.
+fn pockets(load: &Load) -> Result<Vec<Void>, Error> {
+    let pocket = |(placed, pocket): (&PlacedPart, Pocket)| {
+        let seat = Seat {
+            center: pocket.center,
+            axis: pocket.half_height_mm.map(|half| (pocket.axis, half)),
+            radius_mm: pocket.radius_mm,
+            opening_mm: 2.0 * placed.lump.shape.radius_mm(),
+        };
+        Ok(Void {
+            body: Solid::new(pocket.mesh()).map_err(VoidError::from)?,
+            holds: Some(seat),
+        })
+    };
+    load.parts.iter().zip(load.pockets()).map(pocket).collect()
+}
+
 /// Returns the voids without the slivers that the rounding of a file would fold.
 pub fn finish(mut voids: Voids) -> Result<Voids, Error> {
     let bodies = std::mem::take(&mut voids.hollowed.voids);
-    let finished = bodies.par_iter().map(without_slivers);
+    let finish = |void: Void| {
+        let body = without_slivers(&void.body)?;
+        Ok::<_, Error>(Void { body, ..void })
+    };
+    let finished = bodies.into_par_iter().map(finish);
     voids.hollowed.voids = finished.collect::<Result<_, _>>()?;
     Ok(voids)
 }

@@ -4,7 +4,8 @@ use super::plan::are_clean;
 use super::resolve::Resolver;
 use crate::base::verdict::Verdict;
 use crate::cut::{
-    CutError, CutOrder, CutPlan, PlanRequest, Unclean, closed, plan_around, plan_by, unclean,
+    CutError, CutOrder, CutPlan, Obstacle, PlanRequest, Unclean, closed, plan_around, plan_by,
+    unclean,
 };
 use crate::error::Error;
 use crate::mesh::TriMesh;
@@ -86,8 +87,8 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
     } else {
         plan_around
     };
-    match plan_for(&voids.hollowed, terms.request, terms.order) {
-        Ok(plan) => {
+    match plan_for(&voids.hollowed, terms.request, terms.order)? {
+        Verdict::Found(plan) => {
             let unclean = left_unclean(voids, &plan, terms)?;
             Ok(Verdict::Found(if unclean.is_empty() {
                 Step::Done(plan)
@@ -95,8 +96,8 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
                 Step::Keep(unclean)
             }))
         }
-        Err(CutError::ClosedCavity { .. }) => {
-            let closed = closed(&voids.hollowed, &terms.order.cuts, terms.request)?;
+        Verdict::No(Obstacle::ClosedCavity { .. }) => {
+            let closed = closed(&voids.hollowed, &terms.order.cuts)?;
             Ok(if closed.is_empty() {
                 Verdict::No(Refusal::CloseVoid)
             } else {
@@ -104,10 +105,10 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
             })
         }
         // What was kept solid has changed the faces that the bosses' pins stood in.
-        Err(CutError::PinOffFace { .. }) if !terms.is_ordered => {
+        Verdict::No(Obstacle::PinOffFace { .. }) if !terms.is_ordered => {
             Ok(Verdict::No(Refusal::MoveJoint))
         }
-        Err(error) => Err(error.into()),
+        Verdict::No(obstacle) => Err(CutError::from(obstacle).into()),
     }
 }
 
@@ -116,11 +117,10 @@ fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Uncl
     if !terms.must_be_clean || are_clean(plan, terms.request) {
         return Ok(Vec::new());
     }
-    let count = plan.voids.len();
     let mut unclean = unclean(&voids.hollowed, plan, terms.request, false)?;
     unclean.retain(|found| {
-        let void = &plan.voids[found.void];
-        !void.is_clean_without_margin(terms.request, count)
+        let void = &plan.voids[found.void.index()];
+        !void.is_clean_without_margin(terms.request)
     });
     Ok(unclean)
 }

@@ -8,7 +8,6 @@ use crate::geom::{Parting, Plane, Point, rings::thinnest};
 use crate::mesh::{MeshDistance, TriMesh};
 use crate::page::{CutFace, Mouth, Region};
 use crate::run::{Made, WrittenPart};
-use crate::sheet::from_run::void_id;
 
 /// How far beside the middle of its widest disc a region is looked at, as a share of the disc's
 /// diameter: within it, past a pin.
@@ -24,7 +23,7 @@ pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
     let plan = &made.plan;
     let solid = |written: &WrittenPart| {
         (
-            written.part.id.clone(),
+            written.part.id.to_string(),
             MeshDistance::new(written.part.solid.mesh()),
         )
     };
@@ -44,7 +43,7 @@ pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
         // What ends where the cut ends is no wall.
         let wall = thinnest(&rings).filter(|ends| !ends.iter().any(|end| is_at_end(parting, *end)));
         Ok(CutFace {
-            cut: cut.id.clone(),
+            cut: cut.id.to_string(),
             plane,
             rings,
             wall,
@@ -140,13 +139,13 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
 /// Where the cut opens voids, each with the largest disc that passes there.
 fn mouths(made: &Made, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
     let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
-        let Some(body) = made.hollowed.voids.get(access.void) else {
+        let Some(body) = made.hollowed.voids.get(access.void.index()) else {
             return Ok(Vec::new());
         };
         let discs =
             Section::of_mesh(&reached(parting, body.mesh())?, &parting.plane).largest_discs();
         let mouth = |(at, diameter_mm): (Point2, f64)| Mouth {
-            void: void_id(access.void),
+            void: access.void.to_string(),
             at: [at.x, at.y],
             diameter_mm,
         };

@@ -2,13 +2,13 @@
 
 use super::{AxisChoice, Policy};
 use crate::ballast::Load;
-use crate::cut::Rod;
+use crate::cut::{Hollowed, Rod};
 use crate::goal::{Goal, Placement, Request};
 use crate::hardware::Fitted;
 use crate::hollow::Fill;
 use crate::job::Job;
 use crate::mass::{Moments, moments_of_mesh};
-use crate::mesh::{Hollowed, Solid};
+use crate::mesh::Solid;
 use crate::printer::{Material, Printer, WallChoice};
 use crate::repair::Repairs;
 

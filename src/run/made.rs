@@ -2,10 +2,10 @@
 
 use super::{BossRound, CleaningRound, HeightProof, Remark};
 use crate::ballast::Load;
-use crate::cut::{CutPlan, Part};
+use crate::cut::{CutPlan, Hollowed, Part};
 use crate::hollow::{Solution, TopCourse};
 use crate::mass::Moments;
-use crate::mesh::{Hollowed, TriMesh};
+use crate::mesh::TriMesh;
 use crate::verify::{PartEvidence, Pose, assembly_moments};
 
 /// The parts of a kit, corrected until the written parts meet the goal.
@@ -72,7 +72,7 @@ impl WrittenPart {
             rows: self.part.pose.print_from_model,
         };
         PartEvidence {
-            id: self.part.id.clone(),
+            id: self.part.id.to_string(),
             mesh: self.read_back.clone(),
             pose,
         }

@@ -1,10 +1,9 @@
 //! Voids with the cuts that open them, and the rounds that led there.
 
 use super::{KeptCause, Remark, Rung};
-use crate::cut::{CutPlan, PinSite, PlanRequest};
+use crate::cut::{CutPlan, Hollowed, PartId, PinSite, PlanRequest, VoidId};
 use crate::hollow::{Certificate, Solution};
 use crate::mass::Moments;
-use crate::mesh::Hollowed;
 
 /// The voids of a solution.
 #[derive(Debug, Clone)]
@@ -90,8 +89,8 @@ pub struct CleaningRound {
 /// A void of which something is kept solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct KeptSolid {
-    /// Index of the void before the round.
-    pub void: usize,
+    /// The void, as it was counted before the round.
+    pub void: VoidId,
     /// The reason.
     pub cause: KeptCause,
 }
@@ -115,7 +114,7 @@ pub struct KeptBoss {
     /// The pin, with the id that it has in the plan.
     pub pin: PinSite,
     /// The parts that it joins.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
     /// Volume of the whole boss, with the wall that it stands in, mm³.
     pub volume_mm3: f64,
 }

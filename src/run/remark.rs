@@ -6,6 +6,7 @@ use super::Rung;
 use crate::advice::Reached;
 use crate::base::setting::{Key, Setting};
 use crate::base::units::counted;
+use crate::cut::{PartId, UncleanCause};
 use crate::goal::{Request, Up};
 
 /// A note for the job sheet.
@@ -15,7 +16,7 @@ pub enum Remark {
     /// A joint got no bosses around pins.
     NoBosses {
         /// The parts below and above the joint.
-        parts: [String; 2],
+        parts: [PartId; 2],
         /// The reason.
         why: Refusal,
     },
@@ -134,7 +135,7 @@ impl fmt::Display for Refusal {
 }
 
 /// Why a part of a void is kept solid.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub enum KeptCause {
     /// It lies beyond a joint without room for pins.
     BeyondJoint,
@@ -142,18 +143,18 @@ pub enum KeptCause {
     Ordered,
     /// No cut opens the void.
     Unopenable,
-    /// It cannot be cleaned, in the words of the cleaning rule.
-    Uncleanable(String),
+    /// It cannot be cleaned.
+    Uncleanable(UncleanCause),
 }
 
 impl fmt::Display for KeptCause {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str(match self {
-            Self::BeyondJoint => "the end beyond a joint without room for pins",
-            Self::Ordered => "the plan keeps it solid",
-            Self::Unopenable => "no cut opens it wide enough",
-            Self::Uncleanable(why) => why,
-        })
+        match self {
+            Self::BeyondJoint => f.write_str("the end beyond a joint without room for pins"),
+            Self::Ordered => f.write_str("the plan keeps it solid"),
+            Self::Unopenable => f.write_str("no cut opens it wide enough"),
+            Self::Uncleanable(cause) => cause.fmt(f),
+        }
     }
 }
 
@@ -208,7 +209,7 @@ mod tests {
     #[test]
     fn a_remark_says_which_joint_and_why() {
         let remark = Remark::NoBosses {
-            parts: ["P01".to_owned(), "P02".to_owned()],
+            parts: [PartId::of(0), PartId::of(1)],
             why: Refusal::FillVoids { ratio: 0.612 },
         };
         let words =

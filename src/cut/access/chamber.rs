@@ -7,24 +7,25 @@ use crate::{
         access::sight::{Look, Sightlines, Walls},
         error::CutError,
         geometry::{outline::Outline, section::Section, tree::CutTree},
+        hollowed::{Hollowed, Void},
         pieces::split::{Piece, split_body},
         request::PlanRequest,
     },
-    mesh::{Csg, Hollowed, Solid, TriMesh},
+    mesh::{Csg, TriMesh},
 };
 
 /// A void with what cutting it and looking into it need, made once.
 pub(crate) struct Chamber<'a> {
-    pub(crate) solid: &'a Solid,
+    pub(crate) void: &'a Void,
     pub(crate) walls: Walls,
     body: Csg,
 }
 
 impl<'a> Chamber<'a> {
-    fn new(solid: &'a Solid) -> Result<Self, CutError> {
-        let (body, walls) = rayon::join(|| Csg::of_solid(solid), || Walls::of(solid));
+    fn new(void: &'a Void) -> Result<Self, CutError> {
+        let (body, walls) = rayon::join(|| Csg::of_solid(&void.body), || Walls::of(&void.body));
         Ok(Self {
-            solid,
+            void,
             walls,
             body: body?,
         })
@@ -66,7 +67,7 @@ impl<'a> Chamber<'a> {
     /// The outlines of its sections, each with its cut.
     fn mouths(&self, tree: &CutTree) -> Vec<(usize, Outline)> {
         let mouths = |(cut, plane)| {
-            let section = Section::of_mesh(self.solid.mesh(), plane);
+            let section = Section::of_mesh(self.void.mesh(), plane);
             let outlines = section
                 .groups()
                 .into_iter()
@@ -83,7 +84,7 @@ mod tests {
     use crate::{
         cut::{access::void_access::accesses, scenes::request},
         geom::{Plane, Point, Vector},
-        mesh::primitives,
+        mesh::{Solid, primitives},
         printer::{Cleaning, CleaningRule},
     };
 
@@ -99,10 +100,7 @@ mod tests {
         let bend = shaft.union(&arm).unwrap().to_solid().unwrap();
         let ball = solid(primitives::ball(&Point::new(0.0, 30.0, 0.0), 10.0, 3));
         let flat = solid(cuboid([30.0, -9.0, -2.0], [50.0, 9.0, 2.0]));
-        Hollowed {
-            outer: solid(cuboid([-60.0; 3], [60.0; 3])),
-            voids: vec![bend, ball, flat],
-        }
+        Hollowed::new(solid(cuboid([-60.0; 3], [60.0; 3])), vec![bend, ball, flat])
     }
 
     #[test]

@@ -7,20 +7,22 @@ use crate::{
         access::{
             chamber::Chamber,
             sight::Seen,
-            void_access::{Mouths, Opened, asked_ratio},
+            void_access::{Mouths, Opened, VoidAccess, asked_ratio},
         },
         error::CutError,
         geometry::tree::CutTree,
-        ids::part_id,
+        hollowed::{Hollowed, Void},
+        ids::VoidId,
         pieces::{
             part::pieces,
             split::{Joint, Piece, joints},
         },
         plan::{Cut, CutPlan, JointNote, SolidEnd, tree_of},
+        remark::UncleanCause,
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Csg, Hollowed, Solid, TriMesh, bodies, union_find::UnionFind},
+    mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
 };
 
 /// Hidden points nearer to each other than this many times their spacing are one place.
@@ -43,10 +45,10 @@ const SAME_CORNER_MM: f64 = 1e-9;
 /// A void that the plan does not let be cleaned.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unclean {
-    /// The void's index in the hollowed body.
-    pub void: usize,
-    /// Why, in words with numbers.
-    pub why: String,
+    /// The void.
+    pub void: VoidId,
+    /// The reason.
+    pub cause: UncleanCause,
     /// What of it is to be kept solid, as bodies.
     pub lumps: Vec<TriMesh>,
 }
@@ -60,59 +62,49 @@ pub fn unclean(
     whole: bool,
 ) -> Result<Vec<Unclean>, CutError> {
     let tree = plan.tree()?;
-    let count = hollowed.voids.len();
-    let is_plain = |void: usize| request.seat_of(void, count).is_none();
+    let is_empty = |void: VoidId| hollowed.voids[void.index()].holds.is_none();
     let dirty: Vec<_> = plan
         .voids
         .iter()
-        .filter(|void| !void.is_clean && is_plain(void.void))
+        .filter(|void| !void.is_clean && is_empty(void.void))
         .collect();
     let chambers = if dirty.is_empty() {
         Vec::new()
     } else {
         Chamber::all(hollowed)?
     };
-    let of = |access: &&crate::cut::access::void_access::VoidAccess| {
+    let of = |access: &&VoidAccess| {
         let opened = Opened::new(&chambers, access.void, &tree, request);
         let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
         let lumps = if whole {
-            vec![opened.chamber.solid.mesh().clone()]
+            vec![opened.chamber.void.mesh().clone()]
         } else {
             lumps(&opened)?
         };
-        let why = if access.sight_ratio < asked {
-            let percent = |ratio: f64| 100.0 * ratio;
-            let (seen, asked) = (percent(access.sight_ratio), percent(asked));
-            format!(
-                "{seen:.1} % of its wall in sight, asked are {asked:.1} %, the planner's margin with it"
-            )
+        let cause = if access.sight_ratio < asked {
+            UncleanCause::Hidden {
+                sight_ratio: access.sight_ratio,
+                asked_ratio: asked,
+            }
         } else {
-            format!(
-                "it opens by {:.2} mm, asked are {needed_mm:.2} mm",
-                access.opening_mm
-            )
+            UncleanCause::Narrow {
+                opening_mm: access.opening_mm,
+                least_opening_mm: needed_mm,
+            }
         };
-        Ok(Unclean { void, why, lumps })
+        Ok(Unclean { void, cause, lumps })
     };
     dirty.par_iter().map(of).collect()
 }
 
 /// The plain voids that none of the cuts meets: all of them must go.
-pub fn closed(
-    hollowed: &Hollowed,
-    cuts: &[Cut],
-    request: &PlanRequest,
-) -> Result<Vec<Unclean>, CutError> {
+pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
     let tree = tree_of(cuts)?;
-    let count = hollowed.voids.len();
-    let voids = hollowed
-        .voids
-        .iter()
-        .enumerate()
-        .filter(|(void, _)| request.seat_of(*void, count).is_none());
-    let is_met = |solid: &Solid, cut: usize| {
-        let there: Vec<Point> = solid
-            .mesh()
+    let voids = hollowed.voids.iter().enumerate();
+    let voids = voids.map(|(index, void)| (VoidId::of(index), void));
+    let empty = voids.filter(|(_, void)| void.holds.is_none());
+    let is_met = |body: &TriMesh, cut: usize| {
+        let there: Vec<Point> = body
             .vertices()
             .iter()
             .filter(|p| tree.acts_at(cut, p))
@@ -120,31 +112,33 @@ pub fn closed(
             .collect();
         tree.planes[cut].passes_through(&there)
     };
-    let shut = voids.filter(|(_, solid)| !(0..cuts.len()).any(|cut| is_met(solid, cut)));
-    let all = |(void, solid): (usize, &Solid)| Unclean {
-        void,
-        why: "no cut opens it".to_owned(),
-        lumps: vec![solid.mesh().clone()],
+    let shut = empty.filter(|(_, void)| !(0..cuts.len()).any(|cut| is_met(void.mesh(), cut)));
+    let all = |(id, void): (VoidId, &Void)| Unclean {
+        void: id,
+        cause: UncleanCause::Closed,
+        lumps: vec![void.mesh().clone()],
     };
     Ok(shut.map(all).collect())
 }
 
 /// What of voids lies beyond joints that have not at least two pins that fit one way only: the
-/// pieces within that of the two parts in which less is empty, and what lies so many minimum
-/// openings around them. Kept solid, they leave the joint material for pins, or no need of it.
+/// pieces within that of the two parts in which less is empty, and what lies within a
+/// margin around them. Kept solid, they leave the joint material for pins, or no need of it.
 /// Seats for parts stay.
 pub fn beyond(
     hollowed: &Hollowed,
     plan: &CutPlan,
-    (request, openings): (&PlanRequest, f64),
+    margin_mm: f64,
 ) -> Result<Vec<SolidEnd>, CutError> {
     let tree = plan.tree()?;
     let parts = pieces(hollowed, plan, &tree)?;
-    let count = hollowed.voids.len();
     let chambers = Chamber::all(hollowed)?;
     let mut inside: Vec<(usize, Piece)> = Vec::new();
-    for void in (0..count).filter(|&void| request.seat_of(void, count).is_none()) {
-        for piece in chambers[void].split(&tree)? {
+    for chamber in chambers
+        .iter()
+        .filter(|chamber| chamber.void.holds.is_none())
+    {
+        for piece in chamber.split(&tree)? {
             let part = parts
                 .iter()
                 .position(|part| borders(part, &piece.mesh, &tree));
@@ -159,7 +153,7 @@ pub fn beyond(
             .sum()
     };
     let lacks_pins = |joint: &&Joint| {
-        let ids = [joint.below, joint.above].map(part_id);
+        let ids = joint.parts();
         let is_it = |note: &&JointNote| note.parts == ids && note.cut == plan.cuts[joint.cut].id;
         plan.joints
             .iter()
@@ -177,7 +171,6 @@ pub fn beyond(
         .filter(lacks_pins)
         .filter_map(lesser)
         .collect();
-    let margin_mm = openings * request.min_opening_mm;
     let end = |(_, piece): &(usize, Piece)| {
         let at = farthest_corner(&piece.mesh, &tree)?;
         Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
@@ -335,8 +328,11 @@ fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutErr
 mod tests {
     use super::*;
     use crate::{
-        cut::{CutOrder, plan_by, scenes::request},
-        mesh::primitives,
+        cut::{
+            CutOrder,
+            scenes::{plan_by, request},
+        },
+        mesh::{Solid, primitives},
         printer::{Cleaning, CleaningRule},
     };
 
@@ -347,10 +343,7 @@ mod tests {
         let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
         let arm = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [40.0, 6.0, -22.0])).unwrap();
         let outer = Solid::new(cuboid([-15.0, -15.0, -40.0], [50.0, 15.0, 20.0])).unwrap();
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![shaft.union(&arm).unwrap().to_solid().unwrap()],
-        };
+        let hollowed = Hollowed::new(outer, vec![shaft.union(&arm).unwrap().to_solid().unwrap()]);
         let cleaning = Cleaning {
             rule: CleaningRule::InSight,
             sight_ratio: 0.95,
@@ -389,7 +382,7 @@ mod tests {
         );
         let lump = found[0].lumps[0].aabb();
         assert!(lump.min.x > 6.0 && lump.max.x > 39.0, "{lump:?}");
-        assert!(found[0].why.contains("in sight"));
+        assert!(matches!(found[0].cause, UncleanCause::Hidden { .. }));
         let all = unclean(&hollowed, &plan, &request, true).unwrap();
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
     }
@@ -415,10 +408,7 @@ mod tests {
             [[-20.0, -20.0, 5.0], [20.0, 20.0, 25.0]],
             [[-2.5, -2.0, 15.0], [2.5, 2.0, 59.0]],
         );
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![void],
-        };
+        let hollowed = Hollowed::new(outer, vec![void]);
         let level = |id: &str, z: f64| Cut {
             id: id.into(),
             point_mm: [0.0, 0.0, z],
@@ -441,7 +431,7 @@ mod tests {
             pins.contains(&0) && pins.iter().any(|&count| count >= 2),
             "{pins:?}"
         );
-        let found = beyond(&hollowed, &plan, (&request, 0.0)).unwrap();
+        let found = beyond(&hollowed, &plan, 0.0).unwrap();
         let [end] = found[..] else {
             panic!("{found:?}")
         };
@@ -449,12 +439,12 @@ mod tests {
             [end.low_mm, end.high_mm].map(|corner| corner.map(|mm| (mm * 1e6).round() / 1e6));
         assert_eq!(known, [[-2.5, -2.0, 40.0], [2.5, 2.0, 59.0]]);
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
-        let wider = beyond(&hollowed, &plan, (&request, 2.0)).unwrap()[0];
+        let wider = beyond(&hollowed, &plan, 2.0 * request.min_opening_mm).unwrap()[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
         // With its joints pinned nothing need go.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
-        assert_eq!(beyond(&hollowed, &pinned, (&request, 0.0)).unwrap(), vec![]);
+        assert_eq!(beyond(&hollowed, &pinned, 0.0).unwrap(), vec![]);
     }
 
     #[test]
@@ -472,7 +462,7 @@ mod tests {
     #[test]
     fn the_planner_cuts_along_the_bend_so_that_all_is_seen() {
         let (hollowed, request, _) = bent();
-        let plan = crate::cut::plan(&hollowed, &request).unwrap();
+        let plan = crate::cut::scenes::plan(&hollowed, &request).unwrap();
         assert!(plan.voids[0].is_clean, "{:?}", plan.voids);
         assert_eq!(plan.cuts.len(), 1, "{:?}", plan.cuts);
     }

@@ -11,12 +11,12 @@ use crate::{
         },
         error::CutError,
         geometry::{opening::is_dimple, tree::CutTree},
-        ids::cut_id,
+        hollowed::{Hollowed, Void},
+        ids::{CutId, VoidId},
         pieces::split::{Cap, Piece},
         request::PlanRequest,
     },
     geom::{Plane, Point},
-    mesh::{Hollowed, Solid},
 };
 
 /// More of the wall than asked must be in sight by this share, so that a judge who looks at other
@@ -33,11 +33,15 @@ const LAST_MARGIN_RATIO: f64 = 0.002;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VoidAccess {
     /// The void's index in the hollowed body.
-    pub void: usize,
+    pub void: VoidId,
+    /// The diameter of the part that it holds, which must pass through its opening, mm; `None` if
+    /// it holds none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part_opening_mm: Option<f64>,
     /// The void's volume, mm³.
     pub volume_mm3: f64,
     /// The ids of the cuts that pass through it.
-    pub opened_by: Vec<String>,
+    pub opened_by: Vec<CutId>,
     /// The diameter of the largest disc that passes the widest mouth of its pieces; of the piece
     /// where that is least, mm. Dimples in plain sight are not asked. 0 when the void stays closed.
     pub opening_mm: f64,
@@ -54,10 +58,11 @@ pub struct VoidAccess {
 
 impl VoidAccess {
     /// A void that no cut opens.
-    pub(crate) fn closed(void: usize, solid: &Solid) -> Self {
+    pub(crate) fn closed(id: VoidId, void: &Void) -> Self {
         Self {
-            void,
-            volume_mm3: solid.mesh().signed_volume_mm3(),
+            void: id,
+            part_opening_mm: void.holds.as_ref().map(|seat| seat.opening_mm),
+            volume_mm3: void.mesh().signed_volume_mm3(),
             opened_by: Vec::new(),
             opening_mm: 0.0,
             depth_mm: 0.0,
@@ -80,10 +85,16 @@ impl VoidAccess {
 
     /// Whether it can be cleaned by the rule, with hardly any of the planner's margin left: for
     /// what is not solved for once more but to make up for pins.
-    pub fn is_clean_without_margin(&self, request: &PlanRequest, voids: usize) -> bool {
+    pub fn is_clean_without_margin(&self, request: &PlanRequest) -> bool {
         let least = request.cleaning.sight_ratio + LAST_MARGIN_RATIO;
         let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
-        self.is_clean || (is_seen && self.opening_mm >= request.needed_mm(self.void, voids))
+        self.is_clean || (is_seen && self.opening_mm >= self.least_opening_mm(request))
+    }
+
+    /// Diameter of the disc that must pass through its opening, mm: that of the part that it holds,
+    /// or the least one that lets a void be cleaned.
+    pub fn least_opening_mm(&self, request: &PlanRequest) -> f64 {
+        self.part_opening_mm.unwrap_or(request.min_opening_mm)
     }
 
     /// The area of a ball of its volume but for a factor, mm²: a measure of its wall.
@@ -104,7 +115,7 @@ pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
 
 /// A void and what is asked of its openings.
 pub(crate) struct Opened<'a> {
-    pub(crate) void: usize,
+    pub(crate) void: VoidId,
     pub(crate) chamber: &'a Chamber<'a>,
     pub(crate) tree: &'a CutTree,
     pub(crate) request: &'a PlanRequest,
@@ -122,7 +133,7 @@ pub(crate) fn accesses(
 ) -> Result<Vec<VoidAccess>, CutError> {
     (0..chambers.len())
         .into_par_iter()
-        .map(|void| access(chambers, void, tree, request))
+        .map(|void| access(chambers, VoidId::of(void), tree, request))
         .collect()
 }
 
@@ -136,7 +147,7 @@ pub(crate) fn report(
     let of = |void| {
         Opened {
             is_told: true,
-            ..Opened::new(&chambers, void, tree, request)
+            ..Opened::new(&chambers, VoidId::of(void), tree, request)
         }
         .access()
     };
@@ -146,7 +157,7 @@ pub(crate) fn report(
 /// How the cuts open one void.
 pub(crate) fn access(
     chambers: &[Chamber],
-    void: usize,
+    void: VoidId,
     tree: &CutTree,
     request: &PlanRequest,
 ) -> Result<VoidAccess, CutError> {
@@ -157,17 +168,17 @@ impl<'a> Opened<'a> {
     /// A void of a body under these cuts.
     pub(crate) fn new(
         chambers: &'a [Chamber],
-        void: usize,
+        void: VoidId,
         tree: &'a CutTree,
         request: &'a PlanRequest,
     ) -> Self {
-        let needed_mm = request.needed_mm(void, chambers.len());
+        let chamber = &chambers[void.index()];
         Self {
             void,
-            chamber: &chambers[void],
+            chamber,
             tree,
             request,
-            needed_mm,
+            needed_mm: chamber.void.least_opening_mm(request),
             is_told: false,
         }
     }
@@ -191,11 +202,9 @@ impl<'a> Opened<'a> {
             && mouths.iter().any(|mouths| self.is_wide(mouths));
         let sight_ratio = self.seen(&pieces).ratio();
         Ok(VoidAccess {
-            void: self.void,
-            volume_mm3: self.chamber.solid.mesh().signed_volume_mm3(),
             opened_by: (0..self.tree.planes.len())
                 .filter(met)
-                .map(cut_id)
+                .map(CutId::of)
                 .collect(),
             opening_mm: deep.map(Mouths::widest_mm).fold(widest_mm, f64::min),
             depth_mm: mouths
@@ -204,6 +213,7 @@ impl<'a> Opened<'a> {
                 .fold(0.0, f64::max),
             sight_ratio,
             is_clean: lets_out && sight_ratio >= asked_ratio(self.request),
+            ..VoidAccess::closed(self.void, self.chamber.void)
         })
     }
 

@@ -93,7 +93,7 @@ impl Flat {
     /// What of it lies above another plane, or below it; sides of triangles that cross it get a
     /// corner there, the same one from both triangles (Sutherland and Hodgman, "Reentrant polygon
     /// clipping", CACM 17, 1974).
-    pub(crate) fn on_side(&self, own: &Plane, (other, is_above): (&Plane, bool)) -> Self {
+    pub(crate) fn on_side(&self, own: &Plane, other: &Plane, is_above: bool) -> Self {
         let sign = if is_above { 1.0 } else { -1.0 };
         let heights: Vec<f64> = self
             .heights(own, other)
@@ -167,8 +167,7 @@ mod tests {
             (across(1.0, 1.0, 0.0), 8.0),
             (across(0.3, 1.0, -0.2), f64::NAN),
         ] {
-            let sides =
-                [true, false].map(|is_above| square().on_side(&level(), (&plane, is_above)));
+            let sides = [true, false].map(|is_above| square().on_side(&level(), &plane, is_above));
             let areas = sides.each_ref().map(|side| cap_of(side, 0).area_mm2);
             assert!((areas[0] + areas[1] - 16.0).abs() < 1e-12, "{areas:?}");
             assert!(
@@ -213,7 +212,7 @@ mod tests {
         let all = Flat::of(&[fork.concat(), prongs.concat()].concat());
         assert_eq!(all.pieces().len(), 1);
         assert_eq!(
-            all.on_side(&level(), (&across(0.0, 1.0, 0.5), true))
+            all.on_side(&level(), &across(0.0, 1.0, 0.5), true)
                 .pieces()
                 .len(),
             2

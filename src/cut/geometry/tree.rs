@@ -2,7 +2,11 @@
 //! Naylor, "On visible surface generation by a priori tree structures", SIGGRAPH 1980).
 
 use crate::{
-    cut::error::CutError,
+    cut::{
+        error::CutError,
+        ids::CutId,
+        side::{CutSide, Side},
+    },
     geom::{Parting, Plane, Point},
     mesh::{Csg, TriMesh},
 };
@@ -30,6 +34,16 @@ pub(crate) struct Limit {
     /// The cut whose side it is.
     pub(crate) cut: usize,
     pub(crate) is_above: bool,
+}
+
+impl Limit {
+    /// The side in the ids of the planner.
+    pub(crate) fn side(&self) -> CutSide {
+        CutSide {
+            cut: CutId::of(self.cut),
+            side: Side::of(self.is_above),
+        }
+    }
 }
 
 /// Planes, each with the sides of others on which alone it cuts; without any it cuts everything.

@@ -1,9 +1,15 @@
 //! A pin with the material that is kept solid around it, and what bosses are asked for.
 
 use crate::{
-    cut::{joints::pin_shape::PinSite, plan::CutPlan, request::PlanRequest},
+    cut::{
+        hollowed::Hollowed,
+        ids::{CutId, PartId},
+        joints::pin_shape::PinSite,
+        plan::CutPlan,
+        request::PlanRequest,
+    },
     geom::{Frame, Quadric},
-    mesh::{Hollowed, TriMesh},
+    mesh::TriMesh,
 };
 
 /// What bosses are to be found for.
@@ -22,17 +28,27 @@ pub struct BossOrder<'a> {
     pub given_up: &'a [JointName],
     /// Where bosses stood that cost too much, model frame, mm: none is looked for beside them.
     pub refused: &'a [[f64; 3]],
-    /// The quadric whose positive side is empty, and the frame it is given in.
-    pub price: (Quadric, Frame),
+    /// The price of keeping material solid.
+    pub price: MaterialPrice,
+}
+
+/// What keeping material solid costs: near an optimum the objective changes, to first order, by the
+/// integral of the optimal quadric over what is filled.
+#[derive(Debug, Clone, Copy)]
+pub struct MaterialPrice {
+    /// The quadric whose positive side is empty.
+    pub quadric: Quadric,
+    /// The frame that it is given in.
+    pub frame: Frame,
 }
 
 /// A joint by the names of what meets there.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointName {
     /// The cut's id.
-    pub cut: String,
+    pub cut: CutId,
     /// The ids of the parts below and above the cut.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
 }
 
 /// A pin with the material that is to be kept solid around it and its socket.
@@ -41,7 +57,7 @@ pub struct Boss {
     /// The pin; its id is not settled yet.
     pub pin: PinSite,
     /// The ids of the parts it joins.
-    pub parts: [String; 2],
+    pub parts: [PartId; 2],
     /// Closed, facing outward, model frame, mm; it reaches into the wall.
     pub body: TriMesh,
     /// Whether something of it is empty so far. A boss that is solid already is kept so when
@@ -54,7 +70,7 @@ impl Boss {
     pub fn joint(&self) -> JointName {
         JointName {
             cut: self.pin.cut.clone(),
-            parts: self.parts.clone(),
+            parts: self.parts,
         }
     }
 }

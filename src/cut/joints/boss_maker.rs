@@ -5,11 +5,11 @@ use std::f64::consts::{PI, TAU};
 use crate::{
     cut::{
         geometry::{chart::Chart, outline::Outline, section::Section},
-        joints::{pin_shape::PinSite, pin_size::Size, placement::PinScene},
+        joints::{boss::MaterialPrice, pin_shape::PinSite, pin_size::Size, placement::PinScene},
         pieces::split::Joint,
         request::PlanRequest,
     },
-    geom::{Bvh, Frame, Point, Quadric, Vector, orthonormal_basis},
+    geom::{Bvh, Point, Vector, orthonormal_basis},
     mesh::{Csg, TriMesh},
 };
 
@@ -54,8 +54,7 @@ pub(crate) struct BossMaker<'a> {
     air: Bvh,
     /// The surface of the filled body.
     outer: Bvh,
-    /// The quadric whose positive side is empty, and the frame it is given in.
-    price: &'a (Quadric, Frame),
+    price: &'a MaterialPrice,
 }
 
 impl<'a> BossMaker<'a> {
@@ -63,7 +62,7 @@ impl<'a> BossMaker<'a> {
     pub(crate) fn new(
         hollow: &TriMesh,
         filled: &'a PinScene<'a>,
-        price: &'a (Quadric, Frame),
+        price: &'a MaterialPrice,
     ) -> Self {
         let [air, outer] = [hollow, filled.material].map(|mesh| Bvh::new(mesh.iter_corners()));
         Self {
@@ -85,7 +84,7 @@ impl<'a> BossMaker<'a> {
     /// over what it fills.
     pub(crate) fn price(&self, axis: &PinAxis, size: &Size) -> f64 {
         let PinAxis { middle, along } = axis;
-        let (quadric, frame) = self.price;
+        let MaterialPrice { quadric, frame } = self.price;
         let (u, v) = orthonormal_basis(along);
         let radius = size.room_mm(self.request) / 2.0;
         let [low, high] = self.ends_mm(size);

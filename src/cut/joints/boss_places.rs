@@ -168,11 +168,11 @@ mod tests {
     use super::*;
     use crate::{
         cut::{
+            Hollowed,
             geometry::tree::CutTree,
             scenes::{cuboid, request},
         },
         geom::{Plane, Vector},
-        mesh::Hollowed,
     };
 
     /// Sites along x, each with its price, what it hides of the one void, and a boss that is a post
@@ -193,10 +193,10 @@ mod tests {
 
     fn in_a_box(test: impl Fn(&BossView)) {
         let void = cuboid([-10.0, -10.0, -20.0], [10.0, 10.0, 20.0]);
-        let body = Hollowed {
-            outer: cuboid([-15.0, -15.0, -25.0], [15.0, 15.0, 25.0]),
-            voids: vec![void],
-        };
+        let body = Hollowed::new(
+            cuboid([-15.0, -15.0, -25.0], [15.0, 15.0, 25.0]),
+            vec![void],
+        );
         let tree = CutTree::everywhere(&[Plane {
             normal: Vector::z(),
             offset_mm: 0.01,

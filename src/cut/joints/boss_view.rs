@@ -12,10 +12,11 @@ use crate::{
             opening::opening,
             tree::{CutTree, reached},
         },
+        hollowed::Hollowed,
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, TriMesh, bodies},
+    mesh::{TriMesh, bodies},
 };
 
 /// Bosses are to leave so much more of a wall in sight than is asked: solving again moves the voids
@@ -48,18 +49,10 @@ impl<'a> BossView<'a> {
         tree: &'a CutTree,
         request: &PlanRequest,
     ) -> Result<Self, CutError> {
-        let voids = hollowed.voids.len();
-        let plain = voids.saturating_sub(request.seats.len());
-        let chambers = Chamber::all(hollowed)?;
-        let view = |(void, chamber): (usize, Chamber<'a>)| {
-            View::new(chamber, (tree, request), request.needed_mm(void, voids))
-        };
-        let views = chambers
-            .into_iter()
-            .take(plain)
-            .enumerate()
-            .map(view)
-            .collect();
+        let chambers = Chamber::all(hollowed)?.into_iter();
+        let empty = chambers.filter(|chamber| chamber.void.holds.is_none());
+        let views = empty.map(|chamber| View::new(chamber, tree, request));
+        let views = views.collect();
         Ok(Self {
             views,
             tree,
@@ -102,11 +95,7 @@ impl<'a> BossView<'a> {
 }
 
 impl<'a> View<'a> {
-    fn new(
-        chamber: Chamber<'a>,
-        (tree, request): (&CutTree, &PlanRequest),
-        needed_mm: f64,
-    ) -> Self {
+    fn new(chamber: Chamber<'a>, tree: &CutTree, request: &PlanRequest) -> Self {
         let asked = asked_ratio(request);
         let lines = if asked > 0.0 {
             chamber.sightlines(tree, request)
@@ -116,8 +105,8 @@ impl<'a> View<'a> {
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
         let spare_ratio = seen as f64 / lines.len().max(1) as f64 - asked - SPARE_RATIO;
         Self {
+            needed_mm: chamber.void.least_opening_mm(request),
             chamber,
-            needed_mm,
             lines,
             spare_ratio,
         }
@@ -232,10 +221,7 @@ mod tests {
             sight_ratio: 0.95,
             ..Cleaning::MELT_OUT
         };
-        let body = Hollowed {
-            outer: cuboid([-15.0; 3], [15.0, 15.0, 25.0]),
-            voids: vec![void],
-        };
+        let body = Hollowed::new(cuboid([-15.0; 3], [15.0, 15.0, 25.0]), vec![void]);
         (
             body,
             PlanRequest {

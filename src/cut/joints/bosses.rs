@@ -10,7 +10,6 @@ use crate::{
             chart::{Chart, Point2},
             outline::Outline,
         },
-        ids::part_id,
         joints::{
             boss::{Boss, BossOrder, JointName},
             boss_maker::{BossMaker, MARGIN_MM, PinAxis},
@@ -20,17 +19,16 @@ use crate::{
             pin_shape::PinSite,
             pin_size::{Size, short_pairs, size_pairs},
             pins::seated,
-            placement::{PinScene, Placement, is_confused},
+            placement::{Facing, PinScene, Placement, is_confused},
         },
         order::CutOrder,
         pieces::{
             rejoin::rejoined,
             split::{Joint, joints, split},
         },
-        plan::{JointNote, bridges_on},
+        plan::{JointNote, bridges_on, index_of},
     },
     geom::{Point, Vector},
-    mesh::{Hollowed, TriMesh},
 };
 use rayon::prelude::*;
 
@@ -53,7 +51,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
     let material = order.hollowed.to_mesh();
     let pieces = rejoined(split(&material, &tree)?, &tree, &bridges)?;
-    let filled = filled(order);
+    let filled = order.hollowed.without_empty_voids().to_mesh();
     let scene = |material| PinScene {
         request: order.request,
         tree: &tree,
@@ -73,17 +71,6 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         Some(pins) => Ok(search.for_all_ordered(&joints, pins)),
         None => search.for_joints(&joints, placements),
     }
-}
-
-/// The body with nothing empty but what holds parts.
-fn filled(order: &BossOrder) -> TriMesh {
-    let Hollowed { outer, voids } = order.hollowed;
-    let seats = voids.len().saturating_sub(order.request.seats.len());
-    Hollowed {
-        outer: outer.clone(),
-        voids: voids[seats..].to_vec(),
-    }
-    .to_mesh()
 }
 
 struct Search<'a> {
@@ -147,12 +134,7 @@ impl Search<'_> {
 
     /// The boss of an ordered pin that has its material, or could have.
     fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
-        let cut = self
-            .order
-            .plan
-            .cuts
-            .iter()
-            .position(|cut| cut.id == pin.cut)?;
+        let cut = index_of(&self.order.plan.cuts, &pin.cut)?;
         let (plane, outline) = (&self.filled.tree.planes[cut], self.maker.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
@@ -173,7 +155,11 @@ impl Search<'_> {
         let plane = &scene.tree.planes[joint.cut];
         let is_upward = plane.normal.dot(&Vector::from(pin.direction)) > 0.0;
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
-        Face::bare(scene, joint, (&[], is_upward)).has_meat(&at, &Size::of(pin))
+        let facing = Facing {
+            others: &[],
+            is_upward,
+        };
+        Face::bare(scene, joint, facing).has_meat(&at, &Size::of(pin))
     }
 
     /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit
@@ -192,7 +178,7 @@ impl Search<'_> {
         for (must_open, sizes) in ways {
             let mut best: Option<(Cost, Placement)> = None;
             for is_upward in [true, false] {
-                let found = self.along(joint, (others, is_upward), sizes, must_open)?;
+                let found = self.along(joint, Facing { others, is_upward }, sizes, must_open)?;
                 best = match (best, found) {
                     (Some(best), Some(found)) if found.0.order(&best.0).is_ge() => Some(best),
                     (best, found) => found.or(best),
@@ -210,8 +196,8 @@ impl Search<'_> {
     fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
         let [_, size] = size_pairs(self.order.request).pop()?;
         let along = |is_upward: bool| {
-            let face = Face::bare(self.filled, joint, (others, is_upward));
-            let sites = self.sites(joint, &face, (&size, is_upward)).into_iter();
+            let face = Face::bare(self.filled, joint, Facing { others, is_upward });
+            let sites = self.sites(joint, &face, &size).into_iter();
             let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
             let (cost, at) = costs.min_by(|a, b| a.0.order(&b.0))?;
             Some((cost, face.placement(&[(at, size)], false)))
@@ -227,12 +213,12 @@ impl Search<'_> {
     fn along(
         &self,
         joint: &Joint,
-        (others, is_upward): (&[&Placement], bool),
+        facing: Facing,
         sizes: &[Size; 2],
         must_open: bool,
     ) -> Result<Option<(Cost, Placement)>, CutError> {
-        let face = Face::bare(self.filled, joint, (others, is_upward));
-        let sites = self.sites(joint, &face, (&sizes[0], is_upward));
+        let face = Face::bare(self.filled, joint, facing);
+        let sites = self.sites(joint, &face, &sizes[0]);
         let mut open = OpenPairs::new(
             &self.view,
             &sites,
@@ -241,7 +227,7 @@ impl Search<'_> {
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_taken = !is_confused(&face.end_views(&pattern), others)
+            let is_taken = !is_confused(&face.end_views(&pattern), facing.others)
                 && (!must_open || open.holds(pair.sites)?);
             if is_taken {
                 return Ok(Some((pair.cost, face.placement(&pattern, true))));
@@ -255,7 +241,7 @@ impl Search<'_> {
 
     /// The places of a joint where a boss of this size joins its wall and keeps off the outside,
     /// with their prices.
-    fn sites(&self, joint: &Joint, face: &Face, (size, is_upward): (&Size, bool)) -> Vec<Site> {
+    fn sites(&self, joint: &Joint, face: &Face, size: &Size) -> Vec<Site> {
         let request = self.order.request;
         let plane = &self.filled.tree.planes[joint.cut];
         let outline = self.maker.outline(joint.cut);
@@ -280,10 +266,9 @@ impl Search<'_> {
             .collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
         let priced = |&at: &Point2| -> Option<Site> {
-            let sign = if is_upward { 1.0 } else { -1.0 };
             let axis = PinAxis {
                 middle: chart.lift(plane, &at),
-                along: plane.normal * sign,
+                along: face.along(),
             };
             let body = self.maker.body(joint, &axis, size)?;
             Some(Site {
@@ -304,7 +289,7 @@ impl Search<'_> {
         let cut = self.order.plan.cuts[joint.cut].id.clone();
         JointName {
             cut,
-            parts: [part_id(joint.below), part_id(joint.above)],
+            parts: joint.parts(),
         }
     }
 

@@ -3,7 +3,6 @@
 use crate::{
     cut::{
         geometry::{chart::Chart, tree::CutTree},
-        ids::part_id,
         joints::pin_shape::PinSite,
         pieces::split::{Joint, Piece, joints},
         plan::CutPlan,
@@ -33,10 +32,7 @@ pub(crate) fn contact<'a>(
 /// solved for again.
 pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
     for joint in joints(pieces, tree) {
-        let (cut, parts) = (
-            &plan.cuts[joint.cut].id,
-            [part_id(joint.below), part_id(joint.above)],
-        );
+        let (cut, parts) = (&plan.cuts[joint.cut].id, joint.parts());
         let Some(note) = plan
             .joints
             .iter_mut()

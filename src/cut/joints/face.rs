@@ -4,11 +4,12 @@
 use crate::{
     cut::{
         geometry::chart::{Chart, Point2},
+        ids::{CutId, PinId},
         joints::{
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{Size, needed_room_mm, reach_mm},
-            placement::{PinScene, Placement, is_confused},
+            placement::{Facing, PinScene, Placement, is_confused},
             rod::{Dowel, Rod},
         },
         pieces::split::{Cap, Joint},
@@ -70,25 +71,17 @@ pub(crate) struct Face<'a> {
 
 impl<'a> Face<'a> {
     /// The faces of a joint, looked at where the pins of others leave room.
-    pub(crate) fn new(
-        scene: &'a PinScene<'a>,
-        joint: &'a Joint,
-        look: (&[&Placement], bool),
-    ) -> Self {
+    pub(crate) fn new(scene: &'a PinScene<'a>, joint: &'a Joint, facing: Facing) -> Self {
         let (points, widest_mm) = face_points(scene, joint);
         Self {
             points,
             widest_mm,
-            ..Self::bare(scene, joint, look)
+            ..Self::bare(scene, joint, facing)
         }
     }
 
     /// The faces without points to look at.
-    pub(crate) fn bare(
-        scene: &'a PinScene<'a>,
-        joint: &'a Joint,
-        (placed, is_upward): (&[&Placement], bool),
-    ) -> Self {
+    pub(crate) fn bare(scene: &'a PinScene<'a>, joint: &'a Joint, facing: Facing) -> Self {
         let plane = scene.tree.planes[joint.cut];
         let reach = reach_mm(scene.request);
         let near = |corners: &[Point; 3]| {
@@ -96,8 +89,9 @@ impl<'a> Face<'a> {
             !(heights.iter().all(|&h| h > reach) || heights.iter().all(|&h| h < -reach))
         };
         let surface = Bvh::new(scene.material.iter_corners().filter(near));
-        let sign = if is_upward { 1.0 } else { -1.0 };
-        let taken = placed
+        let sign = if facing.is_upward { 1.0 } else { -1.0 };
+        let taken = facing
+            .others
             .iter()
             .flat_map(|placement| &placement.sites)
             .map(Taken::of)
@@ -114,6 +108,11 @@ impl<'a> Face<'a> {
         }
     }
 
+    /// The unit direction in which pins stand out.
+    pub(crate) fn along(&self) -> Vector {
+        self.plane.normal * self.sign
+    }
+
     /// The points where a pin and socket of this size keep the wall.
     pub(crate) fn places(&self, size: &Size) -> Vec<Point2> {
         let room = size.room_mm(self.scene.request) / 2.0;
@@ -127,7 +126,7 @@ impl<'a> Face<'a> {
     /// of other cuts.
     pub(crate) fn has_meat(&self, p: &Point2, size: &Size) -> bool {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
-        let along = self.plane.normal * self.sign;
+        let along = self.along();
         let bottom = mouth + along * size.depth;
         let root = mouth - along * size.back_mm();
         let hollow = if size.dowel.is_some() { root } else { mouth };
@@ -238,10 +237,10 @@ impl<'a> Face<'a> {
 
     fn site(&self, p: &Point2, size: &Size) -> PinSite {
         PinSite {
-            id: String::new(),
-            cut: String::new(),
+            id: PinId::default(),
+            cut: CutId::default(),
             center_mm: Chart::of_plane(&self.plane).lift(&self.plane, p).into(),
-            direction: (self.plane.normal * self.sign).into(),
+            direction: self.along().into(),
             diameter_mm: size.diameter,
             length_mm: size.length,
             chamfer_mm: if size.dowel.is_some() {

@@ -3,12 +3,13 @@
 use crate::{
     cut::{
         geometry::chart::{Chart, Point2},
-        ids::{cut_id, part_id},
+        ids::{CutId, PartId},
         joints::{
             face::Taken,
             placement::{PinScene, Placement},
         },
         pieces::split::{Cap, Joint},
+        remark::Remark,
         request::LabelStyle,
     },
     geom::{Bvh, Plane, Point, Vector},
@@ -46,9 +47,9 @@ const MARGIN_MM: f64 = 0.05;
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Label {
     /// The part it is sunk into.
-    pub part: String,
+    pub part: PartId,
     /// The cut that made the face.
-    pub cut: String,
+    pub cut: CutId,
     /// What it says: the part's id, or its number where there is room for no more.
     pub text: String,
     /// Its middle in the face, model frame, mm.
@@ -169,7 +170,7 @@ fn size_mm(text: &str, stroke_mm: f64) -> [f64; 2] {
 fn texts(part: usize) -> Vec<String> {
     let number = (part + 1).to_string();
     let is_clear = !number.contains(['6', '9']);
-    std::iter::once(part_id(part))
+    std::iter::once(PartId::of(part).to_string())
         .chain(is_clear.then_some(number))
         .collect()
 }
@@ -179,7 +180,7 @@ pub(crate) fn labels(
     scene: &PinScene,
     joints: &[Joint],
     placements: &[Placement],
-) -> (Vec<Label>, Vec<String>) {
+) -> (Vec<Label>, Vec<Remark>) {
     let Some(style) = scene.request.labels else {
         return (Vec::new(), Vec::new());
     };
@@ -200,11 +201,10 @@ pub(crate) fn labels(
         for part in [joint.below, joint.above] {
             match marker.label(joint, part) {
                 Some(label) => labels.push(label),
-                None => notes.push(format!(
-                    "no room for an id in the face of {} in cut {}: write it on",
-                    part_id(part),
-                    cut_id(joint.cut)
-                )),
+                None => notes.push(Remark::NoRoomForLabel {
+                    part: PartId::of(part),
+                    cut: CutId::of(joint.cut),
+                }),
             }
         }
     }
@@ -233,8 +233,8 @@ impl Marker<'_> {
             let (u, v) = plane.basis();
             let (sin, cos) = (std::f64::consts::PI * turn as f64 / TURNS as f64).sin_cos();
             Label {
-                part: part_id(part),
-                cut: cut_id(joint.cut),
+                part: PartId::of(part),
+                cut: CutId::of(joint.cut),
                 text: text.to_owned(),
                 center_mm: center.into(),
                 right: (u * cos + v * sin).into(),
@@ -315,7 +315,7 @@ mod tests {
 
     fn label(text: &str) -> Label {
         Label {
-            part: "P02".into(),
+            part: PartId::of(1),
             cut: "C1".into(),
             text: text.into(),
             center_mm: [1.0, 2.0, 3.0],

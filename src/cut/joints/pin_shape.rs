@@ -1,7 +1,10 @@
 //! The bodies of pins and sockets.
 
 use crate::{
-    cut::joints::rod::Dowel,
+    cut::{
+        ids::{CutId, PinId},
+        joints::rod::Dowel,
+    },
     geom::{Point, Vector, orthonormal_basis},
     mass::RoundBar,
     mesh::TriMesh,
@@ -22,9 +25,9 @@ const OVERLAP_RATIO: f64 = 0.2;
 #[serde(deny_unknown_fields)]
 pub struct PinSite {
     /// The pin's name, the same on both parts.
-    pub id: String,
+    pub id: PinId,
     /// The id of the cut it bridges.
-    pub cut: String,
+    pub cut: CutId,
     /// Where its axis passes through the cut, mm.
     pub center_mm: [f64; 3],
     /// The unit direction in which it stands out: from the part that carries it into the part with

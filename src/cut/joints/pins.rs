@@ -3,15 +3,15 @@
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::chart::Chart,
-        ids::{cut_id, pin_id},
+        ids::{CutId, PinId},
         joints::{
             face::{Face, face_points},
             pattern::Peg,
             pin_shape::PinSite,
             pin_size::{short_pairs, size_pairs},
-            placement::{PinScene, Placement, is_confused, peg},
+            placement::{Facing, PinScene, Placement, is_confused, peg},
         },
         pieces::split::Joint,
     },
@@ -59,7 +59,7 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
     let pins = pins
         .flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
     for (count, (site, joint)) in pins.enumerate() {
-        (site.id, site.cut) = (pin_id(count), cut_id(joint.cut));
+        (site.id, site.cut) = (PinId::of(count), CutId::of(joint.cut));
     }
     placements
 }
@@ -69,11 +69,18 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
 ///
 /// Both directions are tried, the normal's first; the one that aligns better wins.
 fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
-    let upward = place_along(scene, joint, (placed, true));
+    let along = |is_upward: bool| {
+        let facing = Facing {
+            others: placed,
+            is_upward,
+        };
+        place_along(scene, joint, facing)
+    };
+    let upward = along(true);
     if upward.is_sound() {
         return upward;
     }
-    let downward = place_along(scene, joint, (placed, false));
+    let downward = along(false);
     let worth = |p: &Placement| (p.is_sound(), p.sites.len());
     if worth(&downward) > worth(&upward) {
         downward
@@ -91,14 +98,14 @@ pub(crate) fn seated(
 ) -> Result<Vec<Placement>, CutError> {
     let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
     for pin in pins {
-        let lost = || CutError::PinOffFace {
+        let lost = || Obstacle::PinOffFace {
             pin: pin.id.clone(),
         };
         let is_under = |joint: &Joint| {
             let plane = &scene.tree.planes[joint.cut];
             let center = Point::from(pin.center_mm);
             let at = Chart::of_plane(plane).flat(&center);
-            pin.cut == cut_id(joint.cut)
+            pin.cut == CutId::of(joint.cut)
                 && plane.distance(&center).abs() <= ON_CUT_MM
                 && joint.faces.iter().any(|face| face.holds(&at))
         };
@@ -124,12 +131,9 @@ pub(crate) fn seated(
 }
 
 /// The pins of a joint that stand out upward, or downward.
-fn place_along(
-    scene: &PinScene,
-    joint: &Joint,
-    (placed, is_upward): (&[&Placement], bool),
-) -> Placement {
-    let face = Face::new(scene, joint, (placed, is_upward));
+fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
+    let placed = facing.others;
+    let face = Face::new(scene, joint, facing);
     let mut fallback = Placement {
         widest_mm: face.widest_mm,
         ..Placement::default()

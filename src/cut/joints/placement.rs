@@ -35,6 +35,15 @@ pub(crate) struct Placement {
     pub(crate) widest_mm: f64,
 }
 
+/// The way that pins in a joint may stand, and what is in theirs.
+#[derive(Clone, Copy)]
+pub(crate) struct Facing<'a> {
+    /// The pins of other joints, which they must keep off.
+    pub(crate) others: &'a [&'a Placement],
+    /// Whether they stand out along the plane's normal, not against it.
+    pub(crate) is_upward: bool,
+}
+
 impl Placement {
     /// Whether at least two pins let the parts together one way only.
     pub(crate) fn is_sound(&self) -> bool {

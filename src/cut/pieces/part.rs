@@ -5,28 +5,30 @@ use std::collections::HashMap;
 use rayon::prelude::*;
 
 use crate::{
+    base::verdict::Verdict,
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle, verdict},
         geometry::{chart::Chart, tree::CutTree},
-        ids::part_id,
+        hollowed::Hollowed,
+        ids::{PartId, VoidId},
         joints::{contact::refaced, label::Label, pin_shape::PinSite},
         pieces::{
             pose::{Pose, laid, sides_down},
             rejoin::rejoined,
             split::{Piece, check_no_cavity, piece_at, split},
         },
-        plan::CutPlan,
+        plan::{CutPlan, index_of},
         request::PlanRequest,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Crossings, Csg, Hollowed, Solid, TriMesh},
+    mesh::{Crossings, Csg, Solid, TriMesh},
 };
 
 /// One part of a kit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Part {
     /// The part's name: P01, P02, …
-    pub id: String,
+    pub id: PartId,
     /// The part in the model frame, mm.
     pub solid: Solid,
     /// How it is laid in the printer.
@@ -38,8 +40,8 @@ pub struct Part {
     pub sockets: Vec<PinSite>,
     /// The ids sunk into its cut faces.
     pub labels: Vec<Label>,
-    /// The voids that it holds a piece of, as indices into the hollowed body's.
-    pub voids: Vec<usize>,
+    /// The voids that it holds a piece of, ascending.
+    pub voids: Vec<VoidId>,
 }
 
 impl Part {
@@ -57,7 +59,7 @@ impl Part {
 }
 
 /// The pieces that carry a pin and its socket.
-struct Seat<'a> {
+struct SeatedPin<'a> {
     site: &'a PinSite,
     carrier: usize,
     receiver: usize,
@@ -73,14 +75,9 @@ pub fn parts(
     hollowed: &Hollowed,
     plan: &CutPlan,
     request: &PlanRequest,
-) -> Result<Vec<Part>, CutError> {
-    let tree = plan.tree()?;
-    parts_of(
-        hollowed,
-        plan,
-        (&tree, &pieces(hollowed, plan, &tree)?),
-        request,
-    )
+) -> Result<Verdict<Vec<Part>, Obstacle>, CutError> {
+    let parts = parts_and_faces(hollowed, plan, request)?;
+    Ok(parts.map(|(parts, _)| parts))
 }
 
 /// The parts, and the plan with the faces of its joints as they are in this body.
@@ -88,10 +85,24 @@ pub fn parts_and_faces(
     hollowed: &Hollowed,
     plan: &CutPlan,
     request: &PlanRequest,
+) -> Result<Verdict<(Vec<Part>, CutPlan), Obstacle>, CutError> {
+    verdict(make_parts(hollowed, plan, request))
+}
+
+fn make_parts(
+    hollowed: &Hollowed,
+    plan: &CutPlan,
+    request: &PlanRequest,
 ) -> Result<(Vec<Part>, CutPlan), CutError> {
     let tree = plan.tree()?;
     let pieces = pieces(hollowed, plan, &tree)?;
-    let parts = parts_of(hollowed, plan, (&tree, &pieces), request)?;
+    let maker = PartMaker {
+        hollowed,
+        plan,
+        tree: &tree,
+        request,
+    };
+    let parts = maker.parts(&pieces)?;
     Ok((parts, refaced(&pieces, &tree, plan.clone())))
 }
 
@@ -109,58 +120,64 @@ pub(crate) fn pieces(
     Ok(pieces)
 }
 
-fn parts_of(
-    hollowed: &Hollowed,
-    plan: &CutPlan,
-    (tree, pieces): (&CutTree, &[Piece]),
-    request: &PlanRequest,
-) -> Result<Vec<Part>, CutError> {
-    let planes = &tree.planes;
-    let seats = plan
-        .pins
-        .iter()
-        .map(|pin| seat(plan, planes, pieces, pin))
-        .collect::<Result<Vec<_>, _>>()?;
-    let void_of = void_vertices(hollowed);
-    let part = |(index, piece): (usize, &Piece)| {
-        let carried = || seats.iter().filter(move |seat| seat.carrier == index);
-        let received = || seats.iter().filter(move |seat| seat.receiver == index);
-        let standing = carried().filter(|seat| seat.site.dowel.is_none());
-        let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
-        let is_printed = |seat: &&Seat| seat.site.dowel.is_none();
-        let pins: Vec<PinSite> = carried()
-            .filter(is_printed)
-            .map(|seat| seat.site.clone())
-            .collect();
-        let second = carried()
-            .filter(|seat| !is_printed(seat))
-            .map(|seat| seat.site.mirrored());
-        let sockets: Vec<PinSite> = received()
-            .map(|seat| seat.site.clone())
-            .chain(second)
-            .collect();
-        let labels: Vec<Label> = plan
-            .labels
+/// A plan and the body that it cuts.
+struct PartMaker<'a> {
+    hollowed: &'a Hollowed,
+    plan: &'a CutPlan,
+    tree: &'a CutTree,
+    request: &'a PlanRequest,
+}
+
+impl PartMaker<'_> {
+    fn parts(&self, pieces: &[Piece]) -> Result<Vec<Part>, CutError> {
+        let Self { plan, request, .. } = *self;
+        let planes = &self.tree.planes;
+        let seats = plan
+            .pins
             .iter()
-            .filter(|label| label.part == part_id(index))
-            .cloned()
-            .collect();
-        let solid = fitted(piece, (&pins, &sockets), &labels)?;
-        Ok(Part {
-            id: part_id(index),
-            pose: laid(
-                solid.mesh(),
-                &sides_down(piece, planes, &pin_cuts, request),
-                request,
-            ),
-            solid,
-            pins,
-            sockets,
-            labels,
-            voids: voids_of(piece, &void_of),
-        })
-    };
-    pieces.par_iter().enumerate().map(part).collect()
+            .map(|pin| seat(plan, planes, pieces, pin))
+            .collect::<Result<Vec<_>, _>>()?;
+        let void_of = void_vertices(self.hollowed);
+        let part = |(index, piece): (usize, &Piece)| {
+            let carried = || seats.iter().filter(move |seat| seat.carrier == index);
+            let received = || seats.iter().filter(move |seat| seat.receiver == index);
+            let standing = carried().filter(|seat| seat.site.dowel.is_none());
+            let pin_cuts: Vec<usize> = standing.map(|seat| seat.cut).collect();
+            let is_printed = |seat: &&SeatedPin| seat.site.dowel.is_none();
+            let pins: Vec<PinSite> = carried()
+                .filter(is_printed)
+                .map(|seat| seat.site.clone())
+                .collect();
+            let second = carried()
+                .filter(|seat| !is_printed(seat))
+                .map(|seat| seat.site.mirrored());
+            let sockets: Vec<PinSite> = received()
+                .map(|seat| seat.site.clone())
+                .chain(second)
+                .collect();
+            let labels: Vec<Label> = plan
+                .labels
+                .iter()
+                .filter(|label| label.part == PartId::of(index))
+                .cloned()
+                .collect();
+            let solid = fitted(piece, (&pins, &sockets), &labels)?;
+            Ok(Part {
+                id: PartId::of(index),
+                pose: laid(
+                    solid.mesh(),
+                    &sides_down(piece, planes, &pin_cuts, request),
+                    request,
+                ),
+                solid,
+                pins,
+                sockets,
+                labels,
+                voids: voids_of(piece, &void_of),
+            })
+        };
+        pieces.par_iter().enumerate().map(part).collect()
+    }
 }
 
 /// Which pieces a pin joins.
@@ -169,20 +186,16 @@ fn seat<'a>(
     planes: &[Plane],
     pieces: &[Piece],
     site: &'a PinSite,
-) -> Result<Seat<'a>, CutError> {
-    let lost = || CutError::PinOffFace {
+) -> Result<SeatedPin<'a>, CutError> {
+    let lost = || Obstacle::PinOffFace {
         pin: site.id.clone(),
     };
-    let cut = plan
-        .cuts
-        .iter()
-        .position(|cut| cut.id == site.cut)
-        .ok_or_else(lost)?;
+    let cut = index_of(&plan.cuts, &site.cut).ok_or_else(lost)?;
     let at = Chart::of_plane(&planes[cut]).flat(&Point::from(site.center_mm));
     let is_upward = planes[cut].normal.dot(&Vector::from(site.direction)) > 0.0;
     let carrier = piece_at(pieces, cut, !is_upward, &at).ok_or_else(lost)?;
     let receiver = piece_at(pieces, cut, is_upward, &at).ok_or_else(lost)?;
-    Ok(Seat {
+    Ok(SeatedPin {
         site,
         carrier,
         receiver,
@@ -243,10 +256,15 @@ fn has_short_edge(mesh: &TriMesh) -> bool {
 }
 
 /// Which void each vertex of a void belongs to, by the bits of its coordinates.
-fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], usize> {
+fn void_vertices(hollowed: &Hollowed) -> HashMap<[u64; 3], VoidId> {
     let voids = hollowed.voids.iter().enumerate();
     voids
-        .flat_map(|(i, void)| void.mesh().vertices().iter().map(move |p| (bits(p), i)))
+        .flat_map(|(i, void)| {
+            void.mesh()
+                .vertices()
+                .iter()
+                .map(move |p| (bits(p), VoidId::of(i)))
+        })
         .collect()
 }
 
@@ -255,8 +273,8 @@ fn bits(p: &Point) -> [u64; 3] {
 }
 
 /// The voids whose vertices the piece has, ascending.
-fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], usize>) -> Vec<usize> {
-    let mut voids: Vec<usize> = piece
+fn voids_of(piece: &Piece, void_of: &HashMap<[u64; 3], VoidId>) -> Vec<VoidId> {
+    let mut voids: Vec<VoidId> = piece
         .mesh
         .vertices()
         .iter()

@@ -1,8 +1,10 @@
 //! How a part is laid in the printer.
 
+use std::fmt;
+
 use crate::{
     cut::{
-        ids::cut_id,
+        ids::CutId,
         pieces::split::Piece,
         request::{PlanRequest, PosePreference},
     },
@@ -19,8 +21,35 @@ pub struct Pose {
     pub size_mm: [f64; 3],
     /// Whether that fits the build volume.
     pub fits: bool,
-    /// How the part lies, in words: "cut face C1 down".
-    pub lies: String,
+    /// How the part lies.
+    pub lies: Lie,
+}
+
+/// How a part lies on the build plate.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Lie {
+    /// On the face of this cut.
+    CutFaceDown(CutId),
+    /// With the face of this cut up.
+    CutFaceUp(CutId),
+    /// As the model stands.
+    Upright,
+    /// As the model stands on its head.
+    UpsideDown,
+    /// On a side of the model.
+    OnItsSide,
+}
+
+impl fmt::Display for Lie {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::CutFaceDown(cut) => write!(f, "cut face {cut} down"),
+            Self::CutFaceUp(cut) => write!(f, "cut face {cut} up"),
+            Self::Upright => f.write_str("upright"),
+            Self::UpsideDown => f.write_str("upside down"),
+            Self::OnItsSide => f.write_str("on its side"),
+        }
+    }
 }
 
 /// Turns about the vertical that are tried when a part does not fit as it stands, degrees.
@@ -30,11 +59,11 @@ const TURNS_DEG: [f64; 12] = [
 
 /// A side of a part that may look down in the printer.
 #[derive(Debug, Clone)]
-pub(crate) struct Side {
+pub(crate) struct Underside {
     /// The direction of the model that looks down.
     down: Vector,
     /// How the part lies then.
-    lies: String,
+    lies: Lie,
 }
 
 /// A cut face of a part for choosing its pose.
@@ -48,10 +77,10 @@ struct Rest {
 
 impl Rest {
     /// The face looking down (sign 1) or up (sign −1).
-    fn laid(&self, sign: f64, word: &str) -> Side {
-        Side {
+    fn laid(&self, sign: f64, lies: fn(CutId) -> Lie) -> Underside {
+        Underside {
             down: self.outward * sign,
-            lies: format!("cut face {} {word}", cut_id(self.cut)),
+            lies: lies(CutId::of(self.cut)),
         }
     }
 }
@@ -64,39 +93,36 @@ pub(crate) fn sides_down(
     planes: &[Plane],
     pin_cuts: &[usize],
     request: &PlanRequest,
-) -> Vec<Side> {
+) -> Vec<Underside> {
     let mut rests = rests(piece, planes, pin_cuts);
     rests.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
     let flat = rests
         .iter()
         .filter(|rest| !rest.has_pins)
-        .map(|rest| rest.laid(1.0, "down"));
-    let up = rests.iter().map(|rest| rest.laid(-1.0, "up"));
-    let mut sides: Vec<Side> = match request.pose {
+        .map(|rest| rest.laid(1.0, Lie::CutFaceDown));
+    let up = rests.iter().map(|rest| rest.laid(-1.0, Lie::CutFaceUp));
+    let mut sides: Vec<Underside> = match request.pose {
         PosePreference::CutFaceDown => flat.chain(up).collect(),
         PosePreference::OpenHollowUp => up.chain(flat).collect(),
     };
     let axis = request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
-    let words = [
-        "upright",
-        "upside down",
-        "on its side",
-        "on its side",
-        "on its side",
-        "on its side",
+    let lies = [
+        Lie::Upright,
+        Lie::UpsideDown,
+        Lie::OnItsSide,
+        Lie::OnItsSide,
+        Lie::OnItsSide,
+        Lie::OnItsSide,
     ];
-    let turned = [-axis, axis, -u, u, -v, v].into_iter().zip(words);
-    sides.extend(turned.map(|(down, lies)| Side {
-        down,
-        lies: lies.into(),
-    }));
+    let turned = [-axis, axis, -u, u, -v, v].into_iter().zip(lies);
+    sides.extend(turned.map(|(down, lies)| Underside { down, lies }));
     sides
 }
 
 /// The mesh laid on the first of the sides (at least one) with which it fits the build volume; on
 /// the first of all if none does.
-pub(crate) fn laid(mesh: &TriMesh, sides: &[Side], request: &PlanRequest) -> Pose {
+pub(crate) fn laid(mesh: &TriMesh, sides: &[Underside], request: &PlanRequest) -> Pose {
     let mut choices = sides
         .iter()
         .flat_map(|side| TURNS_DEG.map(|turn| (side, turn)));
@@ -145,7 +171,7 @@ fn rests(piece: &Piece, planes: &[Plane], pin_cuts: &[usize]) -> Vec<Rest> {
 
 /// The mesh turned so that the side looks down and turned about the vertical, resting on z = 0, in
 /// the middle of the build plate.
-fn lay(mesh: &TriMesh, side: &Side, turn_deg: f64, request: &PlanRequest) -> Pose {
+fn lay(mesh: &TriMesh, side: &Underside, turn_deg: f64, request: &PlanRequest) -> Pose {
     let rotation = upright(&side.down, turn_deg);
     let turned = mesh
         .vertices()

@@ -9,6 +9,7 @@ use crate::{
             section::Section,
             tree::{CutTree, Limit},
         },
+        hollowed::Hollowed,
         pieces::{
             pose::{laid, sides_down},
             split::{Cap, Joint, Piece, in_order, joints, piece, piece_at},
@@ -17,7 +18,7 @@ use crate::{
         request::PlanRequest,
     },
     geom::{Plane, Point},
-    mesh::{Csg, Hollowed, Solid, TriMesh, union_find::UnionFind},
+    mesh::{Csg, Solid, TriMesh, union_find::UnionFind},
     repair::sewn,
 };
 use rayon::prelude::*;
@@ -78,7 +79,7 @@ pub(crate) fn bridges(cutting: &Cutting, pieces: &[Piece]) -> Vec<Bridge> {
         if !is_host[index]
             && !is_guest[host]
             && (is_flake(cutting, &pieces[index], joint) || !has_mouth(joint, &mouths))
-            && comes_free(cutting, pieces, (joint, index))
+            && comes_free(cutting, pieces, joint, index)
             && fit_together(cutting, &pieces[index], &pieces[host])
         {
             (is_guest[index], is_host[host]) = (true, true);
@@ -160,7 +161,7 @@ fn is_flake(cutting: &Cutting, piece: &Piece, joint: &Joint) -> bool {
 
 /// Whether what lies on the piece's side of the cut can be taken off along the normal while the
 /// piece stays.
-fn comes_free(cutting: &Cutting, pieces: &[Piece], (joint, index): (&Joint, usize)) -> bool {
+fn comes_free(cutting: &Cutting, pieces: &[Piece], joint: &Joint, index: usize) -> bool {
     let plane = &cutting.tree.planes[joint.cut];
     let is_above = joint.above == index;
     let sign = if is_above { 1.0 } else { -1.0 };
@@ -372,10 +373,7 @@ mod tests {
             leg(0.0, 40.0),
             leg(40.0, 40.0),
         ]);
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])],
-        };
+        let hollowed = Hollowed::new(outer, vec![cuboid([2.0, 2.0, 4.0], [8.0, 8.0, 25.0])]);
         let (cut, left) = cut_at_15(&hollowed);
         assert_eq!((cut, left.len()), (5, 2));
         let volume: f64 = left.iter().map(|piece| piece.volume_mm3).sum();
@@ -390,10 +388,10 @@ mod tests {
             let void = Csg::of_solid(&cuboid([5.0; 3], [25.0; 3])).unwrap();
             let post =
                 Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.0 + over])).unwrap();
-            Hollowed {
-                outer: outer.clone(),
-                voids: vec![void.subtract(&post).unwrap().to_solid().unwrap()],
-            }
+            Hollowed::new(
+                outer.clone(),
+                vec![void.subtract(&post).unwrap().to_solid().unwrap()],
+            )
         };
         let (cut, left) = cut_at_15(&post(0.05));
         assert_eq!((cut, left.len()), (3, 2));
@@ -409,10 +407,7 @@ mod tests {
         let void = Csg::of_solid(&cuboid([5.0; 3], [30.0, 30.0, 25.0])).unwrap();
         let post = Csg::of_solid(&cuboid([12.0, 12.0, 4.0], [18.0, 18.0, 15.05])).unwrap();
         let voids = vec![void.subtract(&post).unwrap().to_solid().unwrap()];
-        let hollowed = Hollowed {
-            outer: cuboid([0.0; 3], [60.0, 60.0, 30.0]),
-            voids,
-        };
+        let hollowed = Hollowed::new(cuboid([0.0; 3], [60.0, 60.0, 30.0]), voids);
         let level = Plane {
             normal: Vector::z(),
             offset_mm: 15.0,
@@ -459,10 +454,7 @@ mod tests {
             ([40.0, 0.0, 0.0], [50.0, 10.0, 40.0]),
             ([5.0, 0.0, 35.0], [50.0, 10.0, 40.0]),
         ]);
-        let hollowed = Hollowed {
-            outer,
-            voids: vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])],
-        };
+        let hollowed = Hollowed::new(outer, vec![cuboid([2.0, 2.0, 10.0], [8.0, 8.0, 25.0])]);
         let (cut, left) = cut_at_15(&hollowed);
         assert_eq!((cut, left.len()), (3, 3));
     }

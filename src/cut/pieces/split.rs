@@ -4,13 +4,14 @@ use std::cmp::Reverse;
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::{
             chart::{Chart, Point2},
             outline::Outline,
             overlap::Flat,
             tree::CutTree,
         },
+        ids::PartId,
     },
     geom::{Plane, Vector},
     mesh::{Csg, TriMesh, bodies, shells, union_find::UnionFind},
@@ -62,6 +63,11 @@ impl Joint {
     /// Whether a piece is one of the two.
     pub(crate) fn touches(&self, piece: usize) -> bool {
         self.below == piece || self.above == piece
+    }
+
+    /// The ids of the parts that the pieces below and above become.
+    pub(crate) fn parts(&self) -> [PartId; 2] {
+        [self.below, self.above].map(PartId::of)
     }
 
     /// The area of the faces in which the two meet, mm².
@@ -128,7 +134,8 @@ pub(crate) fn check_no_cavity(pieces: &[Piece]) -> Result<(), CutError> {
             .filter(|shell| shell.signed_volume_mm3() < 0.0)
             .count();
         if cavities > 0 {
-            return Err(CutError::ClosedCavity { part, cavities });
+            let part = PartId::of(part);
+            return Err(Obstacle::ClosedCavity { part, cavities }.into());
         }
     }
     Ok(())
@@ -329,7 +336,7 @@ fn shared(low: &Cap, high: &Cap, tree: &CutTree) -> Vec<Cap> {
             continue;
         };
         if flat.is_crossed_by(own, plane) {
-            (flat, is_whole) = (flat.on_side(own, (plane, is_above)), false);
+            (flat, is_whole) = (flat.on_side(own, plane, is_above), false);
         }
     }
     if is_whole {

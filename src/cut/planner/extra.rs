@@ -7,8 +7,9 @@ use crate::{
         access::void_access::{Opened, VoidAccess, access, accesses, asked_ratio},
         error::CutError,
         geometry::tree::CutTree,
-        ids::cut_id,
+        ids::{CutId, VoidId},
         planner::score::{Scene, burden},
+        remark::{Remark, SightGain},
     },
     geom::{Matrix, Plane, Point, Vector, orthonormal_basis},
     mass::{Body, moments_of_mesh},
@@ -101,11 +102,7 @@ impl Tried {
     /// The same cuts and one more; the voids that it does not meet stay as they are.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let voids = looked_at_again(
-            scene,
-            &self.voids,
-            (&CutTree::everywhere(&planes), &[plane]),
-        )?;
+        let voids = looked_at_again(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
         Ok(Self::of(scene, planes, voids))
     }
 
@@ -128,7 +125,8 @@ impl Tried {
 pub(crate) fn looked_at_again(
     scene: &Scene,
     before: &[VoidAccess],
-    (tree, changed): (&CutTree, &[Plane]),
+    tree: &CutTree,
+    changed: &[Plane],
 ) -> Result<Vec<VoidAccess>, CutError> {
     let again = |known: &VoidAccess| {
         if changed.iter().any(|plane| meets(scene, known.void, plane)) {
@@ -141,18 +139,19 @@ pub(crate) fn looked_at_again(
 }
 
 /// Whether a plane passes through a void.
-fn meets(scene: &Scene, void: usize, plane: &Plane) -> bool {
-    plane.passes_through(scene.hollowed.voids[void].mesh().vertices())
+fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
+    plane.passes_through(scene.hollowed.voids[void.index()].mesh().vertices())
 }
 
 /// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
 /// in sight.
-fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
+fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
     let asked = asked_ratio(scene.request);
     if asked == 0.0 {
         return 0.0;
     }
-    (asked - scene.chambers[void].glance(&CutTree::everywhere(planes), scene.request)).max(0.0)
+    (asked - scene.chambers[void.index()].glance(&CutTree::everywhere(planes), scene.request))
+        .max(0.0)
 }
 
 /// The first of the plans with which every void can be cleaned; the cleanest where there is none.
@@ -162,7 +161,7 @@ fn glanced_lack_ratio(scene: &Scene, void: usize, planes: &[Plane]) -> f64 {
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
     let glance = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
-            .map(|void| glanced_lack_ratio(scene, void, planes))
+            .map(|void| glanced_lack_ratio(scene, VoidId::of(void), planes))
             .fold(0.0, f64::max)
     };
     let mut trial = Trial { scene, best: None };
@@ -213,7 +212,7 @@ impl Trial<'_> {
 pub(crate) fn add_extra_cuts(
     scene: &Scene,
     mut tried: Tried,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Remark>,
 ) -> Result<Tried, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
         if tried.is_nearly_clean(scene) {
@@ -228,33 +227,25 @@ pub(crate) fn add_extra_cuts(
         {
             break;
         }
-        notes.push(note(&tried, &next));
+        notes.push(cleaning_cut(&tried, &next));
         tried = next;
     }
     Ok(tried)
 }
 
-/// What a further cut is for.
-fn note(before: &Tried, after: &Tried) -> String {
-    let changed = before
-        .voids
-        .iter()
-        .zip(&after.voids)
-        .filter(|(b, a)| a.sight_ratio > b.sight_ratio);
-    let percent = |ratio: f64| 100.0 * ratio;
-    let told = changed.map(|(b, a)| {
-        let (was, is) = (percent(b.sight_ratio), percent(a.sight_ratio));
-        format!(
-            "void V{}: {was:.0} % of the wall in sight without it, {is:.0} % with it",
-            a.void + 1
-        )
-    });
-    let told: Vec<String> = told.collect();
-    format!(
-        "cut {}: so that voids can be cleaned ({})",
-        cut_id(before.planes.len()),
-        told.join("; ")
-    )
+/// The remark on a further cut: the voids of which it brings more into sight.
+fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
+    let pairs = before.voids.iter().zip(&after.voids);
+    let changed = pairs.filter(|(b, a)| a.sight_ratio > b.sight_ratio);
+    let gain = |(b, a): (&VoidAccess, &VoidAccess)| SightGain {
+        void: a.void,
+        before_ratio: b.sight_ratio,
+        after_ratio: a.sight_ratio,
+    };
+    Remark::CleaningCut {
+        cut: CutId::of(before.planes.len()),
+        gains: changed.map(gain).collect(),
+    }
 }
 
 /// The cuts with the one more that lets the void that lacks most be cleaned best.
@@ -301,13 +292,16 @@ fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
 
 /// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
 /// of the points.
-fn through(scene: &Scene, void: usize, hidden: &[Point]) -> Vec<Plane> {
+fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
-    let own = Body::new(&moments_of_mesh(scene.hollowed.voids[void].mesh()), 1.0)
-        .principal()
-        .axes;
+    let own = Body::new(
+        &moments_of_mesh(scene.hollowed.voids[void.index()].mesh()),
+        1.0,
+    )
+    .principal()
+    .axes;
     normals.extend((0..3).map(|i| own.column(i).into_owned()));
     normals.extend(axes_of(hidden));
     let at = |normal: &Vector| {

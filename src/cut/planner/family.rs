@@ -4,13 +4,14 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
+        hollowed::{Hollowed, Void},
         planner::{cover::VoidSet, mirror::mirror_planes},
         request::PlanRequest,
         seat::{self, Seat},
     },
     geom::{Plane, Point, Vector},
     mass::{Body, moments_of_mesh},
-    mesh::{Hollowed, TriMesh},
+    mesh::TriMesh,
 };
 
 /// How many directions are spread over the half sphere: about 10° apart. Fewer miss skew planes
@@ -43,11 +44,13 @@ pub(crate) struct Candidate {
 
 /// The extent of a void along a direction.
 #[derive(Debug, Clone, Copy)]
-struct Extent {
+struct Extent<'a> {
     low_mm: f64,
     high_mm: f64,
     /// The diameter of the ball of the void's volume, mm.
     breadth_mm: f64,
+    /// The seat of the part that the void holds.
+    seat: Option<&'a Seat>,
 }
 
 /// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets
@@ -67,8 +70,8 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
                 .voids
                 .iter()
                 .zip(&breadths)
-                .map(|(v, &b)| extent(v.mesh(), normal, b));
-            in_direction(normal, &extents.collect::<Vec<_>>(), &request.seats)
+                .map(|(void, &breadth_mm)| extent(void, normal, breadth_mm));
+            in_direction(normal, &extents.collect::<Vec<_>>())
         })
         .collect();
     let middles = symmetry(hollowed.outer.mesh()).into_iter().map(|plane| {
@@ -76,8 +79,8 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
             .voids
             .iter()
             .zip(&breadths)
-            .map(|(v, &b)| extent(v.mesh(), &plane.normal, b));
-        candidate(plane, &extents.collect::<Vec<_>>(), &request.seats)
+            .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
+        candidate(plane, &extents.collect::<Vec<_>>())
     });
     let middles = middles.filter(|middle| middle.met != 0);
     rows.concat().into_iter().chain(middles).collect()
@@ -98,9 +101,10 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     let axis = request.axis.direction.normalize();
     let (u, v) = crate::geom::orthonormal_basis(&axis);
     directions.extend([axis, u, v]);
-    let solids = std::iter::once(&hollowed.outer).chain(&hollowed.voids);
+    let bodies = hollowed.voids.iter().map(|void| &void.body);
+    let solids = std::iter::once(&hollowed.outer).chain(bodies);
     directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
-    directions.extend(seat::normals(&request.seats));
+    directions.extend(seat::normals(&hollowed.seats().collect::<Vec<_>>()));
     directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
     directions.extend(flattest(&centers(hollowed)));
     directions.retain(|d| d.iter().all(|c| c.is_finite()));
@@ -159,9 +163,10 @@ fn breadth_mm(mesh: &TriMesh) -> f64 {
     (moments_of_mesh(mesh).volume().abs() * 6.0 / std::f64::consts::PI).cbrt()
 }
 
-/// The extent of a mesh along `normal`.
-fn extent(mesh: &TriMesh, normal: &Vector, breadth_mm: f64) -> Extent {
-    let heights = mesh
+/// The extent of a void along `normal`.
+fn extent<'a>(void: &'a Void, normal: &Vector, breadth_mm: f64) -> Extent<'a> {
+    let heights = void
+        .mesh()
         .vertices()
         .iter()
         .map(|p: &Point| normal.dot(&p.coords));
@@ -172,10 +177,11 @@ fn extent(mesh: &TriMesh, normal: &Vector, breadth_mm: f64) -> Extent {
         low_mm,
         high_mm,
         breadth_mm,
+        seat: void.holds.as_ref(),
     }
 }
 
-impl Extent {
+impl Extent<'_> {
     fn meets(&self, offset_mm: f64) -> bool {
         self.low_mm < offset_mm && offset_mm < self.high_mm
     }
@@ -191,7 +197,7 @@ impl Extent {
 
 /// The candidates normal to one direction: those through the middles of seats, then those of every
 /// cell.
-fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Candidate> {
+fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
     let cells = ends
@@ -201,32 +207,26 @@ fn in_direction(normal: &Vector, extents: &[Extent], seats: &[Seat]) -> Vec<Cand
         let step = (cell[1] - cell[0]) / OFFSETS_PER_INTERVAL as f64;
         (0..OFFSETS_PER_INTERVAL).map(move |i| cell[0] + step * (i as f64 + 0.5))
     });
-    let middles = seats.iter().map(|seat| seat.height_mm(normal));
+    let seats = extents.iter().filter_map(|extent| extent.seat);
+    let middles = seats.map(|seat| seat.height_mm(normal));
     let planes = middles.chain(offsets).map(|offset_mm| Plane {
         normal: *normal,
         offset_mm,
     });
     planes
-        .map(|plane| candidate(plane, extents, seats))
+        .map(|plane| candidate(plane, extents))
         .filter(|c| c.met != 0)
         .collect()
 }
 
-/// The plane with the voids it meets; of the last ones, which are seats, those that it lets a part
+/// The plane with the voids it meets; of those that hold a part, the ones that it lets the part
 /// into.
-fn candidate(plane: Plane, extents: &[Extent], seats: &[Seat]) -> Candidate {
-    let (offset_mm, first) = (plane.offset_mm, extents.len().saturating_sub(seats.len()));
-    let is_seat_opened = |i: usize| {
-        i.checked_sub(first)
-            .and_then(|i| seats.get(i))
-            .is_none_or(|s| s.is_opened_by(&plane))
+fn candidate(plane: Plane, extents: &[Extent]) -> Candidate {
+    let offset_mm = plane.offset_mm;
+    let is_met = |extent: &Extent| {
+        extent.meets(offset_mm) && extent.seat.is_none_or(|seat| seat.is_opened_by(&plane))
     };
-    let met = || {
-        extents
-            .iter()
-            .enumerate()
-            .filter(|(i, e)| e.meets(offset_mm) && is_seat_opened(*i))
-    };
+    let met = || extents.iter().enumerate().filter(|(_, e)| is_met(e));
     Candidate {
         plane,
         met: met().fold(0, |set, (i, _)| set | 1 << i),

@@ -6,7 +6,7 @@ use crate::{
         access::void_access::{VoidAccess, accesses},
         error::CutError,
         geometry::chart::Chart,
-        ids::{cut_id, part_id},
+        ids::{CutId, PartId},
         joints::{pin_shape::PinSite, pins::Pins},
         pieces::{
             pose::{apply, laid, sides_down},
@@ -15,6 +15,7 @@ use crate::{
         },
         plan::{CutMove, CutPlan},
         planner::{layout::Layout, score::Scene, to_plan::to_plan},
+        remark::Remark,
         request::PlanRequest,
     },
     geom::{Plane, Vector},
@@ -51,7 +52,7 @@ pub(crate) fn at_layers(
     scene: &Scene,
     layout: &Layout,
     plan: CutPlan,
-    notes: Vec<String>,
+    notes: Vec<Remark>,
 ) -> Result<CutPlan, CutError> {
     let moves = moves(scene.request, layout, &plan);
     if moves.is_empty() {
@@ -69,8 +70,8 @@ pub(crate) fn at_layers(
         );
     }
     let moved = moves.into_iter().map(|(cut, part, _)| CutMove {
-        cut: cut_id(cut),
-        part: part_id(part),
+        cut: CutId::of(cut),
+        part: PartId::of(part),
         moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
@@ -79,7 +80,7 @@ pub(crate) fn at_layers(
     };
     Ok(CutPlan {
         moves: moved,
-        ..to_plan(scene, &layout, (Pins::Placed, notes))?
+        ..to_plan(scene, &layout, Pins::Placed, notes)?
     })
 }
 
@@ -158,11 +159,11 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
 
 /// The cuts on whose faces pins stand out of the part.
 fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
-    let id = part_id(part);
+    let id = PartId::of(part);
     let carries = |cut: usize| {
         plan.joints
             .iter()
-            .filter(|joint| joint.cut == cut_id(cut))
+            .filter(|joint| joint.cut == CutId::of(cut))
             .any(|joint| {
                 let stands = |pin: &&PinSite| joint.pins.contains(&pin.id) && pin.dowel.is_none();
                 let pins = plan.pins.iter().filter(stands);
@@ -212,8 +213,8 @@ fn still_open(
 mod tests {
     use crate::{
         cut::{
-            PlanRequest, PosePreference, apply, parts, plan,
-            scenes::{cuboid, request, with_balls},
+            PlanRequest, PosePreference, apply,
+            scenes::{cuboid, parts, plan, request, with_balls},
         },
         geom::{Point, Vector},
     };

@@ -70,7 +70,7 @@ impl LimitedCuts {
             .filter(|&other| is_changed(other))
             .map(|other| tree.planes[other])
             .collect();
-        let voids = looked_at_again(scene, &self.voids, (&tree, &changed))?;
+        let voids = looked_at_again(scene, &self.voids, &tree, &changed)?;
         if self
             .voids
             .iter()
@@ -114,7 +114,7 @@ impl LimitedCuts {
 
 /// Whether a void can be cleaned less than before.
 fn is_worse(scene: &Scene, before: &VoidAccess, after: &VoidAccess) -> bool {
-    let needed_mm = scene.request.needed_mm(after.void, scene.chambers.len());
+    let needed_mm = after.least_opening_mm(scene.request);
     let is_narrower = after.opening_mm < before.opening_mm && after.opening_mm < needed_mm;
     let is_hidden = !after.is_clean && after.sight_ratio < before.sight_ratio;
     is_narrower || is_hidden || (before.is_clean && !after.is_clean)
@@ -125,17 +125,14 @@ mod tests {
     use super::*;
     use crate::{
         cut::{
-            CutOrder, PlanRequest,
+            CutId, CutOrder, Hollowed, PlanRequest,
             access::void_access::accesses,
             joints::pins::Pins,
-            parts,
             pieces::split::joints,
-            plan_by,
             planner::{layout::Layout, to_plan::to_plan},
-            scenes::{cuboid, request, with_balls},
+            scenes::{cuboid, parts, plan_by, request, with_balls},
         },
         geom::Vector,
-        mesh::Hollowed,
         printer::{Cleaning, CleaningRule},
     };
 
@@ -193,7 +190,7 @@ mod tests {
         );
         assert_eq!(
             kept.voids[1].opened_by,
-            ["C1", "C2"],
+            [CutId::of(0), CutId::of(1)],
             "its other half is cut along"
         );
         assert!(
@@ -299,7 +296,7 @@ mod tests {
             pieces,
             bridges: Vec::new(),
         };
-        let plan = to_plan(&scene, &layout, (Pins::Placed, Vec::new())).unwrap();
+        let plan = to_plan(&scene, &layout, Pins::Placed, Vec::new()).unwrap();
         assert!(
             plan.joints.iter().all(|joint| joint.is_aligned()),
             "{:?}",
@@ -326,7 +323,7 @@ mod tests {
         .unwrap();
         assert_eq!(
             (&named.cuts[1].within[0].cut, named.joints.len()),
-            (&"waist".to_owned(), 3)
+            (&CutId::from("waist"), 3)
         );
         let volume: f64 = parts(&body, &plan, &request)
             .unwrap()

@@ -11,33 +11,37 @@ pub(crate) mod score;
 pub(crate) mod search;
 pub(crate) mod to_plan;
 
+#[cfg(test)]
+mod tests;
+
 use crate::{
-    base::units::counted,
+    base::verdict::Verdict,
     cut::{
         access::void_access::{accesses, report},
-        error::CutError,
+        error::{CutError, Obstacle, verdict},
         geometry::tree::{CutTree, Limit},
-        ids::cut_id,
+        hollowed::Hollowed,
+        ids::CutId,
         joints::pins::Pins,
         order::CutOrder,
         pieces::{pose::fits, rejoin::rejoined, split::Piece},
-        plan::{Cut, CutPlan, Side, bridges_on, tree_of},
+        plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
             extra::{Tried, add_extra_cuts, cleanest},
             layers::at_layers,
             layout::Layout,
             score::{Scene, burden},
-            search::{Found, smallest_plans},
+            search::smallest_plans,
             to_plan::{named_as, to_plan},
         },
+        remark::Remark,
         request::PlanRequest,
+        side::CutSide,
     },
     geom::{Plane, Point, Vector},
-    mesh::{Hollowed, off_faces, off_vertices},
+    mesh::{off_faces, off_vertices},
 };
 
-/// Terms of a score below this are not told.
-const SHOWN_PENALTY: f64 = 0.005;
 /// How many further cuts may be made so that parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
@@ -48,14 +52,21 @@ const MAX_FITTING_CUTS: usize = 8;
 ///
 /// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how
 /// many. About a second for 200k triangles and ten voids.
-pub fn plan(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
+pub fn plan(
+    hollowed: &Hollowed,
+    request: &PlanRequest,
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    verdict(plan_fewest(hollowed, request))
+}
+
+fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request)?;
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    notes.extend(side_notes(&layout.tree));
-    let plan = to_plan(&scene, &layout, (Pins::Placed, notes.clone()))?;
+    notes.extend(limited_cuts(&layout.tree));
+    let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
     at_layers(&scene, &layout, plan, notes)
 }
 
@@ -66,8 +77,13 @@ pub fn plan_by(
     hollowed: &Hollowed,
     request: &PlanRequest,
     order: &CutOrder,
-) -> Result<CutPlan, CutError> {
-    ordered(hollowed, request, (order, UnorderedJoints::None))
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    verdict(plan_ordered(
+        hollowed,
+        request,
+        order,
+        UnorderedJoints::None,
+    ))
 }
 
 /// The plan by an order as in [`plan_by`], but that joints in which none of its pins stands get the
@@ -76,14 +92,20 @@ pub fn plan_around(
     hollowed: &Hollowed,
     request: &PlanRequest,
     order: &CutOrder,
-) -> Result<CutPlan, CutError> {
-    ordered(hollowed, request, (order, UnorderedJoints::Placed))
+) -> Result<Verdict<CutPlan, Obstacle>, CutError> {
+    verdict(plan_ordered(
+        hollowed,
+        request,
+        order,
+        UnorderedJoints::Placed,
+    ))
 }
 
-fn ordered(
+fn plan_ordered(
     hollowed: &Hollowed,
     request: &PlanRequest,
-    (order, others): (&CutOrder, UnorderedJoints),
+    order: &CutOrder,
+    others: UnorderedJoints,
 ) -> Result<CutPlan, CutError> {
     check(request)?;
     let scene = Scene::new(hollowed, request)?;
@@ -109,7 +131,8 @@ fn ordered(
             pieces,
             bridges,
         },
-        (pins, Vec::new()),
+        pins,
+        Vec::new(),
     )?;
     Ok(CutPlan {
         solid: order.solid.clone(),
@@ -181,71 +204,37 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
 }
 
 /// The best of the smallest plans, and its pieces.
-fn opening_cuts(scene: &Scene, notes: &mut Vec<String>) -> Result<Layout, CutError> {
+fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
     if scene.hollowed.voids.is_empty() {
         return Layout::new(scene, Vec::new(), Vec::new());
     }
     let found = smallest_plans(scene)?;
-    notes.push(proof_note(&found));
+    notes.push(Remark::Fewest(found.proof()));
     let best = cleanest(scene, &found.plans)?;
     let Tried { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
-    notes.extend(
-        planes
-            .iter()
-            .enumerate()
-            .map(|(i, plane)| score_note(scene, (i, plane))),
-    );
+    let score = |(index, plane): (usize, &Plane)| Remark::Score {
+        cut: CutId::of(index),
+        terms: burden(scene, plane).terms(scene).to_vec(),
+    };
+    notes.extend(planes.iter().enumerate().map(score));
     Layout::new(scene, planes, voids)
 }
 
-/// Which cuts are made on a side of others only.
-fn side_notes(tree: &CutTree) -> impl Iterator<Item = String> {
-    let note = |cut: usize| {
-        let side =
-            |limit: &Limit| format!("{} {}", Side::of(limit.is_above).word(), cut_id(limit.cut));
-        let sides: Vec<String> = tree.limits(cut).iter().map(side).collect();
-        let words = format!(
-            "cut {}: only {}; beyond it nothing needs it",
-            cut_id(cut),
-            sides.join(" and ")
-        );
-        (!sides.is_empty()).then_some(words)
+/// The cuts that are made on sides of others only.
+fn limited_cuts(tree: &CutTree) -> impl Iterator<Item = Remark> {
+    let remark = |cut: usize| {
+        let sides: Vec<CutSide> = tree.limits(cut).iter().map(Limit::side).collect();
+        let cut = CutId::of(cut);
+        (!sides.is_empty()).then_some(Remark::LimitedCut { cut, sides })
     };
-    (0..tree.planes.len()).filter_map(note)
-}
-
-/// The named terms of a cut's score.
-fn score_note(scene: &Scene, (cut, plane): (usize, &Plane)) -> String {
-    let terms = burden(scene, plane).terms(scene);
-    let told = terms.iter().filter(|(_, value)| *value >= SHOWN_PENALTY);
-    let told: Vec<String> = told
-        .map(|(name, value)| format!("{name} {value:.2}"))
-        .collect();
-    let sum: f64 = terms.iter().map(|(_, value)| value).sum();
-    format!(
-        "cut {}: score {sum:.2}, 0 at best ({})",
-        cut_id(cut),
-        told.join(", ")
-    )
-}
-
-fn proof_note(found: &Found) -> String {
-    let cuts = counted(found.plans.first().map_or(0, Vec::len), "cut");
-    let (family, nodes) = (found.family, found.nodes);
-    if found.is_proved {
-        format!(
-            "{cuts}: fewer do not open every void (exact cover over {family} planes, {nodes} nodes)"
-        )
-    } else {
-        format!("{cuts}: fewer were not found, nor excluded, among {family} planes ({nodes} nodes)")
-    }
+    (0..tree.planes.len()).filter_map(remark)
 }
 
 /// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
 fn fit_build_volume(
     scene: &Scene,
     layout: &mut Layout,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Remark>,
 ) -> Result<(), CutError> {
     for _ in 0..MAX_FITTING_CUTS {
         let is_large = |piece: &&Piece| !fits(piece, &layout.tree.planes, scene.request);
@@ -262,10 +251,8 @@ fn fit_build_volume(
             scene.request,
         )?;
         *layout = Layout::new(scene, planes, voids)?;
-        notes.push(format!(
-            "cut {}: a part would not fit the build volume",
-            cut_id(layout.tree.planes.len() - 1)
-        ));
+        let cut = CutId::of(layout.tree.planes.len() - 1);
+        notes.push(Remark::FittingCut(cut));
     }
     Ok(())
 }

@@ -27,13 +27,15 @@ use crate::{
             sides::Sides,
             tree::CutTree,
         },
+        hollowed::Hollowed,
         joints::pin_size::needed_room_mm,
         pieces::split::{Piece, split_body},
+        remark::Term,
         request::{PlanRequest, PosePreference},
     },
     geom::{Aabb, Plane, Point},
     mass::moments_of_mesh,
-    mesh::{Csg, Hollowed, TriMesh},
+    mesh::{Csg, TriMesh},
 };
 
 /// The body that is to be cut, with what every plane is compared against.
@@ -346,35 +348,38 @@ impl Burden {
     }
 
     /// The weighed terms of one cut by their names, each 0 at best.
-    pub(crate) fn terms(&self, scene: &Scene) -> [(&'static str, f64); 9] {
+    pub(crate) fn terms(&self, scene: &Scene) -> [(Term, f64); 9] {
         let needed_mm = needed_room_mm(scene.request);
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
         let circle_mm = std::f64::consts::PI * scene.diagonal_mm;
         [
             (
-                "room for pins",
+                Term::RoomForPins,
                 ROOM_WEIGHT * shortfall(self.room_mm, needed_mm),
             ),
             (
-                "smallest part",
+                Term::SmallestPart,
                 SMALL_PART_WEIGHT * shortfall(self.smallest_ratio, AMPLE_PART_RATIO),
             ),
-            ("parts", EXTRA_PART_WEIGHT * self.extra_parts as f64),
+            (Term::Parts, EXTRA_PART_WEIGHT * self.extra_parts as f64),
             (
-                "contact",
+                Term::Contact,
                 CONTACT_WEIGHT * shortfall(self.contact_mm, AMPLE_CONTACT_MM),
             ),
-            ("seam", SEAM_WEIGHT * self.seam_mm / circle_mm),
+            (Term::Seam, SEAM_WEIGHT * self.seam_mm / circle_mm),
             (
-                "detail",
+                Term::Detail,
                 DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0),
             ),
             (
-                "glue",
+                Term::Glue,
                 GLUE_WEIGHT * shortfall(self.glue_mm2, ample_glue_mm2),
             ),
-            ("build volume", BUILD_VOLUME_WEIGHT * self.oversize as f64),
-            ("overhang", OVERHANG_WEIGHT * self.overhang_ratio),
+            (
+                Term::BuildVolume,
+                BUILD_VOLUME_WEIGHT * self.oversize as f64,
+            ),
+            (Term::Overhang, OVERHANG_WEIGHT * self.overhang_ratio),
         ]
     }
 }

@@ -4,13 +4,15 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
-        error::CutError,
+        error::{CutError, Obstacle},
         geometry::opening::Opening,
+        ids::VoidId,
         planner::{
             cover::{MAX_VOIDS, VoidSet, covers_of_size, greedy_cover, smallest_cover},
             family::{Candidate, candidates},
             score::{AMPLE_OPENING_RATIO, Burden, Scene, burden, opening_penalty},
         },
+        remark::Proof,
     },
     geom::Plane,
 };
@@ -52,6 +54,18 @@ pub(crate) struct Found {
     pub(crate) is_proved: bool,
 }
 
+impl Found {
+    /// The number of cuts, and how it was proved.
+    pub(crate) fn proof(&self) -> Proof {
+        Proof {
+            cuts: self.plans.first().map_or(0, Vec::len),
+            family: self.family,
+            nodes: self.nodes,
+            is_proved: self.is_proved,
+        }
+    }
+}
+
 /// The smallest plans from the family. At least one void is required.
 ///
 /// Counting a void as opened by every plane that meets it gives a lower bound by exact cover.
@@ -68,7 +82,8 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
     let family = promising_first(
         candidates(scene.hollowed, scene.request),
-        (all, ample_guess_mm(scene)),
+        all,
+        ample_guess_mm(scene),
     );
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
@@ -100,7 +115,7 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
 /// each direction, then the second best, and so on, each by the opening guessed. Guesses above
 /// `ample_mm` are equal, so that the axes, which lead the family, come before skew directions that
 /// are no better.
-fn promising_first(family: Vec<Candidate>, (all, ample_mm): (VoidSet, f64)) -> Vec<Candidate> {
+fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<Candidate> {
     let classes = classes(&family, all);
     let class_of = |c: &Candidate| {
         classes
@@ -177,9 +192,10 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
         covers.push(known.to_vec());
     }
     // A seat's opening is wide enough or not; more of it is of no use.
-    let plain = voids.saturating_sub(scene.request.seats.len());
+    let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
+    let empty: Vec<usize> = (0..voids).filter(holds_nothing).collect();
     let by_opening = |cover: &Vec<usize>| {
-        opening_penalty(scene, openings_mm(exact, cover, plain))
+        opening_penalty(scene, openings_mm(exact, cover, &empty))
             + CROSSED_WEIGHT * crossed(exact, cover, voids)
     };
     let mut covers: Vec<(f64, Vec<usize>)> =
@@ -237,13 +253,14 @@ fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> V
     burdens
 }
 
-/// For each void the widest of its openings by the cover's planes, mm.
+/// For each of the voids the widest of its openings by the cover's planes, mm.
 fn openings_mm<'a>(
     exact: &'a [Exact],
     cover: &'a [usize],
-    voids: usize,
+    voids: &'a [usize],
 ) -> impl Iterator<Item = f64> + 'a {
-    (0..voids).map(move |void| widest_mm(cover.iter().map(|&i| &exact[i]), void))
+    let planes = move || cover.iter().map(|&i| &exact[i]);
+    voids.iter().map(move |&void| widest_mm(planes(), void))
 }
 
 /// The widest opening of a void by some planes, mm.
@@ -255,7 +272,7 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
 }
 
 /// Which voids none of the planes opens wide enough.
-fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
+fn unopenable(scene: &Scene, exact: &[Exact]) -> Obstacle {
     let widest = |&void: &usize| widest_mm(exact.iter(), void);
     let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
@@ -263,8 +280,8 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
         .first()
         .map_or(scene.request.min_opening_mm, |&void| needed_mm(scene, void));
     let widest_mm = voids.iter().map(widest).fold(f64::INFINITY, f64::min);
-    CutError::Unopenable {
-        voids,
+    Obstacle::Unopenable {
+        voids: voids.into_iter().map(VoidId::of).collect(),
         widest_mm,
         needed_mm,
     }
@@ -272,5 +289,5 @@ fn unopenable(scene: &Scene, exact: &[Exact]) -> CutError {
 
 /// Diameter of the disc that must pass through the opening of a void, mm.
 fn needed_mm(scene: &Scene, void: usize) -> f64 {
-    scene.request.needed_mm(void, scene.hollowed.voids.len())
+    scene.hollowed.voids[void].least_opening_mm(scene.request)
 }

@@ -9,7 +9,7 @@ use crate::{
             chart::Chart,
             tree::{CutTree, Limit},
         },
-        ids::{cut_id, part_id},
+        ids::CutId,
         joints::{
             contact::contact,
             label::labels,
@@ -18,8 +18,9 @@ use crate::{
             placement::{PinScene, Placement},
         },
         pieces::split::{Joint, check_no_cavity, joints},
-        plan::{Bridge, Cut, CutPlan, CutSide, JointNote, Side, UncutFace},
+        plan::{Bridge, Cut, CutPlan, JointNote, UncutFace, index_of},
         planner::{layout::Layout, score::Scene},
+        remark::{PinLack, Remark},
         request::PlanRequest,
     },
     geom::Plane,
@@ -29,7 +30,8 @@ use crate::{
 pub(crate) fn to_plan(
     scene: &Scene,
     layout: &Layout,
-    (pins, mut notes): (Pins, Vec<String>),
+    pins: Pins,
+    mut notes: Vec<Remark>,
 ) -> Result<CutPlan, CutError> {
     let Layout {
         tree,
@@ -45,14 +47,13 @@ pub(crate) fn to_plan(
     };
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
-    let proofs = notes.clone();
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
     let told = joints.iter().zip(&placements);
     notes.extend(
         told.clone()
-            .filter_map(|(joint, placement)| shortage(scene.request, joint, placement)),
+            .filter_map(|(joint, placement)| pin_lack(scene.request, joint, placement)),
     );
-    notes.extend(voids.iter().filter_map(|void| narrow(scene, void)));
+    notes.extend(voids.iter().filter_map(|void| narrow_piece(scene, void)));
     notes.extend(unlabelled);
     Ok(CutPlan {
         cuts: (0..tree.planes.len())
@@ -74,14 +75,13 @@ pub(crate) fn to_plan(
         notes,
         solid: Vec::new(),
         moves: Vec::new(),
-        proofs,
     })
 }
 
 /// The plan with its cuts called as in the order it was made by: the planner numbers them.
 pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
-    let name = |id: &mut String| {
-        let index = plan.cuts.iter().position(|cut| cut.id == *id);
+    let name = |id: &mut CutId| {
+        let index = index_of(&plan.cuts, id);
         if let Some(cut) = index.and_then(|index| cuts.get(index)) {
             id.clone_from(&cut.id);
         }
@@ -106,15 +106,15 @@ fn uncut_face(planes: &[Plane], bridge: &Bridge) -> UncutFace {
     let plane = &planes[bridge.cut];
     let point_mm = Chart::of_plane(plane).lift(plane, &bridge.at).into();
     UncutFace {
-        cut: cut_id(bridge.cut),
+        cut: CutId::of(bridge.cut),
         point_mm,
     }
 }
 
 fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNote {
     JointNote {
-        cut: cut_id(joint.cut),
-        parts: [part_id(joint.below), part_id(joint.above)],
+        cut: CutId::of(joint.cut),
+        parts: joint.parts(),
         area_mm2: joint.area_mm2(),
         pins: placement.sites.iter().map(|site| site.id.clone()).collect(),
         one_way: placement.is_one_way,
@@ -122,49 +122,38 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
     }
 }
 
-/// What to say of a void one of whose pieces has a narrow mouth, where two cuts leave a pocket
-/// behind one of them.
-fn narrow(scene: &Scene, void: &VoidAccess) -> Option<String> {
-    let (index, opening) = (void.void, void.opening_mm);
-    let asked = scene.request.needed_mm(index, scene.hollowed.voids.len());
-    let note = || {
-        format!(
-            "void {index}: a piece of it opens by {opening:.2} mm only, asked are {asked:.2} mm"
-        )
-    };
-    (opening < asked).then(note)
+/// The remark on a void one of whose pieces has a narrow mouth.
+fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
+    let least_opening_mm = void.least_opening_mm(scene.request);
+    (void.opening_mm < least_opening_mm).then_some(Remark::NarrowPiece {
+        void: void.void,
+        opening_mm: void.opening_mm,
+        least_opening_mm,
+    })
 }
 
-/// What to say of a joint that has not at least two pins that fit one way only.
-fn shortage(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<String> {
-    let name = format!("joint {}–{}", part_id(joint.below), part_id(joint.above));
-    let (widest, needed) = (placement.widest_mm, needed_room_mm(request));
-    match placement.sites.len() {
-        0 if widest < needed => Some(format!(
-            "{name}: no room for pins: widest section {widest:.1} mm, needs {needed:.1} mm"
-        )),
-        0 => Some(format!(
-            "{name}: no room for pins: the material behind the cut is too thin for a socket"
-        )),
-        1 => Some(format!(
-            "{name}: room for one pin only; mind the turn when gluing"
-        )),
-        _ if !placement.is_one_way => Some(format!(
-            "{name}: the pins fit in more than one way; mind the turn when gluing"
-        )),
-        _ => None,
-    }
+/// The remark on a joint that has not at least two pins that fit one way only.
+fn pin_lack(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<Remark> {
+    let (widest_mm, needed_mm) = (placement.widest_mm, needed_room_mm(request));
+    let cause = match placement.sites.len() {
+        0 if widest_mm < needed_mm => PinLack::TooNarrow {
+            widest_mm,
+            needed_mm,
+        },
+        0 => PinLack::TooThin,
+        1 => PinLack::OnePin,
+        _ if !placement.is_one_way => PinLack::Ambiguous,
+        _ => return None,
+    };
+    let parts = joint.parts();
+    Some(Remark::LacksPins { parts, cause })
 }
 
 fn cut(tree: &CutTree, index: usize) -> Cut {
     let plane = &tree.planes[index];
-    let side = |limit: &Limit| CutSide {
-        cut: cut_id(limit.cut),
-        side: Side::of(limit.is_above),
-    };
-    let within = tree.limits(index).iter().map(side).collect();
+    let within = tree.limits(index).iter().map(Limit::side).collect();
     Cut {
-        id: cut_id(index),
+        id: CutId::of(index),
         point_mm: plane.foot().into(),
         normal: plane.normal.into(),
         within,

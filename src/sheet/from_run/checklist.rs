@@ -13,7 +13,7 @@ use super::parts::part_rows;
 use super::printer::{material_row, printer_row};
 use super::promise::{aim, ballast_orders, fill_order};
 use super::remarks::{notes, warnings};
-use super::voids::{cut_rows, void_id, void_rows};
+use super::voids::{cut_rows, void_rows};
 use crate::ballast::Placed as PlacedPart;
 use crate::goal::{Objective, Warning};
 use crate::mass::moments_of_mesh;
@@ -111,8 +111,9 @@ fn goal_row(placed: &Placed) -> GoalRow {
 }
 
 fn ballast_rows(facts: &Facts) -> Vec<BallastRow> {
-    let (load, voids) = (&facts.made.load, &facts.made.plan.voids);
-    let pockets = &voids[voids.len().saturating_sub(load.parts.len())..];
+    let load = &facts.made.load;
+    let voids = facts.made.plan.voids.iter();
+    let pockets = voids.filter(|void| void.part_opening_mm.is_some());
     let rows = ballast_orders(load)
         .into_iter()
         .zip(&load.parts)
@@ -121,8 +122,8 @@ fn ballast_rows(facts: &Facts) -> Vec<BallastRow> {
         order,
         part: part.id.clone(),
         name: part.name.clone(),
-        void: void_id(pocket.void),
-        opened_by: pocket.opened_by.clone(),
+        void: pocket.void.to_string(),
+        opened_by: pocket.opened_by.iter().map(ToString::to_string).collect(),
         clearance_mm: load.fit.clearance_mm,
         mass_spread_ratio: part.mass_spread_ratio,
         sources: [&part.size, &part.mass].map(|known| format!("{}: {}", known.sure, known.source)),

@@ -147,7 +147,7 @@ fn faces<'a>(
     let pose = written.evidence().pose;
     let part = &written.part;
     let plan = &facts.made.plan;
-    plan.cuts_of(&part.id).filter_map(move |cut| {
+    plan.cuts_of(part.id).filter_map(move |cut| {
         let up = (pose.rotation() * Vector::from(cut.normal)).z;
         let height_mm = pose.to_print(&Point::from(cut.point_mm)).z;
         let bounds =

@@ -86,7 +86,7 @@ pub fn dowels(plan: &CutPlan) -> Vec<Hardware> {
 fn dowel(pin: &PinSite) -> Option<Hardware> {
     let (dowel, bar) = (pin.dowel.as_ref()?, pin.dowel_bar()?);
     Some(Hardware {
-        id: pin.id.clone(),
+        id: pin.id.to_string(),
         what: dowel.rod.clone(),
         from_mm: bar.from.into(),
         to_mm: bar.to.into(),

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::facts::Facts;
 use super::figures::in_sheet_unit;
 use crate::base::units::MM3_PER_CM3;
-use crate::cut::{CutPlan, Dowel, JointNote, RodSource};
+use crate::cut::{self, CutPlan, Dowel, JointId, JointNote, RodSource};
 use crate::run::{BossRound, KeptBoss, Made, Placed, Remark};
 use crate::sheet::{BossRow, CutListRow, JointRow, RoundRow};
 use crate::verify::PromisedJoint;
@@ -73,7 +73,7 @@ pub fn promised_joints(placed: &Placed, plan: &CutPlan) -> Vec<PromisedJoint> {
 
 /// Returns the name of the joint with this index.
 pub fn joint_id(index: usize) -> String {
-    format!("J{}", index + 1)
+    JointId::of(index).to_string()
 }
 
 /// Returns the rows of the joints.
@@ -82,8 +82,8 @@ pub fn joint_rows(facts: &Facts) -> Vec<JointRow> {
     joints
         .map(|(index, joint)| JointRow {
             id: joint_id(index),
-            cut: joint.cut.clone(),
-            parts: joint.parts.clone(),
+            cut: joint.cut.to_string(),
+            parts: joint.parts.map(|id| id.to_string()),
             area_mm2: joint.area_mm2,
             pins: joint.pins.len(),
             clearance_mm: facts.placed.shop.printer.clearance_per_side_mm.value,
@@ -120,10 +120,9 @@ fn why_no_bosses(made: &Made, joint: &JointNote) -> String {
 
 /// Returns whether a note of the plan appears at its step: in the row of a joint, or where parts
 /// without an id are printed.
-pub fn is_shown_at_its_step(note: &str) -> bool {
-    ["joint ", "no room for an id "]
-        .iter()
-        .any(|start| note.starts_with(start))
+pub fn is_shown_at_its_step(note: &cut::Remark) -> bool {
+    use cut::Remark::{LacksPins, NoRoomForLabel};
+    matches!(note, LacksPins { .. } | NoRoomForLabel { .. })
 }
 
 /// Returns the warnings of all joints in one sentence; `None` if pins align every joint.
@@ -157,8 +156,8 @@ pub fn round_rows(facts: &Facts) -> Vec<RoundRow> {
 
 fn boss_row(boss: &KeptBoss) -> BossRow {
     BossRow {
-        pin: boss.pin.id.clone(),
-        parts: boss.parts.clone(),
+        pin: boss.pin.id.to_string(),
+        parts: boss.parts.map(|id| id.to_string()),
         center_mm: boss.pin.center_mm,
         volume_mm3: boss.volume_mm3,
     }

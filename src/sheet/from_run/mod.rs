@@ -20,4 +20,3 @@ pub use checklist::checklist;
 pub use facts::Facts;
 pub use figures::promised_figure;
 pub use promise::promise;
-pub use voids::void_id;

@@ -26,7 +26,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
         let sockets: Vec<Peg> = sockets.collect();
         let volume_mm3 = measured.surface.volume_mm3;
         PartRow {
-            id: part.id.clone(),
+            id: part.id.to_string(),
             file: written.file.clone(),
             sha256: sha256_hex(&[&written.bytes]),
             fingerprint: Some(Fingerprint::of(&written.read_back)),
@@ -42,7 +42,7 @@ pub fn part_rows(facts: &Facts) -> Vec<PartRow> {
             marks: part.labels.iter().map(mark).collect(),
             half: half_of(written, &halves),
             cup_mm3: cup_mm3(&written.read_back),
-            picture: Some(part_picture_file(&part.id)),
+            picture: Some(part_picture_file(&part.id.to_string())),
         }
     };
     parts.map(row).collect()
@@ -64,7 +64,7 @@ fn pose_words(written: &WrittenPart, facts: &Facts) -> String {
     let facing: Vec<String> = facts
         .made
         .plan
-        .cuts_of(&written.part.id)
+        .cuts_of(written.part.id)
         .filter_map(facing)
         .collect();
     if facing.is_empty() {

@@ -52,7 +52,7 @@ fn promised_part(written: &WrittenPart, plan: &CutPlan) -> PromisedPart {
     let part = &written.part;
     let sockets = part.sockets.iter();
     PromisedPart {
-        id: part.id.clone(),
+        id: part.id.to_string(),
         file: written.file.clone(),
         sha256: sha256_hex(&[&written.bytes]),
         fingerprint: None,
@@ -101,7 +101,7 @@ pub fn aim(placed: &Placed) -> Aim {
 /// Returns a pin as the sheet names it.
 pub fn pin(site: &PinSite, plan: &CutPlan) -> Peg {
     Peg {
-        id: site.id.clone(),
+        id: site.id.to_string(),
         joint: joint_of(site, plan),
         center_mm: site.center_mm,
         axis: site.direction,
@@ -150,7 +150,7 @@ pub fn fill_order(placed: &Placed) -> Option<FillOrder> {
 pub fn mark(label: &Label) -> Mark {
     Mark {
         text: label.text.clone(),
-        cut: label.cut.clone(),
+        cut: label.cut.to_string(),
         axis: label.into,
         depth_mm: label.depth_mm,
         stroke_mm: label.stroke_mm,

@@ -1,7 +1,7 @@
 //! The rows of voids and cuts, and the rounds in which voids were made smaller.
 
 use super::facts::Facts;
-use crate::cut::{Cut, CutPlan, CutSide, VoidAccess};
+use crate::cut::{Cut, CutPlan, CutSide, VoidAccess, VoidId};
 use crate::geom::{Bvh, Point};
 use crate::run::{CleaningRound, KeptSolid, Made, Placed, WrittenPart};
 use crate::sheet::{CleaningRow, CutRow, KeptRow, SideRow, VoidRow, is_clean};
@@ -17,13 +17,13 @@ const LEAST_VERTICES: usize = 8;
 pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
     let (placed, made) = (facts.placed, facts.made);
     let row = |access: &VoidAccess| {
-        let id = void_id(access.void);
+        let id = access.void.to_string();
         VoidRow {
             volume_mm3: access.volume_mm3,
-            opened_by: access.opened_by.clone(),
+            opened_by: access.opened_by.iter().map(ToString::to_string).collect(),
             parts: holders(facts.made, access.void),
             opening_mm: access.opening_mm,
-            least_opening_mm: least_opening_mm(placed, made, access.void),
+            least_opening_mm: least_opening_mm(placed, access),
             depth_mm: access.depth_mm,
             sight_ratio: Some(access.sight_ratio),
             method: placed.shop.printer.cleaning_rule().rule.words().to_owned(),
@@ -37,8 +37,8 @@ pub fn void_rows(facts: &Facts) -> Vec<VoidRow> {
 
 /// Returns the ids of the parts that have vertices of a void's wall: a cut keeps the vertices
 /// beside it.
-fn holders(made: &Made, void: usize) -> Vec<String> {
-    let Some(body) = made.hollowed.voids.get(void) else {
+fn holders(made: &Made, void: VoidId) -> Vec<String> {
+    let Some(body) = made.hollowed.voids.get(void.index()) else {
         return Vec::new();
     };
     let wall = Bvh::new(body.mesh().iter_corners());
@@ -50,31 +50,24 @@ fn holders(made: &Made, void: usize) -> Vec<String> {
     made.parts
         .iter()
         .filter(holds)
-        .map(|written| written.part.id.clone())
+        .map(|written| written.part.id.to_string())
         .collect()
 }
 
-/// Returns the name of a void on the sheet.
-pub fn void_id(void: usize) -> String {
-    format!("V{}", void + 1)
-}
-
 /// Returns the opening that a void needs, mm: for its ballast, else the printer's least.
-fn least_opening_mm(placed: &Placed, made: &Made, void: usize) -> f64 {
-    let (loads, plan) = (&made.load.parts, &made.plan);
-    let first = plan.voids.len().saturating_sub(loads.len());
-    let laid = void.checked_sub(first).and_then(|index| loads.get(index));
-    laid.map_or(placed.shop.printer.min_opening_mm.value, |placed| {
-        2.0 * placed.lump.shape.radius_mm()
-    })
+fn least_opening_mm(placed: &Placed, access: &VoidAccess) -> f64 {
+    let printer = &placed.shop.printer;
+    access
+        .part_opening_mm
+        .unwrap_or(printer.min_opening_mm.value)
 }
 
 /// Returns the voids as the judge reads them.
 pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
     let promised = |access: &VoidAccess| PromisedVoid {
-        id: void_id(access.void),
+        id: access.void.to_string(),
         sight_ratio: Some(access.sight_ratio),
-        least_opening_mm: Some(least_opening_mm(placed, made, access.void)),
+        least_opening_mm: Some(least_opening_mm(placed, access)),
     };
     made.plan.voids.iter().map(promised).collect()
 }
@@ -82,11 +75,11 @@ pub fn promised_voids(placed: &Placed, made: &Made) -> Vec<PromisedVoid> {
 /// Returns the rows of the cuts.
 pub fn cut_rows(plan: &CutPlan) -> Vec<CutRow> {
     let side = |side: &CutSide| SideRow {
-        cut: side.cut.clone(),
+        cut: side.cut.to_string(),
         side: side.side.word().to_owned(),
     };
     let row = |cut: &Cut| CutRow {
-        id: cut.id.clone(),
+        id: cut.id.to_string(),
         point_mm: cut.point_mm,
         normal: cut.normal,
         within: cut.within.iter().map(side).collect(),
@@ -109,7 +102,7 @@ pub fn promised_cuts(plan: &CutPlan) -> Vec<PromisedCut> {
 /// the sheet.
 pub fn cleaning_rows(rounds: &[CleaningRound], convert: impl Fn(f64) -> f64) -> Vec<CleaningRow> {
     let kept = |kept: &KeptSolid| KeptRow {
-        void: void_id(kept.void),
+        void: kept.void.to_string(),
         why: kept.cause.to_string(),
     };
     let row = |round: &CleaningRound| CleaningRow {

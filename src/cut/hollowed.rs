@@ -1,0 +1,80 @@
+//! A solid with voids in it, and the parts that some of them hold.
+
+use crate::{
+    cut::{request::PlanRequest, seat::Seat},
+    mesh::{Solid, TriMesh},
+};
+
+/// An outer surface and the voids inside it.
+///
+/// Holds (the voids stage's promise): the voids are solids (oriented outward, as bodies of air),
+/// disjoint, and lie inside `outer`, nowhere nearer to it than the wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hollowed {
+    /// The outside of the model.
+    pub outer: Solid,
+    /// The bodies of air inside it.
+    pub voids: Vec<Void>,
+}
+
+/// A body of air.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Void {
+    /// Its surface.
+    pub body: Solid,
+    /// The seat of the part that it holds; `None` for a void that stays empty.
+    pub holds: Option<Seat>,
+}
+
+impl Hollowed {
+    /// Returns a solid with voids that hold nothing.
+    pub fn new(outer: Solid, bodies: Vec<Solid>) -> Self {
+        Self {
+            outer,
+            voids: bodies.into_iter().map(Void::empty).collect(),
+        }
+    }
+
+    /// One mesh that bounds the remaining material: the outer surface and every void turned inside
+    /// out.
+    pub fn to_mesh(&self) -> TriMesh {
+        let outer = self.outer.mesh().clone();
+        self.voids
+            .iter()
+            .fold(outer, |mesh, void| mesh.joined(&void.mesh().reversed()))
+    }
+
+    /// The same solid with only those voids that hold a part.
+    pub(crate) fn without_empty_voids(&self) -> Self {
+        let holds_part = |void: &&Void| void.holds.is_some();
+        Self {
+            outer: self.outer.clone(),
+            voids: self.voids.iter().filter(holds_part).cloned().collect(),
+        }
+    }
+
+    /// The seats of the parts that voids hold, in the order of the voids.
+    pub(crate) fn seats(&self) -> impl Iterator<Item = &Seat> {
+        self.voids.iter().filter_map(|void| void.holds.as_ref())
+    }
+}
+
+impl Void {
+    /// Returns a void that holds nothing.
+    pub fn empty(body: Solid) -> Self {
+        Self { body, holds: None }
+    }
+
+    /// Its surface, facing outward as that of a body of air.
+    pub fn mesh(&self) -> &TriMesh {
+        self.body.mesh()
+    }
+
+    /// Diameter of the disc that must pass through its opening, mm: the part that it holds, all of
+    /// it in sight once it is open, must go in; an empty void must let itself be cleaned.
+    pub fn least_opening_mm(&self, request: &PlanRequest) -> f64 {
+        self.holds
+            .as_ref()
+            .map_or(request.min_opening_mm, |seat| seat.opening_mm)
+    }
+}
