@@ -1,5 +1,5 @@
-//! The job sheet in a real browser with the network off: it breaks no rule of accessibility, and its
-//! view obeys its controls.
+//! The job sheet works in a real browser with the network off: it breaks no rule of accessibility,
+//! and its view obeys its controls.
 
 #![allow(
     clippy::unwrap_used,

@@ -1,5 +1,5 @@
-//! Random cuts of random bodies at random sizes with random pins give sound parts: every written
-//! part is a solid, every pin is there, and no volume is lost or gained.
+//! Random cuts of random bodies with random pins give sound parts. Every written part is a solid,
+//! every pin is there, and no volume is lost or gained.
 //!
 //! By default a few cases with bodies of our own are tried. `EQUIPOISE_SOAK_CASES=500` tries more,
 //! `EQUIPOISE_SOAK_MODELS=folder` adds the closed meshes of a folder, and `EQUIPOISE_SOAK_FIRST=n`

@@ -38,7 +38,7 @@ pub fn solid(make: Maker) -> Result<Solid, Defects> {
     Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm()))
 }
 
-/// Makes an ellipsoid with three different axes, tilted two ways, with a vertex at its lowest point.
+/// Makes a tilted ellipsoid with three different axes and a vertex at its lowest point.
 fn tilted_ellipsoid() -> TriMesh {
     let axes = Matrix::from_diagonal(&Vector::new(50.0, 40.0, 44.0));
     let tilt = rotation_about(Vector::y(), 20.0) * rotation_about(Vector::x(), 8.0);
@@ -95,7 +95,7 @@ fn yoyo_cuboid() -> TriMesh {
 fn three_spheres() -> TriMesh {
     /// Centre (x, z) and radius of each ball.
     const BALLS: [(f64, f64, f64); 3] = [(0.0, 0.9, 1.0), (1.1, 2.3, 1.0), (2.4, 3.5, 1.0)];
-    /// First and last slice of each ball, as angles from its lowest point. Straight necks join them.
+    /// First and last slice of each ball, as angles from its lowest point. Necks join the balls.
     const SLICES_DEG: (f64, f64) = (18.0, 150.0);
     let ring = |(x, z, radius): (f64, f64, f64), step: i32| {
         let angle =

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::common::{assert_exit, list, number, prepare, words};
 
-/// Whether a row of the sheet's table must be whole.
+/// Tells if a row of the sheet's table must be a whole number of steps.
 ///
 /// Walls, pins and sockets must be along the coarser of x and y: on oblong pixels the finer cannot
 /// be too. Pins and sockets must be along z. Walls have any number of layers.
