@@ -1,7 +1,5 @@
 //! Walls, pins, sockets and cut faces that land on the grid of a printer.
 
-use std::fs;
-
 use serde_json::Value;
 
 use crate::common::{assert_exit, list, number, prepare, words};
