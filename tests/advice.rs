@@ -1,5 +1,5 @@
-//! What is advised, as a user types it: remedies that give a kit, the best axis, and what a model
-//! could become.
+//! Advice as a user meets it: remedies that give a kit, the best axis, and what a model could
+//! become.
 
 #![allow(
     clippy::unwrap_used,
@@ -7,135 +7,76 @@
     reason = "a test whose input cannot be had has failed"
 )]
 
-use std::path::Path;
-use std::process::Output;
+mod common;
 
-use assert_cmd::Command;
+use common::{
+    ELLIPSOID, assert_exit, equipoise, json, list, make_kit, number, prepare_quickly, text, words,
+};
 use serde_json::Value;
 
-/// The shipped model, an ellipsoid that leans in its axes.
-const ELLIPSOID: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/examples/models/tilted-ellipsoid.stl"
-);
-
-fn equipoise(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(arguments)
-        .output()
-        .unwrap()
-}
-
-fn text(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
-}
-
-/// Runs `prepare` on the shipped model, small and coarse, which is quick.
-fn prepare(out: &Path, more: &[&str]) -> Output {
-    let usual = [
-        "--json",
-        "prepare",
-        ELLIPSOID,
-        "--printer",
-        "objet-connex350",
-        "--size",
-        "60mm",
-    ];
-    let coarse = ["--pitch", "0.3mm", "--out", out.to_str().unwrap()];
-    equipoise(&[&usual[..], &coarse[..], more].concat())
-}
-
-fn json(output: &Output) -> Value {
-    let (said, failed) = (text(&output.stdout), text(&output.stderr));
-    serde_json::from_str(&said).unwrap_or_else(|_| panic!("{said}{failed}"))
-}
-
-/// A wall of 12 mm leaves too little to bring the centre of mass over the contact.
-#[test]
-fn a_wall_that_is_advised_gives_a_kit() {
+/// The remedies for a wall of 12 mm: too little can be emptied to move the centre of mass over the
+/// contact point.
+fn remedies() -> Vec<Value> {
     let folder = tempfile::tempdir().unwrap();
-    let [thick, thin] = ["thick", "thin"].map(|name| folder.path().join(name));
-    let refused = prepare(&thick, &["--goal", "top", "--wall", "12mm"]);
-    assert_eq!(refused.status.code(), Some(1));
-    assert!(!thick.exists());
-    let outcome = json(&refused);
-    let remedies = outcome["remedies"].as_array().unwrap();
+    let kit = folder.path().join("thick");
+    let refused = prepare_quickly(&kit, "--goal top --wall 12mm");
+    assert_exit(&refused, 1);
+    assert!(!kit.exists());
+    list(&json(&refused), "remedies").to_vec()
+}
+
+#[test]
+fn every_remedy_with_an_amount_was_confirmed_by_a_solve() {
+    let remedies = remedies();
     let kinds: Vec<&str> = remedies
         .iter()
         .map(|remedy| remedy["kind"].as_str().unwrap())
         .collect();
-    assert_eq!(
-        kinds,
-        [
-            "least-size",
-            "greatest-wall",
-            "nearest-contact",
-            "nearest-axis",
-            "least-ballast"
-        ]
-    );
+    let expected = "least-size greatest-wall nearest-contact nearest-axis least-ballast";
+    assert_eq!(kinds, words(expected));
     for remedy in remedies {
-        assert_eq!(
-            remedy["amount"].is_number(),
-            remedy["confirmed"].is_object(),
-            "{remedy:#}"
-        );
+        let is_confirmed = remedy["confirmed"].is_object();
+        assert_eq!(remedy["amount"].is_number(), is_confirmed, "{remedy:#}");
     }
+}
+
+#[test]
+fn a_recommended_wall_gives_a_kit() {
+    let remedies = remedies();
     let setting = &remedies[1]["settings"][0];
     assert_eq!(setting["key"], "wall");
     let wall = setting["value"].as_str().unwrap();
-    let made = prepare(&thin, &["--goal", "top", "--wall", wall]);
-    assert_eq!(
-        made.status.code(),
-        Some(0),
-        "{wall}: {}",
-        text(&made.stdout)
-    );
-}
-
-#[test]
-fn the_best_axis_is_taken_and_told_and_is_better_than_the_one_at_hand() {
     let folder = tempfile::tempdir().unwrap();
-    let speed = |name: &str, up: &str| {
-        let made = prepare(
-            &folder.path().join(name),
-            &["--goal", "top", "--wall", "1.5mm", up],
-        );
-        assert_eq!(made.status.code(), Some(0), "{}", text(&made.stderr));
-        let sheet = json(&made);
-        (
-            sheet["assembly"]["critical_speed_rpm"].as_f64().unwrap(),
-            sheet["goal"]["choice"].clone(),
-        )
-    };
-    let (at_hand, not_chosen) = speed("upright", "--up=z");
-    let (best, choice) = speed("best", "--up=auto");
-    assert!(best < at_hand && not_chosen.is_null(), "{best} {at_hand}");
-    assert!(choice.as_str().unwrap().contains("--up="), "{choice}");
+    make_kit(
+        &folder.path().join("thin"),
+        &format!("--goal top --wall {wall}"),
+    );
 }
 
 #[test]
-fn inspect_tells_what_the_model_could_become() {
-    let usual = [
-        "inspect",
-        ELLIPSOID,
-        "--size",
-        "60mm",
-        "--printer",
-        "objet-connex350",
-        "--wall",
-        "1.5mm",
-    ];
-    let said = text(&equipoise(&usual).stdout);
-    assert!(
-        said.contains("with a wall of 1.524 mm, as") && said.contains("spins upright from"),
-        "{said}"
-    );
-    let facts = json(&equipoise(&[&usual[..], &["--json"]].concat()));
-    let prospects = facts["could_become"]["prospects"].as_array().unwrap();
-    assert!(
-        prospects
-            .iter()
-            .any(|prospect| prospect["kind"] == "yoyo" && prospect["possible"] == true)
-    );
+fn the_best_axis_spins_at_a_lower_speed_than_the_upright_one_and_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let make = |name: &str, up: &str| {
+        let goal = format!("--goal top --wall 1.5mm --up={up}");
+        make_kit(&folder.path().join(name), &goal)
+    };
+    let [upright, best] = [make("upright", "z"), make("best", "auto")];
+    let [slow, fast] = [&best, &upright].map(|sheet| number(sheet, "/assembly/critical_speed_rpm"));
+    assert!(slow < fast, "{slow} {fast}");
+    assert!(upright["goal"]["choice"].is_null());
+    let choice = best["goal"]["choice"].as_str().unwrap();
+    assert!(choice.contains("--up="), "{choice}");
+}
+
+#[test]
+fn inspect_lists_what_the_model_could_become() {
+    let options = "--size 60mm --printer objet-connex350 --wall 1.5mm";
+    let arguments = [&["inspect", ELLIPSOID][..], &words(options)].concat();
+    let said = text(&equipoise(&arguments).stdout);
+    let expected = ["with a wall of 1.524 mm, as", "spins upright from"];
+    assert!(expected.iter().all(|words| said.contains(words)), "{said}");
+    let facts = json(&equipoise(&[&arguments[..], &["--json"]].concat()));
+    let prospects = list(&facts["could_become"], "prospects");
+    let is_yoyo = |prospect: &Value| prospect["kind"] == "yoyo" && prospect["possible"] == true;
+    assert!(prospects.iter().any(is_yoyo), "{prospects:?}");
 }

@@ -1,49 +1,42 @@
-//! Bad input ends in clear words and exit code 2, and leaves nothing behind.
+//! Bad input ends with a clear message and exit code 2, and leaves nothing behind.
 
 #![allow(
     clippy::unwrap_used,
     reason = "a test whose input cannot be had has failed"
 )]
 
+mod common;
+
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
+use common::{ELLIPSOID, assert_exit, equipoise, path, printed, text, words};
 
-/// Runs `prepare` on a file of these bytes; gives what it said on the standard error.
-fn refused(name: &str, bytes: &[u8]) -> String {
+/// The options of every run.
+const TOP: &str = "--printer objet-connex350 --goal top";
+
+/// Runs `prepare` on a file of these bytes, which must be refused; returns the message.
+fn refuse(name: &str, bytes: &[u8]) -> String {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join(name);
     fs::write(&model, bytes).unwrap();
-    refused_path(folder.path(), &model)
+    refuse_path(folder.path(), &model)
 }
 
-fn refused_path(folder: &Path, model: &Path) -> String {
+/// Runs `prepare` on a file, which must be refused; returns the message.
+fn refuse_path(folder: &Path, model: &Path) -> String {
     let before = fs::read_dir(folder).unwrap().count();
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "prepare",
-            model.to_str().unwrap(),
-            "--printer",
-            "objet-connex350",
-            "--goal",
-            "top",
-            "--out",
-        ])
-        .arg(folder.join("kit"))
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let kit = folder.join("kit");
+    let start = ["prepare", path(model), "--out", path(&kit)];
+    let output = equipoise(&[&start[..], &words(TOP)].concat());
+    assert_exit(&output, 2);
+    let said = text(&output.stderr);
     assert!(
         said.starts_with("error: ") && !said.contains("panicked"),
         "{said}"
     );
-    assert_eq!(
-        fs::read_dir(folder).unwrap().count(),
-        before,
-        "something was left behind: {said}"
-    );
+    let after = fs::read_dir(folder).unwrap().count();
+    assert_eq!(after, before, "something was left behind: {said}");
     said
 }
 
@@ -94,7 +87,7 @@ const FACES: [[[f32; 3]; 3]; 4] = [
 
 #[test]
 fn an_open_mesh_is_refused_with_its_holes() {
-    let said = refused("open.stl", &stl(&FACES[..3]));
+    let said = refuse("open.stl", &stl(&FACES[..3]));
     assert!(
         said.contains("does not bound a solid") && said.contains("hole"),
         "{said}"
@@ -103,47 +96,35 @@ fn an_open_mesh_is_refused_with_its_holes() {
 }
 
 #[test]
-fn inspect_ends_as_prepare_does_and_tells_holes_where_they_are_in_the_file_even_when_quiet() {
+fn a_quiet_inspect_refuses_an_open_mesh_and_places_its_holes_in_the_file() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("open.stl");
     fs::write(&model, stl(&FACES[..3])).unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(["-q", "inspect", model.to_str().unwrap(), "--size", "80mm"])
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(
-        (output.status.code(), output.stdout.len()),
-        (Some(2), 0),
-        "{said}"
-    );
+    let output = equipoise(&["-q", "inspect", path(&model), "--size", "80mm"]);
+    assert_exit(&output, 2);
+    assert!(output.stdout.is_empty());
     // The middle of the rim's first edge, which is (40, 40, 0) mm in the print.
-    assert!(
-        said.contains("(0.500000, 0.500000, 0.00) in the file's own coordinates"),
-        "{said}"
-    );
+    let said = text(&output.stderr);
+    let place = "(0.500000, 0.500000, 0.00) in the file's own coordinates";
+    assert!(said.contains(place), "{said}");
 }
 
 #[test]
-fn a_model_of_a_millimetre_is_told_with_what_to_do_about_it() {
+fn a_model_one_millimetre_long_is_reported_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("small.stl");
     fs::write(&model, stl(&FACES)).unwrap();
-    let inspected = |more: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-            .args(["inspect", model.to_str().unwrap()])
-            .args(more)
-            .output()
-            .unwrap();
-        String::from_utf8_lossy(&output.stdout).into_owned()
-    };
-    let said = inspected(&[]);
-    assert!(
-        said.contains("warning: its longest side would be 1 mm") && said.contains("--unit"),
-        "{said}"
-    );
-    assert!(said.contains("a solid of 0.1667 mm³"), "{said}");
-    assert!(!inspected(&["--size", "80mm"]).contains("warning: its longest side"));
+    let inspect =
+        |options: &[&str]| text(&equipoise(&[&["inspect", path(&model)], options].concat()).stdout);
+    let said = inspect(&[]);
+    for words in [
+        "warning: its longest side would be 1 mm",
+        "--unit",
+        "a solid of 0.1667 mm³",
+    ] {
+        assert!(said.contains(words), "{said}");
+    }
+    assert!(!inspect(&["--size", "80mm"]).contains("warning: its longest side"));
 }
 
 #[test]
@@ -155,7 +136,7 @@ fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
         .into_iter()
         .chain(hole)
         .collect();
-    let said = refused("holed.stl", &stl(&holed));
+    let said = refuse("holed.stl", &stl(&holed));
     assert!(
         said.contains("a cavity of 1000.000 mm³ about (11.00, 11.00, 11.00) mm"),
         "{said}"
@@ -164,20 +145,20 @@ fn a_cavity_in_the_model_is_refused_with_its_place_and_volume() {
 }
 
 #[test]
-fn bodies_beside_each_other_in_each_other_and_through_each_other_are_refused_before_any_work() {
+fn bodies_side_by_side_nested_or_crossing_are_refused() {
     let body = cuboid([0.0; 3], [40.0; 3]);
     let with = |low: f32, high: f32| stl(&[&body[..], &cuboid([low; 3], [high; 3])].concat());
-    let beside = refused("beside.stl", &with(50.0, 60.0));
+    let beside = refuse("beside.stl", &with(50.0, 60.0));
     assert!(
         beside.contains("it has 2 surfaces") && beside.contains("join the separate bodies"),
         "{beside}"
     );
-    let within = refused("within.stl", &with(10.0, 20.0));
+    let within = refuse("within.stl", &with(10.0, 20.0));
     assert!(
         within.contains("a body (inside the material of another)"),
         "{within}"
     );
-    let through = refused("through.stl", &with(30.0, 60.0));
+    let through = refuse("through.stl", &with(30.0, 60.0));
     assert!(
         through.contains("pass through each other") && through.contains("boolean union"),
         "{through}"
@@ -187,13 +168,13 @@ fn bodies_beside_each_other_in_each_other_and_through_each_other_are_refused_bef
 #[test]
 fn a_truncated_stl_says_how_many_triangles_are_missing() {
     let whole = stl(&FACES);
-    let said = refused("cut.stl", &whole[..whole.len() - 30]);
+    let said = refuse("cut.stl", &whole[..whole.len() - 30]);
     assert!(said.contains('4') && said.contains('3'), "{said}");
 }
 
 #[test]
-fn a_text_called_stl_is_said_to_be_no_model() {
-    let said = refused(
+fn a_letter_called_stl_is_refused_as_no_model() {
+    let said = refuse(
         "letter.stl",
         b"Dear shop, please print the attached elephant.\n",
     );
@@ -204,7 +185,7 @@ fn a_text_called_stl_is_said_to_be_no_model() {
 fn a_coordinate_that_is_not_a_number_is_named() {
     let mut faces = FACES;
     faces[2][1][0] = f32::NAN;
-    let said = refused("nan.stl", &stl(&faces));
+    let said = refuse("nan.stl", &stl(&faces));
     assert!(
         said.to_lowercase().contains("nan") || said.contains("finite"),
         "{said}"
@@ -212,65 +193,43 @@ fn a_coordinate_that_is_not_a_number_is_named() {
 }
 
 #[test]
-fn an_empty_obj_is_said_to_be_empty() {
-    assert!(refused("empty.obj", b"").contains("empty"));
-    assert!(refused("comment.obj", b"# nothing here\n").contains("error"));
+fn an_empty_obj_is_refused_as_empty() {
+    assert!(refuse("empty.obj", b"").contains("empty"));
+    assert!(refuse("comment.obj", b"# nothing here\n").contains("error"));
 }
 
 #[test]
-fn a_missing_file_is_said_to_be_missing() {
+fn a_missing_file_is_reported_as_missing() {
     let folder = tempfile::tempdir().unwrap();
-    let said = refused_path(folder.path(), &folder.path().join("absent.obj"));
+    let said = refuse_path(folder.path(), &folder.path().join("absent.obj"));
     assert!(said.contains("no such file"), "{said}");
 }
 
-/// Runs `prepare` on the shipped model with more arguments; gives what it said on the standard
-/// error.
-fn refused_arguments(more: &[&str]) -> String {
-    let model = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/examples/models/tilted-ellipsoid.stl"
-    );
+/// Runs `prepare` on the shipped model with options that must be refused; returns the message.
+fn refuse_options(options: &[&str]) -> String {
     let folder = tempfile::tempdir().unwrap();
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "prepare",
-            model,
-            "--printer",
-            "objet-connex350",
-            "--goal",
-            "top",
-            "--out",
-        ])
-        .arg(folder.path().join("kit"))
-        .args(more)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{more:?}: {said}");
-    assert_eq!(
-        fs::read_dir(folder.path()).unwrap().count(),
-        0,
-        "{more:?} left something behind"
-    );
+    let kit = folder.path().join("kit");
+    let start = ["prepare", ELLIPSOID, "--out", path(&kit)];
+    let output = equipoise(&[&start[..], &words(TOP), options].concat());
+    assert_exit(&output, 2);
+    let left = fs::read_dir(folder.path()).unwrap().count();
+    assert_eq!(left, 0, "{options:?} left something behind");
+    let said = text(&output.stderr);
     assert!(said.lines().all(|line| line.len() < 400), "{said}");
     said
 }
 
 #[test]
-fn absurd_sizes_walls_pitches_points_and_threads_are_refused_at_once() {
+fn absurd_sizes_walls_pitches_points_and_threads_are_refused() {
     for (size, words) in [
         ("0", "above zero"),
         ("-1", "above zero"),
         ("nan", "above zero"),
         ("1e300", "1.0e300 mm long"),
     ] {
-        assert!(
-            refused_arguments(&["--size", size]).contains(words),
-            "{size}"
-        );
+        assert!(refuse_options(&["--size", size]).contains(words), "{size}");
     }
-    for (more, words) in [
+    for (options, words) in [
         (["--size", "5m"], "for objet-connex350 may be"),
         (["--size", "0.5mm"], "leave nothing inside"),
         (["--wall", "200mm"], "leave nothing inside"),
@@ -278,32 +237,20 @@ fn absurd_sizes_walls_pitches_points_and_threads_are_refused_at_once() {
         (["--contact", "1e300,0,0"], "times the model's length away"),
         (["--threads", "100000"], "1..=256"),
     ] {
-        let said = refused_arguments(&more);
-        assert!(said.contains(words), "{more:?}: {said}");
+        let said = refuse_options(&options);
+        assert!(said.contains(words), "{options:?}: {said}");
     }
 }
 
 #[test]
-fn a_target_inside_a_file_is_told_before_any_work_is_done() {
+fn a_target_inside_a_file_is_refused_before_the_model_is_read() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("file"), "").unwrap();
     let target = folder.path().join("file").join("kit");
-    // The model is not read before the target is known to be writable.
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "prepare",
-            "absent.stl",
-            "--printer",
-            "objet-connex350",
-            "--goal",
-            "top",
-            "--out",
-        ])
-        .arg(&target)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let start = ["prepare", "absent.stl", "--out", path(&target)];
+    let output = equipoise(&[&start[..], &words(TOP)].concat());
+    assert_exit(&output, 2);
+    let said = printed(&output);
     assert!(
         said.contains("cannot write") && !said.contains("absent.stl"),
         "{said}"
@@ -311,29 +258,14 @@ fn a_target_inside_a_file_is_told_before_any_work_is_done() {
 }
 
 #[test]
-fn a_target_that_cannot_be_written_is_told_before_any_work_is_done() {
+fn a_target_that_is_a_file_is_refused_and_kept() {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("taken");
     fs::write(&file, "not a folder").unwrap();
-    let model = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/examples/models/tilted-ellipsoid.stl"
-    );
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "prepare",
-            model,
-            "--printer",
-            "objet-connex350",
-            "--goal",
-            "top",
-            "--out",
-        ])
-        .arg(&file)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    assert_eq!(output.status.code(), Some(2), "{said}");
+    let start = ["prepare", ELLIPSOID, "--out", path(&file)];
+    let output = equipoise(&[&start[..], &words(TOP)].concat());
+    assert_exit(&output, 2);
+    let said = printed(&output);
     assert!(said.contains("is a file"), "{said}");
     assert_eq!(fs::read_to_string(&file).unwrap(), "not a folder");
 }

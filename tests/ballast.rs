@@ -1,11 +1,11 @@
-//! Ballast as a user orders it: an impossible rotor becomes a kit, and a lie about its ballast is
-//! found.
+//! Ballast as a user orders it: an impossible rotor becomes a kit, and a false weight on its sheet
+//! is found.
 
 #![allow(
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::panic, reason = "a test whose input cannot be had has failed")]
 
 mod common;
 
@@ -13,90 +13,68 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Output;
 
-use common::{equipoise, glue_g};
+use common::{
+    assert_exit, checklist, equipoise, glue_g, json, list, number, path, prepare_quickly, printed,
+    sum, verify, words,
+};
 use equipoise::geom::Point;
 use equipoise::io::stl;
 use equipoise::mesh::primitives::cuboid;
-use serde_json::Value;
 
-/// A block of 40 × 16 × 30 mm, written as a model.
-fn block(folder: &Path) -> PathBuf {
+/// Writes a block of 40 × 16 × 30 mm as a model.
+fn write_block(folder: &Path) -> PathBuf {
     let path = folder.join("block.stl");
     let mesh = cuboid(&Point::origin(), &Point::new(40.0, 16.0, 30.0));
     fs::write(&path, stl::encode(&mesh, "block")).unwrap();
     path
 }
 
-/// Turns it about an axis 3 mm above its middle: further than hollowing behind a wall of 3 mm
-/// brings its centre.
-fn prepare(model: &Path, out: &Path, more: &[&str]) -> Output {
-    let usual = [
-        "--json",
-        "prepare",
-        model.to_str().unwrap(),
-        "--printer",
-        "objet-connex350",
-        "--goal",
-        "balance",
-    ];
-    let goal = [
-        "--up",
-        "x",
-        "--spin-point",
-        "20,8,18",
-        "--wall",
-        "3mm",
-        "--pitch",
-        "0.2mm",
-    ];
-    equipoise(&[&usual[..], &goal, &["--out", out.to_str().unwrap()], more].concat())
-}
-
-fn json(bytes: &[u8]) -> Value {
-    serde_json::from_slice(bytes).unwrap()
+/// Prepares a rotor about an axis 3 mm above the middle of the block. Hollowing behind a wall of
+/// 3 mm cannot move the centre so far.
+fn prepare_rotor(model: &Path, out: &Path, ballast: &[&str]) -> Output {
+    let rotor = "--printer objet-connex350 --goal balance --up x --spin-point 20,8,18";
+    let usual = ["--json", "prepare", path(model), "--out", path(out)];
+    let sizes = words("--wall 3mm --pitch 0.2mm");
+    equipoise(&[&usual[..], &words(rotor), &sizes, ballast].concat())
 }
 
 #[test]
-fn a_rotor_beyond_hollowing_gets_balls_and_a_lie_about_them_is_found() {
+fn a_rotor_that_hollowing_cannot_balance_is_impossible_without_ballast() {
     let folder = tempfile::tempdir().unwrap();
-    let (model, kit) = (block(folder.path()), folder.path().join("kit"));
-    let refused = prepare(&model, &kit, &[]);
-    assert_eq!((refused.status.code(), kit.exists()), (Some(1), false));
-    assert_eq!(json(&refused.stdout)["verdict"], "impossible");
+    let (model, kit) = (write_block(folder.path()), folder.path().join("kit"));
+    let refused = prepare_rotor(&model, &kit, &[]);
+    assert_exit(&refused, 1);
+    assert!(!kit.exists());
+    assert_eq!(json(&refused)["verdict"], "impossible");
+}
 
-    let made = prepare(&model, &kit, &["--ballast", "auto"]);
-    assert_eq!(
-        made.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&made.stderr)
-    );
-    let sheet = kit.join("checklist.json");
-    let mut checklist = json(&fs::read(&sheet).unwrap());
-    let rows = checklist["ballast"].as_array().unwrap().clone();
+#[test]
+fn balls_balance_the_rotor_and_a_false_mass_on_the_sheet_is_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let (model, kit) = (write_block(folder.path()), folder.path().join("kit"));
+    assert_exit(&prepare_rotor(&model, &kit, &["--ballast", "auto"]), 0);
+    let mut sheet = checklist(&kit);
+    let rows = list(&sheet, "ballast");
     assert!(!rows.is_empty());
-    for row in &rows {
+    for row in rows {
         assert!(row["part"].as_str().unwrap().starts_with("ball-"));
-        assert!(!row["opened_by"].as_array().unwrap().is_empty() && row["sources"][1].is_string());
+        assert!(!list(row, "opened_by").is_empty() && row["sources"][1].is_string());
     }
     let page = fs::read_to_string(kit.join("checklist.html")).unwrap();
-    let step = |name: &str| page.find(name).unwrap();
-    assert!(step(". Lay in the ballast</h2>") < step(". Glue</h2>"));
+    let place = |step: &str| page.find(step).unwrap();
+    assert!(place(". Lay in the ballast</h2>") < place(". Glue</h2>"));
 
-    let path = kit.to_str().unwrap();
-    assert_eq!(equipoise(&["verify", path]).status.code(), Some(0));
-    let mass_g = rows[0]["mass_g"].as_f64().unwrap();
-    checklist["ballast"][0]["mass_g"] = (1.02 * mass_g).into();
-    fs::write(&sheet, checklist.to_string()).unwrap();
-    let verdict = equipoise(&["--json", "verify", path]);
-    assert_eq!(verdict.status.code(), Some(1));
+    assert_eq!(verify(&kit).0, Some(0));
+    sheet["ballast"][0]["mass_g"] = (1.02 * number(&sheet, "/ballast/0/mass_g")).into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    assert_eq!(verify(&kit).0, Some(1));
 }
 
 #[test]
 fn orders_that_cannot_be_met_are_refused_with_a_remedy() {
     let folder = tempfile::tempdir().unwrap();
-    let (model, kit) = (block(folder.path()), folder.path().join("kit"));
-    for (order, code, said) in [
+    let (model, kit) = (write_block(folder.path()), folder.path().join("kit"));
+    for (order, code, words) in [
         ("ball 4", 2, "such as ball-4x3"),
         ("bal-4", 2, "did you mean `ball-4`?"),
         (
@@ -105,88 +83,32 @@ fn orders_that_cannot_be_met_are_refused_with_a_remedy() {
             "no places were found for --ballast=ball-12x1",
         ),
     ] {
-        let output = prepare(&model, &kit, &["--ballast", order]);
-        let told = [&output.stdout[..], &output.stderr[..]].concat();
-        let told = String::from_utf8_lossy(&told);
-        assert!(
-            output.status.code() == Some(code) && told.contains(said),
-            "{order}: {told}"
-        );
+        let output = prepare_rotor(&model, &kit, &["--ballast", order]);
+        assert_exit(&output, code);
+        let said = printed(&output);
+        assert!(said.contains(words), "{order}: {said}");
     }
-}
-
-/// The shipped ellipsoid as a top with something in its voids, coarse, which is quick.
-fn filled_top(out: &Path, fill: &str) -> Output {
-    let model = concat!(
-        env!("CARGO_MANIFEST_DIR"),
-        "/examples/models/tilted-ellipsoid.stl"
-    );
-    let usual = [
-        "--json",
-        "prepare",
-        model,
-        "--printer",
-        "objet-connex350",
-        "--goal",
-        "top",
-        "--size",
-        "60mm",
-    ];
-    equipoise(
-        &[
-            &usual[..],
-            &[
-                "--pitch",
-                "0.3mm",
-                "--fill",
-                fill,
-                "--out",
-                out.to_str().unwrap(),
-            ],
-        ]
-        .concat(),
-    )
 }
 
 #[test]
 fn voids_are_filled_with_something_lighter_or_heavier_than_the_print() {
     let folder = tempfile::tempdir().unwrap();
-    for (fill, density) in [("0.4", 0.4), ("5", 5.0)] {
-        let kit = folder.path().join(fill);
-        let made = filled_top(&kit, fill);
-        assert_eq!(
-            made.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&made.stderr)
-        );
-        let sheet = json(&made.stdout);
-        let printed_g: f64 = sheet["parts"]
-            .as_array()
-            .unwrap()
-            .iter()
-            .map(|part| part["mass_g"].as_f64().unwrap())
-            .sum();
-        let void_cm3 = |void: &Value| void["volume_mm3"].as_f64().unwrap() / 1000.0;
-        let filled_g = density
-            * sheet["voids"]
-                .as_array()
-                .unwrap()
-                .iter()
-                .map(void_cm3)
-                .sum::<f64>();
-        let mass_g = sheet["assembly"]["mass_g"].as_f64().unwrap();
+    for density_g_cm3 in [0.4, 5.0] {
+        let kit = folder.path().join(density_g_cm3.to_string());
+        let sheet = common::make_kit(&kit, &format!("--goal top --fill {density_g_cm3}"));
+        let printed_g = sum(list(&sheet, "parts"), "/mass_g");
+        let filled_g = density_g_cm3 * sum(list(&sheet, "voids"), "/volume_mm3") / 1000.0;
+        let mass_g = number(&sheet, "/assembly/mass_g");
+        let rest_g = mass_g - printed_g - filled_g - glue_g(&sheet);
         // Files keep 24 bits of a coordinate.
-        let glue_g = glue_g(&sheet);
-        assert!(
-            (mass_g - printed_g - filled_g - glue_g).abs() < 1e-4 * mass_g,
-            "{mass_g} {printed_g} {filled_g} {glue_g}"
-        );
-        assert_eq!(
-            equipoise(&["verify", kit.to_str().unwrap()]).status.code(),
-            Some(0)
-        );
+        assert!(rest_g.abs() < 1e-4 * mass_g, "{rest_g} {mass_g}");
+        assert_eq!(verify(&kit).0, Some(0));
     }
-    let like_the_print = filled_top(&folder.path().join("none"), "1.175");
-    assert_eq!(like_the_print.status.code(), Some(2));
+}
+
+#[test]
+fn a_filling_as_heavy_as_the_print_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = prepare_quickly(&folder.path().join("kit"), "--goal top --fill 1.175");
+    assert_exit(&refused, 2);
 }

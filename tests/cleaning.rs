@@ -1,46 +1,31 @@
-//! Kits for every process, as a user makes them: each void open and clean by the process's rule;
-//! and what that costs where the rule is hard to keep.
+//! Kits for every process: each void is open and clean by the process's rule, and the sheet states
+//! what a short tool costs.
 
 #![allow(
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a test whose input cannot be had has failed"
 )]
+
+mod common;
 
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
+use common::{assert_exit, checklist, list, number, path, prepare, words};
 use serde_json::Value;
 
-const MODEL: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/examples/models/tilted-ellipsoid.stl"
-);
-
-/// The checklist of the shipped model as a kit of 60 mm; fails where a promise is broken.
-fn prepared(out: &Path, printer: &str, more: &[&str]) -> Value {
-    let output = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "-q", "prepare", MODEL, "--size", "60mm", "--wall", "1.5mm", "--pitch", "0.5mm",
-        ])
-        .args(["--printer", printer, "--out"])
-        .arg(out)
-        .args(more)
-        .output()
-        .unwrap();
-    let said = String::from_utf8_lossy(&output.stderr);
-    assert!(
-        output.status.success(),
-        "{printer}: {said}{}",
-        String::from_utf8_lossy(&output.stdout)
-    );
-    serde_json::from_slice(&fs::read(out.join("checklist.json")).unwrap()).unwrap()
+/// Makes a kit of the shipped model, 60 mm long, on a printer; returns its checklist.
+fn make_on(printer: &str, out: &Path, options: &[&str]) -> Value {
+    let usual = words("--size 60mm --wall 1.5mm --pitch 0.5mm --printer");
+    let output = prepare(out, &[&usual[..], &[printer], options].concat());
+    assert_exit(&output, 0);
+    checklist(out)
 }
 
+/// A check of a checklist by its name.
 fn check<'a>(sheet: &'a Value, name: &str) -> Option<&'a Value> {
-    sheet["checks"]
-        .as_array()
-        .unwrap()
+    list(sheet, "checks")
         .iter()
         .find(|check| check["name"] == name)
 }
@@ -55,73 +40,68 @@ fn every_process_opens_its_voids_and_cleans_them_by_its_own_rule() {
         ("prusa-mk4", "in-sight-or-self-supporting"),
         ("ultimaker-s5", "melt-out"),
     ] {
-        let sheet = prepared(&folder.path().join(printer), printer, &["--goal", "top"]);
+        let kit = folder.path().join(printer);
+        let sheet = make_on(printer, &kit, &["--goal", "top"]);
         assert_eq!(sheet["printer"]["cleaning"]["rule"], rule, "{printer}");
-        let voids = sheet["voids"].as_array().unwrap();
+        let voids = list(&sheet, "voids");
         assert!(!voids.is_empty(), "{printer}");
-        for void in voids {
-            let id = void["id"].as_str().unwrap();
-            assert_eq!(
-                (void["is_clean"].as_bool(), void["opened_by"][0].as_str()),
-                (Some(true), Some("C1"))
-            );
-            assert!(
-                void["opening_mm"].as_f64() >= void["least_opening_mm"].as_f64(),
-                "{printer}: {void}"
-            );
-            assert_eq!(
-                check(&sheet, &format!("void {id} open")).unwrap()["pass"],
-                true
-            );
-            let clean = check(&sheet, &format!("void {id} clean"));
-            assert_eq!(clean.is_some(), rule.starts_with("in-sight"), "{printer}");
-        }
-        let page = fs::read_to_string(folder.path().join(printer).join("checklist.html")).unwrap();
+        voids
+            .iter()
+            .for_each(|void| assert_open_and_clean(void, &sheet, rule));
+        let page = fs::read_to_string(kit.join("checklist.html")).unwrap();
         assert!(page.contains(voids[0]["method"].as_str().unwrap()) && page.contains("✓ open"));
     }
 }
 
-#[test]
-fn what_a_short_tool_does_not_reach_stays_solid_and_the_sheet_says_what_that_costs() {
-    let folder = tempfile::tempdir().unwrap();
-    let stand = ["--goal", "stand", "--up", "y"];
-    let free = prepared(&folder.path().join("free"), "objet-connex350", &stand);
-    // The same cuts, without pins, for a tool that reaches less than half as deep as the void is.
-    let cut = &free["cuts"][0];
-    let numbers = |key: &str| cut[key].to_string();
-    let plan = folder.path().join("cuts.toml");
-    let text = format!(
-        "[[cuts]]\nid = \"C1\"\npoint_mm = {}\nnormal = {}\n",
-        numbers("point_mm"),
-        numbers("normal")
+fn assert_open_and_clean(void: &Value, sheet: &Value, rule: &str) {
+    assert!(
+        void["is_clean"] == true && void["opened_by"][0] == "C1",
+        "{void}"
     );
+    let is_wide = number(void, "/opening_mm") >= number(void, "/least_opening_mm");
+    assert!(is_wide, "{void}");
+    let id = void["id"].as_str().unwrap();
+    let open = check(sheet, &format!("void {id} open")).unwrap();
+    assert_eq!(open["pass"], true, "{void}");
+    let is_looked_into = check(sheet, &format!("void {id} clean")).is_some();
+    assert_eq!(is_looked_into, rule.starts_with("in-sight"), "{rule}");
+}
+
+/// Makes a kit with one cut and no pins, for a tool that reaches less than half as deep as the
+/// void.
+fn make_with_short_tool(folder: &Path) -> Value {
+    let stand = words("--goal stand --up y");
+    let free = make_on("objet-connex350", &folder.join("free"), &stand);
+    let [point, normal] = ["point_mm", "normal"].map(|key| free["cuts"][0][key].to_string());
+    let plan = folder.join("cuts.toml");
+    let text = format!("[[cuts]]\nid = \"C1\"\npoint_mm = {point}\nnormal = {normal}\n");
     fs::write(&plan, text).unwrap();
-    let reach_mm = free["voids"][0]["depth_mm"].as_f64().unwrap() / 2.0;
-    let shop = folder.path().join("shop.toml");
+    let reach_mm = number(&free, "/voids/0/depth_mm") / 2.0;
+    let shop = folder.join("shop.toml");
     let profile = format!(
         "id = \"shop-jet\"\nname = \"A jet with a short lance\"\ninherits = \"objet-connex350\"\n\n[numbers]\n\
          cleaning_reach_mm = {{ value = {reach_mm}, source = \"measured\", sure = \"read\" }}\n"
     );
     fs::write(&shop, profile).unwrap();
-    let more = [&stand[..], &["--cut", plan.to_str().unwrap()]].concat();
-    let sheet = prepared(&folder.path().join("short"), shop.to_str().unwrap(), &more);
+    let options = [&stand[..], &["--cut", path(&plan)]].concat();
+    make_on(path(&shop), &folder.join("short"), &options)
+}
+
+#[test]
+fn voids_beyond_a_short_tool_stay_solid_and_the_sheet_states_the_cost() {
+    let folder = tempfile::tempdir().unwrap();
+    let sheet = make_with_short_tool(folder.path());
     let proof = &sheet["certificate"];
-    let rounds = proof["cleaning_rounds"].as_array().unwrap();
-    assert!(!rounds.is_empty() && rounds.len() <= 8, "{proof}");
-    assert!(
-        rounds[0]["voids"][0]["why"]
-            .as_str()
-            .unwrap()
-            .contains("in sight")
-    );
-    let value = |key: &str| proof[key].as_f64().unwrap();
-    assert!(
-        value("kept_solid_mm3") > 0.0 && value("value") <= value("value_before_cleaning"),
-        "{proof}"
-    );
-    for void in sheet["voids"].as_array().unwrap() {
+    let rounds = list(proof, "cleaning_rounds");
+    assert!((1..=8).contains(&rounds.len()), "{proof}");
+    let why = rounds[0]["voids"][0]["why"].as_str().unwrap();
+    assert!(why.contains("in sight"), "{why}");
+    assert!(number(proof, "/kept_solid_mm3") > 0.0, "{proof}");
+    let [value, before] = ["/value", "/value_before_cleaning"].map(|key| number(proof, key));
+    assert!(value <= before, "{value} {before}");
+    for void in list(&sheet, "voids") {
         assert!(
-            void["is_clean"] == true && void["sight_ratio"].as_f64().unwrap() >= 0.95,
+            void["is_clean"] == true && number(void, "/sight_ratio") >= 0.95,
             "{void}"
         );
     }

@@ -1,4 +1,4 @@
-//! The boolean engine against another, written by other people: the same volumes.
+//! The boolean engine finds the same volumes as another engine by other authors.
 
 #![allow(
     clippy::unwrap_used,
@@ -9,12 +9,12 @@ use boolmesh::prelude::{Manifold, OpType, compute_boolean};
 use equipoise::geom::{Frame, Plane, Point, Vector};
 use equipoise::mesh::{Csg, TriMesh, primitives};
 
-/// Both engines compute vertices in f64 to about 1e-14 of the coordinates; volumes of bodies with
-/// 1e4 vertices then agree to far better than this, and a lost sliver of a triangle (1e-6) does
-/// not.
+/// Greatest relative difference of the volumes. Both engines compute vertices in f64, to about
+/// 1e-14 of the coordinates, so bodies with 1e4 vertices agree far better than this. A lost sliver
+/// of a triangle (1e-6) does not.
 const AGREEMENT_RATIO: f64 = 1e-9;
 
-/// How many poses are tried.
+/// Number of poses tried.
 const POSES: u32 = 6;
 
 /// The `index`-th of an even sequence of numbers in 0..1: multiples of a power of the plastic
@@ -24,9 +24,8 @@ fn even(index: u32, axis: i32) -> f64 {
     (0.5 + f64::from(index) / PLASTIC.powi(axis)).fract()
 }
 
-/// The mesh turned and moved so that it lies somewhere else, and in general position, for every
-/// index.
-fn posed(mesh: &TriMesh, index: u32) -> TriMesh {
+/// Turns and moves a mesh into general position, elsewhere for every index.
+fn move_by_index(mesh: &TriMesh, index: u32) -> TriMesh {
     let number = |axis| 2.0 * even(index + 1, axis) - 1.0;
     let direction = Vector::new(number(1), number(2), number(3) + 2.0);
     let shift = Vector::new(number(4), number(5), number(6)) * 9.0;
@@ -34,6 +33,7 @@ fn posed(mesh: &TriMesh, index: u32) -> TriMesh {
     mesh.map_vertices(|p| frame.to_model(p))
 }
 
+/// Hands a mesh to the other engine.
 fn other(mesh: &TriMesh) -> Manifold {
     let positions: Vec<f64> = mesh
         .vertices()
@@ -49,7 +49,7 @@ fn other(mesh: &TriMesh) -> Manifold {
     Manifold::new(&positions, &corners).unwrap()
 }
 
-/// The volume of what the other engine makes of two meshes, mm³.
+/// The volume of the result of the other engine's boolean, mm³.
 fn other_volume_mm3(a: &TriMesh, b: &TriMesh, operation: OpType) -> f64 {
     let made = compute_boolean(&other(a), &other(b), operation).unwrap();
     let vertices = made.ps.iter().map(|p| Point::new(p.x, p.y, p.z)).collect();
@@ -70,7 +70,7 @@ fn volume_mm3(body: &Csg) -> f64 {
 fn assert_agree(what: &str, ours: f64, theirs: f64, scale: f64) {
     assert!(
         ours > 1e-3 * scale,
-        "{what} is all but empty: the test says nothing"
+        "{what} is all but empty, which proves nothing"
     );
     assert!(
         (ours - theirs).abs() <= AGREEMENT_RATIO * scale,
@@ -92,39 +92,28 @@ fn bodies() -> [TriMesh; 3] {
 fn another_engine_finds_the_same_volumes_of_booleans() {
     let bodies = bodies();
     for index in 0..POSES {
-        let a = posed(&bodies[index as usize % 3], index);
-        let b = posed(&bodies[(index as usize + 1) % 3], index + POSES);
+        let a = move_by_index(&bodies[index as usize % 3], index);
+        let b = move_by_index(&bodies[(index as usize + 1) % 3], index + POSES);
         let (ours_a, ours_b) = (Csg::of_mesh(&a).unwrap(), Csg::of_mesh(&b).unwrap());
         let scale = a.signed_volume_mm3();
-        let both = volume_mm3(&ours_a.intersect(&ours_b).unwrap());
-        assert_agree(
-            "the intersection",
-            both,
-            other_volume_mm3(&a, &b, OpType::Intersect),
-            scale,
-        );
-        let either = volume_mm3(&ours_a.union(&ours_b).unwrap());
-        assert_agree(
-            "the union",
-            either,
-            other_volume_mm3(&a, &b, OpType::Add),
-            scale,
-        );
-        let rest = volume_mm3(&ours_a.subtract(&ours_b).unwrap());
-        assert_agree(
-            "the difference",
-            rest,
-            other_volume_mm3(&a, &b, OpType::Subtract),
-            scale,
-        );
+        let assert_same = |what: &str, ours: Csg, operation: OpType| {
+            let theirs = other_volume_mm3(&a, &b, operation);
+            assert_agree(what, volume_mm3(&ours), theirs, scale);
+        };
+        let both = ours_a.intersect(&ours_b).unwrap();
+        assert_same("the intersection", both, OpType::Intersect);
+        let either = ours_a.union(&ours_b).unwrap();
+        assert_same("the union", either, OpType::Add);
+        let rest = ours_a.subtract(&ours_b).unwrap();
+        assert_same("the difference", rest, OpType::Subtract);
     }
 }
 
 #[test]
-fn a_cut_has_the_volume_that_another_engine_finds_with_half_a_space_for_a_box() {
+fn another_engine_cuts_off_the_same_volumes_with_a_large_box() {
     const LARGE_MM: f64 = 200.0;
     for (index, body) in bodies().iter().enumerate() {
-        let body = posed(body, index as u32);
+        let body = move_by_index(body, index as u32);
         let normal = Vector::new(0.3, -0.5 + 0.4 * index as f64, 0.8).normalize();
         let middle = body.aabb().min + 0.45 * body.aabb().size();
         let (above, below) = Csg::of_mesh(&body)

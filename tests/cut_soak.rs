@@ -1,16 +1,18 @@
-//! Random cuts of random bodies at random sizes with random pins: every part a solid as written, no
-//! pin lost, nothing gained and nothing lost.
+//! Random cuts of random bodies with random pins give sound parts. Every written part is a solid,
+//! every pin is there, and no volume is lost or gained.
 //!
-//! By default a few cases on bodies of our own. `EQUIPOISE_SOAK_CASES=500
-//! EQUIPOISE_SOAK_MODELS=folder` takes more, on the closed meshes of a folder too;
-//! `EQUIPOISE_SOAK_FIRST=n` begins at case n.
+//! By default a few cases with bodies of our own are tried. `EQUIPOISE_SOAK_CASES=500` tries more,
+//! `EQUIPOISE_SOAK_MODELS=folder` adds the closed meshes of a folder, and `EQUIPOISE_SOAK_FIRST=n`
+//! begins with case n.
 
 #![allow(
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::panic, reason = "a case that cannot be made has failed")]
-#![allow(clippy::print_stderr, reason = "a long run shows how far it is")]
+#![allow(clippy::print_stderr, reason = "a long run reports its progress")]
+
+mod common;
 
 use std::path::Path;
 use std::time::Instant;
@@ -28,12 +30,12 @@ use equipoise::mesh::{Crossings, Csg, MeshDistance, Solid, TriMesh, primitives};
 use equipoise::printer::Cleaning;
 use equipoise::repair::{one_body, repair, weld};
 
-/// Cases of a usual test run.
+/// Cases of a usual run.
 const CASES: u64 = 24;
-/// What the volumes may miss: the rounding of files.
+/// Relative error of volumes: the rounding of files.
 const VOLUME_RATIO: f64 = 1e-6;
-/// How far from a pin's end its tip is felt for, mm.
-const FELT_MM: f64 = 0.02;
+/// Distance before and behind the end of a pin or socket at which it is probed, mm.
+const PROBE_MM: f64 = 0.02;
 
 /// SplitMix64 (Steele, Lea and Flood, OOPSLA 2014).
 struct Dice(u64);
@@ -69,7 +71,7 @@ impl Dice {
     }
 }
 
-/// The bodies that are cut: ours, and the closed single bodies of the folder.
+/// The bodies to cut: our own, and the closed single bodies of the folder.
 fn bodies() -> Vec<(String, TriMesh)> {
     let shaft = primitives::cuboid(&Point::new(-2.0, -3.0, -20.0), &Point::new(2.0, 3.0, 20.0));
     let arm = primitives::cuboid(&Point::new(-12.0, -1.0, -4.0), &Point::new(12.0, 1.0, 4.0));
@@ -84,11 +86,7 @@ fn bodies() -> Vec<(String, TriMesh)> {
         ("cross", cross.to_mesh().unwrap()),
         (
             "ellipsoid",
-            read_model(Path::new(concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/examples/models/tilted-ellipsoid.stl"
-            )))
-            .unwrap(),
+            read_model(Path::new(common::ELLIPSOID)).unwrap(),
         ),
     ];
     let mut all: Vec<(String, TriMesh)> = ours
@@ -116,7 +114,7 @@ fn bodies() -> Vec<(String, TriMesh)> {
     all
 }
 
-/// A printer's say: from a fine display to a coarse nozzle.
+/// A request for a random printer, from a fine display to a coarse nozzle.
 fn request(dice: &mut Dice) -> PlanRequest {
     let pixel_mm = [0.019, 0.042, 0.1, 0.45][dice.below(4)];
     let wall_mm = dice.between(0.4, 2.0);
@@ -176,8 +174,7 @@ fn voids(dice: &mut Dice, outer: &TriMesh, wall_mm: f64) -> Vec<Solid> {
     balls.into_iter().map(ball).collect()
 }
 
-/// One to three cuts: at random, along an axis, through a void, or through a corner of the mesh to
-/// be nasty.
+/// One to three cuts: at random, along an axis, through a void, or through a corner of the mesh.
 fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
     let count = 1 + dice.below(3);
     let cut = |i: usize| {
@@ -204,7 +201,7 @@ fn cuts(dice: &mut Dice, body: &Hollowed) -> Vec<Cut> {
     (0..count).map(cut).collect()
 }
 
-/// A side of one of the first cuts.
+/// A random side of one of the first cuts.
 fn side(dice: &mut Dice, cuts: usize) -> CutSide {
     let side = if dice.below(2) == 0 {
         Side::Above
@@ -217,9 +214,8 @@ fn side(dice: &mut Dice, cuts: usize) -> CutSide {
     }
 }
 
-/// Makes one case and holds its parts to what must be true; the number of parts and pins, or why
-/// there are none.
-fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
+/// Makes one case and checks its parts; returns a line about the number of parts and pins.
+fn try_case(case: u64, bodies: &[(String, TriMesh)]) -> String {
     let mut dice = Dice(case.wrapping_mul(0x1234_5678_9abc_def1));
     let (name, mesh) = &bodies[dice.below(bodies.len())];
     let size_mm = dice.between(30.0, 200.0);
@@ -233,29 +229,29 @@ fn tried(case: u64, bodies: &[(String, TriMesh)]) -> String {
         cuts: cuts(&mut dice, &body),
         ..CutOrder::default()
     };
-    let told = format!(
+    let label = format!(
         "case {case}: {name} {size_mm:.0} mm, {} voids, {} cuts",
         body.voids.len(),
         order.cuts.len()
     );
-    let plan = plan_by(&body, &request, &order).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let plan = plan_by(&body, &request, &order).unwrap_or_else(|error| panic!("{label}: {error}"));
     let plan = match plan {
         Verdict::Found(plan) => plan,
         Verdict::No(Obstacle::ClosedCavity { .. }) => {
-            return format!("{told}: a void stays closed");
+            return format!("{label}: a void stays closed");
         }
-        Verdict::No(obstacle) => panic!("{told}: {obstacle}"),
+        Verdict::No(obstacle) => panic!("{label}: {obstacle}"),
     };
-    let made = parts(&body, &plan, &request).unwrap_or_else(|error| panic!("{told}: {error}"));
+    let made = parts(&body, &plan, &request).unwrap_or_else(|error| panic!("{label}: {error}"));
     let made: Vec<Part> = made
         .or_error()
-        .unwrap_or_else(|why: Obstacle| panic!("{told}: {why}"));
-    assert_nothing_is_lost(&told, &body, &plan, &made);
-    assert_written_parts_are_sound(&told, &made);
-    format!("{told}: {} parts, {} pins", made.len(), plan.pins.len())
+        .unwrap_or_else(|why: Obstacle| panic!("{label}: {why}"));
+    assert_nothing_is_lost(&label, &body, &plan, &made);
+    assert_written_parts_are_sound(&label, &made);
+    format!("{label}: {} parts, {} pins", made.len(), plan.pins.len())
 }
 
-fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[Part]) {
+fn assert_nothing_is_lost(label: &str, body: &Hollowed, plan: &CutPlan, made: &[Part]) {
     let whole = moments_of_mesh(&body.to_mesh()).volume();
     let sum: f64 = made
         .iter()
@@ -264,96 +260,77 @@ fn assert_nothing_is_lost(told: &str, body: &Hollowed, plan: &CutPlan, made: &[P
     let pegs: f64 = made.iter().map(Part::added_volume_mm3).sum();
     assert!(
         (sum - pegs - whole).abs() <= VOLUME_RATIO * whole,
-        "{told}: {sum} - {pegs} against {whole}"
+        "{label}: {sum} - {pegs} against {whole}"
     );
-    for pin in plan.pins.iter().filter(|pin| pin.dowel.is_some()) {
-        assert_both_sockets_are_there(told, pin, made);
-    }
-    for pin in plan.pins.iter().filter(|pin| pin.dowel.is_none()) {
-        let carrier = made
-            .iter()
-            .filter(|part| part.pins.contains(pin))
-            .collect::<Vec<_>>();
-        let receiver = made
-            .iter()
-            .filter(|part| part.sockets.contains(pin))
-            .collect::<Vec<_>>();
-        assert!(
-            carrier.len() == 1 && receiver.len() == 1,
-            "{told}: pin {} is in {} parts",
-            pin.id,
-            carrier.len()
-        );
-        let tip = |part: &Part, height_mm: f64| {
-            Bvh::new(part.solid.mesh().iter_corners()).winding(&along(pin, height_mm))
-        };
-        assert_eq!(
-            tip(carrier[0], pin.length_mm - FELT_MM),
-            1,
-            "{told}: pin {} does not reach its tip",
-            pin.id
-        );
-        assert_eq!(
-            tip(carrier[0], pin.length_mm + FELT_MM),
-            0,
-            "{told}: pin {} is too long",
-            pin.id
-        );
-        assert_eq!(
-            tip(receiver[0], pin.socket_depth_mm - FELT_MM),
-            0,
-            "{told}: socket {} is not deep enough",
-            pin.id
-        );
-        assert_eq!(
-            tip(receiver[0], pin.socket_depth_mm + FELT_MM),
-            1,
-            "{told}: socket {} has no bottom",
-            pin.id
-        );
+    for pin in &plan.pins {
+        if pin.dowel.is_some() {
+            assert_both_sockets_are_there(label, pin, made);
+        } else {
+            assert_pin_and_socket_are_there(label, pin, made);
+        }
     }
 }
 
-fn assert_both_sockets_are_there(told: &str, pin: &PinSite, made: &[Part]) {
+/// The winding numbers of a part a little before and behind a height over a pin's base.
+fn probe(part: &Part, pin: &PinSite, height_mm: f64) -> [i32; 2] {
+    let surface = Bvh::new(part.solid.mesh().iter_corners());
+    [-PROBE_MM, PROBE_MM].map(|off_mm| surface.winding(&beside_axis(pin, height_mm + off_mm)))
+}
+
+fn assert_pin_and_socket_are_there(label: &str, pin: &PinSite, made: &[Part]) {
+    let only = |parts: Vec<&Part>| match parts[..] {
+        [part] => part.clone(),
+        _ => panic!("{label}: pin {} is in {} parts", pin.id, parts.len()),
+    };
+    let carrier = only(made.iter().filter(|part| part.pins.contains(pin)).collect());
+    let receiver = only(
+        made.iter()
+            .filter(|part| part.sockets.contains(pin))
+            .collect(),
+    );
+    let tip = probe(&carrier, pin, pin.length_mm);
+    assert_eq!(tip, [1, 0], "{label}: pin {} ends elsewhere", pin.id);
+    let bottom = probe(&receiver, pin, pin.socket_depth_mm);
+    assert_eq!(bottom, [0, 1], "{label}: socket {} ends elsewhere", pin.id);
+}
+
+fn assert_both_sockets_are_there(label: &str, pin: &PinSite, made: &[Part]) {
     let sockets = made
         .iter()
         .flat_map(|part| part.sockets.iter().map(move |socket| (part, socket)));
     let ends: Vec<(&Part, &PinSite)> = sockets.filter(|(_, socket)| socket.id == pin.id).collect();
-    assert_eq!(
-        ends.len(),
-        2,
-        "{told}: dowel {} is in {} parts",
-        pin.id,
-        ends.len()
-    );
+    assert_eq!(ends.len(), 2, "{label}: dowel {}", pin.id);
     for (part, socket) in ends {
-        let surface = Bvh::new(part.solid.mesh().iter_corners());
-        let winding = |height_mm: f64| surface.winding(&along(socket, height_mm));
-        let [inside, beyond] = [-FELT_MM, FELT_MM].map(|off| winding(socket.socket_depth_mm + off));
+        let bottom = probe(part, socket, socket.socket_depth_mm);
         assert_eq!(
-            (inside, beyond),
-            (0, 1),
-            "{told}: a socket of dowel {} is not as deep",
+            bottom,
+            [0, 1],
+            "{label}: a socket of dowel {} ends elsewhere",
             pin.id
         );
     }
 }
 
-/// A point beside the pin's axis so high over its cut, off the edges of its end.
-fn along(pin: &PinSite, height_mm: f64) -> Point {
+/// A point beside a pin's axis at a height over its base, off the edges of its end.
+fn beside_axis(pin: &PinSite, height_mm: f64) -> Point {
     let axis = Vector::from(pin.direction);
     let aside = axis.cross(&Vector::new(0.36, 0.48, 0.8)) * (pin.diameter_mm / 9.0);
     Point::from(pin.center_mm) + axis * height_mm + aside
 }
 
-fn assert_written_parts_are_sound(told: &str, made: &[Part]) {
+fn assert_written_parts_are_sound(label: &str, made: &[Part]) {
     for part in made {
         let written = write(part.clone(), &format!("soak_{}", part.id), [1.0; 3]).unwrap();
         let surface = weld(&written.read_back);
         let crossings = Crossings::of(&surface).pairs;
         let defect = Solid::new(surface).err();
-        assert!(defect.is_none(), "{told}: {}: {}", part.id, defect.unwrap());
-        assert_eq!(crossings, 0, "{told}: {} passes through itself", part.id);
+        assert!(
+            defect.is_none(),
+            "{label}: {}: {}",
+            part.id,
+            defect.unwrap()
+        );
+        assert_eq!(crossings, 0, "{label}: {} passes through itself", part.id);
     }
 }
 
@@ -371,9 +348,9 @@ fn random_cuts_of_random_bodies_give_sound_parts_with_all_their_pins() {
     let mut failed = Vec::new();
     for case in first..first + count {
         let start = Instant::now();
-        match std::panic::catch_unwind(|| tried(case, &bodies)) {
-            Ok(told) if count > CASES => {
-                eprintln!("{told} ({:.1} s)", start.elapsed().as_secs_f64())
+        match std::panic::catch_unwind(|| try_case(case, &bodies)) {
+            Ok(label) if count > CASES => {
+                eprintln!("{label} ({:.1} s)", start.elapsed().as_secs_f64())
             }
             Ok(_) => (),
             Err(_) => failed.push(case),

@@ -1,10 +1,10 @@
-//! Twenty-two interiors of one to eight voids whose least number of cuts is known: the planner
-//! finds it for every one.
+//! The planner finds the least number of cuts for twenty-two interiors of one to eight voids, for
+//! which that number is known.
 //!
-//! A plane opens a ball by the asked disc where it passes near enough to its middle, so whether one
-//! plane opens some balls is whether their middles lie between two planes near each other: the
-//! width of a set of points, which is found here by trying every pair of edges. The least number of
-//! planes follows by trying every way of sharing the balls out.
+//! A plane opens a ball by the asked disc if it passes near enough to its middle. So one plane
+//! opens several balls if their middles lie between two parallel planes near each other. Their
+//! distance is the width of a set of points, found here by trying every pair of edges. The least
+//! number of planes follows by trying every partition of the balls.
 
 #![allow(
     clippy::unwrap_used,
@@ -58,8 +58,8 @@ fn block() -> Solid {
     ))
 }
 
-/// How many cuts the planner makes, and how many voids it leaves narrower than asked.
-fn planned(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
+/// Plans the cuts; returns their number, and that of the voids with too narrow an opening.
+fn count_cuts(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
     let plan = plan(&Hollowed::new(outer, voids), &request()).unwrap();
     let plan = plan.found().unwrap();
     (
@@ -71,7 +71,7 @@ fn planned(outer: Solid, voids: Vec<Solid>) -> (usize, usize) {
     )
 }
 
-/// Balls of one radius about these middles in a block.
+/// Balls of one radius about these middles.
 fn beads(middles: &[[f64; 3]], radius: f64) -> Vec<Solid> {
     middles
         .iter()
@@ -79,8 +79,9 @@ fn beads(middles: &[[f64; 3]], radius: f64) -> Vec<Solid> {
         .collect()
 }
 
-/// The least distance of two parallel planes that hold all points between them: of the pairs that
-/// touch a corner and three others, or two edges; nothing for points of a line.
+/// The least distance of two parallel planes with all points between them; 0 for points on a line.
+///
+/// Either the planes touch one point and three others, or they touch two edges.
 fn width(points: &[Point]) -> f64 {
     let edges: Vec<Vector> = (0..points.len())
         .flat_map(|i| (0..i).map(move |j| (i, j)))
@@ -95,8 +96,7 @@ fn width(points: &[Point]) -> f64 {
     normals.map(thickness).reduce(f64::min).unwrap_or(0.0)
 }
 
-/// The fewest planes of which each passes within `reach` of some of the middles, and together of
-/// all: by exhaustion.
+/// The fewest planes that together pass within `reach` of all middles, found by exhaustion.
 fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
     let all = (1usize << middles.len()) - 1;
     let members = |set: usize| (0..middles.len()).filter(move |i| set >> i & 1 == 1);
@@ -119,26 +119,26 @@ fn least_planes(middles: &[[f64; 3]], reach: f64) -> usize {
     least[all]
 }
 
-/// Holds the planner to the fewest planes for beads in a block. The number is the same with a tenth
-/// less and a tenth more of reach, so that the facets of the balls decide nothing.
+/// Asserts that the planner needs as few cuts for beads in a block as is possible. That number must
+/// be the same for a reach a tenth smaller and larger, so that facets decide nothing.
 fn assert_least(name: &str, expected: usize, middles: &[[f64; 3]], radius: f64) {
     let reach = (radius * radius - OPENING_MM * OPENING_MM / 4.0).sqrt();
     for reach in [0.9 * reach, 1.1 * reach] {
         assert_eq!(
             least_planes(middles, reach),
             expected,
-            "{name}: the interior is not what it is called"
+            "{name}: this interior needs another number of cuts"
         );
     }
     assert_eq!(
-        planned(block(), beads(middles, radius)),
+        count_cuts(block(), beads(middles, radius)),
         (expected, 0),
         "{name}"
     );
 }
 
-/// So many points of a curve.
-fn along(count: usize, at: impl Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
+/// Samples a curve.
+fn sample(count: usize, at: impl Fn(f64) -> [f64; 3]) -> Vec<[f64; 3]> {
     (0..count).map(|i| at(i as f64)).collect()
 }
 
@@ -150,7 +150,7 @@ const TETRAHEDRON: [[f64; 3]; 4] = [
 ];
 
 fn cube(half: f64) -> Vec<[f64; 3]> {
-    along(8, |i| {
+    sample(8, |i| {
         [0, 1, 2].map(|axis| {
             if i as usize >> axis & 1 == 1 {
                 half
@@ -162,7 +162,7 @@ fn cube(half: f64) -> Vec<[f64; 3]> {
 }
 
 fn octahedron(half: f64) -> Vec<[f64; 3]> {
-    along(6, |i| {
+    sample(6, |i| {
         [0, 1, 2].map(|axis| {
             if i as usize / 2 == axis {
                 half * (1.0 - 2.0 * (i % 2.0))
@@ -173,7 +173,7 @@ fn octahedron(half: f64) -> Vec<[f64; 3]> {
     })
 }
 
-/// Points in general position: no four within reach of a plane.
+/// Points in general position: no plane is within reach of four of them.
 const FIVE: [[f64; 3]; 5] = [
     [-21.0, 5.0, -5.0],
     [4.0, 26.0, -5.0],
@@ -210,29 +210,29 @@ const EIGHT: [[f64; 3]; 8] = [
 ];
 
 #[test]
-fn one_cut_opens_a_bead_pearls_on_a_string_and_a_ring_of_eight() {
+fn one_cut_opens_a_bead_a_string_of_pearls_or_a_ring_of_eight() {
     assert_least("one bead", 1, &[[3.0, -5.0, 8.0]], 6.0);
     assert_least(
         "a string",
         1,
-        &along(7, |i| [7.0, 11.0, -8.0].map(|x| x * (i - 3.0) / 2.0)),
+        &sample(7, |i| [7.0, 11.0, -8.0].map(|x| x * (i - 3.0) / 2.0)),
         3.0,
     );
     assert_least(
         "eight on a string",
         1,
-        &along(8, |i| [4.0, -7.0, 9.0].map(|x| x * (i - 3.5))),
+        &sample(8, |i| [4.0, -7.0, 9.0].map(|x| x * (i - 3.5))),
         2.5,
     );
     let ring = |i: f64| {
         let (sin, cos) = (i * std::f64::consts::FRAC_PI_4).sin_cos();
         [20.0 * cos, 20.0 * sin, 9.0 * cos - 5.0 * sin]
     };
-    assert_least("a tilted ring", 1, &along(8, ring), 4.0);
+    assert_least("a tilted ring", 1, &sample(8, ring), 4.0);
 }
 
 #[test]
-fn one_cut_opens_two_voids_in_a_skew_direction_and_any_three() {
+fn one_cut_opens_two_voids_askew_or_any_three() {
     assert_least("two askew", 1, &[[-15.0; 3], [15.0; 3]], 6.0);
     assert_least(
         "three",
@@ -243,7 +243,7 @@ fn one_cut_opens_two_voids_in_a_skew_direction_and_any_three() {
     assert_least(
         "a row behind a row",
         1,
-        &along(6, |i| {
+        &sample(6, |i| {
             [
                 10.0 * (i % 3.0) - 10.0,
                 0.0,
@@ -278,7 +278,7 @@ fn a_spiral_of_beads_is_opened_by_the_fewest_planes() {
             7.0 * (i - 3.5),
         ]
     };
-    assert_least("a spiral", 2, &along(8, spiral), 1.65);
+    assert_least("a spiral", 2, &sample(8, spiral), 1.65);
 }
 
 #[test]
@@ -294,7 +294,7 @@ fn one_cut_opens_a_void_in_every_leg_of_a_table() {
             .unwrap()
     });
     let voids = legs.map(|at| solid(leg(at, 3.0, [4.0, 25.0]))).to_vec();
-    assert_eq!(planned(table.to_solid().unwrap(), voids), (1, 0));
+    assert_eq!(count_cuts(table.to_solid().unwrap(), voids), (1, 0));
 }
 
 #[test]
@@ -313,32 +313,32 @@ fn one_cut_opens_a_head_and_both_its_ears() {
     let voids = head
         .map(|(at, radius)| solid(ball(at, 0.6 * radius)))
         .to_vec();
-    assert_eq!(planned(outer.to_solid().unwrap(), voids), (1, 0));
+    assert_eq!(count_cuts(outer.to_solid().unwrap(), voids), (1, 0));
 }
 
 #[test]
-fn one_cut_opens_a_ring_a_flat_box_over_two_pearls_and_two_shafts_that_cross() {
+fn one_cut_opens_a_ring_a_slab_over_two_pearls_or_two_crossing_shafts() {
     let ring = solid(primitives::torus(20.0, 6.0, 48, 24));
-    assert_eq!(planned(block(), vec![ring]), (1, 0));
+    assert_eq!(count_cuts(block(), vec![ring]), (1, 0));
     let cuboid =
         |low: [f64; 3], high: [f64; 3]| solid(primitives::cuboid(&low.into(), &high.into()));
     let slab = cuboid([-25.0, -25.0, 10.0], [25.0, 25.0, 16.0]);
     let pearls = beads(&[[-20.0, -13.0, -10.0], [20.0, 13.0, -10.0]], 3.0);
-    assert_eq!(planned(block(), [vec![slab], pearls].concat()), (1, 0));
+    assert_eq!(count_cuts(block(), [vec![slab], pearls].concat()), (1, 0));
     let shafts = vec![
         cuboid([-30.0, -12.0, -4.0], [30.0, -4.0, 4.0]),
         cuboid([-4.0, 4.0, -30.0], [4.0, 12.0, 30.0]),
     ];
-    assert_eq!(planned(block(), shafts), (1, 0));
+    assert_eq!(count_cuts(block(), shafts), (1, 0));
 }
 
 #[test]
-fn two_cuts_open_a_ring_about_a_pearl_far_over_it_and_one_beside() {
-    // The ring lies flat; a plane through both pearls, which stand over and beside it, meets it
-    // too: one cut. A third pearl off that plane and off the ring's own needs a second.
+fn a_ring_with_pearls_above_and_beside_it_needs_one_cut_or_two() {
+    // The ring lies flat. A plane through both pearls, above and beside it, meets it too. More
+    // pearls off that plane and off the ring's own need a second cut.
     let ring = || solid(primitives::torus(20.0, 4.0, 48, 24));
     let two = beads(&[[0.0, 0.0, 34.0], [0.0, 36.0, 20.0]], 2.0);
-    assert_eq!(planned(block(), [vec![ring()], two].concat()), (1, 0));
+    assert_eq!(count_cuts(block(), [vec![ring()], two].concat()), (1, 0));
     let three = beads(
         &[
             [0.0, 0.0, 34.0],
@@ -348,5 +348,5 @@ fn two_cuts_open_a_ring_about_a_pearl_far_over_it_and_one_beside() {
         ],
         2.0,
     );
-    assert_eq!(planned(block(), [vec![ring()], three].concat()), (2, 0));
+    assert_eq!(count_cuts(block(), [vec![ring()], three].concat()), (2, 0));
 }

@@ -1,4 +1,4 @@
-//! Rotors and floating things as a user makes them: kits that keep their promises, and proofs where
+//! Rotors and floating things as a user makes them: kits that keep their promises, and proofs that
 //! there can be none.
 
 #![allow(
@@ -9,95 +9,59 @@
 
 mod common;
 
-use common::{equipoise, number, prepared};
-use serde_json::Value;
-
-/// The wall of these kits.
-const WALL: &str = "1.5mm";
+use common::{assert_exit, json, list, make_kit, number, prepare_quickly, verify};
 
 #[test]
-fn a_leaning_ellipsoid_becomes_a_rotor_of_its_grade_and_its_kit_is_judged_so_again() {
+fn a_tilted_ellipsoid_becomes_a_rotor_within_its_grade() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("rotor");
-    let (code, sheet) = prepared(
-        &kit,
-        WALL,
-        &["--goal", "balance", "--speed", "6000", "--bore", "4mm"],
-    );
-    assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
-    assert!(
-        number(&sheet, "/solid/unbalance/grade_mm_s") > 100.0,
-        "solid it shakes"
-    );
+    let sheet = make_kit(&kit, "--wall 1.5mm --goal balance --speed 6000 --bore 4mm");
+    let solid = number(&sheet, "/solid/unbalance/grade_mm_s");
+    assert!(solid > 100.0, "a solid one shakes: {solid}");
     assert!(number(&sheet, "/assembly/unbalance/grade_mm_s") <= 2.5);
-    // Nothing was removed but what had to be: the certificate is of the mass that stays.
+    // As little as possible was emptied: the certificate is about the mass that stays.
     assert_eq!(sheet["certificate"]["figure"], "mass_g");
-    let (mass, bound) = (
-        number(&sheet, "/assembly/mass_g"),
-        number(&sheet, "/certificate/bound"),
-    );
-    assert!(
-        mass > 0.99 * bound && mass < number(&sheet, "/solid/mass_g"),
-        "{mass} {bound}"
-    );
-    assert_eq!(
-        equipoise(&["verify", kit.to_str().unwrap()]).status.code(),
-        Some(0)
-    );
+    let mass_g = number(&sheet, "/assembly/mass_g");
+    let bound_g = number(&sheet, "/certificate/bound");
+    assert!(mass_g > 0.99 * bound_g, "{mass_g} {bound_g}");
+    assert!(mass_g < number(&sheet, "/solid/mass_g"));
+    assert_eq!(verify(&kit).0, Some(0));
 }
 
 #[test]
-fn it_floats_upright_where_solid_it_would_sink_and_the_sheet_says_to_seal_it() {
+fn a_hollow_ellipsoid_floats_upright_and_the_sheet_says_to_seal_it() {
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("boat");
-    let (code, sheet) = prepared(&kit, WALL, &["--goal", "float", "--liquid", "seawater"]);
-    assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
-    assert!(sheet["solid"].get("afloat").is_none(), "solid it sinks");
+    let sheet = make_kit(&kit, "--wall 1.5mm --goal float --liquid seawater");
+    assert!(sheet["solid"].get("afloat").is_none(), "a solid one sinks");
     assert!(number(&sheet, "/assembly/afloat/metacentric_height_mm") > 0.0);
     assert!(number(&sheet, "/assembly/afloat/rights_from_deg") >= 5.0);
-    let floats = number(&sheet, "/assembly/afloat/waterline_mm")
-        - number(&sheet, "/goal/water/waterline_mm");
-    assert!(floats.abs() < 0.02, "{floats}");
+    let asked_mm = number(&sheet, "/goal/water/waterline_mm");
+    let off_mm = number(&sheet, "/assembly/afloat/waterline_mm") - asked_mm;
+    assert!(off_mm.abs() < 0.02, "{off_mm}");
     assert!(sheet["warnings"].to_string().contains("seal every joint"));
-    assert_eq!(
-        equipoise(&["verify", kit.to_str().unwrap()]).status.code(),
-        Some(0)
-    );
+    assert_eq!(verify(&kit).0, Some(0));
 }
 
 #[test]
-fn what_cannot_be_is_proved_and_ends_with_exit_code_1() {
-    let cases: [(&[&str], &str); 3] = [
+fn an_impossible_goal_is_proved_with_its_reason_and_remedies() {
+    for (goal, reason) in [
+        ("balance --spin-point 20,0,0", "balance grade stays at G"),
+        ("float --waterline 1mm", "times the water it displaces"),
         (
-            &["--goal", "balance", "--spin-point", "20,0,0"],
-            "balance grade stays at G",
-        ),
-        (
-            &["--goal", "float", "--waterline", "1mm"],
-            "times the water it displaces",
-        ),
-        (
-            &["--goal", "float", "--liquid", "9", "--waterline", "30mm"],
+            "float --liquid 9 --waterline 30mm",
             "even solid it weighs only",
         ),
-    ];
-    for (goal, says) in cases {
+    ] {
         let folder = tempfile::tempdir().unwrap();
         let kit = folder.path().join("none");
-        let (code, why) = prepared(&kit, WALL, goal);
-        assert_eq!(
-            (code, &why["verdict"]),
-            (Some(1), &Value::from("impossible")),
-            "{goal:?}"
-        );
-        assert!(
-            why["reason"].as_str().unwrap().contains(says),
-            "{goal:?}: {}",
-            why["reason"]
-        );
-        assert!(
-            !why["remedies"].as_array().unwrap().is_empty() && !kit.exists(),
-            "{goal:?}"
-        );
+        let output = prepare_quickly(&kit, &format!("--wall 1.5mm --goal {goal}"));
+        assert_exit(&output, 1);
+        assert!(!kit.exists(), "{goal}");
+        let answer = json(&output);
+        assert_eq!(answer["verdict"], "impossible", "{goal}");
+        let said = answer["reason"].as_str().unwrap();
+        assert!(said.contains(reason), "{goal}: {said}");
+        assert!(!list(&answer, "remedies").is_empty(), "{goal}");
     }
 }

@@ -1,4 +1,4 @@
-//! Yo-yos on an axle and tops on a tip, as a user makes them; and the claim that a quadric for each
+//! Yo-yos on an axle and tops on a tip, as a user makes them; and the proof that a quadric for each
 //! half is optimal.
 
 #![allow(
@@ -9,153 +9,109 @@
 
 mod common;
 
-use common::{ELLIPSOID, equipoise, glue_g, number, prepared};
+use std::f64::consts::PI;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use common::{
+    assert_exit, equipoise, files, glue_g, list, make_kit, number, path, prepare_quickly, printed,
+    sum, verify,
+};
 use equipoise::geom::{Quadric, Vector};
 use equipoise::interior::{Columns, moments_where_positive};
+use serde_json::Value;
 
-/// The wall of these kits.
-const WALL: &str = "1mm";
-
-const YOYO: [&str; 8] = [
-    "--goal",
-    "yoyo",
-    "--up",
-    "y",
-    "--string-gap",
-    "3mm",
-    "--axle",
-    "4mmx15mm",
-];
+/// Makes a yo-yo on an axle of 4 × 15 mm.
+fn make_yoyo(folder: &Path) -> (PathBuf, Value) {
+    let kit = folder.join("yoyo");
+    let goal = "--wall 1mm --goal yoyo --up y --string-gap 3mm --axle 4mmx15mm";
+    let sheet = make_kit(&kit, goal);
+    (kit, sheet)
+}
 
 #[test]
-fn a_yoyo_on_its_axle_keeps_its_promises_and_its_job_makes_the_same_kit_again() {
+fn a_yoyo_on_its_axle_keeps_its_promises() {
     let folder = tempfile::tempdir().unwrap();
-    let [kit, again] = ["yoyo", "again"].map(|name| folder.path().join(name));
-    let (code, sheet) = prepared(&kit, WALL, &YOYO);
-    assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
+    let (kit, sheet) = make_yoyo(folder.path());
     // A steel cylinder of 4 × 15 mm.
-    let mass = 7.85e-3 * std::f64::consts::PI * 4.0 * 15.0;
-    assert!((number(&sheet, "/hardware/0/mass_g") / mass - 1.0).abs() < 1e-12);
-    let parts = sheet["parts"].as_array().unwrap();
-    let printed: f64 = parts
-        .iter()
-        .map(|part| part["mass_g"].as_f64().unwrap())
-        .sum();
-    assert!(
-        (number(&sheet, "/assembly/mass_g") / (printed + mass + glue_g(&sheet)) - 1.0).abs() < 1e-9
-    );
+    let axle_g = 7.85e-3 * PI * 4.0 * 15.0;
+    assert!((number(&sheet, "/hardware/0/mass_g") / axle_g - 1.0).abs() < 1e-12);
+    let parts = list(&sheet, "parts");
+    let all_g = sum(parts, "/mass_g") + axle_g + glue_g(&sheet);
+    assert!((number(&sheet, "/assembly/mass_g") / all_g - 1.0).abs() < 1e-9);
     assert_eq!(number(&sheet, "/string_gap_mm"), 3.0);
-    assert!(
-        ["A", "B"]
-            .iter()
-            .all(|half| parts.iter().any(|part| part["half"] == *half))
-    );
-    assert_eq!(
-        equipoise(&["verify", kit.to_str().unwrap()]).status.code(),
-        Some(0)
-    );
-    let job = kit.join("job.toml");
-    let replay = [
-        "-q",
-        "prepare",
-        "--job",
-        job.to_str().unwrap(),
-        "--out",
-        again.to_str().unwrap(),
-    ];
-    assert_eq!(equipoise(&replay).status.code(), Some(0));
+    for half in ["A", "B"] {
+        assert!(parts.iter().any(|part| part["half"] == half), "{half}");
+    }
+    assert_eq!(verify(&kit).0, Some(0));
+}
+
+#[test]
+fn the_job_of_a_yoyo_makes_the_same_kit_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let (kit, _) = make_yoyo(folder.path());
+    let (job, again) = (kit.join("job.toml"), folder.path().join("again"));
+    let replay = ["-q", "prepare", "--job", path(&job), "--out", path(&again)];
+    assert_exit(&equipoise(&replay), 0);
+    let [kit, again] = [kit, again].map(|kit| files(&kit));
     for file in ["checklist.json", "hollowed.stl", "pictures/cut-away.svg"] {
-        assert!(
-            std::fs::read(kit.join(file)).unwrap() == std::fs::read(again.join(file)).unwrap(),
-            "{file}"
-        );
+        assert!(kit[Path::new(file)] == again[Path::new(file)], "{file}");
     }
 }
 
 #[test]
-fn a_checklist_that_lies_about_its_hardware_is_found_out() {
+fn a_checklist_with_false_numbers_about_its_hardware_is_found_out() {
     let folder = tempfile::tempdir().unwrap();
-    let kit = folder.path().join("yoyo");
-    let (code, _) = prepared(&kit, WALL, &YOYO);
-    assert_eq!(code, Some(0));
+    let (kit, _) = make_yoyo(folder.path());
     let sheet = kit.join("checklist.json");
-    let text = std::fs::read_to_string(&sheet).unwrap();
+    let text = fs::read_to_string(&sheet).unwrap();
     let verdict = |text: &str| {
-        std::fs::write(&sheet, text).unwrap();
-        equipoise(&["verify", kit.to_str().unwrap()]).status.code()
+        fs::write(&sheet, text).unwrap();
+        verify(&kit).0
     };
     assert_eq!(verdict(&text), Some(0));
-    for (told, lie) in [
+    for (stated, lie) in [
         ("\"density_g_cm3\": 7.85", "\"density_g_cm3\": 7.8"),
         ("\"string_gap_mm\": 3.0", "\"string_gap_mm\": 3.01"),
         ("\"diameter_mm\": 4.0", "\"diameter_mm\": 4.5"),
     ] {
-        assert!(text.contains(told), "{told}");
-        assert_eq!(verdict(&text.replacen(told, lie, 1)), Some(1), "{lie}");
+        assert!(text.contains(stated), "{stated}");
+        assert_eq!(verdict(&text.replacen(stated, lie, 1)), Some(1), "{lie}");
     }
 }
 
+/// Mass on the axis adds to g s_z and to the moments across it, and nothing to the one about it.
+/// So ω² = g s_z/(I_c − I_b) grows for every hollowing, and with it the least of all.
 #[test]
-fn a_top_with_a_tip_and_a_stem_keeps_its_promises_and_a_denser_tip_costs_speed() {
-    // Mass on the axis adds to g s_z and to the moments across it, and nothing to the one about it:
-    // for every hollowing ω² = g s_z/(I_c − I_b) grows, and so does the least of all.
+fn a_denser_tip_raises_the_critical_speed_of_a_top() {
     let folder = tempfile::tempdir().unwrap();
     let speed = |name: &str, tip: &str| {
-        let goal = [
-            "--goal",
-            "top",
-            "--up",
-            "y",
-            "--contact",
-            "center",
-            "--stem",
-            "4mmx15mmx6mm",
-            "--tip",
-            tip,
-        ];
-        let (code, sheet) = prepared(&folder.path().join(name), WALL, &goal);
-        assert_eq!(code, Some(0), "{:#}", sheet["checks"]);
-        assert_eq!(sheet["hardware"].as_array().unwrap().len(), 2);
+        let rods = format!("--stem 4mmx15mmx6mm --tip {tip}");
+        let goal = format!("--wall 1mm --goal top --up y --contact center {rods}");
+        let sheet = make_kit(&folder.path().join(name), &goal);
+        assert_eq!(list(&sheet, "hardware").len(), 2);
         assert_eq!(number(&sheet, "/goal/contact_gap_mm"), 0.0);
         number(&sheet, "/certificate/bound")
     };
-    let [plastic, steel] = [
-        speed("plastic", "4mmx12mmx8mm:1.18"),
-        speed("steel", "4mmx12mmx8mm"),
-    ];
+    let plastic = speed("plastic", "4mmx12mmx8mm:1.18");
+    let steel = speed("steel", "4mmx12mmx8mm");
     assert!(steel > plastic, "{steel} {plastic}");
 }
 
 #[test]
-fn hardware_that_cannot_be_is_refused_with_a_remedy() {
-    let cases: [(&[&str], &str); 5] = [
-        (&["--goal", "top", "--axle", "6mm"], "go with the goal yoyo"),
-        (
-            &["--goal", "yoyo", "--tip", "4mmx12mm"],
-            "go with the goal top",
-        ),
-        (&["--goal", "yoyo", "--axle", "6mm"], "give both"),
-        (&["--goal", "yoyo", "--axle", "6mmx"], "is not a rod"),
-        (
-            &["--goal", "yoyo", "--string-gap", "3mm", "--axle", "70mm"],
-            "has no wall",
-        ),
-    ];
-    for (goal, says) in cases {
-        let usual = [
-            "prepare",
-            ELLIPSOID,
-            "--printer",
-            "objet-connex350",
-            "--size",
-            "60mm",
-        ];
-        let output = equipoise(&[&usual[..], goal].concat());
-        let said = String::from_utf8_lossy(&output.stderr).into_owned();
-        assert!(
-            output.status.code() == Some(2) && said.contains(says),
-            "{goal:?}: {said}"
-        );
+fn impossible_hardware_is_refused_with_a_remedy() {
+    let folder = tempfile::tempdir().unwrap();
+    for (goal, words) in [
+        ("top --axle 6mm", "go with the goal yoyo"),
+        ("yoyo --tip 4mmx12mm", "go with the goal top"),
+        ("yoyo --axle 6mm", "give both"),
+        ("yoyo --axle 6mmx", "is not a rod"),
+        ("yoyo --string-gap 3mm --axle 70mm", "has no wall"),
+    ] {
+        let output = prepare_quickly(&folder.path().join("none"), &format!("--goal {goal}"));
+        assert_exit(&output, 2);
+        let said = printed(&output);
+        assert!(said.contains(words), "{goal}: {said}");
     }
 }
 
@@ -174,7 +130,7 @@ fn columns(intervals: &[[f64; 2]]) -> Columns {
 }
 
 #[test]
-fn one_quadric_where_the_halves_are_is_one_shifted_quadric_for_each_half_of_the_model() {
+fn one_quadric_over_both_halves_is_a_shifted_quadric_for_each_half() {
     let shift = 1.5;
     let apart = columns(&[[-9.0 - shift, -shift], [shift, 7.0 + shift]]);
     let halves = [
@@ -185,7 +141,7 @@ fn one_quadric_where_the_halves_are_is_one_shifted_quadric_for_each_half_of_the_
         let g: [f64; 10] =
             std::array::from_fn(|i| f64::from((seed * 7 + i as u32 * 13) % 29) - 14.0);
         let whole = moments_where_positive(&apart, &Quadric(g));
-        // q(x, y, z + d): the coefficients of 1, x, y and z change by what z² , xz and yz bring.
+        // q(x, y, z + d): the terms in z², xz and yz add to the coefficients of 1, x, y and z.
         let seen_by_half = |d: f64| {
             let [one, x, y, z, xy, yz, xz, xx, yy, zz] = g;
             Quadric([

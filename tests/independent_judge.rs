@@ -1,220 +1,139 @@
-//! A judge in another language, with nothing of ours, finds in a kit's files what the checklist
-//! promises.
+//! An independent judge in Python, which shares no code with the program, finds in a kit's files
+//! what the checklist promises.
 
 #![allow(
     clippy::unwrap_used,
+    clippy::panic,
     reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
+
+mod common;
 
 use std::ffi::OsString;
 use std::fs;
-use std::path::Path;
-use std::process::{Command, Output};
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
-const MODEL: &str = concat!(
-    env!("CARGO_MANIFEST_DIR"),
-    "/examples/models/tilted-ellipsoid.stl"
-);
+use common::{assert_exit, checklist, make_kit, number, prepare, printed, words};
+
+/// The judge of a kit's folder.
 const JUDGE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_kit.py");
+/// The judge of its 3MF packages.
 const JUDGE_3MF: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/judge/judge_3mf.py");
+/// The Python packages that each of them imports.
+const PACKAGES: &str = "numpy, rtree, scipy, shapely, trimesh";
+const PACKAGES_3MF: &str = "lib3mf, numpy";
 
-/// The Python to judge with: `EQUIPOISE_JUDGE_PYTHON`, or `python3`; none where it lacks the
-/// judge's packages.
-fn python() -> Option<OsString> {
-    python_with("numpy, rtree, scipy, shapely, trimesh")
-}
-
-/// The Python to judge with; none where it lacks these packages.
-fn python_with(packages: &str) -> Option<OsString> {
+/// Returns `EQUIPOISE_JUDGE_PYTHON`, or `python3`; `None`, with a message, if it lacks a package.
+fn find_python(packages: &str) -> Option<OsString> {
     let python = std::env::var_os("EQUIPOISE_JUDGE_PYTHON").unwrap_or_else(|| "python3".into());
-    let imports = Command::new(&python)
-        .args(["-c", &format!("import {packages}")])
-        .output();
-    imports
-        .is_ok_and(|output| output.status.success())
-        .then_some(python)
+    let import = format!("import {packages}");
+    let output = Command::new(&python).args(["-c", &import]).output();
+    let has_packages = output.is_ok_and(|output| output.status.success());
+    if !has_packages {
+        eprintln!("SKIPPED: no Python with {packages} here; pip install them");
+    }
+    has_packages.then_some(python)
 }
 
-fn judged(python: &OsString, kit: &Path) -> (Option<i32>, String) {
-    judged_by(JUDGE, python, kit)
-}
-
-fn judged_by(judge: &str, python: &OsString, kit: &Path) -> (Option<i32>, String) {
-    let Output {
-        status,
-        stdout,
-        stderr,
-    } = Command::new(python)
-        .arg(judge)
-        .arg(kit)
+/// Lets a judge look at a kit; returns its exit code and everything that it printed.
+fn judge(judge: &str, python: &OsString, kit: &Path) -> (Option<i32>, String) {
+    let mut command = Command::new(python);
+    let command = command.arg(judge).arg(kit);
+    let output = command
         .env("PYTHONDONTWRITEBYTECODE", "1")
         .output()
         .unwrap();
-    (
-        status.code(),
-        String::from_utf8_lossy(&[stdout, stderr].concat()).into_owned(),
-    )
+    (output.status.code(), printed(&output))
 }
 
-#[test]
-fn an_independent_judge_agrees_on_what_is_not_printed() {
-    let Some(python) = python() else {
-        eprintln!("SKIPPED: no Python with numpy, rtree, scipy, shapely and trimesh here");
-        return;
-    };
-    let folder = tempfile::tempdir().unwrap();
-    let yoyo = [
-        "--goal",
-        "yoyo",
-        "--up",
-        "y",
-        "--string-gap",
-        "3mm",
-        "--axle",
-        "4mmx15mm",
-        "--hardware-mass",
-        "2",
-    ];
-    let top = [
-        "--goal",
-        "top",
-        "--up",
-        "y",
-        "--contact",
-        "center",
-        "--tip",
-        "4mmx12mmx8mm",
-        "--stem",
-        "4mmx16mm",
-    ];
-    for (name, goal) in [("yoyo", yoyo), ("top", top)] {
-        let kit = folder.path().join(name);
-        let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-            .args([
-                "-q",
-                "prepare",
-                MODEL,
-                "--printer",
-                "objet-connex350",
-                "--size",
-                "60mm",
-            ])
-            .args(["--wall", "1mm", "--pitch", "0.3mm", "--out"])
-            .arg(&kit)
-            .args(goal)
-            .output()
-            .unwrap();
-        assert!(
-            prepared.status.success(),
-            "{}",
-            String::from_utf8_lossy(&prepared.stderr)
-        );
-        let (code, said) = judged(&python, &kit);
-        assert!(code == Some(0) && said.contains("H2"), "{said}");
-        let sheet = kit.join("checklist.json");
-        let told = fs::read_to_string(&sheet).unwrap();
-        let lie = told.replacen("\"density_g_cm3\": 7.85", "\"density_g_cm3\": 7.84", 1);
-        assert_ne!(told, lie);
-        fs::write(&sheet, lie).unwrap();
-        let (code, said) = judged(&python, &kit);
-        assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
-    }
-}
-
-#[test]
-fn an_independent_judge_agrees_with_the_checklist_and_finds_a_lie_in_it() {
-    let Some(python) = python() else {
-        eprintln!("SKIPPED: no Python with numpy, rtree, scipy, shapely and trimesh here");
+/// Asserts that the judge agrees with a kit that holds hardware, and that it finds a false density.
+fn assert_hardware_is_judged(goal: &str) {
+    let Some(python) = find_python(PACKAGES) else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
     let kit = folder.path().join("kit");
-    let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args([
-            "-q",
-            "prepare",
-            MODEL,
-            "--printer",
-            "objet-connex350",
-            "--goal",
-            "top",
-            "--size",
-            "60mm",
-        ])
-        .args(["--wall", "1.5mm", "--pitch", "0.3mm", "--out"])
-        .arg(&kit)
-        .output()
-        .unwrap();
-    assert!(
-        prepared.status.success(),
-        "{}",
-        String::from_utf8_lossy(&prepared.stderr)
-    );
-    let (code, said) = judged(&python, &kit);
-    assert_eq!(code, Some(0), "{said}");
+    make_kit(&kit, &format!("--wall 1mm --up y {goal}"));
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(0) && said.contains("H2"), "{said}");
     let sheet = kit.join("checklist.json");
-    let mut checklist: serde_json::Value =
-        serde_json::from_slice(&fs::read(&sheet).unwrap()).unwrap();
-    let mass_g = checklist["assembly"]["mass_g"].as_f64().unwrap();
-    checklist["assembly"]["mass_g"] = (mass_g * 1.000_01).into();
-    fs::write(&sheet, checklist.to_string()).unwrap();
-    let (code, said) = judged(&python, &kit);
-    assert!(
-        code == Some(1) && said.contains("FAIL mass"),
-        "{code:?} {said}"
-    );
+    let stated = fs::read_to_string(&sheet).unwrap();
+    let [density, lie] = [7.85, 7.84].map(|value| format!("\"density_g_cm3\": {value}"));
+    assert!(stated.contains(&density));
+    fs::write(&sheet, stated.replacen(&density, &lie, 1)).unwrap();
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
 }
 
 #[test]
-fn the_consortiums_own_library_takes_every_package_of_a_kit_in_strict_mode_and_finds_what_is_wrong()
-{
-    let Some(python) = python_with("lib3mf, numpy") else {
-        eprintln!("SKIPPED: no Python with lib3mf and numpy here; pip install lib3mf numpy");
+fn an_independent_judge_weighs_the_axle_of_a_yoyo() {
+    let rods = "--string-gap 3mm --axle 4mmx15mm --hardware-mass 2";
+    assert_hardware_is_judged(&format!("--goal yoyo {rods}"));
+}
+
+#[test]
+fn an_independent_judge_weighs_the_tip_and_the_stem_of_a_top() {
+    let rods = "--tip 4mmx12mmx8mm --stem 4mmx16mm";
+    assert_hardware_is_judged(&format!("--goal top --contact center {rods}"));
+}
+
+#[test]
+fn an_independent_judge_agrees_with_the_checklist_and_finds_a_false_mass() {
+    let Some(python) = find_python(PACKAGES) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = folder.path().join("kit");
+    make_kit(&kit, "--goal top --wall 1.5mm");
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert_eq!(code, Some(0), "{said}");
+    let mut sheet = checklist(&kit);
+    sheet["assembly"]["mass_g"] = (number(&sheet, "/assembly/mass_g") * 1.000_01).into();
+    fs::write(kit.join("checklist.json"), sheet.to_string()).unwrap();
+    let (code, said) = judge(JUDGE, &python, &kit);
+    assert!(code == Some(1) && said.contains("FAIL mass"), "{said}");
+}
+
+/// Makes a kit that states its parts in a format.
+fn make_packages(folder: &Path, printer: &str, format: &str) -> PathBuf {
+    let kit = folder.join(format);
+    let sizes = "--goal top --size 60mm --wall 1.5mm --pitch 0.3mm";
+    let options = format!("{sizes} --printer {printer} --format {format}");
+    assert_exit(&prepare(&kit, &words(&options)), 0);
+    kit
+}
+
+#[test]
+fn lib3mf_reads_every_package_of_a_kit_in_strict_mode() {
+    let Some(python) = find_python(PACKAGES_3MF) else {
         return;
     };
     let folder = tempfile::tempdir().unwrap();
     for (printer, format) in [("objet-connex350", "both"), ("prusa-mk4", "3mf")] {
-        let kit = folder.path().join(format);
-        let prepared = Command::new(env!("CARGO_BIN_EXE_equipoise"))
-            .args([
-                "-q",
-                "prepare",
-                MODEL,
-                "--printer",
-                printer,
-                "--goal",
-                "top",
-                "--size",
-                "60mm",
-            ])
-            .args([
-                "--wall", "1.5mm", "--pitch", "0.3mm", "--format", format, "--out",
-            ])
-            .arg(&kit)
-            .output()
-            .unwrap();
-        assert!(
-            prepared.status.success(),
-            "{}",
-            String::from_utf8_lossy(&prepared.stderr)
-        );
-        let (code, said) = judged_by(JUDGE_3MF, &python, &kit);
+        let kit = make_packages(folder.path(), printer, format);
+        let (code, said) = judge(JUDGE_3MF, &python, &kit);
         assert_eq!(code, Some(0), "{said}");
-        assert!(
-            said.contains("assembly.3mf") && said.contains("plate.3mf") && said.contains("parts/"),
-            "{said}"
-        );
-        if let Some(python) = python_with("numpy, rtree, scipy, shapely, trimesh") {
-            let (code, said) = judged(&python, &kit);
+        for file in ["assembly.3mf", "plate.3mf", "parts/"] {
+            assert!(said.contains(file), "{file}: {said}");
+        }
+        if let Some(python) = find_python(PACKAGES) {
+            let (code, said) = judge(JUDGE, &python, &kit);
             assert_eq!(code, Some(0), "{said}");
         }
     }
-    let kit = folder.path().join("3mf");
+}
+
+#[test]
+fn lib3mf_finds_parts_that_are_not_in_print_pose() {
+    let Some(python) = find_python(PACKAGES_3MF) else {
+        return;
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let kit = make_packages(folder.path(), "prusa-mk4", "3mf");
     fs::copy(kit.join("assembly.3mf"), kit.join("plate.3mf")).unwrap();
-    let (code, said) = judged_by(JUDGE_3MF, &python, &kit);
-    assert!(
-        code == Some(1) && said.contains("not in print pose"),
-        "{said}"
-    );
+    let (code, said) = judge(JUDGE_3MF, &python, &kit);
+    assert_eq!(code, Some(1), "{said}");
+    assert!(said.contains("not in print pose"), "{said}");
 }

@@ -1,15 +1,15 @@
-//! Proofs of impossibility, held against the model itself: its triangles and a grid of points, no
-//! columns and no roots.
+//! Proofs of impossibility, checked against the model itself: its triangles and a grid of points,
+//! without columns or roots.
 
 #![allow(
     clippy::unwrap_used,
     clippy::panic,
-    reason = "a test fails by panicking"
+    reason = "a test whose input cannot be had has failed"
 )]
-#![allow(clippy::print_stderr, reason = "a test that is skipped says so")]
+#![allow(clippy::print_stderr, reason = "a skipped test says so")]
 #![allow(
     dead_code,
-    reason = "the models' module also serves the program that writes them"
+    reason = "the module also serves the program that writes the models"
 )]
 
 #[path = "../examples/make_models/models.rs"]
@@ -29,24 +29,22 @@ use equipoise::repair::weld;
 use equipoise::shell::Shell;
 
 const WALL_MM: f64 = 2.0;
-/// A wall at which a block stays much like a solid one.
+/// A wall that leaves a block almost solid, mm.
 const THICK_WALL_MM: f64 = 25.0;
-/// The long axis of the cuboid, which is askew by 3° about x and then 2° about y: its moment is the
-/// least.
+/// The long axis of the cuboid, turned by 3° about x and then 2° about y. Its moment is the least.
 const LONG_AXIS: [f64; 3] = [0.999_391, 0.001_826, -0.034_852];
-/// Columns a side of what is solved.
+/// Columns along each side.
 const COLUMNS: usize = 100;
-/// The distance of the grid's points for our own models and for large ones. A sum over them is
-/// exact to about the cells that the surface and the wall cut, with random signs: some 13 000 of
-/// them are wrong by a third of a cell each, 2e-3 of the volume together.
+/// Distance of the grid's points for our own models and for large ones, mm. The surface and the
+/// wall cut some 13 000 cells. Each is wrong by a third of its volume with a random sign, which
+/// makes 2e-3 of the whole.
 const STEP_MM: f64 = 2.5;
-/// The distance for a part whose sides are but some 10 mm thick, so that the shell of 1 mm is more
-/// than half of it.
+/// Distance for a part only some 10 mm thick, mm. A shell of 1 mm is more than half of it.
 const FINE_STEP_MM: f64 = 1.0;
-/// What the grid's integrals of q may be wrong by, as a part of ∫|q|.
+/// Error of the grid's integrals of q, as a share of ∫|q|.
 const GRID_RATIO: f64 = 4e-3;
 
-/// A model with its placement and what became of it.
+/// A placed model with its solution.
 struct Case {
     solid: Solid,
     placement: Placement,
@@ -88,9 +86,10 @@ impl Case {
         }
     }
 
-    /// The least that the integral of a quadric over any interior can be, and ∫|q| over the solid:
-    /// every grid point inside counts, but one that is at least a wall from every triangle and
-    /// outside of what is kept only where q < 0.
+    /// The least integral of a quadric q over any interior, and ∫|q| over the solid.
+    ///
+    /// Every grid point inside counts, unless it may be emptied and q > 0 there. It may if it is a
+    /// wall away from every triangle and outside the regions that are kept.
     fn least_integral(&self, quadric: &Quadric) -> [f64; 2] {
         let frame = &self.placement.goal.frame;
         let triangles: Vec<[Point; 3]> = self
@@ -136,18 +135,16 @@ impl Case {
                 .all(|keep| keep.distance_mm(&in_model) > 0.0)
     }
 
-    /// Whether the grid says of a quadric what the proof does: no interior's integral is below
-    /// `level`.
+    /// Asserts that the grid agrees with the proof: no interior's integral is below `level`.
     fn assert_separates(&self, quadric: &Quadric, level: f64) {
         let [least, size] = self.least_integral(quadric);
         assert!(least >= level - GRID_RATIO * size, "{least} {level} {size}");
-        // The grid would tell: nothing so far above the level can be said of the opposite.
+        // The grid would find a false proof: for the opposite quadric it is far below the level.
         let opposite = Quadric(quadric.0.map(|coefficient| -coefficient));
         assert!(self.least_integral(&opposite)[0] < -0.1 * size);
     }
 
-    /// The solution's quadric with a ratio of `by` more or less of the denominator e, given over mm
-    /// in the goal's frame.
+    /// The solution's quadric plus `by` times the goal's denominator, in the goal's frame, mm.
     fn shifted(&self, by: f64, denominator: [(usize, f64); 2], degree: i32) -> Quadric {
         let solid = &self.placement.goal.solid.0;
         let length_mm = ((solid[7] + solid[8] + solid[9]) / solid[0]).sqrt();
@@ -159,7 +156,7 @@ impl Case {
     }
 }
 
-/// Where the line through (y, z) along x meets the triangles.
+/// The x at which the line through (y, z) along x meets the triangles.
 fn crossings(triangles: &[[Point; 3]], y: f64, z: f64) -> Vec<f64> {
     let side = |p: &Point, q: &Point| (q.y - p.y) * (z - p.z) - (q.z - p.z) * (y - p.y);
     let meets = |[a, b, c]: &[Point; 3]| {
@@ -172,7 +169,7 @@ fn crossings(triangles: &[[Point; 3]], y: f64, z: f64) -> Vec<f64> {
     triangles.iter().filter_map(meets).collect()
 }
 
-/// Whether a point is nearer to a triangle than this.
+/// Tells if a point is nearer to a triangle than this.
 fn is_within(triangle: &[Point; 3], point: &Point, distance_mm: f64) -> bool {
     let is_far = |axis: usize| {
         let [low, high] =
@@ -182,7 +179,7 @@ fn is_within(triangle: &[Point; 3], point: &Point, distance_mm: f64) -> bool {
     !(0..3).any(is_far) && distance_to(triangle, point) < distance_mm
 }
 
-/// To the plane where the foot of the perpendicular is inside, else to the nearest edge.
+/// The distance to the plane if the foot of the perpendicular is inside, else to the nearest edge.
 fn distance_to(&[a, b, c]: &[Point; 3], point: &Point) -> f64 {
     let normal = (b - a).cross(&(c - a));
     let is_inside = [(a, b), (b, c), (c, a)]
@@ -199,7 +196,7 @@ fn distance_to(&[a, b, c]: &[Point; 3], point: &Point) -> f64 {
 }
 
 #[test]
-fn a_centre_that_cannot_be_over_the_middle_of_its_foot_is_so_on_a_grid_too() {
+fn a_centre_proved_off_the_middle_of_its_foot_is_off_on_a_grid_too() {
     let lowest = Request {
         objective: Objective::LowestCenter,
         ..Request::new(GoalKind::Stand)
@@ -219,7 +216,7 @@ fn a_centre_that_cannot_be_over_the_middle_of_its_foot_is_so_on_a_grid_too() {
 }
 
 #[test]
-fn a_grade_that_cannot_be_reached_is_out_of_reach_on_a_grid_too() {
+fn a_grade_proved_out_of_reach_is_so_on_a_grid_too() {
     let aside = Request {
         spin_point: Some(SpinPoint::At([25.0, 0.0, 0.0])),
         ..Request::new(GoalKind::Balance)
@@ -232,7 +229,7 @@ fn a_grade_that_cannot_be_reached_is_out_of_reach_on_a_grid_too() {
 }
 
 #[test]
-fn a_yoyo_that_cannot_be_dominant_is_not_on_a_grid_either() {
+fn a_yoyo_proved_not_dominant_is_not_on_a_grid_either() {
     let across = Request {
         up: Up::Along(LONG_AXIS),
         objective: Objective::Dominance,
@@ -242,18 +239,17 @@ fn a_yoyo_that_cannot_be_dominant_is_not_on_a_grid_either() {
     let Status::NotDominant { least_ratio } = case.solution.status else {
         panic!("{:?}", case.solution.status)
     };
-    // λ_max − 1·I_zz > 0 for every interior; the quadric itself is that of λ_max −
-    // least_ratio·I_zz.
+    // For every interior λ_max − 1·I_zz > 0. The quadric is that of λ_max − least_ratio·I_zz.
     let at_one = case.shifted(least_ratio - 1.0, [(7, 1.0), (8, 1.0)], 2);
     case.assert_separates(&at_one, 0.0);
 }
 
-/// Real models beside the checkout, for which the acceptance table expects that hollowing alone
-/// cannot do.
+/// The folder of real models beside the checkout. The acceptance table expects that hollowing alone
+/// is not enough for some of them.
 const SHARED: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../shared/models");
 
-/// A shared model, 100 mm long, with a wall of 1 mm; none where the shared models are not there.
-fn shared(name: &str, request: &Request) -> Option<Case> {
+/// Solves for a shared model, 100 mm long, with a wall of 1 mm; `None` if it is not there.
+fn solve_shared(name: &str, request: &Request) -> Option<Case> {
     let path = std::path::Path::new(SHARED).join(name);
     if !path.is_file() {
         eprintln!("SKIPPED: {} is not there", path.display());
@@ -266,14 +262,14 @@ fn shared(name: &str, request: &Request) -> Option<Case> {
 }
 
 #[test]
-fn a_shared_armadillo_that_cannot_be_balanced_as_a_top_is_not_on_a_grid_either() {
+fn an_armadillo_proved_no_top_is_none_on_a_grid_either() {
     let up = Up::Along([0.0, 1.0, 0.0]);
     let top = Request {
         up,
         contact: Some(Contact::Center),
         ..Request::new(GoalKind::Top)
     };
-    let Some(case) = shared("armadillo.obj", &top) else {
+    let Some(case) = solve_shared("armadillo.obj", &top) else {
         return;
     };
     let Status::ConstraintsInfeasible {
@@ -289,13 +285,13 @@ fn a_shared_armadillo_that_cannot_be_balanced_as_a_top_is_not_on_a_grid_either()
 }
 
 #[test]
-fn a_shared_rocker_arm_that_needs_ballast_needs_it_on_a_grid_too() {
+fn a_rocker_arm_proved_to_need_ballast_needs_it_on_a_grid_too() {
     let bore = Request {
         up: Up::Along([1.0, 0.0, 0.0]),
         spin_point: Some(SpinPoint::At([0.0, 6.7135, 8.4895])),
         ..Request::new(GoalKind::Balance)
     };
-    let Some(case) = shared("rocker-arm.obj", &bore) else {
+    let Some(case) = solve_shared("rocker-arm.obj", &bore) else {
         return;
     };
     let case = Case {
@@ -309,7 +305,7 @@ fn a_shared_rocker_arm_that_needs_ballast_needs_it_on_a_grid_too() {
 }
 
 #[test]
-fn what_weighs_more_than_the_water_it_displaces_does_so_on_a_grid_too() {
+fn a_model_proved_to_sink_sinks_on_a_grid_too() {
     let waterline = Waterline::At(Length::from_mm(5.0).unwrap());
     let request = Request {
         water: Some(Water {
@@ -324,8 +320,8 @@ fn what_weighs_more_than_the_water_it_displaces_does_so_on_a_grid_too() {
     };
     let [lightest, _] = case.least_integral(&Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]));
     let displaced_mm3 = case.placement.goal.afloat.unwrap().material_mm3;
-    // The shell is 2 mm of some 44: a cell cut at random is a third of it wrong, 1e-2 of the shell
-    // together.
+    // The shell is 2 mm of some 44. Cells cut at random are wrong by a third each, which makes
+    // 1e-2 of the shell.
     assert!(
         (lightest / displaced_mm3 / least_ratio - 1.0).abs() < 3e-2,
         "{lightest} {displaced_mm3} {least_ratio}"

@@ -1,6 +1,11 @@
-//! The model that is shipped is what the documentation says of it.
+//! The shipped model is as the documentation describes it.
 
-#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose input cannot be had has failed"
+)]
+
+mod common;
 
 use std::path::Path;
 
@@ -10,14 +15,13 @@ use equipoise::mass::{Body, moments_of_mesh};
 use equipoise::mesh::{MeshFacts, Solid, TriMesh};
 use equipoise::repair::weld;
 
-fn shipped() -> TriMesh {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/models/tilted-ellipsoid.stl");
-    weld(&read_model(&path).unwrap())
+fn read_shipped() -> TriMesh {
+    weld(&read_model(Path::new(common::ELLIPSOID)).unwrap())
 }
 
 #[test]
 fn the_shipped_model_is_a_sound_solid_of_one_hundred_millimetres() {
-    let solid = Solid::new(shipped()).unwrap();
+    let solid = Solid::new(read_shipped()).unwrap();
     let facts = MeshFacts::of(solid.mesh());
     assert_eq!(
         (facts.shells, facts.genus, facts.degenerate_triangles),
@@ -29,31 +33,22 @@ fn the_shipped_model_is_a_sound_solid_of_one_hundred_millimetres() {
 }
 
 #[test]
-fn the_shipped_model_does_not_spin_upright_on_its_lowest_point_as_a_solid() {
-    let mesh = shipped();
-    let contact = mesh
-        .vertices()
-        .iter()
-        .copied()
-        .reduce(|a, b| if b.z < a.z { b } else { a })
-        .unwrap();
+fn a_solid_shipped_model_does_not_spin_upright_on_its_lowest_point() {
+    let mesh = read_shipped();
+    let lower = |a: Point, b: Point| if b.z < a.z { b } else { a };
+    let contact = mesh.vertices().iter().copied().reduce(lower).unwrap();
     let body = Body::new(&moments_of_mesh(&mesh), 1.0);
-    // Its centre lies beside the axis, and the moment about the axis is not the largest.
+    // Its centre is beside the axis, and the moment about the axis is not the largest.
     assert!(body.axis_offset_mm(&contact, &Vector::z()) > 3.0);
     let about_axis = body.inertia_g_mm2[(2, 2)];
     assert!(body.principal().moments_g_mm2[2] > 1.05 * about_axis);
-    assert!(
-        body.inertia_g_mm2
-            .fixed_view::<2, 2>(0, 0)
-            .symmetric_eigenvalues()
-            .max()
-            > 1.05 * about_axis
-    );
+    let across = body.inertia_g_mm2.fixed_view::<2, 2>(0, 0);
+    assert!(across.symmetric_eigenvalues().max() > 1.05 * about_axis);
 }
 
 #[test]
-fn the_lowest_point_of_the_shipped_model_is_one_vertex_where_the_ellipsoid_is_lowest() {
-    let mesh = shipped();
+fn the_lowest_point_of_the_shipped_model_is_a_single_vertex() {
+    let mesh = read_shipped();
     let lowest = mesh.aabb().min.z;
     let contacts: Vec<&Point> = mesh
         .vertices()
@@ -61,7 +56,7 @@ fn the_lowest_point_of_the_shipped_model_is_one_vertex_where_the_ellipsoid_is_lo
         .filter(|p| p.z < lowest + 1e-3)
         .collect();
     assert_eq!(contacts.len(), 1);
-    // Its neighbours lie one edge (4 mm) off: e²/2R above it, some 0.2 mm, not level with it.
+    // Its neighbours are one edge e = 4 mm away, so e²/2R above it: some 0.2 mm.
     let next = mesh
         .vertices()
         .iter()

@@ -1,5 +1,4 @@
-//! Makes the models that the documentation and the tests speak of, by code alone, as binary STL in
-//! mm:
+//! Makes the models of the documentation and the tests as binary STL files in mm:
 //!
 //! ```text
 //! cargo run --example make_models -- OUTDIR
@@ -20,7 +19,7 @@ use equipoise::io::stl;
 fn main() -> Result<()> {
     let folder = std::env::args_os()
         .nth(1)
-        .context("name the folder to write the models to")?;
+        .context("give the folder to write the models to")?;
     let folder = Path::new(&folder);
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot make the folder {}", folder.display()))?;

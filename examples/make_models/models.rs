@@ -1,29 +1,29 @@
-//! The models we ship and speak of, made by code, each with what it is good for.
+//! The models of the documentation and the tests, made by code alone.
 
 use std::f64::consts::{PI, TAU};
 
 use equipoise::geom::{Frame, Matrix, Point, Vector};
 use equipoise::mesh::{Defects, Solid, TriMesh, primitives, scaled};
 
-/// The longest side of every model.
+/// Longest side of every model, mm.
 const SIZE_MM: f64 = 100.0;
 
-/// How fine balls are cut: 5120 triangles, an edge of 4 mm on a model of 100 mm.
+/// Level of the balls: 5120 triangles, with edges of 4 mm on a model of 100 mm.
 const LEVEL: u32 = 4;
 
-/// Corners of every ring of a stack: 2.3 mm apart on a model of 100 mm around.
+/// Corners of every ring of a stack, 2.3 mm apart on a girth of 100 mm.
 const RING_CORNERS: usize = 48;
 
-/// Makes a model of any size.
+/// A function that makes a model of any size.
 pub type Maker = fn() -> TriMesh;
 
 /// Every model by its name.
 ///
-/// * `tilted-ellipsoid`: as a solid no top; hollowed it spins upright on its lowest point (z up);
-/// * `asymmetric-heart`: a top on its tip, with lobes of different size;
-/// * `balancing-figure`: leans so far over its foot that only hollowing lets it stand;
-/// * `yoyo-cuboid`: almost square and askew, so that its spin axis (z) is not its dominant one;
-/// * `three-spheres`: a leaning stack on a small foot that no hollowing alone can make stand.
+/// * `tilted-ellipsoid` spins upright on its lowest point (z up) only when it is hollow.
+/// * `asymmetric-heart` is a top on its tip, with lobes of different sizes.
+/// * `balancing-figure` leans so far over its foot that it stands only when it is hollow.
+/// * `yoyo-cuboid` is almost square and askew: its spin axis (z) is not the dominant one.
+/// * `three-spheres` is a leaning stack on a small foot. Hollowing alone cannot make it stand.
 pub const MODELS: [(&str, Maker); 5] = [
     ("tilted-ellipsoid", tilted_ellipsoid),
     ("asymmetric-heart", asymmetric_heart),
@@ -32,26 +32,26 @@ pub const MODELS: [(&str, Maker); 5] = [
     ("three-spheres", three_spheres),
 ];
 
-/// A model as a solid whose longest side is 100 mm.
+/// Makes a model as a solid whose longest side is 100 mm.
 pub fn solid(make: Maker) -> Result<Solid, Defects> {
     let mesh = make();
     Solid::new(scaled(&mesh, SIZE_MM / mesh.longest_side_mm()))
 }
 
-/// An ellipsoid of three different axes, tilted two ways, with a vertex on its lowest point.
+/// Makes a tilted ellipsoid with three different axes and a vertex at its lowest point.
 fn tilted_ellipsoid() -> TriMesh {
     let axes = Matrix::from_diagonal(&Vector::new(50.0, 40.0, 44.0));
-    let tilt = turned_about(Vector::y(), 20.0) * turned_about(Vector::x(), 8.0);
-    // The point of the unit ball that the map sends lowest; the ball has a vertex on its own −z
-    // axis.
+    let tilt = rotation_about(Vector::y(), 20.0) * rotation_about(Vector::x(), 8.0);
+    // The map sends this point of the unit ball lowest. The ball has a vertex on its own −z axis.
     let lowest = -(axes * tilt.transpose() * Vector::z());
     let on_lowest = Frame::with_axis(Point::origin(), &-lowest);
     unit_ball().map_vertices(|p| tilt * axes * on_lowest.to_model(p))
 }
 
-/// A heart on its tip, one lobe larger than the other: each upright line through a ball is lifted
-/// by the distance from the middle plane (rounded off there), which can make no two points of it
-/// meet.
+/// Makes a heart on its tip, with one lobe larger than the other.
+///
+/// Each upright line through a ball is lifted by its distance from the middle plane, rounded off
+/// there. So no two points can meet.
 fn asymmetric_heart() -> TriMesh {
     const LIFT: f64 = 0.75;
     const ROUNDING: f64 = 0.15;
@@ -62,7 +62,7 @@ fn asymmetric_heart() -> TriMesh {
     })
 }
 
-/// A body like an egg that leans to +x over a flat foot, with a head and two arms.
+/// Makes an egg that leans to +x over a flat foot, with a head and two arms.
 fn balancing_figure() -> TriMesh {
     const LEAN: Vector = Vector::new(0.34, 0.02, 1.0);
     const HEIGHT: f64 = 0.96;
@@ -81,22 +81,21 @@ fn balancing_figure() -> TriMesh {
             arms,
         }
     });
-    stacked(&rings.collect::<Vec<_>>())
+    stack(&rings.collect::<Vec<_>>())
 }
 
-/// A box whose sides nearly agree, turned a little out of its frame.
+/// Makes a box with nearly equal sides, turned a little out of its frame.
 fn yoyo_cuboid() -> TriMesh {
     let half = Vector::new(50.0, 42.0, 44.0);
-    let askew = turned_about(Vector::x(), 3.0) * turned_about(Vector::y(), 2.0);
+    let askew = rotation_about(Vector::x(), 3.0) * rotation_about(Vector::y(), 2.0);
     primitives::cuboid(&Point::from(-half), &Point::from(half)).map_vertices(|p| askew * p)
 }
 
-/// Three balls one on another, each further out, on a foot cut from the lowest.
+/// Makes three balls one on another, each further out, on a foot cut from the lowest.
 fn three_spheres() -> TriMesh {
     /// Centre (x, z) and radius of each ball.
     const BALLS: [(f64, f64, f64); 3] = [(0.0, 0.9, 1.0), (1.1, 2.3, 1.0), (2.4, 3.5, 1.0)];
-    /// Each ball gives its slices from here to there, as angles from its lowest point; straight
-    /// necks lie between.
+    /// First and last slice of each ball, as angles from its lowest point. Necks join the balls.
     const SLICES_DEG: (f64, f64) = (18.0, 150.0);
     let ring = |(x, z, radius): (f64, f64, f64), step: i32| {
         let angle =
@@ -108,7 +107,7 @@ fn three_spheres() -> TriMesh {
             arms: 0.0,
         }
     };
-    stacked(
+    stack(
         &BALLS
             .iter()
             .flat_map(|&ball| (0..=24).map(move |step| ring(ball, step)))
@@ -120,13 +119,13 @@ fn unit_ball() -> TriMesh {
     primitives::ball(&Point::origin(), 1.0, LEVEL)
 }
 
-/// The rotation by so many degrees about a unit axis (Rodrigues).
-fn turned_about(axis: Vector, angle_deg: f64) -> Matrix {
+/// Returns the rotation about a unit axis (Rodrigues).
+fn rotation_about(axis: Vector, angle_deg: f64) -> Matrix {
     let (sin, cos) = angle_deg.to_radians().sin_cos();
     Matrix::identity() * cos + axis.cross_matrix() * sin + axis * axis.transpose() * (1.0 - cos)
 }
 
-/// A horizontal slice of a body: round, but for two arms that reach out along ±y.
+/// A horizontal slice of a body: round, with two arms along ±y.
 struct Ring {
     center: Point,
     radius: f64,
@@ -141,9 +140,9 @@ impl Ring {
     }
 }
 
-/// The body whose slices are these, lowest first, flat below and above. Since each slice is one
-/// patch seen from its own centre, the surface cannot cross itself.
-fn stacked(rings: &[Ring]) -> TriMesh {
+/// Joins slices, lowest first, to a body that is flat below and above. Each slice is star-shaped
+/// about its centre, so the surface cannot cross itself.
+fn stack(rings: &[Ring]) -> TriMesh {
     let n = RING_CORNERS as u32;
     let (bottom, top) = (rings.len() as u32 * n, rings.len() as u32 * n + 1);
     let mut vertices: Vec<Point> = rings

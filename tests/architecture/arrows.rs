@@ -9,13 +9,13 @@ use crate::scanner::{self, Source};
 /// Rooms in which some files still form a circle. A room that has none any more must leave.
 const KNOWN: &[&str] = &["cli", "coupon", "printer"];
 
-/// How many `pub use` a name may pass through.
+/// Most `pub use` lines that a name may pass through.
 const MAX_DEPTH: usize = 8;
 
 /// The path of a module or an item below the crate's root.
 type ItemPath = Vec<String>;
 
-/// What the files of the program define and name.
+/// The names that the files of the program define and use.
 struct Crate {
     modules: BTreeMap<ItemPath, Module>,
 }
@@ -41,22 +41,18 @@ fn no_files_form_a_circle() {
     let arrows = home.arrows();
     let room = |circle: &[&str]| circle[0].split('/').nth(1).unwrap().to_owned();
     let circles = circles(&arrows);
-    let describe = |circle: &Vec<&str>| (room(circle), tell(circle, &arrows));
-    let told: Vec<_> = circles.iter().map(describe).collect();
-    told.iter().for_each(|(_, told)| println!("{told}"));
+    let describe = |circle: &Vec<&str>| (room(circle), describe(circle, &arrows));
+    let found: Vec<(String, String)> = circles.iter().map(describe).collect();
+    found.iter().for_each(|(_, text)| println!("{text}"));
     println!("{} files, {} circles", program.len(), circles.len());
 
     let is_known = |room: &str| KNOWN.contains(&room);
-    let new = told
-        .iter()
-        .filter(|(room, _)| !is_known(room))
-        .map(|(_, told)| told.clone());
+    let new = found.iter().filter(|(room, _)| !is_known(room));
+    let new = new.map(|(_, text)| text.clone());
     holds(new, "move what both need into a file below them");
-    let is_left = |known: &str| told.iter().any(|(room, _)| room == known);
-    let solved = KNOWN
-        .iter()
-        .filter(|known| !is_left(known))
-        .map(|room| (*room).to_owned());
+    let is_left = |known: &str| found.iter().any(|(room, _)| room == known);
+    let solved = KNOWN.iter().filter(|known| !is_left(known));
+    let solved = solved.map(|room| (*room).to_owned());
     holds(solved, "take the room out of KNOWN");
 }
 
@@ -119,9 +115,7 @@ impl Module {
             }
         }
         uses.extend(paths(&code).iter().filter_map(|path| {
-            let import = imported
-                .get(path[0])
-                .map(|import| owned(import, &path[1..]));
+            let import = imported.get(path[0]).map(|import| join(import, &path[1..]));
             import.or_else(|| scope.absolute(path))
         }));
         let file = source.path.display().to_string();
@@ -134,7 +128,7 @@ impl Module {
     }
 }
 
-/// What a path in a file is read against.
+/// The surroundings in which the paths of a file are read.
 struct Scope<'a> {
     here: &'a [String],
     named: &'a BTreeSet<ItemPath>,
@@ -145,21 +139,22 @@ impl Scope<'_> {
     fn absolute(&self, path: &[&str]) -> Option<ItemPath> {
         let ups = path.iter().take_while(|word| **word == "super").count();
         match path[0] {
-            "crate" => Some(owned(&[], &path[1..])),
-            "self" => Some(owned(self.here, &path[1..])),
+            "crate" => Some(join(&[], &path[1..])),
+            "self" => Some(join(self.here, &path[1..])),
             "super" => {
                 let above = self.here.len().checked_sub(ups)?;
-                Some(owned(&self.here[..above], &path[ups..]))
+                Some(join(&self.here[..above], &path[ups..]))
             }
             child => {
-                let is_child = self.named.contains(&owned(self.here, &[child]));
-                is_child.then(|| owned(self.here, path))
+                let is_child = self.named.contains(&join(self.here, &[child]));
+                is_child.then(|| join(self.here, path))
             }
         }
     }
 }
 
-fn owned(start: &[String], rest: &[&str]) -> ItemPath {
+/// Joins two pieces of a path.
+fn join(start: &[String], rest: &[&str]) -> ItemPath {
     let rest = rest.iter().map(|word| (*word).to_owned());
     start.iter().cloned().chain(rest).collect()
 }
@@ -193,16 +188,16 @@ fn circles<'a>(arrows: &Arrows<'a>) -> Vec<Vec<&'a str>> {
     circles.into_iter().collect()
 }
 
-/// A circle and the names that close it, one arrow a line.
-fn tell(circle: &[&str], arrows: &Arrows) -> String {
-    let mut told = format!("a circle of {} files", circle.len());
+/// Describes a circle by the names that close it, one arrow a line.
+fn describe(circle: &[&str], arrows: &Arrows) -> String {
+    let mut text = format!("a circle of {} files", circle.len());
     for from in circle {
         for (to, names) in arrows[from].iter().filter(|(to, _)| circle.contains(to)) {
             let names: Vec<&str> = names.iter().map(String::as_str).collect();
-            told += &format!("\n    {from} → {to}: {}", names.join(", "));
+            text += &format!("\n    {from} → {to}: {}", names.join(", "));
         }
     }
-    told
+    text
 }
 
 mod tests {
@@ -216,14 +211,14 @@ mod tests {
         let sources: Vec<Source> = files.iter().map(source).collect();
         let home = Crate::read(&sources.iter().collect::<Vec<_>>());
         let arrows = home.arrows();
-        let told = arrows.iter().flat_map(|(from, tos)| {
+        let texts = arrows.iter().flat_map(|(from, tos)| {
             let to = |(to, names): (&&str, &BTreeSet<String>)| {
                 let names: Vec<&str> = names.iter().map(String::as_str).collect();
                 format!("{} {} {}", from, to, names.join(" "))
             };
             tos.iter().map(to).collect::<Vec<_>>()
         });
-        told.map(|arrow| arrow.replace("src/", "")).collect()
+        texts.map(|arrow| arrow.replace("src/", "")).collect()
     }
 
     #[test]
@@ -301,6 +296,6 @@ mod tests {
         let arrows = home.arrows();
         let circles = circles(&arrows);
         assert_eq!(circles, [["src/a.rs", "src/b.rs", "src/c.rs"]]);
-        assert!(tell(&circles[0], &arrows).contains("src/c.rs → src/a.rs: x"));
+        assert!(describe(&circles[0], &arrows).contains("src/c.rs → src/a.rs: x"));
     }
 }

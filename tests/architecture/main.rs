@@ -135,7 +135,7 @@ const ARROWS: &[(&str, &[&str])] = &[
 
 /// Traces of work that was not finished.
 const SCAFFOLDING: [&str; 4] = ["TODO", "FIXME", "XXX", "HACK"];
-/// What the compiler and clippy refuse for us.
+/// The lints by which the compiler and clippy refuse code.
 const LINTS: [&str; 7] = [
     "unsafe_code = \"forbid\"",
     "missing_docs = \"warn\"",

@@ -55,7 +55,7 @@ pub fn definitions(tokens: &[&str]) -> BTreeSet<String> {
     names
 }
 
-/// Whether the tokens before a `use` make it public, if only to a part of the crate.
+/// Tells if the tokens before a `use` make it public, if only to a part of the crate.
 fn is_public(before: &[&str]) -> bool {
     let mut before = before.iter().rev();
     match before.next() {
@@ -145,7 +145,7 @@ pub fn paths<'a>(tokens: &[&'a str]) -> Vec<Vec<&'a str>> {
     starts.map(path).filter(|path| path.len() > 1).collect()
 }
 
-/// Takes the `use` lines out of the tokens: whether each is public, and its tree of names.
+/// Takes the `use` lines out of the tokens; returns if each is public, and its tree of names.
 pub fn take_uses<'a>(tokens: &mut Vec<&'a str>) -> Vec<(bool, Vec<&'a str>)> {
     let mut uses = Vec::new();
     let mut from = 0;
@@ -175,15 +175,15 @@ mod tests {
     #[test]
     fn a_use_line_brings_in_the_last_words_of_its_paths() {
         let tree = tokens("a::{self, b::{C, D as E}, f::{self as g},}");
-        let told = imports(&tree)
+        let names = imports(&tree)
             .into_iter()
             .map(|(name, path)| format!("{name} = {}", path.join("::")));
         let expected = ["a = a", "C = a::b::C", "E = a::b::D", "g = a::f"];
-        assert_eq!(told.collect::<Vec<_>>(), expected);
+        assert_eq!(names.collect::<Vec<_>>(), expected);
     }
 
     #[test]
-    fn use_lines_are_told_from_the_code() {
+    fn use_lines_are_separated_from_the_code() {
         let mut code = tokens("pub use a::b; fn c() -> impl D + use<'_> { use e; f() }");
         let uses = take_uses(&mut code);
         assert_eq!(uses, [(true, vec!["a", "::", "b"]), (false, vec!["e"])]);

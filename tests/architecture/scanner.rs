@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
-/// What stands before an item that is compiled for tests only.
+/// The attribute of items that are compiled for tests only.
 const TEST_MARK: &str = "#[cfg(test)]";
 
 /// The folders of the package that hold Rust files.
@@ -27,11 +27,11 @@ pub struct Source {
     pub strings: Vec<Range<usize>>,
     /// The items compiled for tests only.
     pub tests: Vec<Range<usize>>,
-    /// Whether the whole file is compiled for tests only, or is no part of the program.
+    /// True if the whole file is compiled for tests only, or is no part of the program.
     pub is_test: bool,
 }
 
-/// What a piece of text is.
+/// The kinds of pieces of a text.
 #[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Code,
@@ -95,7 +95,7 @@ impl Source {
         format!("{}:{line}", self.path.display())
     }
 
-    /// Whether a byte of the text belongs to a test.
+    /// Tells if a byte of the text belongs to a test.
     pub fn is_test_at(&self, at: usize) -> bool {
         self.is_test || self.tests.iter().any(|item| item.contains(&at))
     }
@@ -108,7 +108,7 @@ pub fn first_word(text: &str) -> &str {
     &text[..end.unwrap_or(text.len())]
 }
 
-/// Whether a character may stand in a name.
+/// Tells if a character may stand in a name.
 pub fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }

@@ -1,71 +1,145 @@
-//! What tests that run the program share.
+//! Helpers for the tests that run the program.
 
 #![allow(
     dead_code,
+    clippy::panic,
     reason = "every test compiles its own copy of this module and uses a part of it"
 )]
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Output;
 
 use assert_cmd::Command;
 use serde_json::Value;
 
-/// The shipped model, an ellipsoid that leans in its axes.
+/// The shipped model, an ellipsoid with tilted axes. It spins as a top only when it is hollow.
 pub const ELLIPSOID: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
     "/examples/models/tilted-ellipsoid.stl"
 );
 
-/// The program run to its end.
+/// The options of a quick run: a small model, and few columns for the solver.
+pub const QUICK: &str = "--printer objet-connex350 --size 60mm --pitch 0.3mm";
+
+/// Runs the program.
 pub fn equipoise(arguments: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_equipoise"))
-        .args(arguments)
-        .output()
-        .unwrap()
+    equipoise_in(Path::new("."), arguments)
 }
 
-/// Prepares the shipped model small and coarse, which is quick; the exit code, and what is printed
-/// as JSON.
-pub fn prepared(out: &Path, wall: &str, goal: &[&str]) -> (Option<i32>, Value) {
-    let usual = [
-        "--json",
-        "prepare",
-        ELLIPSOID,
-        "--printer",
-        "objet-connex350",
-        "--size",
-        "60mm",
-    ];
-    let coarse = [
-        "--wall",
-        wall,
-        "--pitch",
-        "0.3mm",
-        "--out",
-        out.to_str().unwrap(),
-    ];
-    let output = equipoise(&[&usual[..], &coarse[..], goal].concat());
-    let printed = String::from_utf8_lossy(&output.stdout).into_owned();
-    let said = String::from_utf8_lossy(&output.stderr).into_owned();
-    (
-        output.status.code(),
-        serde_json::from_str(&printed).unwrap_or_else(|_| panic!("{printed}{said}")),
-    )
+/// Runs the program in a folder.
+pub fn equipoise_in(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_equipoise"));
+    let command = command.current_dir(folder).args(arguments);
+    command.output().unwrap()
 }
 
-/// The mass of the films of glue on a checklist, g.
+/// Runs `prepare` on the shipped model and prints the result as JSON.
+pub fn prepare(out: &Path, options: &[&str]) -> Output {
+    let usual = ["--json", "prepare", ELLIPSOID, "--out", path(out)];
+    equipoise(&[&usual, options].concat())
+}
+
+/// Runs `prepare` on the shipped model with the options of a quick run and these.
+pub fn prepare_quickly(out: &Path, options: &str) -> Output {
+    prepare(out, &words(&format!("{QUICK} {options}")))
+}
+
+/// Makes a kit as [`prepare_quickly`] does. It must keep its promises. Returns its checklist.
+pub fn make_kit(out: &Path, options: &str) -> Value {
+    let output = prepare_quickly(out, options);
+    assert_exit(&output, 0);
+    json(&output)
+}
+
+/// Runs `verify` on a kit; returns the exit code and everything that was printed.
+pub fn verify(kit: &Path) -> (Option<i32>, String) {
+    let output = equipoise(&["verify", path(kit)]);
+    (output.status.code(), printed(&output))
+}
+
+/// Fails with everything that was printed unless the program ended with this code.
+pub fn assert_exit(output: &Output, code: i32) {
+    assert_eq!(output.status.code(), Some(code), "{}", printed(output));
+}
+
+/// Everything that was printed.
+pub fn printed(output: &Output) -> String {
+    text(&output.stdout) + &text(&output.stderr)
+}
+
+/// The standard output, read as JSON.
+pub fn json(output: &Output) -> Value {
+    let read = serde_json::from_slice(&output.stdout);
+    read.unwrap_or_else(|error| panic!("{error}: {}", printed(output)))
+}
+
+/// The checklist in a kit's folder.
+pub fn checklist(kit: &Path) -> Value {
+    serde_json::from_slice(&fs::read(kit.join("checklist.json")).unwrap()).unwrap()
+}
+
+/// The words of a command line without quotes.
+pub fn words(line: &str) -> Vec<&str> {
+    line.split_whitespace().collect()
+}
+
+/// A path as an argument.
+pub fn path(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+/// Printed bytes as text.
+pub fn text(bytes: &[u8]) -> String {
+    String::from_utf8_lossy(bytes).into_owned()
+}
+
+/// The list under a key of a checklist; empty if the key is missing.
+pub fn list<'a>(sheet: &'a Value, key: &str) -> &'a [Value] {
+    sheet[key].as_array().map_or(&[], Vec::as_slice)
+}
+
+/// A number of a checklist by its JSON pointer.
+pub fn number(sheet: &Value, pointer: &str) -> f64 {
+    let found = sheet.pointer(pointer).and_then(Value::as_f64);
+    found.unwrap_or_else(|| panic!("{pointer} is missing"))
+}
+
+/// The sum of one number of each row.
+pub fn sum(rows: &[Value], pointer: &str) -> f64 {
+    rows.iter().map(|row| number(row, pointer)).sum()
+}
+
+/// The mass of the glue films on a checklist, g.
 pub fn glue_g(sheet: &Value) -> f64 {
-    let joints = sheet["joints"].as_array().unwrap().iter();
-    joints
+    let films = list(sheet, "joints").iter();
+    films
         .filter_map(|joint| joint["glue"]["mass_g"].as_f64())
         .sum()
 }
 
-/// A number of a checklist by its path in it.
-pub fn number(sheet: &Value, path: &str) -> f64 {
-    sheet
-        .pointer(path)
-        .and_then(Value::as_f64)
-        .unwrap_or_else(|| panic!("{path} is missing"))
+/// Every file of a folder by its path in it.
+pub fn files(folder: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = PathBuf::from(path.file_name().unwrap());
+        if path.is_dir() {
+            let below = files(&path).into_iter();
+            found.extend(below.map(|(file, bytes)| (name.join(file), bytes)));
+        } else {
+            found.insert(name, fs::read(&path).unwrap());
+        }
+    }
+    found
+}
+
+/// Copies a folder with everything in it.
+pub fn copy(from: &Path, to: &Path) {
+    for (name, bytes) in files(from) {
+        let target = to.join(name);
+        fs::create_dir_all(target.parent().unwrap()).unwrap();
+        fs::write(target, bytes).unwrap();
+    }
 }
