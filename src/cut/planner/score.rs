@@ -30,6 +30,7 @@ use crate::{
         hollowed::Hollowed,
         joints::pin_size::needed_room_mm,
         pieces::split::{Piece, split_body},
+        planner::cover::VoidSet,
         remark::Term,
         request::{PlanRequest, PosePreference},
     },
@@ -76,11 +77,7 @@ impl<'a> Scene<'a> {
     }
 
     /// How the plane opens each void of `met`; `None` for those it misses.
-    pub(crate) fn openings(
-        &self,
-        plane: &Plane,
-        met: crate::cut::planner::cover::VoidSet,
-    ) -> Vec<Option<Opening>> {
+    pub(crate) fn openings(&self, plane: &Plane, met: VoidSet) -> Vec<Option<Opening>> {
         let voids = self.hollowed.voids.iter().enumerate();
         voids
             .map(|(i, void)| {
