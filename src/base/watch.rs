@@ -102,7 +102,7 @@ impl Phase {
     }
 }
 
-/// How far a run is.
+/// The progress of a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Progress {
     /// The phase at work.
@@ -121,8 +121,8 @@ pub type Observer = dyn Fn(Progress) + Send + Sync;
 #[error("stopped before the end")]
 pub struct Cancelled;
 
-/// A check moves the progress by this share of what is left of the phase: about a hundred checks
-/// are made in a phase that does not know its own length.
+/// Share of what is left of a phase by which a check moves the progress. A phase that does not
+/// know its own length makes about a hundred checks.
 const CHECK_STEP_RATIO: f64 = 0.02;
 
 /// The watch over a run. Clones share one run: any of them reports, stops and measures it.
@@ -142,7 +142,7 @@ const CHECK_STEP_RATIO: f64 = 0.02;
 #[derive(Clone)]
 pub struct Watch {
     run: Arc<Run>,
-    /// Whether reports of a share count as checks only: they are those of a part of the phase.
+    /// True if reported shares are those of a part of the phase: they count as checks only.
     is_muted: bool,
 }
 
@@ -212,7 +212,8 @@ impl Watch {
         }
     }
 
-    /// Begins a phase, or goes on with it; the time since the last call counts for the phase before.
+    /// Begins a phase, or goes on with it; the time since the last call counts for the phase
+    /// before.
     pub fn enter(&self, phase: Phase) {
         let mut course = self.course();
         course.lap();

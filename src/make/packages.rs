@@ -20,8 +20,8 @@ const ASSEMBLY: &str = "assembly.3mf";
 /// A file of the kit by its path, and its bytes.
 pub type File = (String, Vec<u8>);
 
-/// Puts the parts into the files that are judged: their STL files, or if the job asks for 3MF alone,
-/// their packages, read back.
+/// Puts the parts into the files that are judged: their STL files, or their packages read back if
+/// the job asks for 3MF alone.
 pub fn repack(placed: &Placed, mut made: Made) -> Result<Made, Error> {
     if placed.job.format != PartFormat::ThreeMf {
         return Ok(made);
@@ -70,7 +70,7 @@ pub fn packages(placed: &Placed, made: &Made) -> Result<Vec<File>, Error> {
     twins.chain(shared).collect()
 }
 
-/// What a package shows, and where its objects lie.
+/// The description of a package, and the places of its objects.
 type Arrangement = (String, Build);
 
 /// A part's own package, as it lies in print pose.
@@ -171,7 +171,7 @@ fn plates(placed: &Placed, printed: &[TriMesh]) -> Vec<(String, Arrangement)> {
     (0..count).map(plate).collect()
 }
 
-/// What a plate is, and whether its parts fit it; none where its size is not known.
+/// Describes a plate and says if its parts fit; `fits` is `None` if its size is not known.
 fn plate_words(placed: &Placed, [plate, count]: [usize; 2], fits: Option<bool>) -> String {
     let printer = &placed.shop.printer.name;
     let fit = match fits {

@@ -9,18 +9,19 @@ use crate::repair::{unfolded, weld};
 use crate::run::WrittenPart;
 use crate::verify::Pose;
 
-/// Writings that are tried until a part's file is free of folds: as it is, unfolded at the same
-/// place, and unfolded at other places on the plate. Each place folds another sliver of a thousand.
+/// Writings that are tried until a part's file is free of folds. The first is the part as it is,
+/// the second unfolded, the others unfolded at other places on the plate. Each place folds another
+/// sliver of a thousand.
 const WRITINGS: usize = 7;
 /// Step from one place to the next, mm: far less than a part's room on the plate, and no multiple
 /// of a file's steps.
 const PLACE_STEP_MM: [f64; 2] = [0.013_7, 0.009_1];
 
-/// Writes a part and reads it back, at the first place on the plate where the rounding of the
-/// file's coordinates folds no sliver of its surface.
+/// Writes a part and reads it back.
 ///
-/// The file is larger than the part by `scale_ratio` along x, y and z; what is read back is in the
-/// part's own size.
+/// It lies at the first place on the plate where the rounding of the file's coordinates folds no
+/// sliver of its surface. The file is larger than the part by `scale_ratio` along x, y and z; what
+/// is read back is in the part's own size.
 pub fn write(part: Part, name: &str, scale_ratio: [f64; 3]) -> Result<WrittenPart, Error> {
     let mut written = write_at(part.clone(), name, 0, scale_ratio)?;
     for writing in 1..WRITINGS {

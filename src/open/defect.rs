@@ -12,9 +12,11 @@ const MASS_TOLERANCE_RATIO: f64 = 1e-5;
 /// Share of a rotor's permissible unbalance that may be left in the written parts.
 const GRADE_SHARE_RATIO: f64 = 0.1;
 
-/// How far a body of these moments (goal frame) is from the goal's constraints, or from what was
-/// `solved` where they cannot be met, in the tolerances that a written kit needs: that of the
-/// constraint which is missed most. A kit breaks its promise at about ten.
+/// Returns the distance of a body (moments in the goal frame) from the goal's constraints, in the
+/// tolerances that a written kit needs: the one that is missed most.
+///
+/// A rotor that cannot meet its constraints is compared with what was `solved`. A kit breaks its
+/// promise at about ten.
 pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     let body = Body::new(moments, 1.0);
     let aside = body.center.xy().coords.norm() / CENTER_TOLERANCE_MM;
@@ -28,8 +30,8 @@ pub fn defect_ratio(goal: &Goal, solved: &Moments, moments: &Moments) -> f64 {
     }
 }
 
-/// How far a body is from the weight that the water carries, and its centre from that of buoyancy,
-/// in tolerances.
+/// Returns the distance of the weight from what the water carries, and of the centre from that of
+/// buoyancy, in tolerances.
 fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     let afloat = goal.afloat.unwrap_or_default();
     let aside_mm = (moments.centroid() - afloat.buoyancy).xy().norm();
@@ -37,9 +39,10 @@ fn out_of_trim(goal: &Goal, moments: &Moments) -> f64 {
     (aside_mm / CENTER_TOLERANCE_MM).max(excess / (MASS_TOLERANCE_RATIO * afloat.material_mm3))
 }
 
-/// The static and couple unbalance in excess of what was solved for, in tenths of what the rotor's
-/// grade allows, or of what any centre may be off. A couple counts as the offset of the mass at a
-/// lever of its radius of gyration.
+/// Returns the static and couple unbalance in excess of what was solved for, in tolerances.
+///
+/// The tolerance is a tenth of what the rotor's grade allows, at most that of any centre. A couple
+/// counts as the offset of the mass at a lever of its radius of gyration.
 fn unbalance(goal: &Goal, excess: &Moments, moments: &Moments) -> f64 {
     let allowed_mm = goal
         .spindle
@@ -51,7 +54,7 @@ fn unbalance(goal: &Goal, excess: &Moments, moments: &Moments) -> f64 {
     worst_mm / (GRADE_SHARE_RATIO * allowed_mm).min(CENTER_TOLERANCE_MM)
 }
 
-/// How far the axis of the greatest moment is from the z axis, in tolerances.
+/// Returns the tilt of the axis of the greatest moment from the z axis, in tolerances.
 fn lean(body: &Body) -> f64 {
     let axis = body.principal().axes.column(2).into_owned();
     axis.xy().norm() / TILT_TOLERANCE_RAD
@@ -67,7 +70,7 @@ mod tests {
         defect_ratio(goal, solved, moments) <= 1.0
     }
 
-    /// What was solved for; only a rotor is compared with it.
+    /// The solved moments; only a rotor is compared with them.
     const SOLVED: Moments = Moments([0.0; 10]);
 
     fn goal(kind: GoalKind) -> Goal {

@@ -75,7 +75,7 @@ struct Ladder<'a> {
     watch: Watch,
     ground: Ground<'a>,
     request: PlanRequest,
-    /// What became of the regions that a person ordered to stay solid.
+    /// The remark on regions that a person ordered to stay solid, if they could not.
     order: Option<Remark>,
 }
 

@@ -29,8 +29,9 @@ pub fn plan_once(
     }
 }
 
-/// Returns whether every void of a plan is clean by the printer's rule, without the planner's own
-/// margin: to solve again for that margin costs more than any boss.
+/// Returns whether every void of a plan is clean by the printer's rule.
+///
+/// The planner's own margin is not asked: to solve again for it costs more than any boss.
 pub fn are_clean(plan: &CutPlan, request: &PlanRequest) -> bool {
     let mut voids = plan.voids.iter();
     voids.all(|void| void.is_clean_without_margin(request))

@@ -16,13 +16,13 @@ use crate::run::{Achieved, Refusal, Voids};
 pub struct Terms<'a> {
     /// The cuts and pins.
     pub order: &'a CutOrder,
-    /// Whether a person ordered the pins, so that no joint gets others.
+    /// True if a person ordered the pins: then no joint gets others.
     pub is_ordered: bool,
     /// The request for plans.
     pub request: &'a PlanRequest,
     /// Times that something more may be kept solid.
     pub rounds: usize,
-    /// Whether every void must be clean in the end.
+    /// True if every void must be clean in the end.
     pub must_be_clean: bool,
     /// The figure and the voids without the bosses.
     pub before: Achieved,
@@ -89,7 +89,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
     };
     match plan_for(&voids.hollowed, terms.request, terms.order)? {
         Verdict::Found(plan) => {
-            let unclean = left_unclean(voids, &plan, terms)?;
+            let unclean = find_unclean(voids, &plan, terms)?;
             Ok(Verdict::Found(if unclean.is_empty() {
                 Step::Done(plan)
             } else {
@@ -113,7 +113,7 @@ fn replan(voids: &Voids, terms: &Terms) -> Result<Verdict<Step, Refusal>, Error>
 }
 
 /// Finds the voids that a plan leaves unclean, if they must be clean.
-fn left_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
+fn find_unclean(voids: &Voids, plan: &CutPlan, terms: &Terms) -> Result<Vec<Unclean>, CutError> {
     if !terms.must_be_clean || are_clean(plan, terms.request) {
         return Ok(Vec::new());
     }

@@ -13,7 +13,7 @@ use crate::verify::{Check, CheckKind};
 /// Hint for models with hardware: remedies are searched for the bare model only.
 const BARE: &str =
     "leave the hardware out, to be told by how much the model as it is can or cannot";
-/// What helps most goals a little.
+/// The hint that helps most goals a little.
 const MORE_ROOM: &str = "make it larger with the same wall, or the wall thinner: either leaves the solver more to choose from";
 
 /// Returns the case that advice is sought for.
@@ -93,7 +93,7 @@ pub fn on_failure(placed: &Placed, prepared: Prepared, watch: &Watch) -> Result<
     })
 }
 
-/// What the goal could have reached, and what became of it.
+/// Explains what the goal could have reached, and what the parts keep of it.
 fn reason(prepared: &Prepared, broken: &[&Check]) -> String {
     let proof = &prepared.checklist.certificate;
     let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();

@@ -9,12 +9,12 @@ use crate::mesh::{MeshDistance, TriMesh};
 use crate::page::{CutFace, Mouth, Region};
 use crate::run::{Made, WrittenPart};
 
-/// How far beside the middle of its widest disc a region is looked at, as a share of the disc's
-/// diameter: within it, past a pin.
+/// Distance from the middle of a region's widest disc at which its parts are looked up, as a share
+/// of the disc's diameter: inside the disc, past a pin.
 const BESIDE_RATIO: f64 = 0.42;
 /// Directions in which that is tried.
 const LOOKS: usize = 8;
-/// How far off the cut a part is looked for, mm: past rounding, not past a wall.
+/// Distance from the cut at which a part is looked up, mm: past rounding, not past a wall.
 const OFF_MM: f64 = 0.02;
 
 /// The section of the uncut body at every cut.
@@ -55,7 +55,7 @@ pub fn faces(made: &Made) -> Result<Vec<CutFace>, Error> {
     plan.cuts.iter().zip(&partings).map(face).collect()
 }
 
-/// Whether a place of a cut, in the plane's coordinates, lies where the cut ends at another.
+/// Returns whether a place of a cut, in the plane's coordinates, lies where it ends at another.
 fn is_at_end(parting: &Parting, [x, y]: [f64; 2]) -> bool {
     let (u, v) = parting.plane.basis();
     let at = parting.plane.foot() + u * x + v * y;
@@ -99,8 +99,10 @@ fn sections(
         .collect()
 }
 
-/// Every two parts between which the cut passes, with a place in the material: looked for beside
-/// the middle of the widest disc of each region, where pins stand.
+/// Returns every two parts between which the cut passes, with a place in the material.
+///
+/// They are looked up beside the middle of the widest disc of each region: pins stand in the
+/// middle.
 fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)]) -> Vec<Region> {
     let (u, v) = plane.basis();
     let part_at = |at: [f64; 2], off_mm: f64| {
@@ -136,7 +138,7 @@ fn regions(sections: &[Section], plane: &Plane, solids: &[(String, MeshDistance)
     regions
 }
 
-/// Where the cut opens voids, each with the largest disc that passes there.
+/// Returns the mouths of voids in the cut, each with the largest disc that passes.
 fn mouths(made: &Made, parting: &Parting) -> Result<Vec<Mouth>, CutError> {
     let of_void = |access: &VoidAccess| -> Result<Vec<Mouth>, CutError> {
         let Some(body) = made.hollowed.voids.get(access.void.index()) else {

@@ -15,8 +15,8 @@ use crate::mass::Moments;
 use crate::run::{HeightProof, Placed, Solved};
 use crate::shell::Shell;
 
-/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the search
-/// over heights dearer.
+/// Columns a side of the first, cold solve. Fewer than 50 lose thin limbs; more only make the
+/// search over heights dearer.
 pub const COARSE_COLUMNS: usize = 100;
 /// Columns a side of the middle level, on which an impossible goal is proved.
 const MIDDLE_COLUMNS: usize = 400;
@@ -24,7 +24,8 @@ const MIDDLE_COLUMNS: usize = 400;
 /// The best void, or why no hollowing meets the goal.
 pub type Answer = Verdict<Solved, Impossible>;
 
-/// Solves beside some ballast, coarse to fine: each level starts from the quadric of the one before.
+/// Solves beside some ballast, coarse to fine: each level starts from the quadric of the one
+/// before.
 pub fn with_load(placed: &Placed, load: Load, watch: &Watch) -> Result<Answer, Error> {
     let goal = placed.goal();
     let keeps = &placed.placement.keeps;

@@ -1,4 +1,4 @@
-//! What a run ends with: a kit, or the proof that none can exist.
+//! The end of a run: a kit, or the proof that none can exist.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use crate::advice::Remedy;
 use crate::kit::Kit;
 use crate::sheet::{Checklist, Verdict};
 
-/// How a run ended.
+/// The end of a run.
 #[derive(Debug)]
 pub enum Outcome {
     /// A kit, whose checks may still have failed.
@@ -22,40 +22,40 @@ pub struct Prepared {
     pub kit: Kit,
     /// The job sheet, with timings.
     pub checklist: Checklist,
-    /// Why it fails, and what helps; none where every promise is kept.
+    /// The reason why it fails, and what helps; `None` if every promise is kept.
     pub failure: Option<Failure>,
 }
 
-/// Why a kit fails though a hollowing that meets its goal exists, or another promise is broken.
+/// A kit that breaks a promise: the reason, and what helps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Failure {
     /// The reason in a sentence, with its numbers.
     pub reason: String,
-    /// What helps, each confirmed by a solve.
+    /// Remedies, each confirmed by a solve.
     pub remedies: Vec<Remedy>,
-    /// What might help besides.
+    /// Hints: what else may help.
     pub hints: Vec<String>,
 }
 
 impl Prepared {
-    /// Whether every promise is kept.
+    /// Returns whether every promise is kept.
     pub fn passes(&self) -> bool {
         self.checklist.verdict == Verdict::Pass
     }
 }
 
-/// Why the goal cannot be met, for people and for machines.
+/// The proof that a goal cannot be met, for people and for machines.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Impossible {
     /// Always `impossible`.
     pub verdict: &'static str,
     /// The reason in a sentence, with its number.
     pub reason: String,
-    /// What was tried to make it possible, and what of it helps, each confirmed by a solve.
+    /// Remedies that were tried, those that help confirmed by a solve.
     pub remedies: Vec<Remedy>,
-    /// What might help besides, where none of them does.
+    /// Hints, if no remedy helps.
     pub hints: Vec<String>,
-    /// How the axis was chosen, where it was left open.
+    /// The choice of the axis, if the job left it open.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
     /// The quadric of the proof: ten coefficients over (1, x, y, z, xy, yz, xz, x², y², z²) in the
@@ -65,6 +65,6 @@ pub struct Impossible {
     pub origin_mm: [f64; 3],
     /// The unit axis in the model frame.
     pub axis: [f64; 3],
-    /// What the goal's placement warned of.
+    /// Warnings of the goal's placement.
     pub warnings: Vec<String>,
 }

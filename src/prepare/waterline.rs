@@ -16,8 +16,8 @@ const PASSES: usize = 40;
 const ROUNDS: usize = 14;
 /// Columns a side of the search.
 const COLUMNS: usize = super::levels::COARSE_COLUMNS;
-/// Penalty of a waterline at which the object weighs too much or too little, mm: more than the
-/// offset of any model that a printer takes, so that it ranks below all that only lean or capsize.
+/// Penalty of a waterline at which the object weighs too much or too little, mm. It is more than
+/// the offset of any model that a printer takes: such waterlines rank below all that only lean.
 const UNTRIMMED_MM: f64 = 1e6;
 
 /// Sets the waterline of the greatest metacentric height, if the job leaves it free.
@@ -66,7 +66,7 @@ struct Search<'a> {
 /// A waterline and its rank.
 struct Rated {
     afloat: Afloat,
-    /// Whether the object floats upright at it.
+    /// True if the object floats upright at it.
     is_possible: bool,
     /// Metacentric height, or minus the miss, mm.
     height_mm: f64,
@@ -78,8 +78,8 @@ impl Search<'_> {
         let step_mm = height_mm / (PASSES + 1) as f64;
         let coarse = (1..=PASSES).map(|i| self.rate(step_mm * i as f64));
         let best = coarse.fold(self.rate(0.5 * step_mm), better);
-        // What is written weighs a little more or less than what is solved for: at the very top it
-        // would sink, at the very bottom it could not be trimmed.
+        // Written parts weigh a little more or less than solved: at the very top the object would
+        // sink, at the very bottom it could not be trimmed.
         let [lowest_mm, highest_mm] = [0.5 * step_mm, height_mm - 0.5 * step_mm];
         let at_mm = best.afloat.waterline_mm;
         let range_mm = [
