@@ -1,27 +1,39 @@
-//! The bodies of the coupons: blocks, pins and sockets put together by booleans.
+//! The bodies of the coupons: blocks, pins and sockets, joined by Boolean operations.
 
-use super::{Coupon, CouponSet};
+use super::CouponSet;
 use crate::geom::{Point, Vector};
-use crate::mesh::{ClipError, Csg, TriMesh, primitives};
+use crate::mesh::{ClipError, Csg, Solid, TriMesh, primitives};
 
-/// Sides of the polygons that stand for circles, as on the pins of kits.
+/// Sides of the polygons that approximate circles, as on the pins of kits.
 const SIDES: u32 = 48;
-/// The thickness of plates, mm, and the height of what stands on them.
+/// Thickness of plates, mm, and so the height at which samples begin.
 const PLATE_MM: f64 = 3.0;
-/// How high thin walls stand, mm: as high as a free rim after a cut.
+/// Height of thin walls, mm: as high as a free rim after a cut.
 const FIN_HEIGHT_MM: f64 = 10.0;
-/// How long thin walls are, mm.
+/// Length of thin walls, mm.
 const FIN_LENGTH_MM: f64 = 15.0;
 /// Material and air between neighbours, mm.
 const GAP_MM: f64 = 4.0;
-/// How far bodies reach into each other or out of what they are cut from, mm, so that no faces
-/// coincide.
+/// Overlap of joined bodies, and excess of cutting ones, mm, so that no faces coincide.
 const OVERLAP_MM: f64 = 0.5;
-/// The cut-off corner that marks the end where the smallest stand, mm.
+/// Legs of the cut-off corner that marks the end with the smallest samples, mm.
 const MARK_MM: f64 = 3.0;
 
-/// Every coupon of the set.
-pub(super) fn coupons(set: &CouponSet) -> Result<Vec<Coupon>, ClipError> {
+/// One coupon: its file and its body, resting on z = 0, mm.
+#[derive(Debug, Clone)]
+pub struct Coupon {
+    /// Name of its file.
+    pub file: &'static str,
+    /// Its purpose, in a few words.
+    pub purpose: &'static str,
+    /// Number of copies to print.
+    pub count: usize,
+    /// Its body.
+    pub solid: Solid,
+}
+
+/// Makes every coupon of a set.
+pub(super) fn make_coupons(set: &CouponSet) -> Result<Vec<Coupon>, ClipError> {
     let coupon = |file, purpose, count, body: Csg| {
         Ok(Coupon {
             file,
@@ -62,14 +74,16 @@ pub(super) fn coupons(set: &CouponSet) -> Result<Vec<Coupon>, ClipError> {
     .collect()
 }
 
-/// The block between two corners.
+/// Makes the block between two corners.
 fn block(low: [f64; 3], high: [f64; 3]) -> Result<Csg, ClipError> {
     Csg::of_mesh(&primitives::cuboid(&Point::from(low), &Point::from(high)))
 }
 
-/// An upright round of this diameter between two heights about (x, y); `is_hole` puts the polygon
-/// around the circle, so that nothing of the gap is lost to its flats, else inside it.
-fn round(
+/// Makes an upright cylinder around (x, y) between two heights.
+///
+/// For a hole, the polygon is circumscribed about the circle, so that its flats take nothing from
+/// the clearance; else it is inscribed.
+fn cylinder(
     diameter_mm: f64,
     [x, y]: [f64; 2],
     [low, high]: [f64; 2],
@@ -78,23 +92,23 @@ fn round(
     let flats = (std::f64::consts::PI / f64::from(SIDES)).cos();
     let radius_mm = diameter_mm / 2.0 / if is_hole { flats } else { 1.0 };
     let upright = primitives::cylinder(radius_mm, high - low, SIDES);
-    Csg::of_mesh(&moved(&upright, Vector::new(x, y, low)))
+    Csg::of_mesh(&translated(&upright, Vector::new(x, y, low)))
 }
 
-fn moved(mesh: &TriMesh, by: Vector) -> TriMesh {
+fn translated(mesh: &TriMesh, by: Vector) -> TriMesh {
     mesh.map_vertices(|p| p + by)
 }
 
-/// The body with the corner at the origin cut off, as a mark of where to begin.
-fn marked(body: &Csg, height_mm: f64) -> Result<Csg, ClipError> {
+/// Cuts the corner at the origin off a body, to mark the end with the smallest samples.
+fn mark_start(body: &Csg, height_mm: f64) -> Result<Csg, ClipError> {
     let knife = primitives::cylinder(MARK_MM, height_mm + 2.0 * OVERLAP_MM, 4);
-    body.subtract(&Csg::of_mesh(&moved(
+    body.subtract(&Csg::of_mesh(&translated(
         &knife,
         Vector::new(0.0, 0.0, -OVERLAP_MM),
     ))?)
 }
 
-/// A plate with a socket right through it for every clearance.
+/// Makes a plate with a through hole for every clearance.
 fn comb(set: &CouponSet) -> Result<Csg, ClipError> {
     let widest = set
         .holes
@@ -106,21 +120,26 @@ fn comb(set: &CouponSet) -> Result<Csg, ClipError> {
         widest + 2.0 * GAP_MM,
         set.trial_length_mm,
     ];
-    let mut plate = marked(&block([0.0; 3], size)?, size[2])?;
+    let mut plate = mark_start(&block([0.0; 3], size)?, size[2])?;
     for (index, hole) in set.holes.iter().enumerate() {
         let x = GAP_MM / 2.0 + pitch * (index as f64 + 0.5);
         let through = [-OVERLAP_MM, size[2] + OVERLAP_MM];
-        plate = plate.subtract(&round(hole.diameter_mm, [x, size[1] / 2.0], through, true)?)?;
+        plate = plate.subtract(&cylinder(
+            hole.diameter_mm,
+            [x, size[1] / 2.0],
+            through,
+            true,
+        )?)?;
     }
     Ok(plate)
 }
 
-/// The trial pin on a handle.
+/// Makes the trial pin on a handle.
 fn trial_pin(set: &CouponSet) -> Result<Csg, ClipError> {
     let side = set.trial_pin_mm + 2.0 * GAP_MM;
     let handle = block([0.0; 3], [side, side, PLATE_MM])?;
     let top = PLATE_MM + set.trial_length_mm;
-    handle.union(&round(
+    handle.union(&cylinder(
         set.trial_pin_mm,
         [side / 2.0; 2],
         [PLATE_MM - OVERLAP_MM, top],
@@ -128,7 +147,7 @@ fn trial_pin(set: &CouponSet) -> Result<Csg, ClipError> {
     )?)
 }
 
-/// Pins of rising diameters on a plate, each twice as high as it is wide.
+/// Makes pins of increasing diameters on a plate, each twice as high as wide.
 fn ladder(set: &CouponSet) -> Result<Csg, ClipError> {
     let widest = set
         .pins_mm
@@ -140,29 +159,29 @@ fn ladder(set: &CouponSet) -> Result<Csg, ClipError> {
         widest + 2.0 * GAP_MM,
         PLATE_MM,
     ];
-    let mut plate = marked(&block([0.0; 3], size)?, PLATE_MM)?;
+    let mut plate = mark_start(&block([0.0; 3], size)?, PLATE_MM)?;
     for (index, &pin_mm) in set.pins_mm.iter().enumerate() {
         let x = GAP_MM / 2.0 + pitch * (index as f64 + 0.5);
-        let stands = [PLATE_MM - OVERLAP_MM, PLATE_MM + 2.0 * pin_mm];
-        plate = plate.union(&round(pin_mm, [x, size[1] / 2.0], stands, false)?)?;
+        let heights = [PLATE_MM - OVERLAP_MM, PLATE_MM + 2.0 * pin_mm];
+        plate = plate.union(&cylinder(pin_mm, [x, size[1] / 2.0], heights, false)?)?;
     }
     Ok(plate)
 }
 
-/// Free walls of rising thickness on a plate, one behind the other along x, or along y.
+/// Makes free walls of increasing thickness on a plate, one behind the other along x, or along y.
 fn fan(walls_mm: &[f64], along_y: bool) -> Result<Csg, ClipError> {
     let sum: f64 = walls_mm.iter().sum();
     let length = sum + GAP_MM * (walls_mm.len() + 1) as f64;
     let width = FIN_LENGTH_MM + 2.0 * GAP_MM;
-    let turned = |[x, y, z]: [f64; 3]| if along_y { [y, x, z] } else { [x, y, z] };
-    let mut plate = marked(
-        &block([0.0; 3], turned([length, width, PLATE_MM]))?,
+    let oriented = |[x, y, z]: [f64; 3]| if along_y { [y, x, z] } else { [x, y, z] };
+    let mut plate = mark_start(
+        &block([0.0; 3], oriented([length, width, PLATE_MM]))?,
         PLATE_MM,
     )?;
     let mut x = GAP_MM;
     for wall_mm in walls_mm {
-        let low = turned([x, GAP_MM, PLATE_MM - OVERLAP_MM]);
-        let high = turned([
+        let low = oriented([x, GAP_MM, PLATE_MM - OVERLAP_MM]);
+        let high = oriented([
             x + wall_mm,
             GAP_MM + FIN_LENGTH_MM,
             PLATE_MM + FIN_HEIGHT_MM,
@@ -193,7 +212,7 @@ mod tests {
             "hp-mjf-5200",
         ] {
             let printer = Printer::find(id).unwrap();
-            for coupon in coupons(&set(id)).unwrap() {
+            for coupon in make_coupons(&set(id)).unwrap() {
                 let aabb = coupon.solid.mesh().aabb();
                 assert!(aabb.min.z.abs() < 1e-12, "{id} {}", coupon.file);
                 assert_ne!(
@@ -213,9 +232,9 @@ mod tests {
     }
 
     #[test]
-    fn the_density_coupon_has_the_volume_that_is_stated_and_the_comb_lacks_its_sockets() {
+    fn the_density_coupon_has_the_stated_volume_and_the_comb_lacks_its_sockets() {
         let set = set("prusa-mk4");
-        let coupons = coupons(&set).unwrap();
+        let coupons = make_coupons(&set).unwrap();
         let volume = |file: &str| {
             let coupon = coupons.iter().find(|coupon| coupon.file == file).unwrap();
             coupon.solid.mesh().signed_volume_mm3()

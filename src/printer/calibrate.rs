@@ -1,76 +1,81 @@
-//! Measured values written into a shop's own profile, with the day and the lot; everything else of
-//! the file stays as it is.
+//! Writing of measured values into a shop's own profile, with day and lot. The rest of the file
+//! stays as it is.
 
 use std::ops::Range;
 
 use serde::Deserialize;
 use toml::Spanned;
 
-use super::{
-    Quantity,
-    profile::{ProfileText, Reader},
-};
+use super::{Quantity, profile::ProfileText, reader::Reader};
 use crate::base::toml_text::TextFault;
 use crate::base::units::MM3_PER_CM3;
 
-/// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (ISO 3534-1 notation; any
-/// table of statistics).
+/// Two-sided 95 % quantiles of Student's t for 1, 2, … degrees of freedom (any statistical table;
+/// notation of ISO 3534-1).
 const STUDENT_T: [f64; 9] = [
     12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262,
 ];
 
-/// The least spread that is believed, as a share: a balance of 0.01 g on a coupon of 10 g. Below
-/// it, equal readings of a coarse balance would make a window that no sound part passes; above it
-/// careful weighing would be wasted.
+/// The least credible relative spread: a balance of 0.01 g on a coupon of 10 g.
+///
+/// With a smaller one, equal readings of a coarse balance give a window that no sound part passes.
+/// With a larger one, careful weighing is wasted.
 const LEAST_SPREAD_RATIO: f64 = 1e-3;
 
-/// What a shop has measured on its coupons.
+/// The measurements of a shop on its coupons.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Measured {
     /// The day, year-month-day.
     pub day: String,
     /// The lot of the material.
     pub lot: String,
-    /// The material's id, with its name for people.
+    /// Id and name of the material.
     pub material: Option<(String, String)>,
-    /// The masses of density coupons, g.
+    /// Masses of the density coupons, g.
     pub weighed_g: Vec<f64>,
-    /// The drawn volume of one, mm³.
+    /// Drawn volume of one density coupon, mm³.
     pub coupon_mm3: f64,
     /// Clearances, pins, walls and the like, mm.
     pub lengths: Vec<(Quantity, f64)>,
 }
 
-/// Why measured values cannot be written.
+/// An error that keeps measured values from being written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CalibrateError {
     /// Nothing was measured.
     #[error("nothing was measured; remedy: give --weighed, --clearance, --wall or --pin")]
     Nothing,
-    /// A mass that cannot be.
+    /// A mass that is not positive and finite.
     #[error("a coupon of {0} g is not possible; remedy: give its mass in grams")]
     Mass(f64),
-    /// Masses that cannot be of equal coupons.
-    #[error("the coupons differ by {ratio:.0} %; remedy: weigh equal, clean and dry coupons of one lot", ratio = 100.0 * .0)]
+    /// Masses that differ too much for equal coupons.
+    #[error(
+        "the coupons differ by {percent:.0} %; \
+         remedy: weigh equal, clean and dry coupons of one lot",
+        percent = 100.0 * .0
+    )]
     Differ(f64),
-    /// The profile cannot be read as one.
+    /// The file is not TOML, or has unknown keys.
     #[error(transparent)]
     Text(#[from] TextFault),
 }
 
-/// How far the masses of equal coupons may differ at most; beyond it one of them is another's or
-/// full of support.
-const MOST_DIFFERENCE_RATIO: f64 = 0.2;
+/// Greatest relative difference between the masses of equal coupons. Beyond it, one of them is of
+/// another kind or full of support.
+const MAX_DIFFERENCE_RATIO: f64 = 0.2;
 
 impl Measured {
-    /// The density, mean mass over drawn volume, g/cm³; none where nothing was weighed.
+    /// Returns the density, g/cm³: mean mass over drawn volume; `None` if nothing was weighed.
     pub fn density_g_cm3(&self) -> Option<f64> {
         let mean_g = self.weighed_g.iter().sum::<f64>() / self.weighed_g.len() as f64;
         (!self.weighed_g.is_empty()).then(|| mean_g / self.coupon_mm3 * MM3_PER_CM3)
     }
 
-    /// The share within which the next coupon's mass lies, with 95 % probability: t·s·√(1 + 1/n)
-    /// over the mean, the prediction interval of a normal sample. None of fewer than two.
+    /// Returns the relative spread that covers the next coupon's mass with 95 % probability; `None`
+    /// for fewer than two coupons.
+    ///
+    /// It is the prediction interval of a normal sample: t·s·√(1 + 1/n) over the mean.
     pub fn spread_ratio(&self) -> Option<f64> {
         let n = self.weighed_g.len();
         let t = STUDENT_T[n.checked_sub(2)?.min(STUDENT_T.len() - 1)];
@@ -100,7 +105,7 @@ impl Measured {
             .iter()
             .fold((f64::INFINITY, 0.0_f64), |(l, m), &g| (l.min(g), m.max(g)));
         let difference = if most > 0.0 { 1.0 - least / most } else { 0.0 };
-        if difference > MOST_DIFFERENCE_RATIO {
+        if difference > MAX_DIFFERENCE_RATIO {
             Err(CalibrateError::Differ(difference))
         } else {
             Ok(())
@@ -112,8 +117,8 @@ impl Measured {
     }
 }
 
-/// The profile's text, which messages call `file`, with the measured values in the place of what it
-/// said, or added.
+/// Returns the text of a profile with the measured values: old values are replaced, new ones added.
+/// Error messages call the profile `file`.
 pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String, CalibrateError> {
     measured.check()?;
     let reader = Reader::new(file, text);
@@ -125,27 +130,29 @@ pub fn calibrated(file: &str, text: &str, measured: &Measured) -> Result<String,
     };
     let mut added = String::new();
     for &(quantity, value) in &measured.lengths {
-        let said = quoted(value, &measured.source("read off a coupon"));
+        let entry = inline_table(value, &measured.source("read off a coupon"));
         match profile.numbers.get(&quantity) {
-            Some(old) => edits.replace(old.span(), said),
-            None => added += &format!("{quantity} = {said}\n"),
+            Some(old) => edits.replace(old.span(), entry),
+            None => added += &format!("{quantity} = {entry}\n"),
         }
     }
     if !added.is_empty() {
         edits.add_numbers(&added);
     }
-    if let (Some((id, name)), Some(density)) = (&measured.material, measured.density_g_cm3()) {
-        let found = own
-            .material
-            .iter()
-            .find(|material| material.id.get_ref() == id);
-        edits.weigh(measured, (id, name, density), found);
+    if let (Some((id, name)), Some(density_g_cm3)) = (&measured.material, measured.density_g_cm3())
+    {
+        let entries = MaterialEntries::new(measured, density_g_cm3);
+        let mut materials = own.material.iter();
+        match materials.find(|material| material.id.get_ref() == id) {
+            Some(material) => edits.update_material(material, entries),
+            None => edits.add_material(id, name, &entries),
+        }
     }
-    Ok(edits.applied())
+    Ok(edits.apply())
 }
 
-/// An inline table of a measured number.
-fn quoted(value: f64, source: &str) -> String {
+/// Formats a measured number with its source as an inline table.
+fn inline_table(value: f64, source: &str) -> String {
     // Seven digits: more than any balance or calliper has.
     const DIGITS: f64 = 1e7;
     let value = (value * DIGITS).round() / DIGITS;
@@ -155,11 +162,12 @@ fn quoted(value: f64, source: &str) -> String {
     )
 }
 
+/// Formats a text as a TOML string.
 fn string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
 
-/// The places of a profile's own materials.
+/// A profile's own materials, for their places in the text.
 #[derive(Deserialize)]
 struct OwnMaterials {
     #[serde(default)]
@@ -175,18 +183,46 @@ struct OwnMaterial {
     measured_on: Option<Spanned<toml::Value>>,
 }
 
-/// Pieces of a text to be replaced.
+/// The measured entries of a material, as they stand in a profile.
+struct MaterialEntries {
+    density: String,
+    /// `None` for a single coupon.
+    spread: Option<String>,
+    lot: String,
+    day: String,
+}
+
+impl MaterialEntries {
+    fn new(measured: &Measured, density_g_cm3: f64) -> Self {
+        let count = measured.weighed_g.len();
+        let source = measured.source(&format!(
+            "{count} coupons of {:.1} mm³ weighed",
+            measured.coupon_mm3
+        ));
+        let spread = measured
+            .spread_ratio()
+            .map(|spread| inline_table(spread, &format!("{source}; 95 % of the next")));
+        Self {
+            density: inline_table(density_g_cm3, &source),
+            spread,
+            lot: string(&measured.lot),
+            day: measured.day.clone(),
+        }
+    }
+}
+
+/// Replacements of pieces of a text.
 struct Edits<'a> {
     text: &'a str,
     edits: Vec<(Range<usize>, String)>,
 }
 
 impl Edits<'_> {
-    fn replace(&mut self, range: Range<usize>, by: String) {
-        self.edits.push((range, by));
+    fn replace(&mut self, range: Range<usize>, new: String) {
+        self.edits.push((range, new));
     }
 
-    /// Adds lines at the head of `[numbers]`, which is made if it is not there.
+    /// Adds lines at the head of `[numbers]`, which is added if missing.
     fn add_numbers(&mut self, lines: &str) {
         const HEADER: &str = "[numbers]";
         let mut start = 0;
@@ -216,61 +252,62 @@ impl Edits<'_> {
         }
     }
 
-    /// Gives the material its measured density, spread, lot and day; adds it where the profile has
-    /// none of its own.
-    fn weigh(
-        &mut self,
-        measured: &Measured,
-        (id, name, density): (&str, &str, f64),
-        own: Option<&OwnMaterial>,
-    ) {
-        let count = measured.weighed_g.len();
-        let source = measured.source(&format!(
-            "{count} coupons of {:.1} mm³ weighed",
-            measured.coupon_mm3
-        ));
-        let density = quoted(density, &source);
-        let spread = measured
-            .spread_ratio()
-            .map(|spread| quoted(spread, &format!("{source}; 95 % of the next")));
-        let (lot, day) = (string(&measured.lot), measured.day.clone());
-        let Some(own) = own else {
-            let spread = spread.map_or_else(String::new, |said| {
-                format!("density_spread_ratio = {said}\n")
-            });
-            let head = format!("\n[[material]]\nid = \"{id}\"\nname = {}\n", string(name));
-            let rest =
-                format!("density_g_cm3 = {density}\n{spread}lot = {lot}\nmeasured_on = {day}\n");
-            let end = self.text.len();
-            let newline = if self.text.ends_with('\n') { "" } else { "\n" };
-            return self.replace(end..end, format!("{newline}{head}{rest}"));
-        };
-        let after = own.density_g_cm3.span().end;
-        self.replace(own.density_g_cm3.span(), density);
-        let entries = [
-            ("density_spread_ratio", &own.density_spread_ratio, spread),
-            ("lot", &own.lot, Some(lot)),
-            ("measured_on", &own.measured_on, Some(day)),
+    /// Adds a material at the end.
+    fn add_material(&mut self, id: &str, name: &str, entries: &MaterialEntries) {
+        let MaterialEntries {
+            density,
+            spread,
+            lot,
+            day,
+        } = entries;
+        let spread = spread.as_ref().map_or_else(String::new, |spread| {
+            format!("density_spread_ratio = {spread}\n")
+        });
+        let head = format!("\n[[material]]\nid = \"{id}\"\nname = {}\n", string(name));
+        let rest = format!("density_g_cm3 = {density}\n{spread}lot = {lot}\nmeasured_on = {day}\n");
+        let end = self.text.len();
+        let newline = if self.text.ends_with('\n') { "" } else { "\n" };
+        self.replace(end..end, format!("{newline}{head}{rest}"));
+    }
+
+    /// Replaces the entries of a material; those it lacks follow its density.
+    fn update_material(&mut self, material: &OwnMaterial, entries: MaterialEntries) {
+        let MaterialEntries {
+            density,
+            spread,
+            lot,
+            day,
+        } = entries;
+        let after = material.density_g_cm3.span().end;
+        self.replace(material.density_g_cm3.span(), density);
+        let others = [
+            (
+                "density_spread_ratio",
+                &material.density_spread_ratio,
+                spread,
+            ),
+            ("lot", &material.lot, Some(lot)),
+            ("measured_on", &material.measured_on, Some(day)),
         ];
-        for (key, old, said) in entries {
-            match (old, said) {
-                (Some(old), Some(said)) => self.replace(old.span(), said),
-                (None, Some(said)) => self.replace(after..after, format!("\n{key} = {said}")),
+        for (key, old, new) in others {
+            match (old, new) {
+                (Some(old), Some(new)) => self.replace(old.span(), new),
+                (None, Some(new)) => self.replace(after..after, format!("\n{key} = {new}")),
                 (_, None) => {}
             }
         }
     }
 
-    /// The text with all pieces replaced, each where it stood.
-    fn applied(mut self) -> String {
-        // Stable, so that what is added at one place stays in the order it was added.
+    /// Returns the text with all pieces replaced.
+    fn apply(mut self) -> String {
+        // The sort is stable: insertions at one place keep their order.
         self.edits
             .sort_by_key(|(range, _)| (range.start, range.end));
         let mut text = String::new();
         let mut done = 0;
-        for (range, by) in &self.edits {
+        for (range, new) in &self.edits {
             text += &self.text[done..range.start];
-            text += by;
+            text += new;
             done = range.end;
         }
         text + &self.text[done..]
@@ -282,7 +319,8 @@ mod tests {
     use super::*;
     use crate::printer::{Printer, Sure};
 
-    const OWN: &str = "# the one by the window\nid = \"shop\"\nname = \"Shop\"\ninherits = \"prusa-mk4\"\n\n[numbers]  # ours\n\
+    const OWN: &str = "# the one by the window\nid = \"shop\"\nname = \"Shop\"\n\
+        inherits = \"prusa-mk4\"\n\n[numbers]  # ours\n\
         min_wall_mm = { value = 1.3, source = \"s\", sure = \"own-choice\" } # thinner broke\n";
 
     fn measured() -> Measured {
@@ -307,7 +345,7 @@ mod tests {
     }
 
     #[test]
-    fn what_was_measured_is_read_back_and_remarks_stay() {
+    fn measured_values_are_read_back_and_remarks_stay() {
         let text = calibrated("shop.toml", OWN, &measured()).unwrap();
         assert!(
             text.starts_with("# the one by the window\n") && text.contains(" # thinner broke"),
@@ -338,7 +376,7 @@ mod tests {
     }
 
     #[test]
-    fn measuring_again_replaces_what_was_measured_before() {
+    fn measuring_again_replaces_the_earlier_values() {
         let once = calibrated("shop.toml", OWN, &measured()).unwrap();
         let later = Measured {
             day: "2026-12-24".into(),
@@ -355,7 +393,7 @@ mod tests {
         assert_eq!(
             pla.measured_spread_ratio(),
             Some(LEAST_SPREAD_RATIO),
-            "a balance is not surer than that"
+            "no balance is more certain than that"
         );
         assert!(
             !twice.contains("A7") && twice.lines().count() == once.lines().count(),
@@ -365,7 +403,8 @@ mod tests {
 
     #[test]
     fn a_profile_without_numbers_gets_them_before_its_materials() {
-        let plain = "id = \"shop\"\nname = \"Shop\"\ninherits = \"prusa-mk4\"\n[[material]]\nid = \"pla\"\nname = \"P\"\n\
+        let plain = "id = \"shop\"\nname = \"Shop\"\ninherits = \"prusa-mk4\"\n\
+                     [[material]]\nid = \"pla\"\nname = \"P\"\n\
                      density_g_cm3 = { value = 1.2, source = \"s\", sure = \"read\" } # as bought";
         let one = Measured {
             weighed_g: vec![9.6],
@@ -381,7 +420,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_measured_is_refused() {
+    fn impossible_measurements_are_refused() {
         let with = |weighed_g: Vec<f64>| Measured {
             weighed_g,
             lengths: Vec::new(),

@@ -1,76 +1,77 @@
-//! When a void counts as clean: one rule for each way in which what fills it while printing comes
-//! out again.
+//! The rules by which a void counts as clean: one for each way in which support, resin or powder
+//! comes out of it.
 
 use serde::{Deserialize, Serialize};
 
 use super::{Grid, Printer, Quantity, Support};
 
-/// The share of a void's wall that must be in sight of its openings where support is broken or
-/// flushed out. The rest is a corner that the jet's spray and a bent pick reach; much less, and
-/// support stays that nobody knows of.
+/// Least share of a void's wall that must be visible from its openings if support is broken or
+/// flushed out.
+///
+/// A water jet's spray and a bent pick reach the rest around a corner. With a much smaller share,
+/// support stays in the void unnoticed.
 const SIGHT_RATIO: f64 = 0.95;
 
-/// What must hold of a void for it to be clean (the processes' own rules; see
-/// `profiles/processes`).
+/// The condition for a clean void, by process (see `profiles/processes`).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum CleaningRule {
-    /// Support that dissolves or melts: any opening of the least size, and no second closed pocket.
+    /// Support that dissolves or melts: an opening of the least size, and no other closed pocket.
     MeltOut,
-    /// Support that is broken out or flushed: the wall in sight of the openings and within the
-    /// tool's reach.
+    /// Support that is broken or flushed out: the wall must be visible from the openings and within
+    /// the tool's reach.
     InSight,
-    /// Filament: the wall in sight and within reach, or printed without support because it leans
-    /// little enough.
+    /// Filament: the wall must be visible and within reach, or steep enough to print without
+    /// support.
     InSightOrSelfSupporting,
-    /// Powder: an escape opening of the stated size, or two smaller ones where the process allows
+    /// Powder: an escape opening of the stated size, or two smaller ones if the process allows
     /// that.
     PowderEscape,
 }
 
 impl CleaningRule {
-    /// The rule in words, for the job sheet.
+    /// Returns the rule in words, for the job sheet.
     pub fn words(self) -> &'static str {
         match self {
             Self::MeltOut => "support melts or dissolves out through any opening",
             Self::InSight => "support is broken or flushed out in sight of the opening",
             Self::InSightOrSelfSupporting => {
-                "support is broken out in sight of the opening, and where none is needed nothing has to come out"
+                "support is broken out in sight of the opening; self-supporting walls hold none"
             }
             Self::PowderEscape => "powder falls out through an escape opening",
         }
     }
 
-    /// Whether the wall must be seen.
+    /// True if the wall must be visible from the openings.
     pub fn needs_sight(self) -> bool {
         matches!(self, Self::InSight | Self::InSightOrSelfSupporting)
     }
 }
 
-/// A printer's rule with its numbers. The least opening stands beside it, as the printer's
+/// A printer's rule with its numbers, except for the least opening: that is the printer's
 /// `min_opening_mm`.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Cleaning {
     /// The rule.
     pub rule: CleaningRule,
-    /// The least share of a void's wall in sight and within reach; 0 where nothing has to be seen.
+    /// The least visible share of a void's wall within reach; 0 if the rule needs no sight.
     pub sight_ratio: f64,
-    /// How far into an opening the tool or the jet reaches, mm; none where nothing has to be
-    /// reached, or where it is not known.
+    /// Depth below an opening that the tool or the jet reaches, mm; `None` if the rule needs no
+    /// reach or it is not known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub reach_mm: Option<f64>,
-    /// The least opening of each where a piece of a void has two or more, mm; none where two are no
-    /// better than one.
+    /// The least diameter of each of two or more openings of a piece of a void, mm; `None` if two
+    /// openings are no better than one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pair_opening_mm: Option<f64>,
-    /// Surfaces that look down and lean at least this much from the level need no support, degrees;
-    /// none where that does not count.
+    /// The least angle from the horizontal at which downward surfaces need no support, degrees;
+    /// `None` if the rule ignores it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub overhang_deg: Option<f64>,
 }
 
 impl Cleaning {
-    /// The rule that asks for an opening and nothing else.
+    /// The rule that requires an opening and nothing else.
     pub const MELT_OUT: Self = Self {
         rule: CleaningRule::MeltOut,
         sight_ratio: 0.0,
@@ -79,20 +80,19 @@ impl Cleaning {
         overhang_deg: None,
     };
 
-    /// Whether the openings of a piece of a void (diameters, mm) let out what is in it, where one
-    /// alone must be `least_mm` wide.
+    /// True if openings of these diameters, mm, are wide enough to empty a piece of a void; a
+    /// single one must be `least_mm` wide.
     pub fn lets_out(&self, openings_mm: &[f64], least_mm: f64) -> bool {
-        let wide = |least: f64| openings_mm.iter().filter(|&&mm| mm >= least).count();
-        wide(least_mm) > 0
+        let count_from = |least: f64| openings_mm.iter().filter(|&&mm| mm >= least).count();
+        count_from(least_mm) > 0
             || self
                 .pair_opening_mm
-                .is_some_and(|pair_mm| wide(pair_mm) > 1)
+                .is_some_and(|pair_mm| count_from(pair_mm) > 1)
     }
 }
 
 impl Printer {
-    /// The rule by which voids of this printer's parts count as clean, from its support and its
-    /// process's numbers.
+    /// Returns the rule by which voids in this printer's parts count as clean.
     pub fn cleaning_rule(&self) -> Cleaning {
         let number = |quantity| self.number(quantity).map(|number| number.value);
         let rule = match (self.support, self.grid) {
@@ -103,15 +103,15 @@ impl Printer {
             }
             (Support::Breakaway | Support::WaterJet, _) => CleaningRule::InSight,
         };
-        let seen = rule.needs_sight();
-        let leans = rule == CleaningRule::InSightOrSelfSupporting;
-        let escapes = rule == CleaningRule::PowderEscape;
+        let needs_sight = rule.needs_sight();
+        let may_support_itself = rule == CleaningRule::InSightOrSelfSupporting;
+        let is_powder = rule == CleaningRule::PowderEscape;
         Cleaning {
             rule,
-            sight_ratio: if seen { SIGHT_RATIO } else { 0.0 },
-            reach_mm: number(Quantity::CleaningReachMm).filter(|_| seen),
-            pair_opening_mm: number(Quantity::PairOpeningMm).filter(|_| escapes),
-            overhang_deg: number(Quantity::OverhangDeg).filter(|_| leans),
+            sight_ratio: if needs_sight { SIGHT_RATIO } else { 0.0 },
+            reach_mm: number(Quantity::CleaningReachMm).filter(|_| needs_sight),
+            pair_opening_mm: number(Quantity::PairOpeningMm).filter(|_| is_powder),
+            overhang_deg: number(Quantity::OverhangDeg).filter(|_| may_support_itself),
         }
     }
 }
@@ -125,7 +125,7 @@ mod tests {
     }
 
     #[test]
-    fn every_process_has_the_rule_of_what_fills_its_voids() {
+    fn every_process_has_the_rule_for_the_filling_of_its_voids() {
         for (id, expected) in [
             ("objet-connex350", CleaningRule::InSight),
             ("formlabs-form3", CleaningRule::InSight),
@@ -146,7 +146,7 @@ mod tests {
     }
 
     #[test]
-    fn two_small_openings_let_powder_out_where_the_process_says_so() {
+    fn two_small_openings_let_powder_out_if_the_process_says_so() {
         let (mjf, sls) = (rule("hp-mjf-5200"), rule("formlabs-fuse1"));
         assert!(
             mjf.lets_out(&[2.1, 2.0], 4.0)

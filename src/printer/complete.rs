@@ -1,15 +1,14 @@
-//! From everything a profile and its parents say to a printer: what is missing or contradicts
-//! itself is noted.
+//! The last step from a profile to a printer: notes contradictions and missing values.
 
 use std::collections::BTreeMap;
 
 use super::{
-    Material, Printer, Problem, Quantity, SizedWall, Sourced, Tolerance, layer::Layer,
-    profile::Reader,
+    ExcludedCorner, Material, Printer, Problem, Quantity, SizedWall, Sourced, Tolerance,
+    layer::Layer, reader::Reader,
 };
 
-/// Notes numbers that contradict each other.
-pub(super) fn consistent(reader: &mut Reader, layer: &Layer) {
+/// Notes values that contradict each other.
+pub(super) fn note_contradictions(reader: &mut Reader, layer: &Layer) {
     let value = |quantity: Quantity| Some((quantity, layer.numbers.get(&quantity)?.value));
     let pairs = [
         (Quantity::LayerLeastMm, Quantity::LayerMm),
@@ -24,42 +23,37 @@ pub(super) fn consistent(reader: &mut Reader, layer: &Layer) {
         if let (Some((small, less)), Some((large, more))) = (value(small), value(large))
             && less > more
         {
-            note(reader, small.key(), less, format!("`{large}` is {more}"));
+            let against = format!("`{large}` is {more}");
+            note(reader, small.key(), less, against);
         }
     }
-    rising(reader, &layer.walls_by_part_size);
-    within_build_volume(reader, layer);
+    note_unsorted(reader, &layer.walls_by_part_size);
+    note_beyond_build_volume(reader, layer);
 }
 
 fn note(reader: &mut Reader, key: &str, value: f64, against: String) {
-    reader.note(
-        0,
-        Problem::Contradiction {
-            key: key.to_owned(),
-            value,
-            against,
-        },
-    );
+    let problem = Problem::Contradiction {
+        key: key.to_owned(),
+        value,
+        against,
+    };
+    reader.note(0, problem);
 }
 
-/// Notes a table of walls whose sizes do not rise.
-fn rising(reader: &mut Reader, walls: &[SizedWall]) {
+/// Notes sizes in the table of walls that do not increase.
+fn note_unsorted(reader: &mut Reader, walls: &[SizedWall]) {
     for pair in walls
         .windows(2)
         .filter(|pair| pair[0].up_to_mm >= pair[1].up_to_mm)
     {
-        let against = format!("the one before it is {}", pair[0].up_to_mm);
-        note(
-            reader,
-            "walls_by_part_size.up_to_mm",
-            pair[1].up_to_mm,
-            against,
-        );
+        let [before_mm, up_to_mm] = [pair[0].up_to_mm, pair[1].up_to_mm];
+        let against = format!("the one before it is {before_mm}");
+        note(reader, "walls_by_part_size.up_to_mm", up_to_mm, against);
     }
 }
 
-/// Notes a largest part or a corner beyond the build volume.
-fn within_build_volume(reader: &mut Reader, layer: &Layer) {
+/// Notes sides of the largest part or of excluded corners that exceed the build volume.
+fn note_beyond_build_volume(reader: &mut Reader, layer: &Layer) {
     let Some(volume) = &layer.build_volume_mm else {
         return;
     };
@@ -68,21 +62,16 @@ fn within_build_volume(reader: &mut Reader, layer: &Layer) {
         .iter()
         .flat_map(|part| part.value.into_iter().zip(volume.value));
     let part = part.map(|(size, most)| ("largest_part_mm", size, most));
-    let corner =
-        |corner: &super::ExcludedCorner| corner.size_mm.value.into_iter().zip(volume.value);
+    let corner = |corner: &ExcludedCorner| corner.size_mm.value.into_iter().zip(volume.value);
     let corners = layer.excluded_corners.iter().flat_map(corner);
     let corners = corners.map(|(size, most)| ("excluded_corners.size_mm", size, most));
     for (key, size, most) in part.chain(corners).filter(|(_, size, most)| size > most) {
-        note(
-            reader,
-            key,
-            size,
-            format!("the build volume is {most} there"),
-        );
+        let against = format!("the build volume is {most} there");
+        note(reader, key, size, against);
     }
 }
 
-/// The printer, unless something that every printer needs is unset; each such key is noted.
+/// Builds the printer; `None` if required values are missing, which are all noted.
 pub(super) fn complete(
     reader: &mut Reader,
     layer: Layer,
@@ -92,30 +81,23 @@ pub(super) fn complete(
         reader,
         numbers: layer.numbers,
     };
-    let [pixel_x_mm, pixel_y_mm, layer_mm] =
-        [Quantity::PixelXMm, Quantity::PixelYMm, Quantity::LayerMm].map(|key| needs.number(key));
-    let [min_wall_mm, min_feature_mm, min_opening_mm] = [
-        Quantity::MinWallMm,
-        Quantity::MinFeatureMm,
-        Quantity::MinOpeningMm,
-    ]
-    .map(|key| needs.number(key));
-    let [pin_min_diameter_mm, pin_length_ratio] =
-        [Quantity::PinMinDiameterMm, Quantity::PinLengthRatio].map(|key| needs.number(key));
-    let [clearance_per_side_mm, socket_extra_depth_mm, chamfer_mm] = [
-        Quantity::ClearancePerSideMm,
-        Quantity::SocketExtraDepthMm,
-        Quantity::ChamferMm,
-    ]
-    .map(|key| needs.number(key));
-    let least_mm = needs.number(Quantity::ToleranceLeastMm);
-    let base_mm = needs.numbers.remove(&Quantity::ToleranceBaseMm);
-    let ratio = needs.numbers.remove(&Quantity::ToleranceRatio);
-    let grid = needs.word("grid", layer.grid);
-    let support = needs.word("support", layer.support);
-    let print_pose = needs.word("print_pose", layer.print_pose);
-    let cleaning = needs.word("cleaning", layer.cleaning);
-    let besides = needs.numbers;
+    let pixel_x_mm = needs.number(Quantity::PixelXMm);
+    let pixel_y_mm = needs.number(Quantity::PixelYMm);
+    let layer_mm = needs.number(Quantity::LayerMm);
+    let min_wall_mm = needs.number(Quantity::MinWallMm);
+    let min_feature_mm = needs.number(Quantity::MinFeatureMm);
+    let min_opening_mm = needs.number(Quantity::MinOpeningMm);
+    let pin_min_diameter_mm = needs.number(Quantity::PinMinDiameterMm);
+    let pin_length_ratio = needs.number(Quantity::PinLengthRatio);
+    let clearance_per_side_mm = needs.number(Quantity::ClearancePerSideMm);
+    let socket_extra_depth_mm = needs.number(Quantity::SocketExtraDepthMm);
+    let chamfer_mm = needs.number(Quantity::ChamferMm);
+    let tolerance = needs.tolerance();
+    let grid = needs.value("grid", layer.grid);
+    let support = needs.value("support", layer.support);
+    let print_pose = needs.value("print_pose", layer.print_pose);
+    let cleaning = needs.value("cleaning", layer.cleaning);
+    let optional_numbers = needs.numbers;
     Some(Printer {
         id: layer.id,
         name: layer.name,
@@ -139,39 +121,42 @@ pub(super) fn complete(
         clearance_per_side_mm: clearance_per_side_mm?,
         socket_extra_depth_mm: socket_extra_depth_mm?,
         chamfer_mm: chamfer_mm?,
-        tolerance: Tolerance {
-            least_mm: least_mm?,
-            base_mm,
-            ratio,
-        },
+        tolerance: tolerance?,
         support: support?,
         print_pose: print_pose?,
         cleaning: cleaning?,
         materials,
-        besides,
+        optional_numbers,
     })
 }
 
-/// Takes what every printer needs, and notes what is not there.
+/// Takes required values one by one and notes those that are missing.
 struct Needs<'r, 'a> {
     reader: &'r mut Reader<'a>,
     numbers: BTreeMap<Quantity, Sourced<f64>>,
 }
 
 impl Needs<'_, '_> {
-    fn number(&mut self, quantity: Quantity) -> Option<Sourced<f64>> {
-        let number = self.numbers.remove(&quantity);
-        self.word(quantity.key(), number)
+    fn tolerance(&mut self) -> Option<Tolerance> {
+        let least_mm = self.number(Quantity::ToleranceLeastMm);
+        let base_mm = self.numbers.remove(&Quantity::ToleranceBaseMm);
+        let ratio = self.numbers.remove(&Quantity::ToleranceRatio);
+        Some(Tolerance {
+            least_mm: least_mm?,
+            base_mm,
+            ratio,
+        })
     }
 
-    fn word<T>(&mut self, key: &str, value: Option<T>) -> Option<T> {
+    fn number(&mut self, quantity: Quantity) -> Option<Sourced<f64>> {
+        let number = self.numbers.remove(&quantity);
+        self.value(quantity.key(), number)
+    }
+
+    fn value<T>(&mut self, key: &str, value: Option<T>) -> Option<T> {
         if value.is_none() {
-            self.reader.note(
-                0,
-                Problem::Missing {
-                    key: key.to_owned(),
-                },
-            );
+            let key = key.to_owned();
+            self.reader.note(0, Problem::Missing { key });
         }
         value
     }

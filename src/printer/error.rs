@@ -1,16 +1,17 @@
-//! What can be wrong with a profile: each fault with its file, line, column and remedy.
+//! Errors of profiles: each fault with its file, line, column and remedy.
 
 use std::{fmt, path::PathBuf};
 
 use crate::base::toml_text::{Place, TextFault};
 
-/// Why there is no printer of that name or in that file.
+/// An error that leaves no printer of that id or in that file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProfileError {
     /// Neither a known id nor a file.
     #[error("there is no printer `{id}`; the known ones are {known}; remedy: {remedy}")]
     Unknown {
-        /// What was asked for.
+        /// The id asked for.
         id: String,
         /// The ids of the built-in set.
         known: String,
@@ -22,18 +23,18 @@ pub enum ProfileError {
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The operating system's error.
         source: std::io::Error,
     },
     /// Not TOML, or not a profile's keys.
     #[error(transparent)]
     Text(#[from] TextFault),
-    /// A profile by its keys, but with values that cannot be.
+    /// Known keys, but impossible or missing values.
     #[error(transparent)]
     Broken(#[from] Faults),
 }
 
-/// Everything that was found wrong with a profile, at least one fault.
+/// All faults of a profile, at least one.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub struct Faults(pub Vec<Fault>);
 
@@ -44,28 +45,30 @@ impl fmt::Display for Faults {
     }
 }
 
-/// One thing that is wrong, and where.
+/// One fault and its place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{place}: {problem}")]
 pub struct Fault {
-    /// Where it stands.
+    /// Its place in the file.
     pub place: Place,
-    /// What it is.
+    /// The problem.
     pub problem: Problem,
 }
 
-/// What can be wrong with a value of a profile.
+/// A problem with a value of a profile.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum Problem {
-    /// A number that no source vouches for.
+    /// A number without a source.
     #[error("`{key}` has no source; remedy: add source = \"where the number is from\"")]
     NoSource {
         /// The number.
         key: String,
     },
-    /// A number whose certainty is not said.
+    /// A number without its certainty.
     #[error(
-        "`{key}` does not say how sure it is; remedy: add sure = \"measured\", \"read\", \"paper\", \"computed\", \"third-party\", \"recalled\" or \"own-choice\""
+        "`{key}` does not say how sure it is; remedy: add sure = \"measured\", \"read\", \
+         \"paper\", \"computed\", \"third-party\", \"recalled\" or \"own-choice\""
     )]
     NotSure {
         /// The number.
@@ -83,47 +86,48 @@ pub enum Problem {
         /// The number.
         key: String,
     },
-    /// Dots per inch for what is not a step of the grid.
+    /// Dots per inch for a number that is no step of the grid.
     #[error("`{key}` cannot be given in dpi; remedy: give its value")]
     DpiNotAStep {
         /// The number.
         key: String,
     },
     /// Not a number, infinite, zero or negative.
-    #[error("`{key}` is {}, but must be positive and finite", shown(*value))]
+    #[error("`{key}` is {}, but must be positive and finite", show(*value))]
     NotPositive {
         /// The number.
         key: String,
         /// Its value.
         value: f64,
     },
-    /// So large or small that another unit was meant.
-    #[error("`{key}` is {}, outside {least} to {most}; remedy: check the unit in its name", shown(*value))]
+    /// A value so large or small that it must be in another unit.
+    #[error(
+        "`{key}` is {}, outside {least} to {most}; remedy: check the unit in its name",
+        show(*value)
+    )]
     Implausible {
         /// The number.
         key: String,
         /// Its value.
         value: f64,
-        /// The least that can be meant.
+        /// The smallest plausible value.
         least: f64,
-        /// The most that can be meant.
+        /// The largest plausible value.
         most: f64,
     },
-    /// A key that every printer needs.
-    #[error(
-        "`{key}` is not set, here or in the process it inherits from; remedy: add it, or inherits = \"…\""
-    )]
+    /// A required key that is not set.
+    #[error("`{key}` is not set, here or in a parent; remedy: add it, or inherits = \"…\"")]
     Missing {
         /// The key.
         key: String,
     },
-    /// A text of blanks.
-    #[error("`{key}` is empty; remedy: write something a person can use")]
+    /// A text of blanks only.
+    #[error("`{key}` is empty; remedy: write a text for people")]
     Empty {
         /// The key.
         key: String,
     },
-    /// An id that would not do in file names.
+    /// An id that is unfit for file names.
     #[error("the id `{id}` may only have lower-case letters, digits and hyphens")]
     BadId {
         /// The id.
@@ -131,32 +135,32 @@ pub enum Problem {
     },
     /// A profile that inherits from itself, or from one that inherits from it.
     #[error(
-        "`{id}` inherits from itself ({way}); remedy: inherit from one of the processes {known}"
+        "`{id}` inherits from itself ({chain}); remedy: inherit from one of the processes {known}"
     )]
     Cycle {
         /// The profile.
         id: String,
-        /// The way round: `a → b → a`.
-        way: String,
-        /// The processes there are.
+        /// The chain of parents: `a → b → a`.
+        chain: String,
+        /// The known processes.
         known: String,
     },
-    /// A parent's file that cannot be read.
+    /// A parent file that cannot be read.
     #[error(
-        "cannot read the parent {parent}; remedy: check its path, taken from this profile's folder"
+        "cannot read the parent {parent}; remedy: check its path, relative to this profile's folder"
     )]
     UnreadableParent {
         /// Its path.
         parent: String,
     },
-    /// Numbers of one profile that cannot both be right.
-    #[error("`{key}` is {value}, but {against}; remedy: correct the one or the other")]
+    /// Two values that contradict each other.
+    #[error("`{key}` is {value}, but {against}; remedy: correct one of them")]
     Contradiction {
         /// The number.
         key: String,
         /// Its value.
         value: f64,
-        /// What speaks against it.
+        /// The value that contradicts it, as a clause.
         against: String,
     },
     /// A measured density without its day or its lot.
@@ -167,15 +171,16 @@ pub enum Problem {
         /// `measured_on` or `lot`.
         missing: &'static str,
     },
-    /// Something that is not a day.
+    /// A value that is no day.
     #[error("`measured_on` is {value}, but must be a day such as 2026-11-21")]
     NotADay {
-        /// What it says.
+        /// The value as written.
         value: String,
     },
-    /// A process that has a parent itself.
+    /// A process with a parent.
     #[error(
-        "the process `{id}` inherits from `{parent}`, but a process has no parent; remedy: copy the values here"
+        "the process `{id}` inherits from `{parent}`, but a process has no parent; \
+         remedy: copy the values here"
     )]
     ProcessInherits {
         /// The process.
@@ -183,34 +188,35 @@ pub enum Problem {
         /// Its parent.
         parent: String,
     },
-    /// A parent that does not exist.
+    /// An unknown parent.
     #[error("there is no process or printer `{parent}`; remedy: {remedy}")]
     UnknownParent {
         /// The parent.
         parent: String,
-        /// The nearest process, or all.
+        /// The nearest known id, or all of them.
         remedy: String,
     },
-    /// A material that does not exist.
+    /// An unknown material.
     #[error("there is no material `{id}`; remedy: {remedy}")]
     UnknownMaterial {
         /// The material.
         id: String,
-        /// The nearest material, or all.
+        /// The nearest known material, or all of them.
         remedy: String,
     },
-    /// A list of no materials.
+    /// An empty list of materials.
     #[error("the list of materials is empty; remedy: name at least one")]
     NoMaterials,
-    /// A material twice in the list, or defined twice.
+    /// A material that is listed or defined twice.
     #[error("the material `{id}` appears twice; remedy: remove one")]
     MaterialTwice {
         /// The material.
         id: String,
     },
-    /// A default that is not in the list.
+    /// A default material that the list does not contain.
     #[error(
-        "the default material `{id}` is not among the printer's materials {known}; remedy: add it to `materials`"
+        "the default material `{id}` is not among the printer's materials {known}; \
+         remedy: add it to `materials`"
     )]
     DefaultNotListed {
         /// The material.
@@ -220,8 +226,8 @@ pub enum Problem {
     },
 }
 
-/// A number for people: with a power of ten where it would have many digits.
-fn shown(value: f64) -> String {
+/// Formats a number, with a power of ten if it would have many digits otherwise.
+fn show(value: f64) -> String {
     let is_plain = value == 0.0 || !value.is_finite() || (1e-4..1e6).contains(&value.abs());
     if is_plain {
         value.to_string()
@@ -230,8 +236,8 @@ fn shown(value: f64) -> String {
     }
 }
 
-/// "did you mean `x`?", or the whole list when nothing is near.
-pub(super) fn suggestion(word: &str, known: &[&str]) -> String {
+/// Suggests the nearest known word, or all of them if none is near.
+pub(super) fn suggest(word: &str, known: &[&str]) -> String {
     match crate::base::toml_text::nearest(word, known.iter().copied()) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("use one of {}", known.join(", ")),

@@ -1,5 +1,4 @@
-//! A checked profile before it is complete: what a printer or a process says, and one laid over the
-//! other.
+//! The checked content of one profile, and the merging of a profile with its parent.
 
 use std::collections::BTreeMap;
 
@@ -7,13 +6,18 @@ use toml::Spanned;
 
 use super::{
     ExcludedCorner, Grid, Material, PrintPose, Quantity, SizedWall, Sourced, Support,
-    profile::{ProfileText, Reader},
+    profile::ProfileText, reader::Reader,
 };
 
-/// An id and the byte at which it stands in its file.
-pub(super) type Reference = (String, usize);
+/// An id that a profile refers to.
+#[derive(Debug)]
+pub(super) struct Reference {
+    pub id: String,
+    /// Byte offset of the id in its file.
+    pub at: usize,
+}
 
-/// What one profile says, or one over another.
+/// The values of one profile, or of a profile merged with its parents.
 #[derive(Debug, Default)]
 pub(super) struct Layer {
     pub id: String,
@@ -36,7 +40,7 @@ pub(super) struct Layer {
 }
 
 impl Layer {
-    /// What `text` says; everything wrong with it is noted in `reader`.
+    /// Checks the values of `text`; `reader` collects the faults.
     pub fn read(reader: &mut Reader, text: &ProfileText) -> Self {
         let numbers = text.numbers.iter();
         Self {
@@ -74,7 +78,7 @@ impl Layer {
                 .as_ref()
                 .and_then(|flag| reader.flag("compensates_shrinkage", flag)),
             numbers: numbers
-                .filter_map(|(&key, quoted)| Some((key, reader.number(key, quoted)?)))
+                .filter_map(|(&key, number)| Some((key, reader.number(key, number)?)))
                 .collect(),
             materials: text
                 .materials
@@ -89,7 +93,7 @@ impl Layer {
         }
     }
 
-    /// This layer of a process, whose numbers are defaults from now on.
+    /// Marks all numbers of this process as its defaults.
     pub fn into_defaults(mut self) -> Self {
         let id = self.id.clone();
         let walls = self
@@ -106,9 +110,9 @@ impl Layer {
         self
     }
 
-    /// This layer, with what it leaves unsaid taken from its parent.
+    /// Fills the values that this layer does not set with those of its parent.
     pub fn over(mut self, parent: Self) -> Self {
-        // A machine's own wall is not to be overruled by its process's table of walls.
+        // A machine's own wall takes precedence over the walls by part size of its process.
         let has_wall =
             self.numbers.contains_key(&Quantity::MinWallMm) || !self.walls_by_part_size.is_empty();
         for (key, number) in parent.numbers {
@@ -148,11 +152,14 @@ impl Layer {
     }
 }
 
-/// The first list, or the second where the first is empty.
+/// Returns the first list, or the second if the first is empty.
 fn first_of<T>(first: Vec<T>, second: Vec<T>) -> Vec<T> {
     if first.is_empty() { second } else { first }
 }
 
 fn reference(id: &Spanned<String>) -> Reference {
-    (id.get_ref().clone(), id.span().start)
+    Reference {
+        id: id.get_ref().clone(),
+        at: id.span().start,
+    }
 }

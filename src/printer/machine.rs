@@ -1,15 +1,12 @@
-//! A printer with all its numbers settled.
+//! The printer: all its numbers, complete and checked.
 
-use std::{collections::BTreeMap, path::Path};
+use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use super::{
-    ExcludedCorner, Material, MaterialError, ProfileError, Quantity, SizedWall, Sourced,
-    error::suggestion, library,
-};
+use super::{ExcludedCorner, Material, MaterialError, Quantity, Sourced, error::suggest};
 
-/// What the steps of a printer's grid in x and y are.
+/// The steps of a printer's grid in x and y.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Grid {
@@ -20,7 +17,7 @@ pub enum Grid {
 }
 
 impl Grid {
-    /// Its steps, in words.
+    /// Returns the word for its steps.
     pub fn steps(self) -> &'static str {
         match self {
             Self::Pixel => "pixels",
@@ -29,28 +26,28 @@ impl Grid {
     }
 }
 
-/// What holds overhangs up while printing, and so what must come out of a void.
+/// The support of overhangs while printing, which must be removed from voids.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Support {
-    /// Dissolves or melts out: any opening that is large enough will do.
+    /// Dissolves or melts out: any opening that is large enough serves.
     Soluble,
-    /// Broken off by hand: the wall of a void must be in sight of the opening.
+    /// Broken off by hand: the wall of a void must be visible from the opening.
     Breakaway,
-    /// Flushed out by a jet of water: the wall of a void must be in sight of the opening.
+    /// Flushed out by a water jet: the wall of a void must be visible from the opening.
     WaterJet,
-    /// Nothing is needed.
+    /// No support is needed.
     None,
 }
 
 impl Support {
-    /// Whether every place of a void's wall must be in sight of its opening to be cleaned.
+    /// True if a void can be cleaned only if its wall is visible from an opening.
     pub fn needs_sight(self) -> bool {
         matches!(self, Self::Breakaway | Self::WaterJet)
     }
 }
 
-/// How parts are best laid on the plate.
+/// The best pose of a part on the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum PrintPose {
@@ -60,21 +57,24 @@ pub enum PrintPose {
     CutFaceDown,
 }
 
-/// How far a printed dimension may be from the drawn one.
+/// The greatest deviation of a printed dimension from the drawn one.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Tolerance {
-    /// The tolerance of a short dimension, mm.
+    /// The least tolerance, that of short dimensions, mm.
     pub least_mm: Sourced<f64>,
-    /// What of a long dimension's tolerance does not grow with it, mm; zero where it is not given.
+    /// The constant part of a long dimension's tolerance, mm; 0 if not given.
     pub base_mm: Option<Sourced<f64>>,
-    /// The tolerance of a long dimension over its length; none where it does not grow.
+    /// The growing part of a long dimension's tolerance, over its length; `None` if it does not
+    /// grow.
     pub ratio: Option<Sourced<f64>>,
 }
 
 impl Tolerance {
-    /// The tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, and not below the
-    /// least. Both of the makers' forms are that: "±0.3 %, at least 0.3 mm" has no base, "±0.3 mm +
-    /// 0.002 mm/mm" has the least as its base.
+    /// Returns the tolerance of a dimension of `length_mm`, ± mm: base + ratio × length, but at
+    /// least [`Self::least_mm`].
+    ///
+    /// Makers state tolerances in two forms. The form "±0.3 %, at least 0.3 mm" has no base. The
+    /// form "±0.3 mm + 0.002 mm/mm" has the least as its base.
     pub fn at_mm(&self, length_mm: f64) -> f64 {
         let number =
             |number: &Option<Sourced<f64>>| number.as_ref().map_or(0.0, |number| number.value);
@@ -83,13 +83,21 @@ impl Tolerance {
     }
 }
 
-/// A printer: what it can resolve, what it needs to be able to clean, join and fit parts, and its
-/// materials.
+/// The thinnest wall of parts up to a size.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct SizedWall {
+    /// The longest side of a part that may have this wall, mm.
+    pub up_to_mm: f64,
+    /// The wall, mm.
+    pub wall_mm: Sourced<f64>,
+}
+
+/// A printer: its resolution, its limits for walls, openings, pins and fits, and its materials.
 ///
 /// All numbers are positive and finite; lengths are in mm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Printer {
-    /// Its id, as `--printer` takes it.
+    /// Its id, by which jobs name it.
     pub id: String,
     /// Its name for people.
     pub name: String,
@@ -97,9 +105,9 @@ pub struct Printer {
     pub process: Option<String>,
     /// The profiles it inherits from, the nearest first; the process is the last.
     pub inherits: Vec<String>,
-    /// SHA-256 of the profile's text followed by those of what it inherits from, in hexadecimal.
+    /// SHA-256 of the profile's text followed by the texts of its parents, in hexadecimal.
     pub profile_sha256: String,
-    /// What the steps of its grid are.
+    /// The steps of its grid in x and y.
     pub grid: Grid,
     /// Pixel size or line width along x.
     pub pixel_x_mm: Sourced<f64>,
@@ -107,66 +115,51 @@ pub struct Printer {
     pub pixel_y_mm: Sourced<f64>,
     /// Layer height.
     pub layer_mm: Sourced<f64>,
-    /// Width, depth and height of what fits; none where no source was found.
+    /// Width, depth and height of the build volume; `None` if no source states it.
     pub build_volume_mm: Option<Sourced<[f64; 3]>>,
-    /// The sides of the largest part that should be printed; none where it is the build volume.
+    /// Sides of the largest recommended part; `None` if only the build volume limits parts.
     pub largest_part_mm: Option<Sourced<[f64; 3]>>,
-    /// Corners of the plate where nothing may be printed.
+    /// Corners of the plate that must stay free.
     pub excluded_corners: Vec<ExcludedCorner>,
-    /// The thinnest wall of parts up to a size, the smallest first; beyond the last it is
-    /// `min_wall_mm`.
+    /// The thinnest wall of parts up to a size, the smallest first. Above the last size,
+    /// `min_wall_mm` applies.
     pub walls_by_part_size: Vec<SizedWall>,
-    /// Whether the machine or its software makes up for shrinkage; none where that is not known,
-    /// and it is taken to.
+    /// True if the machine or its software compensates shrinkage; `None` if that is unknown, which
+    /// counts as true.
     pub compensates_shrinkage: Option<Sourced<bool>>,
     /// The thinnest wall that prints and survives cleaning.
     pub min_wall_mm: Sourced<f64>,
     /// The smallest detail that prints.
     pub min_feature_mm: Sourced<f64>,
-    /// The narrowest opening through which support, resin or powder can be got out of a void.
+    /// The narrowest opening through which support, resin or powder comes out of a void.
     pub min_opening_mm: Sourced<f64>,
     /// The thinnest pin that holds.
     pub pin_min_diameter_mm: Sourced<f64>,
-    /// A pin's length over its diameter.
+    /// Length of a pin over its diameter.
     pub pin_length_ratio: Sourced<f64>,
     /// Gap between pin and socket on each side.
     pub clearance_per_side_mm: Sourced<f64>,
-    /// How much deeper than its pin a socket is.
+    /// Depth of a socket beyond the end of its pin.
     pub socket_extra_depth_mm: Sourced<f64>,
-    /// Chamfer of pins and of the mouths of sockets.
+    /// Chamfer of pins and socket mouths.
     pub chamfer_mm: Sourced<f64>,
-    /// How far dimensions may be off.
+    /// The tolerance of printed dimensions.
     pub tolerance: Tolerance,
-    /// What holds overhangs up.
+    /// The support of overhangs.
     pub support: Support,
-    /// How parts are best laid on the plate.
+    /// The best pose of a part on the plate.
     pub print_pose: PrintPose,
-    /// How a void is cleaned: a sentence for the job sheet.
+    /// Instruction for cleaning a void: a sentence for the job sheet.
     pub cleaning: String,
-    /// What it prints, never empty; the default is first.
+    /// The materials it prints, never empty; the default is first.
     pub materials: Vec<Material>,
-    /// What is known besides, of the quantities that no printer needs ([`Quantity::is_needed`]).
+    /// The known numbers among those that a printer may lack ([`Quantity::is_needed`]).
     #[serde(flatten)]
-    pub besides: BTreeMap<Quantity, Sourced<f64>>,
+    pub optional_numbers: BTreeMap<Quantity, Sourced<f64>>,
 }
 
 impl Printer {
-    /// The built-in printer of that id, or the one described by that TOML file.
-    pub fn find(id_or_path: &str) -> Result<Self, ProfileError> {
-        library::BUILT_IN.find(id_or_path)
-    }
-
-    /// Every built-in printer, in the order of their ids.
-    pub fn all() -> Result<Vec<Self>, ProfileError> {
-        library::BUILT_IN.all()
-    }
-
-    /// The printer described by the TOML file at `path`, even if a built-in one has that name.
-    pub fn read(path: &Path) -> Result<Self, ProfileError> {
-        library::BUILT_IN.read(path)
-    }
-
-    /// Every number of the profile's `[numbers]`, in the order of [`Quantity`].
+    /// Returns every known number of the profile's `[numbers]`, in the order of [`Quantity`].
     pub fn numbers(&self) -> Vec<(Quantity, &Sourced<f64>)> {
         Quantity::ALL
             .iter()
@@ -174,7 +167,7 @@ impl Printer {
             .collect()
     }
 
-    /// A number of the profile's `[numbers]`; none where it is not known.
+    /// Returns a number of the profile's `[numbers]`; `None` if it is not known.
     pub fn number(&self, quantity: Quantity) -> Option<&Sourced<f64>> {
         Some(match quantity {
             Quantity::PixelXMm => &self.pixel_x_mm,
@@ -191,11 +184,12 @@ impl Printer {
             Quantity::ToleranceLeastMm => &self.tolerance.least_mm,
             Quantity::ToleranceBaseMm => self.tolerance.base_mm.as_ref()?,
             Quantity::ToleranceRatio => self.tolerance.ratio.as_ref()?,
-            other => self.besides.get(&other)?,
+            other => self.optional_numbers.get(&other)?,
         })
     }
 
-    /// What is not known of the printer, by key, in the order of [`Quantity`].
+    /// Lists the keys of all unknown values: the build volume, the shrinkage, then the numbers in
+    /// the order of [`Quantity`].
     pub fn unknown(&self) -> Vec<&'static str> {
         let numbers = Quantity::ALL
             .iter()
@@ -212,7 +206,7 @@ impl Printer {
             .collect()
     }
 
-    /// The material of that id; the printer's default where none is asked for.
+    /// Returns the material of that id, or the printer's default for `None`.
     pub fn material(&self, id: Option<&str>) -> Result<&Material, MaterialError> {
         let wanted = self
             .materials
@@ -228,7 +222,7 @@ impl Printer {
             MaterialError {
                 printer: self.id.clone(),
                 id: id.to_owned(),
-                remedy: suggestion(id, &known),
+                remedy: suggest(id, &known),
             }
         })
     }
@@ -251,7 +245,7 @@ mod tests {
     }
 
     #[test]
-    fn the_first_material_is_the_default_and_an_unknown_one_is_told_with_the_nearest() {
+    fn the_first_material_is_the_default_and_an_unknown_one_has_a_suggestion() {
         let mk4 = printer("prusa-mk4");
         assert_eq!(mk4.material(None).unwrap().id, "pla");
         assert_eq!(mk4.material(Some("asa")).unwrap().density_g_mm3(), 1.07e-3);
@@ -265,7 +259,7 @@ mod tests {
     }
 
     #[test]
-    fn a_weighing_window_lies_evenly_about_the_mass_and_only_a_measured_density_has_one() {
+    fn only_a_measured_density_gives_a_weighing_window_and_it_is_symmetric() {
         let mut pla = printer("prusa-mk4").material(None).unwrap().clone();
         assert_eq!(pla.weighing_window_g(100.0), None);
         pla.density_g_cm3.sure = Sure::Measured;
@@ -280,7 +274,7 @@ mod tests {
     }
 
     #[test]
-    fn the_tolerance_grows_with_length_only_where_the_process_says_so() {
+    fn the_tolerance_grows_with_length_only_if_the_process_says_so() {
         let mk4 = printer("prusa-mk4").tolerance;
         assert_eq!(mk4.at_mm(10.0), 0.3);
         assert!((mk4.at_mm(200.0) - 0.6).abs() < 1e-12);

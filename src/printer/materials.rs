@@ -1,28 +1,30 @@
-//! The materials a printer's profile offers: those it lists or inherits, and its own.
+//! The materials of a printer: those that its profile lists or inherits, and its own.
 
 use std::collections::BTreeSet;
 
 use super::{
     Material, Problem,
-    error::suggestion,
+    error::suggest,
     layer::{Layer, Reference},
     library::{Library, by_id, ids},
-    profile::{MaterialText, Reader},
+    profile::MaterialText,
+    reader::Reader,
 };
 use crate::base::toml_text::TextFault;
 
-/// The materials of the profile, its default first: those it lists or inherits, and its own.
-pub(super) fn materials(
+/// Collects the materials of a profile, the default first: those it lists or inherits, then its
+/// own.
+pub(super) fn collect_materials(
     library: &Library,
     reader: &mut Reader,
     layer: &Layer,
 ) -> Result<Vec<Material>, TextFault> {
     let mut found: Vec<Material> = Vec::new();
     note_repeats(reader, layer);
-    for (id, at) in layer.materials.iter().flatten() {
-        match layer.own_materials.iter().find(|own| own.id == *id) {
+    for listed in layer.materials.iter().flatten() {
+        match layer.own_materials.iter().find(|own| own.id == listed.id) {
             Some(own) => found.push(own.clone()),
-            None => found.extend(from_library(library, reader, (id, *at))?),
+            None => found.extend(read_built_in(library, reader, listed)?),
         }
     }
     let listed = found.len();
@@ -34,14 +36,14 @@ pub(super) fn materials(
     if found.is_empty() && reader.faults.is_empty() {
         reader.note(0, Problem::NoMaterials);
     }
-    default_first(reader, &mut found, layer.default_material.as_ref());
+    move_default_first(reader, &mut found, layer.default_material.as_ref());
     Ok(found)
 }
 
 /// Notes materials that are listed or defined twice.
 fn note_repeats(reader: &mut Reader, layer: &Layer) {
     let mut seen = BTreeSet::new();
-    for (id, at) in layer.materials.iter().flatten() {
+    for Reference { id, at } in layer.materials.iter().flatten() {
         if !seen.insert(id) {
             reader.note(*at, Problem::MaterialTwice { id: id.clone() });
         }
@@ -54,20 +56,18 @@ fn note_repeats(reader: &mut Reader, layer: &Layer) {
     }
 }
 
-fn from_library(
+/// Reads a built-in material; `None` if it is unknown or broken, which `child` notes.
+fn read_built_in(
     library: &Library,
     child: &mut Reader,
-    (id, at): (&str, usize),
+    Reference { id, at }: &Reference,
 ) -> Result<Option<Material>, TextFault> {
     let Some(profile) = by_id(library.materials, id) else {
-        let remedy = suggestion(id, &ids(library.materials));
-        child.note(
-            at,
-            Problem::UnknownMaterial {
-                id: id.to_owned(),
-                remedy,
-            },
-        );
+        let problem = Problem::UnknownMaterial {
+            id: id.clone(),
+            remedy: suggest(id, &ids(library.materials)),
+        };
+        child.note(*at, problem);
         return Ok(None);
     };
     let mut reader = Reader::new(profile.file, profile.text);
@@ -77,9 +77,13 @@ fn from_library(
     Ok(material)
 }
 
-/// Moves the default material to the front.
-fn default_first(reader: &mut Reader, materials: &mut [Material], default: Option<&Reference>) {
-    let Some((id, at)) = default else {
+/// Moves the default material to the front; notes a default that is not there.
+fn move_default_first(
+    reader: &mut Reader,
+    materials: &mut [Material],
+    default: Option<&Reference>,
+) {
+    let Some(Reference { id, at }) = default else {
         return;
     };
     match materials.iter().position(|material| material.id == *id) {

@@ -1,16 +1,16 @@
-//! What a printer can make and of what: profiles as TOML data, every number with its source.
+//! Printers and their materials: profiles as TOML data, every number with its source.
 //!
-//! A printer's profile inherits from a process (`inherits = "polyjet"`), from a shipped machine
-//! (`"prusa-mk4"`) or from a file beside it (`"shop.toml"`), which may inherit in turn; a process
-//! inherits from nothing. What none of them says is an error for the numbers every print needs, and
-//! simply unset for the others, such as the build volume.
+//! A printer's profile inherits from a process (`inherits = "polyjet"`), from a built-in printer
+//! (`"prusa-mk4"`) or from a file in its folder (`"shop.toml"`). Printers and files may inherit in
+//! turn, processes may not. A missing number is an error if every print needs it. Other values,
+//! such as the build volume, stay unknown.
 //!
-//! A shop's own printer is a file such as
+//! A shop describes its own printer in a file such as this one:
 //!
 //! ```toml
 //! id = "shop-jet"
 //! name = "The PolyJet machine in room 2"
-//! inherits = "polyjet"                       # a process, a shipped printer or a file
+//! inherits = "polyjet"                       # a process, a built-in printer or a file
 //! default_material = "lot-7"
 //! build_volume_mm = { value = [300, 300, 180], source = "measured on the tray", sure = "read" }
 //!
@@ -18,19 +18,21 @@
 //! pixel_x_mm = { dpi = 600, source = "its manual", sure = "read" }
 //! pixel_y_mm = { dpi = 600, source = "its manual", sure = "read" }
 //! layer_mm = { value = 0.03, source = "its manual", sure = "read" }
-//! min_wall_mm = { value = 1.2, source = "thinner ones broke in the water jet", sure = "own-choice" }
+//! min_wall_mm = { value = 1.2, source = "thinner walls broke in the jet", sure = "own-choice" }
 //!
 //! [[material]]
 //! id = "lot-7"
 //! name = "White resin, lot 7"
-//! density_g_cm3 = { value = 1.182, source = "a coupon of 20 × 20 × 20 mm weighed", sure = "computed" }
+//! density_g_cm3 = { value = 1.182, source = "a weighed coupon of 8 cm³", sure = "computed" }
 //! density_spread_ratio = { value = 0.01, source = "five coupons", sure = "computed" }
 //! ```
 
 mod calibrate;
 mod cleaning;
 mod complete;
+mod corner;
 mod error;
+mod find;
 pub mod import;
 mod layer;
 mod library;
@@ -40,6 +42,7 @@ mod materials;
 mod plate;
 mod profile;
 mod quantity;
+mod reader;
 mod resolve;
 mod room;
 mod shop;
@@ -49,13 +52,13 @@ mod wall;
 
 pub use calibrate::{CalibrateError, Measured, calibrated};
 pub use cleaning::{Cleaning, CleaningRule};
+pub use corner::{Corner, ExcludedCorner};
 pub use error::{Fault, Faults, Problem, ProfileError};
-pub use machine::{Grid, PrintPose, Printer, Support, Tolerance};
+pub use machine::{Grid, PrintPose, Printer, SizedWall, Support, Tolerance};
 pub use material::{Material, MaterialError};
 pub use plate::{Plate, Spot};
 pub use quantity::Quantity;
-pub use room::{Corner, ExcludedCorner};
 pub use shop::{CONFIGURATION, SHOP_FILE, Shop, ShopError};
 pub use size::{SizeError, leaves_room};
 pub use sourced::{Sourced, Sure};
-pub use wall::{SizedWall, WallChoice, WallError, whole_steps};
+pub use wall::{WallChoice, WallError, whole_steps};

@@ -1,4 +1,4 @@
-//! The build plate, and where on it the parts of a kit lie.
+//! The build plate, and the arrangement of a kit's parts on plates.
 
 use super::{ExcludedCorner, Printer};
 
@@ -7,32 +7,32 @@ use super::{ExcludedCorner, Printer};
 pub struct Plate {
     /// Width and depth, mm.
     size_mm: [f64; 2],
-    /// Where nothing may be printed.
+    /// Corners that must stay free.
     corners: Vec<ExcludedCorner>,
 }
 
-/// Where a part lies.
+/// The place of a part.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spot {
-    /// On which plate, from 0.
+    /// Index of its plate, from 0.
     pub plate: usize,
-    /// The corner of the box about it that is nearest to the plate's (0, 0), mm.
+    /// Front left corner of its bounding box, mm.
     pub low_mm: [f64; 2],
-    /// Whether it is turned by a right angle.
+    /// True if it is turned by a right angle.
     pub is_turned: bool,
-    /// Whether it lies on the plate wholly, clear of what is excluded.
+    /// True if it lies on the plate entirely, clear of the excluded corners.
     pub fits: bool,
 }
 
-/// What is left free between parts, mm. Closer ones fuse, or cannot be taken off one by one; with
-/// more, fewer fit.
+/// Gap between parts, mm. Closer parts fuse or cannot be taken off one by one; with a wider gap,
+/// fewer fit.
 const GAP_MM: f64 = 5.0;
-/// How much wider than the square root of the parts' area a plate of unknown size is taken to be:
+/// Assumed width of a plate of unknown size over the square root of the parts' area: above 1, as
 /// shelves leave gaps.
-const WIDE_RATIO: f64 = 1.3;
+const WIDTH_RATIO: f64 = 1.3;
 
 impl Printer {
-    /// The whole build plate; none where the build volume is not known.
+    /// Returns the whole build plate; `None` if the build volume is not known.
     pub fn plate(&self) -> Option<Plate> {
         let [width, depth, _] = self.build_volume_mm.as_ref()?.value;
         Some(Plate {
@@ -45,23 +45,23 @@ impl Printer {
 /// A row of parts on a plate.
 struct Shelf {
     plate: usize,
-    /// Where it begins and how deep it is.
+    /// The y of its front edge.
     front_mm: f64,
     depth_mm: f64,
-    /// Up to where it is taken.
-    taken_mm: f64,
+    /// The x from which it is free.
+    free_from_mm: f64,
 }
 
 impl Plate {
-    /// A plate that holds parts of these sizes about as wide as deep, where the machine's own is
-    /// not known.
+    /// Assumes a plate that holds parts of these sizes, for a machine whose plate is not known.
+    /// The arrangement comes out about as wide as deep.
     pub fn for_parts(sizes_mm: &[[f64; 2]]) -> Self {
         let area: f64 = sizes_mm
             .iter()
             .map(|size| (size[0] + GAP_MM) * (size[1] + GAP_MM))
             .sum();
         let widest = sizes_mm.iter().map(|size| size[0]).fold(0.0, f64::max);
-        let width = (area.sqrt() * WIDE_RATIO).max(widest);
+        let width = (area.sqrt() * WIDTH_RATIO).max(widest);
         let depth = sizes_mm.iter().map(|size| size[1] + GAP_MM).sum();
         Self {
             size_mm: [width, depth],
@@ -69,31 +69,35 @@ impl Plate {
         }
     }
 
-    /// A place for each of the parts, whose widths and depths are given, in their order.
+    /// Places parts of these widths and depths on as many plates as they need; the spots are in the
+    /// order of the parts.
     ///
-    /// First fit by shelves, the deepest part first (Coffman, Garey, Johnson and Tarjan 1980); a
-    /// part is turned only where it does not fit as it lies. One that fits no plate has one to
-    /// itself. The same sizes give the same places.
+    /// First fit by shelves, the deepest part first (Coffman, Garey, Johnson and Tarjan 1980). A
+    /// part is turned only if it does not fit otherwise. A part that fits no plate has one of its
+    /// own. The result is deterministic.
     pub fn arranged(&self, sizes_mm: &[[f64; 2]]) -> Vec<Spot> {
         let mut order: Vec<usize> = (0..sizes_mm.len()).collect();
-        order.sort_by(|&a, &b| self.laid(sizes_mm[b]).0[1].total_cmp(&self.laid(sizes_mm[a]).0[1]));
+        let depth_mm = |part: usize| self.choose_turn(sizes_mm[part]).0[1];
+        order.sort_by(|&a, &b| depth_mm(b).total_cmp(&depth_mm(a)));
         let (mut shelves, mut spots) = (Vec::new(), vec![None; sizes_mm.len()]);
         for part in order {
-            spots[part] = Some(self.placed(&mut shelves, sizes_mm[part]));
+            spots[part] = Some(self.place(&mut shelves, sizes_mm[part]));
         }
         spots.into_iter().flatten().collect()
     }
 
-    /// The size as it lies, and whether it is turned: only if that helps.
-    fn laid(&self, [x, y]: [f64; 2]) -> ([f64; 2], bool) {
-        let alone = |size| self.start(size, 0.0).is_some();
-        let is_turned = !alone([x, y]) && alone([y, x]);
+    /// Returns the size of a part as placed, and whether it is turned: only if it fits no other
+    /// way.
+    fn choose_turn(&self, [x, y]: [f64; 2]) -> ([f64; 2], bool) {
+        let fits = |size| self.shelf_start(size, 0.0).is_some();
+        let is_turned = !fits([x, y]) && fits([y, x]);
         (if is_turned { [y, x] } else { [x, y] }, is_turned)
     }
 
-    /// The first shelf with room, or a new one behind the last, or one on a new plate.
-    fn placed(&self, shelves: &mut Vec<Shelf>, size_mm: [f64; 2]) -> Spot {
-        let (size, is_turned) = self.laid(size_mm);
+    /// Places a part on the first shelf with room, else on a new shelf behind the last, else on a
+    /// new plate.
+    fn place(&self, shelves: &mut Vec<Shelf>, size_mm: [f64; 2]) -> Spot {
+        let (size, is_turned) = self.choose_turn(size_mm);
         let spot = |plate, low_mm, fits| Spot {
             plate,
             low_mm,
@@ -101,19 +105,19 @@ impl Plate {
             fits,
         };
         for shelf in shelves.iter_mut().filter(|shelf| size[1] <= shelf.depth_mm) {
-            if let Some(left) = self.left_of([shelf.taken_mm, shelf.front_mm], size) {
-                shelf.taken_mm = left + size[0] + GAP_MM;
+            if let Some(left) = self.leftmost([shelf.free_from_mm, shelf.front_mm], size) {
+                shelf.free_from_mm = left + size[0] + GAP_MM;
                 return spot(shelf.plate, [left, shelf.front_mm], true);
             }
         }
         let last = shelves.last();
         let behind = last.map(|shelf| (shelf.plate, shelf.front_mm + shelf.depth_mm + GAP_MM));
-        let found = behind.and_then(|(plate, front)| Some((plate, self.start(size, front)?)));
+        let found = behind.and_then(|(plate, front)| Some((plate, self.shelf_start(size, front)?)));
         let next_plate = last.map_or(0, |shelf| shelf.plate + 1);
         let (plate, low) =
-            found.unwrap_or_else(|| (next_plate, self.start(size, 0.0).unwrap_or_default()));
+            found.unwrap_or_else(|| (next_plate, self.shelf_start(size, 0.0).unwrap_or_default()));
         let fits = self.is_free(low, size);
-        let taken_mm = if fits {
+        let free_from_mm = if fits {
             low[0] + size[0] + GAP_MM
         } else {
             f64::INFINITY
@@ -123,13 +127,14 @@ impl Plate {
             plate,
             front_mm: low[1],
             depth_mm,
-            taken_mm,
+            free_from_mm,
         });
         spot(plate, low, fits)
     }
 
-    /// Where a shelf that is not in front of `front_mm` may begin with a part of that size.
-    fn start(&self, size: [f64; 2], front_mm: f64) -> Option<[f64; 2]> {
+    /// Returns the foremost place, not in front of `front_mm`, at which a new shelf can begin with
+    /// a part of that size.
+    fn shelf_start(&self, size: [f64; 2], front_mm: f64) -> Option<[f64; 2]> {
         let behind_corners = self
             .corners
             .iter()
@@ -138,11 +143,11 @@ impl Plate {
         fronts.sort_by(f64::total_cmp);
         fronts
             .into_iter()
-            .find_map(|front| Some([self.left_of([0.0, front], size)?, front]))
+            .find_map(|front| Some([self.leftmost([0.0, front], size)?, front]))
     }
 
-    /// The least x from there on at which a part of that size is free.
-    fn left_of(&self, [from, front]: [f64; 2], size: [f64; 2]) -> Option<f64> {
+    /// Returns the least x from `from` on at which a part of that size is clear of the corners.
+    fn leftmost(&self, [from, front]: [f64; 2], size: [f64; 2]) -> Option<f64> {
         let beside_corners = self
             .corners
             .iter()
@@ -154,7 +159,7 @@ impl Plate {
             .find(|&left| self.is_free([left, front], size))
     }
 
-    /// Whether a box is on the plate and clear of its corners.
+    /// True if a rectangle is on the plate and clear of its corners.
     fn is_free(&self, low: [f64; 2], size: [f64; 2]) -> bool {
         let high = [low[0] + size[0], low[1] + size[1]];
         let is_on = high[0] <= self.size_mm[0] && high[1] <= self.size_mm[1];
@@ -162,7 +167,7 @@ impl Plate {
             && !self
                 .corners
                 .iter()
-                .any(|corner| corner.meets([low, high], self.size_mm))
+                .any(|corner| corner.overlaps([low, high], self.size_mm))
     }
 }
 
@@ -219,7 +224,7 @@ mod tests {
     }
 
     #[test]
-    fn parts_lie_apart_clear_of_the_corners_on_as_many_plates_as_they_need() {
+    fn parts_lie_apart_and_clear_of_the_corners() {
         let free = plate([200.0, 100.0], &[]);
         let cornered = plate(
             [200.0, 100.0],
@@ -243,7 +248,7 @@ mod tests {
     }
 
     #[test]
-    fn two_parts_share_a_plate_and_a_third_that_finds_no_room_gets_the_next() {
+    fn two_parts_share_a_plate_and_a_third_without_room_gets_the_next() {
         let sizes = [[90.0, 90.0], [90.0, 90.0], [90.0, 90.0]];
         let plates = plate([200.0, 100.0], &[]).arranged(&sizes);
         assert_eq!(
@@ -253,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_is_turned_only_where_that_helps_and_one_that_fits_nowhere_is_told() {
+    fn a_part_is_turned_only_if_that_helps_and_one_that_fits_nowhere_is_reported() {
         let spots = plate([200.0, 100.0], &[]).arranged(&[
             [90.0, 150.0],
             [150.0, 90.0],

@@ -1,14 +1,13 @@
-//! The numbers a profile may give: their names, and the range outside which a value is a slip of
-//! the pen.
+//! The numbers that a profile may give: their keys and plausible ranges.
 
 use std::{fmt, ops::RangeInclusive};
 
 use serde::{Deserialize, Serialize};
 
-/// The finest length a profile may state, mm. Below it metres were given for millimetres, and
-/// columns at such a pitch would fill any memory.
+/// The finest length, mm. Smaller values must be in metres, and columns at such a pitch would fill any
+/// memory.
 const FINEST_MM: f64 = 1e-3;
-/// The coarsest pixel, line or layer, mm. Above it micrometres were given.
+/// The coarsest pixel, line or layer, mm. Larger values must be in micrometres.
 const COARSEST_STEP_MM: f64 = 2.0;
 /// The largest wall, detail or hole, mm.
 const LARGEST_DETAIL_MM: f64 = 20.0;
@@ -16,21 +15,22 @@ const LARGEST_DETAIL_MM: f64 = 20.0;
 const LARGEST_GAP_MM: f64 = 5.0;
 /// The largest extra depth or tolerance, mm.
 const LARGEST_ERROR_MM: f64 = 10.0;
-/// How far a tool can reach, mm: from a pick to a lance; above it micrometres were given.
+/// Reach of a tool, mm: from a pick to a lance. Larger values must be in micrometres.
 const REACH_MM: RangeInclusive<f64> = 1.0..=2000.0;
-/// Leans from the level at which something prints without support, degrees; below it radians were
-/// given.
+/// Angles to the horizontal from which surfaces print without support, degrees. Smaller values
+/// must be in radians.
 const OVERHANG_DEG: RangeInclusive<f64> = 5.0..=89.0;
-/// The thickest film of glue between flat faces, mm: above it micrometres were given.
+/// The thickest film of glue between flat faces, mm. Larger values must be in micrometres.
 const THICKEST_FILM_MM: f64 = 1.0;
-/// Densities of glues, g/cm³: outside kg/m³ were given.
+/// Densities of glues, g/cm³. Other values must be in kg/m³.
 const GLUES_G_CM3: RangeInclusive<f64> = 0.5..=3.0;
-/// Shares of a length that tolerances and shrinkages can be; above it per cent were given.
-const SHARES: RangeInclusive<f64> = 1e-6..=0.1;
+/// Tolerances and shrinkages over a length. Larger values must be in per cent.
+const LENGTH_RATIOS: RangeInclusive<f64> = 1e-6..=0.1;
 
 /// A number of a profile's `[numbers]` table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[non_exhaustive]
 pub enum Quantity {
     /// Size of a pixel along x, or the width of a line.
     PixelXMm,
@@ -46,7 +46,7 @@ pub enum Quantity {
     MinWallMm,
     /// The thinnest wall held on two sides or more.
     SupportedWallMm,
-    /// The thinnest wall that lies flat while it is printed.
+    /// The thinnest wall that is printed lying flat.
     HorizontalWallMm,
     /// The smallest detail that prints.
     MinFeatureMm,
@@ -56,13 +56,13 @@ pub enum Quantity {
     MinOpeningMm,
     /// The narrowest of two or more openings through which powder escapes.
     PairOpeningMm,
-    /// How far into an opening a tool or a jet reaches.
+    /// Depth below an opening that a tool or a jet reaches.
     CleaningReachMm,
-    /// The least lean from the level at which a surface that looks down prints without support.
+    /// The least angle from the horizontal at which a downward surface prints without support.
     OverhangDeg,
     /// The thinnest pin that holds.
     PinMinDiameterMm,
-    /// A pin's length over its diameter.
+    /// Length of a pin over its diameter.
     PinLengthRatio,
     /// Gap between pin and socket on each side, for a joint that is glued.
     ClearancePerSideMm,
@@ -70,25 +70,25 @@ pub enum Quantity {
     ClearancePressPerSideMm,
     /// Gap on each side for a joint that comes apart by itself.
     ClearanceLoosePerSideMm,
-    /// How much deeper than its pin a socket is.
+    /// Depth of a socket beyond the end of its pin.
     SocketExtraDepthMm,
-    /// Chamfer of pins and of the mouths of sockets.
+    /// Chamfer of pins and socket mouths.
     ChamferMm,
-    /// How far the first layers spread beyond the drawing.
+    /// Spread of the first layers beyond the drawing.
     ElephantFootMm,
-    /// The tolerance of a short dimension.
+    /// The least tolerance, that of short dimensions.
     ToleranceLeastMm,
-    /// The part of a long dimension's tolerance that does not grow.
+    /// The constant part of a long dimension's tolerance.
     ToleranceBaseMm,
-    /// The part of a long dimension's tolerance that grows, over its length.
+    /// The growing part of a long dimension's tolerance, over its length.
     ToleranceRatio,
-    /// By how much a part comes out shorter along x and y, over its length.
+    /// Shrinkage of a part along x and y, over its length.
     ShrinkageXyRatio,
-    /// By how much a part comes out shorter along z, over its length.
+    /// Shrinkage of a part along z, over its length.
     ShrinkageZRatio,
-    /// How thick the film of glue between two cut faces is.
+    /// Thickness of the film of glue between two cut faces.
     GlueFilmMm,
-    /// The density of that glue when it has set.
+    /// Density of that glue once it has set.
     #[serde(rename = "glue_density_g_cm3")]
     GlueDensityGCm3,
 }
@@ -127,7 +127,7 @@ impl Quantity {
         Self::GlueDensityGCm3,
     ];
 
-    /// The key in the file.
+    /// Returns its key in a profile.
     pub fn key(self) -> &'static str {
         match self {
             Self::PixelXMm => "pixel_x_mm",
@@ -162,7 +162,7 @@ impl Quantity {
         }
     }
 
-    /// Whether every printer needs it, from its own profile or from what that inherits; the others
+    /// True if every printer needs the number, from its own profile or from a parent. The others
     /// may stay unknown.
     pub fn is_needed(self) -> bool {
         !matches!(
@@ -187,8 +187,8 @@ impl Quantity {
         )
     }
 
-    /// The values that can be meant. Above it micrometres were given for millimetres or per cent
-    /// for a ratio.
+    /// Returns the plausible values. Larger ones must be in micrometres instead of millimetres, or in
+    /// per cent instead of a ratio.
     pub fn plausible(self) -> RangeInclusive<f64> {
         match self {
             Self::PixelXMm
@@ -214,23 +214,23 @@ impl Quantity {
             Self::SocketExtraDepthMm | Self::ToleranceLeastMm | Self::ToleranceBaseMm => {
                 FINEST_MM..=LARGEST_ERROR_MM
             }
-            Self::ToleranceRatio | Self::ShrinkageXyRatio | Self::ShrinkageZRatio => SHARES,
+            Self::ToleranceRatio | Self::ShrinkageXyRatio | Self::ShrinkageZRatio => LENGTH_RATIOS,
             Self::GlueFilmMm => FINEST_MM..=THICKEST_FILM_MM,
             Self::GlueDensityGCm3 => GLUES_G_CM3,
         }
     }
 
-    /// Whether the number is a step of the machine's grid, which may be given as `dpi`.
+    /// True for a step of the machine's grid, which may be given as `dpi`.
     pub fn is_grid_step(self) -> bool {
         matches!(self, Self::PixelXMm | Self::PixelYMm | Self::LayerMm)
     }
 
-    /// Whether the number is an angle, not a length.
+    /// True for an angle.
     pub fn is_angle(self) -> bool {
         self.key().ends_with("_deg")
     }
 
-    /// Whether the number is a share, not a length.
+    /// True for a ratio.
     pub fn is_ratio(self) -> bool {
         self.key().ends_with("_ratio")
     }

@@ -1,58 +1,14 @@
-//! The room a printer has for a part: its build volume, less the corners that must stay free, and
-//! its largest part.
+//! The room of a printer for a part: its build volume without the excluded corners, within the
+//! limits of its largest part.
 
-use serde::{Deserialize, Serialize};
-
-use super::{Printer, Quantity, Sourced};
-
-/// A corner of the plate, seen by who stands before the machine: x to the right, y to the back.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Corner {
-    /// x and y least.
-    FrontLeft,
-    /// x greatest, y least.
-    FrontRight,
-    /// x least, y greatest.
-    BackLeft,
-    /// x and y greatest.
-    BackRight,
-}
-
-/// A corner of the plate where nothing may be printed, at any height.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ExcludedCorner {
-    /// Which corner.
-    pub corner: Corner,
-    /// How far it reaches along x and y, mm.
-    pub size_mm: Sourced<[f64; 2]>,
-}
-
-impl ExcludedCorner {
-    /// Whether the corner reaches into the rectangle from `low` to `high` on a plate of that size,
-    /// mm.
-    pub(super) fn meets(&self, [low, high]: [[f64; 2]; 2], plate_mm: [f64; 2]) -> bool {
-        let [width, depth] = self.size_mm.value;
-        let left = matches!(self.corner, Corner::FrontLeft | Corner::BackLeft);
-        let front = matches!(self.corner, Corner::FrontLeft | Corner::FrontRight);
-        let in_x = if left {
-            low[0] < width
-        } else {
-            high[0] > plate_mm[0] - width
-        };
-        let in_y = if front {
-            low[1] < depth
-        } else {
-            high[1] > plate_mm[1] - depth
-        };
-        in_x && in_y
-    }
-}
+use super::{Printer, Quantity};
 
 impl Printer {
-    /// Width, depth and height of what can be printed at once, mm of the model: the largest upright
-    /// box of the build volume that keeps clear of the excluded corners, no side longer than the
-    /// largest part's; none where the build volume is not known.
+    /// Returns width, depth and height of the usable build volume, mm of the model; `None` if the
+    /// build volume is not known.
+    ///
+    /// It is the largest upright box of the build volume that keeps clear of the excluded corners.
+    /// No side is longer than that of the largest part.
     pub fn usable_volume_mm(&self) -> Option<[f64; 3]> {
         let [width, depth, height] = self.build_volume_mm.as_ref()?.value;
         let [x, y] = self.clear_rectangle_mm([width, depth]);
@@ -65,18 +21,20 @@ impl Printer {
         Some([room[0] / scale[0], room[1] / scale[1], room[2] / scale[2]])
     }
 
-    /// What files are multiplied by along x, y and z so that shrunken parts have their nominal
-    /// size: 1, unless the profile says that the machine does not make up for shrinkage, and by how
-    /// much parts shrink.
+    /// Returns the scale of written files along x, y and z that gives shrunken parts their nominal
+    /// size.
+    ///
+    /// It differs from 1 only if the profile states a shrinkage and says that the machine does not
+    /// compensate it.
     pub fn print_scale_ratio(&self) -> [f64; 3] {
-        let is_left_to_us = self
+        let is_uncompensated = self
             .compensates_shrinkage
             .as_ref()
             .is_some_and(|flag| !flag.value);
         let scale = |quantity: Quantity| {
             let shrinkage = self
                 .number(quantity)
-                .filter(|_| is_left_to_us)
+                .filter(|_| is_uncompensated)
                 .map_or(0.0, |number| number.value);
             1.0 / (1.0 - shrinkage)
         };
@@ -84,7 +42,8 @@ impl Printer {
         [across, across, up]
     }
 
-    /// The sides of the largest rectangle of the plate that no excluded corner reaches into, mm.
+    /// Returns the sides of the largest rectangle of the plate that no excluded corner overlaps,
+    /// mm.
     fn clear_rectangle_mm(&self, plate_mm: [f64; 2]) -> [f64; 2] {
         let ends = |axis: usize| {
             let sizes = self
@@ -108,7 +67,7 @@ impl Printer {
                 let is_clear = !self
                     .excluded_corners
                     .iter()
-                    .any(|corner| corner.meets(rectangle, plate_mm));
+                    .any(|corner| corner.overlaps(rectangle, plate_mm));
                 if is_clear
                     && sides[0] > 0.0
                     && sides[1] > 0.0
@@ -121,19 +80,19 @@ impl Printer {
         best
     }
 
-    /// Whether a part of that size fits as it lies or turned by a right angle on the plate; none
-    /// where the build volume is not known.
+    /// True if a part of that size fits as it lies, or turned by a right angle on the plate; `None`
+    /// if the build volume is not known.
     pub fn fits(&self, size_mm: [f64; 3]) -> Option<bool> {
         let [width, depth, height] = self.usable_volume_mm()?;
-        let lies = |x: f64, y: f64| x <= width && y <= depth && size_mm[2] <= height;
-        Some(lies(size_mm[0], size_mm[1]) || lies(size_mm[1], size_mm[0]))
+        let fits = |x: f64, y: f64| x <= width && y <= depth && size_mm[2] <= height;
+        Some(fits(size_mm[0], size_mm[1]) || fits(size_mm[1], size_mm[0]))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::printer::Sure;
+    use crate::printer::{Corner, ExcludedCorner, Sourced, Sure};
 
     fn sourced<T>(value: T) -> Sourced<T> {
         Sourced {
@@ -145,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_part_may_be_turned_on_the_plate_but_not_stood_up() {
+    fn a_part_may_be_turned_on_the_plate_but_not_stood_on_end() {
         let form4 = Printer::find("formlabs-form4").unwrap();
         assert_eq!(form4.fits([120.0, 199.0, 210.0]), Some(true));
         assert_eq!(form4.fits([126.0, 126.0, 1.0]), Some(false));
@@ -159,7 +118,7 @@ mod tests {
     }
 
     #[test]
-    fn an_excluded_corner_takes_a_strip_off_the_side_where_that_costs_least() {
+    fn an_excluded_corner_costs_the_strip_of_least_area() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
         printer.build_volume_mm = Some(sourced([256.0, 256.0, 250.0]));
         let corner = |corner, x, y| ExcludedCorner {
@@ -179,10 +138,10 @@ mod tests {
     }
 
     #[test]
-    fn files_are_nominal_unless_the_profile_says_that_shrinkage_is_left_to_us() {
+    fn files_are_nominal_unless_the_machine_does_not_compensate_shrinkage() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
         printer
-            .besides
+            .optional_numbers
             .insert(Quantity::ShrinkageXyRatio, sourced(0.02));
         assert_eq!(printer.print_scale_ratio(), [1.0; 3]);
         printer.compensates_shrinkage = Some(sourced(true));
@@ -197,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn corners_that_take_the_whole_plate_leave_no_room() {
+    fn corners_that_cover_the_whole_plate_leave_no_room() {
         let mut printer = Printer::find("formlabs-form4").unwrap();
         printer.excluded_corners = vec![ExcludedCorner {
             corner: Corner::BackLeft,

@@ -1,4 +1,4 @@
-//! A shop's defaults: `equipoise.toml` beside the job or in the user's configuration folder.
+//! A shop's defaults: `equipoise.toml` in the job's folder or in the user's configuration folder.
 
 use std::path::{Path, PathBuf};
 
@@ -8,35 +8,36 @@ use toml::Spanned;
 use super::library::{BUILT_IN, PROFILE_ENDING, by_id};
 use crate::base::toml_text::{self, TextFault};
 
-/// What the file is called, wherever it stands.
+/// Name of the file with a shop's defaults.
 pub const SHOP_FILE: &str = "equipoise.toml";
 
-/// The folder of the program in a user's configuration folder.
+/// Name of the program's folder within a user's configuration folder.
 pub const CONFIGURATION: &str = "equipoise";
 
 /// A shop's defaults.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Shop {
-    /// The file they are from.
+    /// The file that states them.
     pub file: PathBuf,
-    /// The id of a built-in printer, or the path of a profile, from the file's own folder.
+    /// The id of a built-in printer, or the path of a profile.
     pub printer: String,
-    /// The material's id; the printer's default where none is given.
+    /// The id of the material; `None` for the printer's default.
     pub material: Option<String>,
 }
 
-/// Why a shop's defaults cannot be used.
+/// An error in a shop's defaults.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ShopError {
-    /// The file is there, but cannot be read.
+    /// The file exists, but cannot be read.
     #[error("cannot read {}; remedy: check its permissions", path.display())]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system says.
+        /// The operating system's error.
         source: std::io::Error,
     },
-    /// Its text is not a shop's.
+    /// The file is not TOML, or has unknown keys.
     #[error(transparent)]
     Text(#[from] TextFault),
 }
@@ -49,7 +50,8 @@ struct ShopText {
 }
 
 impl Shop {
-    /// The defaults in the first of these folders that has the file; none where none has.
+    /// Reads the defaults from the first of these folders that has [`SHOP_FILE`]; `None` if none
+    /// has.
     pub fn of_folders(folders: &[PathBuf]) -> Result<Option<Self>, ShopError> {
         let files = folders.iter().map(|folder| folder.join(SHOP_FILE));
         let Some(file) = files.into_iter().find(|file| file.is_file()) else {
@@ -64,10 +66,14 @@ impl Shop {
 
     fn parse(file: &Path, text: &str) -> Result<Self, TextFault> {
         let shop: ShopText = toml_text::read(&file.to_string_lossy(), text)?;
-        let said = shop.printer.into_inner();
-        let is_path = by_id(BUILT_IN.printers, &said).is_none() && said.ends_with(PROFILE_ENDING);
-        let beside = || file.with_file_name(&said).to_string_lossy().into_owned();
-        let printer = if is_path { beside() } else { said };
+        let printer = shop.printer.into_inner();
+        let is_path =
+            by_id(BUILT_IN.printers, &printer).is_none() && printer.ends_with(PROFILE_ENDING);
+        let printer = if is_path {
+            file.with_file_name(&printer).to_string_lossy().into_owned()
+        } else {
+            printer
+        };
         Ok(Self {
             file: file.to_owned(),
             printer,
@@ -81,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_folder_with_the_file_decides_and_a_profile_is_taken_from_beside_it() {
+    fn the_first_folder_with_the_file_decides_and_paths_start_from_it() {
         let folder = tempfile::tempdir().unwrap();
         let [near, far] = ["near", "far"].map(|name| folder.path().join(name));
         for path in [&near, &far] {
@@ -109,7 +115,7 @@ mod tests {
     }
 
     #[test]
-    fn a_misspelt_key_is_told_with_its_place() {
+    fn a_misspelt_key_is_reported_with_its_place() {
         let error = Shop::parse(Path::new("s/equipoise.toml"), "printr = \"x\"\n")
             .unwrap_err()
             .to_string();

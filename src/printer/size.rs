@@ -1,30 +1,35 @@
-//! Whether a model has a size that this printer can make a hollow kit of.
+//! The sizes of models for which a printer can make a hollow kit.
 
 use super::Printer;
 use crate::base::units::show_mm;
 
-/// How many times as long as its longest side a build volume may be exceeded by a model. Cuts open
-/// voids, and halve a model once or twice on the way: below 2 kits that fit would be refused, above
-/// 8 runs take hours to end in parts that do not.
+/// Length of the longest model over the longest side of the build volume.
+///
+/// Cuts open voids, and so halve a model once or twice. Below 2, kits that fit would be refused.
+/// Above 8, runs take hours and their parts do not fit.
 const MAX_BUILD_LENGTHS: f64 = 4.0;
 
-/// The longest model where the build volume is not known, mm: twice the longest side of the largest
-/// machines of this kind. Longer ones take minutes and gigabytes for parts that most likely fit
-/// nothing; a profile may state its volume.
+/// Length of the longest model if the build volume is not known, mm: twice the longest side of the
+/// largest machines of this kind.
+///
+/// Longer models take minutes and gigabytes, and their parts hardly fit any machine. A profile can
+/// state its build volume.
 const MAX_SIZE_MM: f64 = 2000.0;
 
-/// From here on a length is told as a power of ten, mm: a thousand kilometres have too many digits
-/// to read.
+/// The least length that is written with a power of ten, mm: a thousand kilometres have too many
+/// digits to read.
 const LONG_MM: f64 = 1e9;
 
-/// Why no kit can be made of a model of this size.
+/// A size of a model that allows no kit.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SizeError {
-    /// The walls fill all of it.
+    /// The walls fill the whole model.
     #[error(
-        "the model is {} long, and walls of {} leave nothing inside it to be emptied; remedy: give its size with --size, \
-         its unit with --unit, or a thinner --wall",
-        shown(*size_mm), shown(*wall_mm)
+        "the model is {} long, and walls of {} leave nothing inside to empty; \
+         remedy: give its size with --size, its unit with --unit, or a thinner --wall",
+        show(*size_mm),
+        show(*wall_mm)
     )]
     AllWall {
         /// The model's longest side, mm.
@@ -32,24 +37,26 @@ pub enum SizeError {
         /// The wall, mm.
         wall_mm: f64,
     },
-    /// Its parts would not fit the printer by far.
+    /// The model is too long for any cut to make its parts fit.
     #[error(
-        "the model is {} long, and a kit for {printer} may be {} long at most; remedy: give its size with --size or its \
-         unit with --unit, or state a larger build volume in the profile",
-        shown(*size_mm), shown(*most_mm)
+        "the model is {} long, but a kit for {printer} may be {} long at most; \
+         remedy: give its size with --size or its unit with --unit, \
+         or state a larger build volume in the profile",
+        show(*size_mm),
+        show(*most_mm)
     )]
     TooLong {
         /// The model's longest side, mm.
         size_mm: f64,
-        /// The longest that is tried, mm.
+        /// The longest allowed model, mm.
         most_mm: f64,
         /// The printer's id.
         printer: String,
     },
 }
 
-/// A length for people, however small or large.
-fn shown(mm: f64) -> String {
+/// Formats a length, however small or large.
+fn show(mm: f64) -> String {
     let is_plain = (1e-3..LONG_MM).contains(&mm);
     if is_plain {
         show_mm(mm)
@@ -59,16 +66,15 @@ fn shown(mm: f64) -> String {
 }
 
 impl Printer {
-    /// The longest model that is tried, mm: some build lengths, or a fixed length where the build
-    /// volume is not known.
+    /// Returns the length of the longest allowed model, mm: some lengths of the build volume, or a
+    /// fixed length if that is not known.
     pub fn greatest_length_mm(&self) -> f64 {
-        let longest = |volume: [f64; 3]| MAX_BUILD_LENGTHS * volume.into_iter().fold(0.0, f64::max);
-        self.build_volume_mm
-            .as_ref()
-            .map_or(MAX_SIZE_MM, |volume| longest(volume.value))
+        self.build_volume_mm.as_ref().map_or(MAX_SIZE_MM, |volume| {
+            MAX_BUILD_LENGTHS * volume.value.into_iter().fold(0.0, f64::max)
+        })
     }
 
-    /// Refuses a model whose longest side is beyond what could be cut into parts for this printer.
+    /// Refuses a model whose longest side exceeds [`Self::greatest_length_mm`], or is no number.
     pub fn allows_length(&self, size_mm: f64) -> Result<(), SizeError> {
         let most_mm = self.greatest_length_mm();
         if size_mm <= most_mm {
@@ -82,7 +88,7 @@ impl Printer {
     }
 }
 
-/// Refuses a model whose longest side two walls fill.
+/// Refuses a model whose longest side is no longer than two walls.
 pub fn leaves_room(size_mm: f64, wall_mm: f64) -> Result<(), SizeError> {
     if size_mm > 2.0 * wall_mm {
         Ok(())
@@ -96,7 +102,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_model_of_four_build_lengths_is_tried_and_a_longer_one_is_not() {
+    fn a_model_of_four_build_lengths_is_allowed_and_a_longer_one_is_not() {
         let longest = |printer: &Printer| {
             printer
                 .build_volume_mm

@@ -1,26 +1,26 @@
-//! A value together with where it is from and how sure it is.
+//! A value with its source and its certainty.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// How a number came to be known, the surest first.
+/// The certainty of a number, by how it came to be known; the surest first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sure {
     /// Measured by the shop on a part it printed, such as a weighed coupon.
     Measured,
-    /// Seen in the named source by whoever wrote the profile.
+    /// Read in the named source by the author of the profile.
     Read,
-    /// Stated in one of the scientific papers the method rests on.
+    /// Stated in a scientific paper on which the method rests.
     Paper,
-    /// Computed from what the named source says.
+    /// Computed from values of the named source.
     Computed,
-    /// From a listing by somebody other than the maker.
+    /// Listed by a third party, not by the maker.
     ThirdParty,
-    /// Remembered from a source and not read again.
+    /// Recalled from a source and not read again.
     Recalled,
-    /// Chosen by whoever wrote the profile, for the reason given as its source.
+    /// Chosen by the author of the profile, for the reason given as the source.
     OwnChoice,
 }
 
@@ -41,18 +41,18 @@ impl fmt::Display for Sure {
 /// A value with its provenance.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Sourced<T> {
-    /// The value, in the unit its field's name says.
+    /// The value, in the unit that the name of the field states.
     pub value: T,
-    /// Where it is from, or for an own choice the reason.
+    /// Its source, or the reason for an own choice.
     pub source: String,
-    /// How sure it is.
+    /// Its certainty.
     pub sure: Sure,
-    /// The process whose default this is; none where the printer's own profile says it.
+    /// The process whose default this is; `None` if a printer's own profile states the value.
     pub process_default_of: Option<String>,
 }
 
 impl<T> Sourced<T> {
-    /// One line for people: `read, default of polyjet: Hubs poster`.
+    /// Describes certainty and source in one line: `read, default of polyjet: Hubs poster`.
     pub fn provenance(&self) -> String {
         let inherited = self
             .process_default_of

@@ -1,45 +1,35 @@
-//! From the wall that was asked for to the wall that is printed, and the pitch to solve at.
+//! The printed wall for a requested one, and the pitch of the solver's columns.
 
 use serde::Serialize;
 
 use super::{Grid, Printer, Sourced};
 use crate::base::units::show_mm;
 
-/// How far beyond a whole number of steps a wall may lie and still count as that number, in steps.
+/// Greatest excess over a whole number of steps that still counts as that number, in steps.
 ///
-/// Below the rounding of 25.4/600·24 (some 1e-15) an exact multiple is rounded up a whole step; at
-/// 1e-3 a wall would be thinner than asked by more than any printer's accuracy.
+/// Below the rounding error of 25.4/600·24 (some 1e-15), an exact multiple is rounded up a whole
+/// step. At 1e-3, a wall would be thinner than requested by more than any printer's accuracy.
 const WHOLE_STEP_TOLERANCE: f64 = 1e-6;
 
-/// Columns there must be across a wall for its curved and slanted parts to be resolved (the issue's
-/// figure).
+/// Least number of columns across a wall that resolves its curved and slanted parts.
 ///
-/// Below it the moments of thin shells drift; above it columns are spent where nothing can be
-/// emptied.
+/// With fewer, the moments of thin shells drift. More are wasted, as the wall cannot be emptied.
 const COLUMNS_PER_WALL: f64 = 4.0;
 
-/// Columns over the square about a model up to which the pitch is the printer's own pixel: those of
-/// a model of 100 mm at 600 dpi, which the solver is held to. Four times as many take four times
-/// the time and memory for a void that differs by microns.
+/// Greatest number of columns over the square around a model at the pitch of the printer's pixels.
+///
+/// It is the number for a model of 100 mm at 600 dpi, which the solver must manage. Four times as
+/// many take four times the time and memory, for a void that differs by micrometres.
 const MOST_COLUMNS: f64 = 6e6;
 
-/// The thinnest wall of parts up to a size.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct SizedWall {
-    /// The longest side of the parts it holds for, mm.
-    pub up_to_mm: f64,
-    /// The wall, mm.
-    pub wall_mm: Sourced<f64>,
-}
-
-/// The wall that is printed, and why it is that.
+/// The wall that is printed, and the reason.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WallChoice {
-    /// What was asked for, mm; none if the profile's minimum was taken.
+    /// The requested wall, mm; `None` if the profile's minimum was taken.
     pub asked_mm: Option<f64>,
-    /// What is printed, mm: at least what was asked for, and a whole number of steps.
+    /// The printed wall, mm: a whole number of steps, not thinner than requested.
     pub wall_mm: f64,
-    /// How many steps of the printer's grid it is.
+    /// The printed wall in steps of the printer's grid.
     pub steps: u32,
     /// The step: the coarser of pixel x and pixel y, or the width of a line, mm.
     pub step_mm: f64,
@@ -47,32 +37,36 @@ pub struct WallChoice {
     pub why: String,
 }
 
-/// Why a wall cannot be printed.
+/// A wall that cannot be printed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum WallError {
     /// Not positive and finite.
     #[error("a wall of {0} mm is not possible; remedy: give a positive length")]
     NotPositive(f64),
-    /// Thinner than the printer can.
+    /// Thinner than the printer's minimum.
     #[error(
-        "a wall of {} is below the {} that {printer} can print ({provenance}); remedy: ask for {} or more",
-        show_mm(*asked_mm), show_mm(*min_mm), show_mm(*min_mm)
+        "a wall of {} is below the {} that {printer} can print ({provenance}); \
+         remedy: ask for {} or more",
+        show_mm(*asked_mm),
+        show_mm(*min_mm),
+        show_mm(*min_mm)
     )]
     TooThin {
-        /// What was asked for, mm.
+        /// The requested wall, mm.
         asked_mm: f64,
-        /// The least wall of the profile, mm.
+        /// The thinnest wall of the profile, mm.
         min_mm: f64,
         /// The printer's id.
         printer: String,
-        /// Where the least wall is from.
+        /// Certainty and source of the thinnest wall.
         provenance: String,
     },
 }
 
 impl Printer {
-    /// The thinnest wall of a part whose longest side is `size_mm`, mm, that prints and survives
-    /// cleaning.
+    /// Returns the thinnest wall, mm, that prints and survives cleaning on a part whose longest
+    /// side is `size_mm`.
     pub fn least_wall_mm(&self, size_mm: f64) -> &Sourced<f64> {
         let sized = self
             .walls_by_part_size
@@ -81,11 +75,13 @@ impl Printer {
         sized.map_or(&self.min_wall_mm, |wall| &wall.wall_mm)
     }
 
-    /// The wall to print for the one asked for, or for the profile's minimum at that size: whole
-    /// pixels or lines of the coarser of x and y, and where the grid is of pixels so many that
-    /// neither these nor the layers can make it thinner than asked, wherever it lies between them.
-    /// A wall of whole pixels already stays as it is, to the bit; the checklist says what layers
-    /// make of it.
+    /// Rounds a wall up to whole steps of the printer's grid: `asked_mm`, or the profile's minimum
+    /// at that size for `None`.
+    ///
+    /// A step is a pixel or a line, the coarser of x and y. On a grid of pixels, steps are
+    /// added until neither pixels nor layers can make the wall thinner than requested, wherever it
+    /// lies between them. A wall of whole pixels stays as it is, to the bit; the checklist says
+    /// what layers make of it.
     ///
     /// Layers do not thicken walls of lines: slicers close a roof with whole layers, and the
     /// checklist says how many.
@@ -109,7 +105,7 @@ impl Printer {
             steps += 1.0;
         }
         let wall_mm = if is_whole { wanted_mm } else { steps * step_mm };
-        let why = self.why(asked_mm.ok_or(least.value), wall_mm, steps);
+        let why = self.explain(asked_mm.ok_or(least.value), wall_mm, steps);
         Ok(WallChoice {
             asked_mm,
             wall_mm,
@@ -119,8 +115,8 @@ impl Printer {
         })
     }
 
-    /// Whether a wall drawn so thick may come out thinner than wanted between the pixels and
-    /// layers. Never of a wall that is thicker by the coarsest step, so the search for one ends.
+    /// True if a drawn wall may come out thinner than wanted between pixels or layers. A wall that
+    /// is thicker than wanted by the coarsest step never does, so the search for one ends.
     fn may_print_thinner(&self, drawn_mm: f64, wanted_mm: f64) -> bool {
         let steps = [&self.pixel_x_mm, &self.pixel_y_mm, &self.layer_mm].map(|step| step.value);
         let is_thinner = |step_mm: &f64| {
@@ -138,8 +134,8 @@ impl Printer {
         }
     }
 
-    /// The sentence for a wall that was asked for, or for the least.
-    fn why(&self, asked_mm: Result<f64, f64>, wall_mm: f64, steps: f64) -> String {
+    /// Explains the printed wall: `Ok` for a requested wall, `Err` for the least one.
+    fn explain(&self, asked_mm: Result<f64, f64>, wall_mm: f64, steps: f64) -> String {
         let from = match asked_mm {
             Ok(asked_mm) => format!("asked for {}", show_mm(asked_mm)),
             Err(least_mm) => format!("the least this printer makes is {}", show_mm(least_mm)),
@@ -152,10 +148,12 @@ impl Printer {
         )
     }
 
-    /// The pitch of the solver's columns along x and y for a model so long, mm: the printer's own
-    /// pixel, or a quarter of the wall where that is finer. Where that would be more columns than
-    /// six million, so many whole pixels that it is not, unless they were more than a quarter of
-    /// the wall. `asked_mm` (positive) overrides all.
+    /// Returns the pitch of the solver's columns along x and y, mm, for a model of length
+    /// `size_mm`.
+    ///
+    /// The pitch is the printer's own pixel, or a quarter of the wall if that is finer. If this
+    /// takes more than six million columns, the pitch is several of these steps, at most a quarter
+    /// of the wall. A positive `asked_mm` overrides all.
     pub fn solve_pitch_mm(&self, wall_mm: f64, size_mm: f64, asked_mm: Option<f64>) -> [f64; 2] {
         let own = [self.pixel_x_mm.value, self.pixel_y_mm.value];
         let finest = own.map(|pixel_mm| pixel_mm.min(wall_mm / COLUMNS_PER_WALL));
@@ -170,7 +168,7 @@ impl Printer {
     }
 }
 
-/// How many whole steps a length holds at least, wherever it lies between them.
+/// Returns the least number of whole steps within a length, wherever it lies between them.
 pub fn whole_steps(length_mm: f64, step_mm: f64) -> f64 {
     (length_mm / step_mm + WHOLE_STEP_TOLERANCE).floor()
 }
@@ -198,8 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn filament_walls_are_whole_lines_and_resin_walls_so_many_pixels_that_layers_cannot_thin_them()
-    {
+    fn filament_walls_are_whole_lines_and_layers_cannot_thin_resin_walls() {
         let fdm = printer("prusa-mk4").quantised_wall(None, 100.0).unwrap();
         assert_eq!((fdm.steps, fdm.wall_mm), (2, 0.9));
         assert_eq!(
@@ -209,13 +206,13 @@ mod tests {
         let sla = printer("formlabs-form4")
             .quantised_wall(Some(1.04), 100.0)
             .unwrap();
-        // 21 pixels of 0.05 mm are 1.05 mm, but may hold 10 layers of 0.1 mm only.
+        // 21 pixels of 0.05 mm are 1.05 mm, but may hold only 10 layers of 0.1 mm.
         assert_eq!(sla.steps, 22);
         assert!(sla.why.contains("22 pixels"), "{}", sla.why);
     }
 
     #[test]
-    fn a_wall_below_the_least_is_refused_with_the_least_and_its_source() {
+    fn a_wall_below_the_minimum_is_refused_with_the_minimum_and_its_source() {
         let error = printer("objet-connex350")
             .quantised_wall(Some(0.99), 100.0)
             .unwrap_err()
@@ -252,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn on_pixels_that_are_not_square_no_direction_makes_a_wall_thinner_than_asked() {
+    fn on_oblong_pixels_no_direction_makes_a_wall_thinner_than_asked() {
         let saturn = printer("elegoo-saturn-4-ultra");
         let wall_mm = saturn.quantised_wall(Some(1.0), 100.0).unwrap().wall_mm;
         // 42 pixels of 24 µm; 53 of 19 µm are 1.007 mm, 20 layers of 50 µm are 1 mm.
@@ -263,9 +260,9 @@ mod tests {
     }
 
     #[test]
-    fn columns_too_many_are_thinned_to_whole_pixels_but_not_beyond_a_quarter_of_the_wall() {
+    fn too_many_columns_are_thinned_to_whole_pixels_up_to_a_quarter_of_the_wall() {
         let saturn = printer("elegoo-saturn-4-ultra");
-        // 100 mm: 5263 × 4167 columns are 3.7 times the most, so every second pixel.
+        // 100 mm: 5263 × 4167 columns are 3.7 times the limit, so every second pixel.
         assert_eq!(
             saturn.solve_pitch_mm(1.008, 100.0, None),
             [2.0 * 0.019, 2.0 * 0.024]
@@ -276,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn the_least_wall_of_sintered_powder_grows_with_the_part() {
+    fn the_thinnest_wall_of_sintered_powder_grows_with_the_part() {
         let eos = printer("eos-p396");
         let wall_mm = |size_mm| eos.quantised_wall(None, size_mm).unwrap().wall_mm;
         assert_eq!(
@@ -303,13 +300,17 @@ mod tests {
         }
 
         #[test]
-        fn a_wall_is_never_thinner_than_asked_nor_a_step_thicker_and_rounds_only_once(asked_mm in 1.0..30.0_f64) {
+        fn a_wall_is_never_thinner_than_asked_nor_a_step_thicker_and_rounds_only_once(
+            asked_mm in 1.0..30.0_f64,
+        ) {
             for id in ["objet-connex350", "formlabs-form4", "prusa-mk4", "elegoo-saturn-4-ultra"] {
                 let any = printer(id);
                 let coarsest_mm = any.layer_mm.value.max(any.pixel_y_mm.value);
                 let once = any.quantised_wall(Some(asked_mm), 100.0).unwrap();
-                prop_assert!(once.wall_mm >= asked_mm && once.wall_mm < asked_mm + (once.step_mm + coarsest_mm) * (1.0 + 1e-9));
-                prop_assert_eq!(any.quantised_wall(Some(once.wall_mm), 100.0).unwrap().wall_mm, once.wall_mm);
+                let most_mm = asked_mm + (once.step_mm + coarsest_mm) * (1.0 + 1e-9);
+                prop_assert!(once.wall_mm >= asked_mm && once.wall_mm < most_mm);
+                let twice = any.quantised_wall(Some(once.wall_mm), 100.0).unwrap();
+                prop_assert_eq!(twice.wall_mm, once.wall_mm);
             }
         }
     }

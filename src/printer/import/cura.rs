@@ -1,22 +1,22 @@
-//! Cura's definitions: machines (`.def.json`, each inheriting from another file of its folder),
-//! materials (`.xml.fdm_material`) and layers (`.inst.cfg`).
+//! Cura's definitions: machines (`.def.json`, each of which inherits from another file of its
+//! folder), materials (`.xml.fdm_material`) and layers (`.inst.cfg`).
 
 use std::{collections::BTreeMap, path::Path};
 
 use serde_json::Value;
 
 use super::{
-    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology, first_number,
-    formula::{Setting, evaluated},
+    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology,
+    formula::{Setting, evaluate},
     ini::Ini,
-    read_text,
+    text::{self, first_number},
 };
 use crate::base::toml_text::Place;
 
-/// How a definition's file ends.
+/// Ending of the file name of a definition.
 const ENDING: &str = ".def.json";
 
-/// Settings by name, each with the file it is from.
+/// Settings by name, each with its file.
 type Settings = BTreeMap<String, (Setting, String)>;
 
 /// Adds the machine of a definition to `all`.
@@ -27,12 +27,12 @@ pub(super) fn read_definition(
 ) -> Result<(), ImportError> {
     let mut settings = Settings::new();
     let name = collect(path, text, &mut settings, &mut Vec::new())?;
-    let width = found(&settings, "line_width").or_else(|| nozzle(&settings));
+    let width = find_number(&settings, "line_width").or_else(|| nozzle(&settings));
     all.printers.push(ImportedPrinter {
         name,
         technology: Technology::Filament,
         pixel_mm: width.map(|width| [width.clone(), width]),
-        layer_mm: found(&settings, "layer_height"),
+        layer_mm: find_number(&settings, "layer_height"),
         layers_mm: [None, None],
         build_volume_mm: build_volume(&settings),
         elephant_foot_mm: None,
@@ -41,25 +41,26 @@ pub(super) fn read_definition(
     Ok(())
 }
 
-/// A setting's number, read or worked out from its formula.
-fn found(settings: &Settings, key: &str) -> Option<Found<f64>> {
+/// Returns the number of a setting, read or computed from its formula; `None` if it is missing or
+/// not positive.
+fn find_number(settings: &Settings, key: &str) -> Option<Found<f64>> {
     let (setting, file) = settings.get(key)?;
     let named = |name: &str| settings.get(name).map(|(setting, _)| setting);
     let (value, how, is_computed) = match setting {
         Setting::Number(number) => (*number, String::new(), false),
-        Setting::Formula(formula) => (evaluated(formula, &named)?, format!(" = {formula}"), true),
+        Setting::Formula(formula) => (evaluate(formula, &named)?, format!(" = {formula}"), true),
     };
-    let is_length = value.is_finite() && value > 0.0;
-    is_length.then(|| Found {
+    let is_positive = value.is_finite() && value > 0.0;
+    is_positive.then(|| Found {
         value,
         source: format!("{file}, {key}{how}"),
         is_computed,
     })
 }
 
-/// The nozzle's diameter, which stands for a line's width where its formula is not understood.
+/// Returns the diameter of the nozzle, which replaces a line width of an unsupported formula.
 fn nozzle(settings: &Settings) -> Option<Found<f64>> {
-    let nozzle = found(settings, "machine_nozzle_size")?;
+    let nozzle = find_number(settings, "machine_nozzle_size")?;
     let source = format!(
         "{}, as the line width is a formula of another kind",
         nozzle.source
@@ -72,7 +73,7 @@ fn nozzle(settings: &Settings) -> Option<Found<f64>> {
 }
 
 fn build_volume(settings: &Settings) -> Option<Found<[f64; 3]>> {
-    let side = |key: &str| found(settings, key);
+    let side = |key: &str| find_number(settings, key);
     let sides = [
         side("machine_width")?,
         side("machine_depth")?,
@@ -86,18 +87,18 @@ fn build_volume(settings: &Settings) -> Option<Found<[f64; 3]>> {
     })
 }
 
-/// Gathers the settings of a definition over those it inherits; gives its name.
+/// Gathers the settings of a definition over the inherited ones; returns its name.
 fn collect(
     path: &Path,
     text: &str,
     into: &mut Settings,
-    way: &mut Vec<String>,
+    heirs: &mut Vec<String>,
 ) -> Result<String, ImportError> {
     let file = path
         .file_name()
         .map(|name| name.to_string_lossy().into_owned())
         .unwrap_or_default();
-    if way.contains(&file) {
+    if heirs.contains(&file) {
         let place = Place {
             file: file.clone(),
             line: 1,
@@ -105,14 +106,14 @@ fn collect(
         };
         return Err(ImportError::Cycle {
             place,
-            way: way.join(" → ") + " → " + &file,
+            chain: heirs.join(" → ") + " → " + &file,
         });
     }
-    way.push(file.clone());
-    let definition = parsed(&file, text)?;
+    heirs.push(file.clone());
+    let definition = parse(&file, text)?;
     if let Some(parent) = definition["inherits"].as_str() {
         let above = path.with_file_name(format!("{parent}{ENDING}"));
-        collect(&above, &read_text(&above)?, into, way)?;
+        collect(&above, &text::read(&above)?, into, heirs)?;
     }
     gather(&definition["settings"], &file, into);
     gather(&definition["overrides"], &file, into);
@@ -122,7 +123,8 @@ fn collect(
         .to_owned())
 }
 
-fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
+/// Parses a definition.
+fn parse(file: &str, text: &str) -> Result<Value, ImportError> {
     let fault = |line: usize, column: usize, message: String| ImportError::Json {
         file: file.to_owned(),
         line,
@@ -134,22 +136,16 @@ fn parsed(file: &str, text: &str) -> Result<Value, ImportError> {
     let is_definition = value["inherits"].is_string()
         || value["settings"].is_object()
         || value["overrides"].is_object();
-    let none = || {
-        fault(
-            1,
-            1,
-            "it neither inherits nor has settings or overrides".to_owned(),
-        )
-    };
     if is_definition {
         Ok(value)
     } else {
-        Err(none())
+        let message = "it neither inherits nor has settings or overrides";
+        Err(fault(1, 1, message.to_owned()))
     }
 }
 
-/// The numbers and formulas of settings, and of their children; a formula comes before its default
-/// value.
+/// Gathers the numbers and formulas of settings and of their children. A formula takes precedence
+/// over a default value.
 fn gather(settings: &Value, file: &str, into: &mut Settings) {
     for (key, setting) in settings.as_object().into_iter().flatten() {
         let formula = setting["value"]
@@ -158,17 +154,20 @@ fn gather(settings: &Value, file: &str, into: &mut Settings) {
         let number = setting["value"]
             .as_f64()
             .or_else(|| setting["default_value"].as_f64());
-        // As in Cura: a default value does not undo the formula that a parent has given.
-        let holds =
+        // As in Cura: a default value does not replace the formula of a parent.
+        let keeps_formula =
             setting["value"].is_null() && matches!(into.get(key), Some((Setting::Formula(_), _)));
-        if let Some(found) = formula.or(number.map(Setting::Number)).filter(|_| !holds) {
+        if let Some(found) = formula
+            .or(number.map(Setting::Number))
+            .filter(|_| !keeps_formula)
+        {
             into.insert(key.clone(), (found, file.to_owned()));
         }
         gather(&setting["children"], file, into);
     }
 }
 
-/// Adds a material to `all`: its name is brand, material and colour.
+/// Adds a material to `all`; its name is made of brand and material.
 pub(super) fn read_material(file: &str, text: &str, all: &mut Imported) {
     let name = element(text, "name").map_or_else(String::new, str::to_owned);
     let words: Vec<&str> = ["brand", "material"]
@@ -192,17 +191,17 @@ pub(super) fn read_material(file: &str, text: &str, all: &mut Imported) {
     });
 }
 
-/// What stands between the first `<tag>` and its end; none where there is no such element.
+/// Returns the text of the first element of a tag; `None` if there is none.
 fn element<'a>(text: &'a str, tag: &str) -> Option<&'a str> {
     let (_, after) = text.split_once(&format!("<{tag}>"))?;
     let (inside, _) = after.split_once(&format!("</{tag}>"))?;
     Some(inside.trim())
 }
 
-/// Gives the printers of `all` the layer and line of a quality file.
+/// Sets the layer height and the line width of all printers from a quality file.
 pub(super) fn read_layer(file: &str, text: &str, all: &mut Imported) -> Result<(), ImportError> {
-    let values = Ini::parse(file, text)?.resolved("values", "")?;
-    let found = |key: &str| {
+    let values = Ini::parse(file, text)?.resolve("values", "")?;
+    let find = |key: &str| {
         let value = first_number(values.get(key)?)?;
         Some(Found {
             value,
@@ -211,8 +210,8 @@ pub(super) fn read_layer(file: &str, text: &str, all: &mut Imported) -> Result<(
         })
     };
     for printer in &mut all.printers {
-        printer.layer_mm = found("layer_height").or(printer.layer_mm.take());
-        let width = found("line_width").map(|width| [width.clone(), width]);
+        printer.layer_mm = find("layer_height").or(printer.layer_mm.take());
+        let width = find("line_width").map(|width| [width.clone(), width]);
         printer.pixel_mm = width.or(printer.pixel_mm.take());
     }
     Ok(())
@@ -222,15 +221,17 @@ pub(super) fn read_layer(file: &str, text: &str, all: &mut Imported) -> Result<(
 mod tests {
     use super::*;
 
-    /// A folder like Cura's, with a machine that inherits from the one every machine does.
+    /// A folder like Cura's, with a machine that inherits from a base machine.
     fn folder() -> tempfile::TempDir {
         let folder = tempfile::tempdir().unwrap();
-        let base = r#"{"name": "FDM Printer Base", "settings": {"machine_settings": {"type": "category", "children": {
+        let base = r#"{"name": "FDM Printer Base", "settings": {
+            "machine_settings": {"type": "category", "children": {
             "machine_width": {"default_value": 100}, "machine_depth": {"default_value": 100},
             "machine_nozzle_size": {"default_value": 0.4}}},
             "resolution": {"children": {"layer_height": {"default_value": 0.1},
             "line_width": {"default_value": 0.4, "value": "machine_nozzle_size"}}}}}"#;
-        let five = r#"{"name": "Five", "inherits": "base", "overrides": {"machine_width": {"default_value": 330},
+        let five = r#"{"name": "Five", "inherits": "base", "overrides": {
+            "machine_width": {"default_value": 330},
             "machine_depth": {"default_value": 240}, "machine_height": {"default_value": 300},
             "line_width": {"value": "round(machine_nozzle_size * 0.875, 3)"}}}"#;
         std::fs::write(folder.path().join("base.def.json"), base).unwrap();
@@ -238,11 +239,12 @@ mod tests {
         folder
     }
 
-    const MATERIAL: &str = "<fdmmaterial><metadata><name><brand>Ultimaker</brand><material>ABS</material>\
-        <color>Black</color></name></metadata><properties><density>1.10</density><diameter>2.85</diameter></properties></fdmmaterial>";
+    const MATERIAL: &str = "<fdmmaterial><metadata><name>\
+        <brand>Ultimaker</brand><material>ABS</material><color>Black</color></name></metadata>\
+        <properties><density>1.10</density><diameter>2.85</diameter></properties></fdmmaterial>";
 
     #[test]
-    fn a_machine_its_materials_and_its_layers_arrive_together() {
+    fn a_machine_its_materials_and_its_layers_are_imported_together() {
         let folder = folder();
         std::fs::write(folder.path().join("abs.xml.fdm_material"), MATERIAL).unwrap();
         std::fs::write(
@@ -274,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn a_formula_is_worked_out_and_the_nozzle_stands_for_one_of_another_kind() {
+    fn a_formula_is_evaluated_and_the_nozzle_replaces_an_unsupported_one() {
         let folder = folder();
         let path = folder.path().join("five.def.json");
         let width = |path: &Path| {
@@ -298,7 +300,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_definition_is_told_with_its_place() {
+    fn a_file_that_is_no_definition_is_reported_with_its_place() {
         let folder = tempfile::tempdir().unwrap();
         for (text, words) in [
             ("{\n \"name\": }", "x.def.json:2:"),

@@ -1,10 +1,11 @@
 //! Cura's formulas, as far as line widths and layers need them: numbers, names of settings, + − ×
-//! ÷, brackets and `round`.
+//! ÷, parentheses and `round`.
 
-/// How deep formulas may refer to each other; real ones go three deep, and a circle would not end.
-const MOST_DEPTH: usize = 16;
+/// Greatest depth of references between formulas, and of parentheses. Real ones go three deep, and
+/// a circle would not end.
+const MAX_DEPTH: usize = 16;
 
-/// What a formula refers to.
+/// The value of a setting to which formulas refer.
 pub(super) enum Setting {
     /// A number.
     Number(f64),
@@ -12,16 +13,17 @@ pub(super) enum Setting {
     Formula(String),
 }
 
-/// The value of a formula; none where it has words, functions or operators besides those above, or
-/// refers to nothing.
-pub(super) fn evaluated<'a>(
+/// Evaluates a formula; `None` if it has other words, functions or operators, or refers to an
+/// unknown setting.
+pub(super) fn evaluate<'a>(
     formula: &str,
     setting: &impl Fn(&str) -> Option<&'a Setting>,
 ) -> Option<f64> {
-    value_of(formula, setting, 0)
+    evaluate_at(formula, setting, 0)
 }
 
-fn value_of<'a>(
+/// Evaluates a formula at some depth of references.
+fn evaluate_at<'a>(
     formula: &str,
     setting: &impl Fn(&str) -> Option<&'a Setting>,
     depth: usize,
@@ -29,7 +31,7 @@ fn value_of<'a>(
     let name = |name: &str| match setting(name)? {
         Setting::Number(number) => Some(*number),
         Setting::Formula(formula) => {
-            (depth < MOST_DEPTH).then(|| value_of(formula, setting, depth + 1))?
+            (depth < MAX_DEPTH).then(|| evaluate_at(formula, setting, depth + 1))?
         }
     };
     let mut parser = Parser {
@@ -41,7 +43,7 @@ fn value_of<'a>(
     (parser.peek().is_none() && value.is_finite()).then_some(value)
 }
 
-/// What is left of a formula.
+/// The part of a formula that is still to be parsed.
 struct Parser<'f, 'n> {
     rest: &'f str,
     name: &'n dyn Fn(&str) -> Option<f64>,
@@ -49,14 +51,14 @@ struct Parser<'f, 'n> {
 }
 
 impl Parser<'_, '_> {
-    /// The next character that is not a blank.
+    /// Skips blanks and returns the next character.
     fn peek(&mut self) -> Option<char> {
         self.rest = self.rest.trim_start();
         self.rest.chars().next()
     }
 
-    /// Whether the next character is this one; if so it is taken.
-    fn takes(&mut self, wanted: char) -> bool {
+    /// Takes the next character if it is the wanted one, and returns true if so.
+    fn accept(&mut self, wanted: char) -> bool {
         let is_next = self.peek() == Some(wanted);
         if is_next {
             self.rest = &self.rest[wanted.len_utf8()..];
@@ -67,9 +69,9 @@ impl Parser<'_, '_> {
     fn sum(&mut self) -> Option<f64> {
         let mut value = self.product()?;
         loop {
-            if self.takes('+') {
+            if self.accept('+') {
                 value += self.product()?;
-            } else if self.takes('-') {
+            } else if self.accept('-') {
                 value -= self.product()?;
             } else {
                 return Some(value);
@@ -80,9 +82,9 @@ impl Parser<'_, '_> {
     fn product(&mut self) -> Option<f64> {
         let mut value = self.factor()?;
         loop {
-            if self.takes('*') {
+            if self.accept('*') {
                 value *= self.factor()?;
-            } else if self.takes('/') {
+            } else if self.accept('/') {
                 value /= self.factor()?;
             } else {
                 return Some(value);
@@ -90,32 +92,32 @@ impl Parser<'_, '_> {
         }
     }
 
-    /// A number, a name, `round(…)` or a bracket.
+    /// Parses a number, a name, `round(…)` or an expression in parentheses.
     fn factor(&mut self) -> Option<f64> {
         let first = self.peek()?;
         if first == '(' {
-            return self.bracketed(&[]);
+            return self.parentheses(&[]);
         }
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '.';
         let end = self.rest.find(|c| !is_word(c)).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
         self.rest = rest;
         match word {
-            "round" => self.bracketed(&[0.0]),
+            "round" => self.parentheses(&[0.0]),
             _ if first.is_ascii_digit() || first == '.' => word.parse().ok(),
             _ => (self.name)(word),
         }
     }
 
-    /// What stands in brackets; with `digits` the first is rounded to the second, or to these where
-    /// there is none.
-    fn bracketed(&mut self, digits: &[f64]) -> Option<f64> {
+    /// Parses one or two expressions in parentheses. The first is rounded to as many digits as the
+    /// second says, or else to `digits` if given.
+    fn parentheses(&mut self, digits: &[f64]) -> Option<f64> {
         self.depth += 1;
-        if self.depth > MOST_DEPTH || !self.takes('(') {
+        if self.depth > MAX_DEPTH || !self.accept('(') {
             return None;
         }
         let value = self.sum()?;
-        let digits = if self.takes(',') {
+        let digits = if self.accept(',') {
             Some(self.sum()?)
         } else {
             digits.first().copied()
@@ -125,7 +127,7 @@ impl Parser<'_, '_> {
             let scale = 10f64.powf(digits);
             (value * scale).round() / scale
         });
-        self.takes(')').then_some(value)
+        self.accept(')').then_some(value)
     }
 }
 
@@ -137,7 +139,7 @@ mod tests {
         let nozzle = Setting::Number(0.4);
         let width = Setting::Formula("round(machine_nozzle_size * 0.875, 3)".into());
         let circle = Setting::Formula("circle + 1".into());
-        evaluated(formula, &|name: &str| match name {
+        evaluate(formula, &|name: &str| match name {
             "machine_nozzle_size" => Some(&nozzle),
             "line_width" => Some(&width),
             "circle" => Some(&circle),
@@ -146,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn widths_are_the_nozzle_times_something_rounded() {
+    fn formulas_of_line_widths_are_evaluated() {
         assert_eq!(value("=line_width"), Some(0.35));
         assert_eq!(value("machine_nozzle_size"), Some(0.4));
         assert_eq!(value(" 2 * (1 + 3) / 4 - .5 "), Some(1.5));
@@ -154,7 +156,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_understood_has_no_value() {
+    fn other_formulas_have_no_value() {
         for formula in [
             "",
             "1 +",

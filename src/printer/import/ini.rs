@@ -1,17 +1,17 @@
-//! Slicers' `.ini` files: sections of keys, and sections that inherit from others of their kind.
+//! Slicers' `.ini` files: sections of keys that inherit from other sections of their kind.
 
 use std::collections::BTreeMap;
 
 use super::ImportError;
 use crate::base::toml_text::{Place, nearest};
 
-/// What the kind of a file without sections is called: a configuration that a slicer has exported.
+/// Kind and name of the section of an exported configuration, which has no sections.
 pub(super) const FLAT: &str = "";
 
-/// The key that names what a section inherits from.
+/// The key that names the parents of a section.
 const INHERITS: &str = "inherits";
 
-/// A section: its own keys and where they stand.
+/// A section: its own keys, and the line of its head.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Section {
     pub line: usize,
@@ -26,8 +26,7 @@ pub(super) struct Ini {
 }
 
 impl Ini {
-    /// The sections of a text; a line that is none of section, key, comment or blank is refused
-    /// with its place.
+    /// Parses the sections of a text. A line that is no section, key, comment or blank is an error.
     pub fn parse(file: &str, text: &str) -> Result<Self, ImportError> {
         let mut ini = Self {
             file: file.to_owned(),
@@ -59,17 +58,13 @@ impl Ini {
 
     fn fault(&self, line: usize, problem: &'static str) -> ImportError {
         ImportError::Line {
-            place: Place {
-                file: self.file.clone(),
-                line,
-                column: 1,
-            },
+            place: self.place(line),
             problem,
         }
     }
 
-    /// The names of the sections of a kind that a user sees: not those in asterisks, which only
-    /// lend their keys.
+    /// Returns the names of the sections of a kind, without those in asterisks: these only lend
+    /// their keys.
     pub fn names(&self, kind: &str) -> Vec<&str> {
         let of_kind = self
             .sections
@@ -79,40 +74,38 @@ impl Ini {
         of_kind.filter(|name| !name.starts_with('*')).collect()
     }
 
-    /// The line a section begins at.
+    /// Returns the line of a section's head; 1 if it has none.
     pub fn line(&self, kind: &str, name: &str) -> usize {
         self.sections
             .get(&(kind.to_owned(), name.to_owned()))
             .map_or(1, |section| section.line)
     }
 
-    /// Every key of a section with what it inherits; its own and the later parents' come first.
-    pub fn resolved(
-        &self,
-        kind: &str,
-        name: &str,
-    ) -> Result<BTreeMap<String, String>, ImportError> {
-        self.resolved_on_way(kind, name, &mut Vec::new())
+    /// Returns every key of a section with the inherited ones. Its own keys take precedence, then
+    /// those of later parents.
+    pub fn resolve(&self, kind: &str, name: &str) -> Result<BTreeMap<String, String>, ImportError> {
+        self.resolve_below(kind, name, &mut Vec::new())
     }
 
-    fn resolved_on_way(
+    /// Resolves a section from which `heirs` inherit, the nearest last.
+    fn resolve_below(
         &self,
         kind: &str,
         name: &str,
-        way: &mut Vec<String>,
+        heirs: &mut Vec<String>,
     ) -> Result<BTreeMap<String, String>, ImportError> {
         let key = (kind.to_owned(), name.to_owned());
         let Some(section) = self.sections.get(&key) else {
-            return Err(self.no_section(kind, name));
+            return Err(self.missing_section(kind, name));
         };
-        if way.iter().any(|on_way| on_way == name) {
-            let way = way.join(" → ") + " → " + name;
+        if heirs.iter().any(|heir| heir == name) {
+            let chain = heirs.join(" → ") + " → " + name;
             return Err(ImportError::Cycle {
                 place: self.place(section.line),
-                way,
+                chain,
             });
         }
-        way.push(name.to_owned());
+        heirs.push(name.to_owned());
         let mut values = BTreeMap::new();
         let parents = section.values.get(INHERITS).map_or("", String::as_str);
         for parent in parents
@@ -120,9 +113,9 @@ impl Ini {
             .map(|parent| parent.trim().trim_matches('"'))
             .filter(|p| !p.is_empty())
         {
-            values.extend(self.resolved_on_way(kind, parent, way)?);
+            values.extend(self.resolve_below(kind, parent, heirs)?);
         }
-        way.pop();
+        heirs.pop();
         values.extend(
             section
                 .values
@@ -141,11 +134,11 @@ impl Ini {
         }
     }
 
-    fn no_section(&self, kind: &str, name: &str) -> ImportError {
+    fn missing_section(&self, kind: &str, name: &str) -> ImportError {
         let names = self.names(kind);
         let remedy = match nearest(name, names.iter().copied()) {
             Some(near) => format!("did you mean `{near}`?"),
-            None => "list what there is with --list".to_owned(),
+            None => "list the names with --list".to_owned(),
         };
         ImportError::NoSection {
             file: self.file.clone(),
@@ -156,7 +149,7 @@ impl Ini {
     }
 }
 
-/// The kind and the name of `kind:name`; a section without a colon is its own kind.
+/// Splits `kind:name`; without a colon, the whole is the kind.
 fn split_name(name: &str) -> (String, String) {
     let (kind, name) = name.split_once(':').unwrap_or((name, FLAT));
     (kind.trim().to_owned(), name.trim().to_owned())
@@ -166,25 +159,26 @@ fn split_name(name: &str) -> (String, String) {
 mod tests {
     use super::*;
 
-    const TEXT: &str = "# bundle\nkey = flat\n[print:*common*]\na = 1\nb = 1\n[print:*fine*]\nb = 2\n\
+    const TEXT: &str = "# bundle\nkey = flat\n[print:*common*]\na = 1\nb = 1\n\
+                        [print:*fine*]\nb = 2\n\
                         [print:Mine]\ninherits = *common*; *fine*\nc = x = y\n";
 
     #[test]
-    fn own_keys_come_before_the_later_parents_and_these_before_the_earlier() {
+    fn own_keys_take_precedence_then_those_of_later_parents() {
         let ini = Ini::parse("t.ini", TEXT).unwrap();
-        let mine = ini.resolved("print", "Mine").unwrap();
+        let mine = ini.resolve("print", "Mine").unwrap();
         let pairs: Vec<(&str, &str)> = mine.iter().map(|(k, v)| (k.as_str(), v.as_str())).collect();
         assert_eq!(pairs, [("a", "1"), ("b", "2"), ("c", "x = y")]);
         assert_eq!(
             ini.names("print"),
             ["Mine"],
-            "those in asterisks only lend their keys"
+            "sections in asterisks only lend their keys"
         );
-        assert_eq!(ini.resolved(FLAT, FLAT).unwrap()["key"], "flat");
+        assert_eq!(ini.resolve(FLAT, FLAT).unwrap()["key"], "flat");
     }
 
     #[test]
-    fn what_is_wrong_is_told_with_its_line() {
+    fn faults_are_reported_with_their_line() {
         for (text, words) in [
             ("a = 1\n[print:x\n", "t.ini:2:1: a section has no `]`"),
             ("a = 1\n\nwhat is this\n", "t.ini:3:1: neither a [section]"),
@@ -198,7 +192,7 @@ mod tests {
             ),
         ] {
             let error = Ini::parse("t.ini", text)
-                .and_then(|ini| ini.resolved("print", "a"))
+                .and_then(|ini| ini.resolve("print", "a"))
                 .unwrap_err();
             assert!(error.to_string().contains(words), "{error}");
         }

@@ -1,19 +1,20 @@
-//! PrusaSlicer's and SuperSlicer's `.ini`: vendor bundles with many presets, and exported
-//! configurations with one of each.
+//! The `.ini` files of PrusaSlicer and SuperSlicer: vendor bundles with many presets, and exported
+//! configurations with one of each kind.
 
 use std::collections::BTreeMap;
 
 use super::{
-    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology, first_number,
+    Found, ImportError, Imported, ImportedMaterial, ImportedPrinter, Technology,
     ini::{FLAT, Ini},
+    text::first_number,
 };
 
-/// The width of a line that these slicers take where none is set, over the nozzle's diameter.
+/// Default width of a line in these slicers over the diameter of the nozzle.
 const AUTO_WIDTH_RATIO: f64 = 1.125;
 
-/// Keys of a section, and how they are quoted.
+/// Keys of a section, and its place for sources.
 struct Preset {
-    said: String,
+    place: String,
     values: BTreeMap<String, String>,
 }
 
@@ -26,8 +27,8 @@ impl Preset {
             format!(" line {line} [{kind}:{name}]")
         };
         Ok(Self {
-            said: format!("{}{section}", ini.file),
-            values: ini.resolved(kind, name)?,
+            place: format!("{}{section}", ini.file),
+            values: ini.resolve(kind, name)?,
         })
     }
 
@@ -39,13 +40,13 @@ impl Preset {
     }
 
     fn number(&self, key: &str) -> Option<Found<f64>> {
-        Some(self.found(first_number(self.word(key)?)?, key))
+        Some(self.with_source(first_number(self.word(key)?)?, key))
     }
 
-    fn found<T>(&self, value: T, key: &str) -> Found<T> {
+    fn with_source<T>(&self, value: T, key: &str) -> Found<T> {
         Found {
             value,
-            source: format!("{}, {key}", self.said),
+            source: format!("{}, {key}", self.place),
             is_computed: false,
         }
     }
@@ -56,8 +57,8 @@ pub(super) fn read(file: &str, text: &str, all: &mut Imported) -> Result<(), Imp
     let ini = Ini::parse(file, text)?;
     for name in ini.names("printer") {
         let printer = Preset::of(&ini, "printer", name)?;
-        let print = print_of(&ini, &printer)?;
-        all.printers.push(imported_printer(name, &printer, &print));
+        let print = default_print(&ini, &printer)?;
+        all.printers.push(import_printer(name, &printer, &print));
     }
     for (kind, key, technology) in [
         ("filament", "filament_density", Technology::Filament),
@@ -78,24 +79,24 @@ pub(super) fn read(file: &str, text: &str, all: &mut Imported) -> Result<(), Imp
     Ok(())
 }
 
-/// The print settings a printer begins with; its own section where it names none.
-fn print_of(ini: &Ini, printer: &Preset) -> Result<Preset, ImportError> {
+/// Returns the default print settings of a printer; empty ones if it names none.
+fn default_print(ini: &Ini, printer: &Preset) -> Result<Preset, ImportError> {
     let resin = printer
         .word("default_sla_print_profile")
         .map(|name| ("sla_print", name));
-    let lines = printer
+    let filament = printer
         .word("default_print_profile")
         .map(|name| ("print", name));
     let chosen = if technology(printer) == Technology::Resin {
         resin
     } else {
-        lines
+        filament
     };
-    let there = chosen.filter(|(kind, name)| ini.names(kind).contains(name));
-    match there {
+    let known = chosen.filter(|(kind, name)| ini.names(kind).contains(name));
+    match known {
         Some((kind, name)) => Preset::of(ini, kind, name),
         None => Ok(Preset {
-            said: printer.said.clone(),
+            place: printer.place.clone(),
             values: BTreeMap::new(),
         }),
     }
@@ -108,13 +109,13 @@ fn technology(printer: &Preset) -> Technology {
     }
 }
 
-/// An exported configuration: printer, print and material in one.
+/// Adds the printer and the material of an exported configuration to `all`.
 fn read_flat(config: &Preset, all: &mut Imported) {
     let name = config
         .word("printer_settings_id")
         .or(config.word("printer_model"))
         .unwrap_or("Imported printer");
-    let printer = imported_printer(name, config, config);
+    let printer = import_printer(name, config, config);
     let [key, id, fallback] = match printer.technology {
         Technology::Filament => ["filament_density", "filament_settings_id", "filament_type"],
         Technology::Resin => [
@@ -128,19 +129,19 @@ fn read_flat(config: &Preset, all: &mut Imported) {
         .or(config.word(fallback))
         .unwrap_or("Imported material");
     all.materials.push(ImportedMaterial {
-        name: first_word(material).to_owned(),
+        name: first_name(material).to_owned(),
         technology: printer.technology,
         density_g_cm3: config.number(key),
     });
     all.printers.push(printer);
 }
 
-/// The first of several quoted names by semicolons.
-fn first_word(names: &str) -> &str {
+/// Returns the first of several quoted names, which semicolons separate.
+fn first_name(names: &str) -> &str {
     names.split(';').next().unwrap_or(names).trim_matches('"')
 }
 
-fn imported_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPrinter {
+fn import_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPrinter {
     let technology = technology(printer);
     let elephant_foot_mm = || print.number("elefant_foot_compensation");
     let default_material = match technology {
@@ -163,12 +164,12 @@ fn imported_printer(name: &str, printer: &Preset, print: &Preset) -> ImportedPri
         elephant_foot_mm: printer
             .number("elefant_foot_compensation")
             .or_else(elephant_foot_mm),
-        default_material: default_material.map(|name| first_word(name).to_owned()),
+        default_material: default_material.map(|name| first_name(name).to_owned()),
     }
 }
 
-/// The width of a line: as set, of the layer where it is set in per cent, or the slicer's own for
-/// that nozzle.
+/// Returns the width of a line: as set, in per cent of the layer, or the slicer's default for the
+/// nozzle.
 fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
     let key = "extrusion_width";
     let nozzle = || {
@@ -187,7 +188,7 @@ fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
         None => print.number(key).or_else(nozzle),
         Some(percent) => {
             let layer = print.number("layer_height")?;
-            let source = format!("{}, {word} of the layer", print.found((), key).source);
+            let source = format!("{}, {word} of the layer", print.with_source((), key).source);
             Some(Found {
                 value: first_number(percent)? / 100.0 * layer.value,
                 source,
@@ -197,14 +198,14 @@ fn line_width(printer: &Preset, print: &Preset) -> Option<Found<f64>> {
     }
 }
 
-/// The pixels of a display, as they lie under the plate: a display on its side has its rows along
-/// the plate's x.
+/// Returns the sizes of a display's pixels along the plate's x and y. A display on its side has its
+/// rows along the plate's x.
 fn display(printer: &Preset) -> Option<[Found<f64>; 2]> {
     let pitch = |size: &str, pixels: &str| {
         let (length_mm, count) = (printer.number(size)?.value, printer.number(pixels)?.value);
         let source = format!(
             "{}, {length_mm} mm over {count}",
-            printer.found((), pixels).source
+            printer.with_source((), pixels).source
         );
         Some(Found {
             value: length_mm / count,
@@ -218,7 +219,7 @@ fn display(printer: &Preset) -> Option<[Found<f64>; 2]> {
     ])
 }
 
-/// The box over the plate's outline, up to the greatest height.
+/// Returns the box over the plate's outline, up to the greatest height.
 fn build_volume(printer: &Preset) -> Option<Found<[f64; 3]>> {
     let corners: Vec<[f64; 2]> = printer
         .word("bed_shape")?
@@ -233,15 +234,15 @@ fn build_volume(printer: &Preset) -> Option<Found<[f64; 3]>> {
         along.clone().fold(f64::NEG_INFINITY, f64::max) - along.fold(f64::INFINITY, f64::min)
     };
     let height_mm = printer.number("max_print_height")?.value;
-    let volume = [tidy(side(0)), tidy(side(1)), height_mm];
+    let volume = [round(side(0)), round(side(1)), height_mm];
     volume
         .iter()
         .all(|side| *side > 0.0 && side.is_finite())
-        .then(|| printer.found(volume, "bed_shape and max_print_height"))
+        .then(|| printer.with_source(volume, "bed_shape and max_print_height"))
 }
 
-/// A difference of decimals, to a tenth of a micrometre.
-fn tidy(mm: f64) -> f64 {
+/// Rounds a difference of decimals to a tenth of a micrometre.
+fn round(mm: f64) -> f64 {
     const PER_MM: f64 = 1e4;
     (mm * PER_MM).round() / PER_MM
 }
@@ -250,14 +251,40 @@ fn tidy(mm: f64) -> f64 {
 mod tests {
     use super::*;
 
-    const BUNDLE: &str = "[vendor]\nname = V\n[printer:*base*]\nbed_shape = 0x0,250x0,250x210,0x210\n\
-        max_print_height = 210\nnozzle_diameter = 0.4,0.4\nmin_layer_height = 0.07\nmax_layer_height = 0.25\n\
-        default_print_profile = Fine\ndefault_filament_profile = \"PLA\"\n[printer:Mine]\ninherits = *base*\n\
-        [printer:Wide]\ninherits = *base*\nnozzle_diameter = 0.8\ndefault_print_profile = Gone\n\
-        [printer:Vat]\nprinter_technology = SLA\ndisplay_width = 120.96\ndisplay_pixels_x = 2560\n\
-        display_height = 68.04\ndisplay_pixels_y = 1440\nbed_shape = 1.48x1.02,119.48x1.02,119.48x67.02,1.48x67.02\n\
-        max_print_height = 150\n[print:Fine]\nlayer_height = 0.15\nextrusion_width = 300%\nelefant_foot_compensation = 0.2\n\
-        [filament:PLA]\nfilament_density = 1.24\n[filament:Odd]\nfilament_density = 0\n";
+    const BUNDLE: &str = "\
+[vendor]
+name = V
+[printer:*base*]
+bed_shape = 0x0,250x0,250x210,0x210
+max_print_height = 210
+nozzle_diameter = 0.4,0.4
+min_layer_height = 0.07
+max_layer_height = 0.25
+default_print_profile = Fine
+default_filament_profile = \"PLA\"
+[printer:Mine]
+inherits = *base*
+[printer:Wide]
+inherits = *base*
+nozzle_diameter = 0.8
+default_print_profile = Gone
+[printer:Vat]
+printer_technology = SLA
+display_width = 120.96
+display_pixels_x = 2560
+display_height = 68.04
+display_pixels_y = 1440
+bed_shape = 1.48x1.02,119.48x1.02,119.48x67.02,1.48x67.02
+max_print_height = 150
+[print:Fine]
+layer_height = 0.15
+extrusion_width = 300%
+elefant_foot_compensation = 0.2
+[filament:PLA]
+filament_density = 1.24
+[filament:Odd]
+filament_density = 0
+";
 
     fn bundle() -> Imported {
         let mut all = Imported::default();
@@ -266,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_layers_plate_and_foot_arrive_with_the_key_they_are_from() {
+    fn lines_layers_plate_and_foot_are_imported_with_their_keys() {
         let all = bundle();
         let mine = all.printer(Some("Mine")).unwrap();
         let width = &mine.pixel_mm.as_ref().unwrap()[0];
@@ -309,7 +336,7 @@ mod tests {
     }
 
     #[test]
-    fn a_density_of_zero_is_none() {
+    fn a_density_of_zero_is_unknown() {
         let densities: Vec<Option<f64>> = bundle()
             .materials
             .iter()
@@ -325,8 +352,9 @@ mod tests {
     #[test]
     fn an_exported_configuration_is_a_printer_and_its_material() {
         let mut all = Imported::default();
-        let text = "# generated\nbed_shape = 0x0,180x0,180x180,0x180\nmax_print_height = 180\nlayer_height = 0.2\n\
-                    extrusion_width = 0.45\nfilament_density = 1.27;1.24\nfilament_settings_id = \"My PETG\";\"x\"\n\
+        let text = "# generated\nbed_shape = 0x0,180x0,180x180,0x180\nmax_print_height = 180\n\
+                    layer_height = 0.2\nextrusion_width = 0.45\nfilament_density = 1.27;1.24\n\
+                    filament_settings_id = \"My PETG\";\"x\"\n\
                     printer_settings_id = Mini of mine\n";
         read("config.ini", text, &mut all).unwrap();
         let only = all.printer(None).unwrap();
@@ -339,7 +367,7 @@ mod tests {
     }
 
     #[test]
-    fn a_choice_that_must_be_made_is_asked_for() {
+    fn one_of_several_printers_must_be_chosen_by_name() {
         let all = bundle();
         assert!(
             all.printer(None)

@@ -1,4 +1,4 @@
-//! An imported printer with its materials as the text of a profile of ours.
+//! Writing of an imported printer with its materials as a profile.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -6,21 +6,23 @@ use std::fmt::Write;
 use super::{Found, Imported, ImportedMaterial, ImportedPrinter};
 use crate::printer::Quantity;
 
-/// What an imported profile says at its head.
-const HEAD: &str = "# Made by `equipoise printers import`. What slicers do not know (least walls, clearances, cleaning) is\n\
-                    # the process's default until it is stated here; print coupons and `equipoise printers calibrate`.\n";
+/// The comment at the head of an imported profile.
+const HEAD: &str = "\
+# Made by `equipoise printers import`. Slicers do not know least walls, clearances and cleaning;\n\
+# these are defaults of the process until you state them here. To measure them, print coupons and\n\
+# run `equipoise printers calibrate`.\n";
 
 impl Imported {
-    /// The profile of a printer of these, under that id, with every material of its technology that
-    /// has a density in reach.
+    /// Writes the profile of one of these printers under an id, with every material of its
+    /// technology that has a density.
     ///
-    /// Numbers outside what a profile may say ([`Quantity::plausible`]) are left out: slicers hold
-    /// placeholders there.
+    /// Implausible numbers ([`Quantity::plausible`]) are left out, as they are placeholders of the
+    /// slicer.
     pub fn to_toml(&self, printer: &ImportedPrinter, id: &str) -> String {
-        let materials = self.named_materials(printer);
+        let materials = self.name_materials(printer);
         let mut text = format!(
             "{HEAD}id = \"{id}\"\nname = {}\ninherits = \"{}\"\n",
-            quoted(&printer.name),
+            string(&printer.name),
             printer.technology.process()
         );
         if !materials.is_empty() {
@@ -51,20 +53,20 @@ impl Imported {
         text
     }
 
-    /// The materials of the printer's technology that have a density, with ids that no two share.
-    fn named_materials(&self, printer: &ImportedPrinter) -> Vec<(String, &ImportedMaterial)> {
-        let mut taken = BTreeSet::new();
+    /// Returns the materials of the printer's technology that have a density, with unique ids.
+    fn name_materials(&self, printer: &ImportedPrinter) -> Vec<(String, &ImportedMaterial)> {
+        let mut used = BTreeSet::new();
         let of_printer = self
             .materials
             .iter()
             .filter(|material| material.technology == printer.technology);
-        let weighed = of_printer.filter(|material| material.density_g_cm3.is_some());
+        let with_density = of_printer.filter(|material| material.density_g_cm3.is_some());
         let mut named = Vec::new();
-        for material in weighed {
+        for material in with_density {
             let plain = slug(&material.name);
-            let free = (2..).map(|count| format!("{plain}-{count}"));
-            let mut ids = std::iter::once(plain.clone()).chain(free);
-            if let Some(id) = ids.find(|id| taken.insert(id.clone())) {
+            let numbered = (2..).map(|count| format!("{plain}-{count}"));
+            let mut ids = std::iter::once(plain.clone()).chain(numbered);
+            if let Some(id) = ids.find(|id| used.insert(id.clone())) {
                 named.push((id, material));
             }
         }
@@ -72,14 +74,14 @@ impl Imported {
     }
 }
 
-/// The `[numbers]` lines of a printer.
+/// Writes the lines of a printer's `[numbers]`.
 fn numbers(printer: &ImportedPrinter) -> String {
     let [x, y] = match &printer.pixel_mm {
         Some([x, y]) => [Some(x), Some(y)],
         None => [None, None],
     };
-    // The slicer's bounds are left out where its own layer lies beyond them, as presets for other
-    // nozzles do.
+    // The slicer's bounds are left out if its own layer lies beyond them, as in presets for other
+    // nozzles.
     let layer = printer.layer_mm.as_ref().map(|layer| layer.value);
     let least = printer.layers_mm[0]
         .as_ref()
@@ -112,7 +114,7 @@ fn material_table(id: &str, material: &ImportedMaterial) -> String {
     });
     format!(
         "\n[[material]]\nid = \"{id}\"\nname = {}\n{density}",
-        quoted(&material.name)
+        string(&material.name)
     )
 }
 
@@ -127,17 +129,18 @@ fn line<T>(key: &str, value: &str, found: &Found<T>) -> String {
     let _ = writeln!(
         text,
         "{key} = {{ value = {value}, source = {}, sure = \"{sure}\" }}",
-        quoted(&found.source)
+        string(&found.source)
     );
     text
 }
 
-/// A basic string of TOML.
-fn quoted(text: &str) -> String {
+/// Formats a text as a TOML string.
+fn string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
 
-/// Lower-case letters, digits and single hyphens of a name; `material` where nothing is left.
+/// Makes an id of a name: lower-case letters, digits and single hyphens; `material` if nothing is
+/// left.
 pub fn slug(name: &str) -> String {
     let mut slug = String::new();
     for c in name.chars().map(|c| c.to_ascii_lowercase()) {
@@ -200,7 +203,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_imported_is_a_profile_that_loads_with_all_its_numbers_and_their_source() {
+    fn an_imported_profile_loads_with_all_its_numbers_and_their_sources() {
         let (all, printer) = imported();
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("mine.toml");
@@ -225,7 +228,7 @@ mod tests {
         assert_eq!(
             ids,
             ["pla-2", "abs", "pla"],
-            "the default first; what has no density is left out"
+            "the default first; a material without a density is left out"
         );
     }
 
