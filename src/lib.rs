@@ -41,6 +41,7 @@
 pub mod advice;
 pub mod ballast;
 pub mod base;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod coupon;
 pub mod cut;
