@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example custom_printer`
 
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
+
 use equipoise::printer::Printer;
 
 /// The shop measured its own walls and weighed its own resin; the rest is the machine's.

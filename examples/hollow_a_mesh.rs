@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example hollow_a_mesh -- examples/models/tilted-ellipsoid.stl`
 
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
+
 use equipoise::base::watch::Watch;
 use equipoise::goal::{GoalKind, Request, place};
 use equipoise::hollow::{Problem, Settings, solve};

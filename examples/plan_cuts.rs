@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example plan_cuts`
 
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
+
 use equipoise::base::verdict::Verdict;
 use equipoise::cut::{GoalAxis, Hollowed, PlanRequest, parts, plan};
 use equipoise::geom::{Point, Vector};

@@ -2,6 +2,8 @@
 //!
 //! `cargo run --example read_a_kit -- FOLDER`; without a folder a small kit is made first.
 
+#![allow(clippy::print_stdout, reason = "an example prints what it found")]
+
 use std::path::{Path, PathBuf};
 
 use equipoise::base::watch::Watch;

@@ -154,7 +154,7 @@ pub fn without_ends(
         let depth = |wall: &MeshDistance| wall.signed(&end.at_mm.into());
         let depths = walls.iter().map(depth).enumerate();
         let (index, _) = depths.max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let cause = cause.clone();
+        let cause = *cause;
         Some(KeptSolid {
             void: VoidId::of(index),
             cause,

@@ -12,9 +12,12 @@ use crate::run::{AxisChoice, Model, Placed, Policy, Shop};
 /// Places the job's goal in the model and settles what the job leaves open.
 pub fn goal(job: &Job, model: Model, shop: Shop, watch: &Watch) -> Result<Placed, Error> {
     let choice = choose_axis(&job.goal, &model, &shop);
-    let request = match choice {
-        Some(AxisChoice::Best { request, .. }) => request,
-        Some(AxisChoice::NonePossible { up }) => Request { up, ..job.goal },
+    let request = match &choice {
+        Some(AxisChoice::Best { request, .. }) => **request,
+        Some(AxisChoice::NonePossible { up }) => Request {
+            up: *up,
+            ..job.goal
+        },
         None => job.goal,
     };
     watch.check()?;
@@ -53,7 +56,7 @@ fn choose_axis(request: &Request, model: &Model, shop: &Shop) -> Option<AxisChoi
         return Some(AxisChoice::NonePossible { up });
     };
     Some(AxisChoice::Best {
-        request: best.request,
+        request: Box::new(best.request),
         tried: best.tried,
         possible: best.possible,
         reached: best.reached,

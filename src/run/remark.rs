@@ -159,12 +159,12 @@ impl fmt::Display for KeptCause {
 }
 
 /// How the axis was chosen for a job that leaves it open.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum AxisChoice {
     /// The best of those tried.
     Best {
         /// The request with this axis, and the contact or face that goes with it.
-        request: Request,
+        request: Box<Request>,
         /// Number of axes tried.
         tried: usize,
         /// Number of axes on which the goal is possible.

@@ -144,7 +144,7 @@ fn functions(source: &Source) -> impl Iterator<Item = Function<'_>> {
 }
 
 /// The types in an argument that is a tuple of unlike types; empty for other arguments.
-fn bundle<'a>(argument: &'a str) -> Vec<&'a str> {
+fn bundle(argument: &str) -> Vec<&str> {
     let Some(colon) = find_outside(argument, |c| c == ':') else {
         return Vec::new();
     };

@@ -1,6 +1,10 @@
 //! Holds the house in order: which room may see which, and the rules every file keeps.
 
 #![allow(
+    clippy::print_stdout,
+    reason = "the figures are shown with --nocapture"
+)]
+#![allow(
     clippy::unwrap_used,
     reason = "a test whose input cannot be had has failed"
 )]
