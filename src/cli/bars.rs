@@ -8,7 +8,7 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use super::show::Manner;
+use super::voice::Manner;
 use crate::base::watch::{Phase, Progress};
 
 /// Steps of a bar; finer than any terminal is wide.
@@ -42,7 +42,7 @@ fn words(phase: Phase) -> &'static str {
 /// The progress of a run: one bar on a terminal, else nothing.
 ///
 /// ```
-/// # use equipoise::{base::watch::{Phase, Watch}, cli::{bars::Bars, show::Manner}};
+/// # use equipoise::{base::watch::{Phase, Watch}, cli::{bars::Bars, voice::Manner}};
 /// let bars = Bars::new(Manner::of_process(true, 0));
 /// let watch = Watch::observed(bars.observer());
 /// watch.enter(Phase::Solve);

@@ -3,7 +3,8 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{args_printers::CouponArgs, prepare::Voice};
+use super::args::CouponArgs;
+use super::voice::Voice;
 use crate::coupon::{CouponError, CouponSet, coupon_kit};
 use crate::kit::{Existing, KitError};
 use crate::printer::{MaterialError, Printer, ProfileError};

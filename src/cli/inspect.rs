@@ -4,11 +4,11 @@ use std::io::Write;
 
 use serde::Serialize;
 
-use super::Exit;
 use super::args::InspectArgs;
+use super::exit::Exit;
 use super::flags::{flag, flags, with_flags};
-use super::prepare::Voice;
 use super::show::{say, table};
+use super::voice::Voice;
 use crate::advice::{Case, Prospect, prospects};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};

@@ -1,13 +1,10 @@
 //! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
 
 pub mod args;
-pub mod args_printers;
-mod ballast_args;
 pub mod bars;
 pub mod coupon;
-mod cut_arg;
+mod exit;
 mod flags;
-mod goal_args;
 pub mod inspect;
 pub mod manual;
 pub mod prepare;
@@ -17,42 +14,16 @@ pub mod profiles;
 pub mod shop;
 pub mod show;
 mod summary;
+mod values;
 pub mod verify;
+pub mod voice;
 
 use std::error::Error;
-use std::process::ExitCode;
+
+pub use exit::Exit;
 
 use args::{Cli, Command};
-use prepare::Voice;
-use show::Manner;
-
-/// How a command ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Exit {
-    /// Every promise is kept.
-    Kept,
-    /// It ran to its end, but a check failed or the goal is impossible.
-    NotKept,
-    /// It could not run: a bad file, bad arguments, a target that cannot be written.
-    CouldNotRun,
-}
-
-impl Exit {
-    /// The code the process ends with: 0, 1 or 2.
-    pub fn code(self) -> u8 {
-        match self {
-            Self::Kept => 0,
-            Self::NotKept => 1,
-            Self::CouldNotRun => 2,
-        }
-    }
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(exit.code())
-    }
-}
+use voice::{Manner, Voice};
 
 /// Runs the command on as many threads as it asks for, and prints what came of it on the standard
 /// output.

@@ -2,12 +2,13 @@
 
 use std::io::Write;
 
-use super::Exit;
 use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
+use super::exit::Exit;
 use super::flags::{flags, with_flags};
-use super::show::{Manner, say};
+use super::show::say;
 use super::summary::{broken, details, ten_lines};
+use super::voice::Voice;
 use crate::advice::Remedy;
 use crate::base::watch::Watch;
 use crate::error::Error;
@@ -29,15 +30,6 @@ pub enum PrepareError {
     /// The outcome cannot be put into JSON.
     #[error("the outcome cannot be written as JSON")]
     Json(#[from] serde_json::Error),
-}
-
-/// What is said on the standard output.
-#[derive(Debug, Clone, Copy)]
-pub struct Voice {
-    /// How the terminal is used.
-    pub manner: Manner,
-    /// Whether to print JSON in place of text.
-    pub json: bool,
 }
 
 /// Prepares the kit and writes it; says what came of it on `out`.

@@ -5,12 +5,11 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{
-    args_printers::PrintersAction,
-    printers_markdown::markdown,
-    profiles::{self, ProfilesError},
-    show::table,
-};
+use super::args::PrintersAction;
+use super::printers_markdown::markdown;
+use super::profiles::{self, ProfilesError};
+use super::show::table;
+use super::values::{kebab, show_box, show_number, show_pixel, show_step};
 use crate::base::units::{show_mm, show_percent};
 use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure};
 
@@ -86,16 +85,6 @@ fn list_row(printer: &Printer) -> [String; 7] {
     ]
 }
 
-/// The steps along x and y, told once where they are equal.
-pub(super) fn show_pixel(printer: &Printer) -> String {
-    let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
-    if x == y {
-        show_step(x)
-    } else {
-        format!("{} × {}", show_step(x), show_step(y))
-    }
-}
-
 fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
     if json {
         return write_json(printer, out);
@@ -131,14 +120,6 @@ fn words(printer: &Printer) -> Vec<[String; 2]> {
         word("cleaning", printer.cleaning.clone()),
         word("SHA-256", printer.profile_sha256.clone()),
     ]
-}
-
-/// The word a unit-like value has in profiles.
-fn kebab(value: &impl Serialize) -> String {
-    serde_json::to_value(value)
-        .ok()
-        .and_then(|word| word.as_str().map(str::to_owned))
-        .unwrap_or_default()
 }
 
 fn numbers(printer: &Printer) -> Vec<[String; 4]> {
@@ -192,21 +173,6 @@ fn unknown_words(key: &str) -> &'static str {
     }
 }
 
-fn show_number(quantity: Quantity, value: f64) -> String {
-    match quantity {
-        _ if quantity.is_grid_step() => show_step(value),
-        _ if quantity.is_ratio() => value.to_string(),
-        _ if quantity.is_angle() => format!("{value}°"),
-        Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
-        _ => show_mm(value),
-    }
-}
-
-/// A step of a grid, to a tenth of a micrometre.
-pub(super) fn show_step(step_mm: f64) -> String {
-    format!("{step_mm:.4} mm")
-}
-
 fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
     let default = number
         .process_default_of
@@ -233,10 +199,6 @@ fn materials(printer: &Printer) -> Vec<[String; 6]> {
         ]
     }));
     rows
-}
-
-fn show_box([x, y, z]: [f64; 3]) -> String {
-    format!("{x} × {y} × {z} mm")
 }
 
 fn check(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {

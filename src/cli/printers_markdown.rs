@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use super::flags::TABLE_BEGIN;
-use super::printers::show_pixel;
+use super::values::show_pixel;
 use crate::base::units::show_mm;
 use crate::printer::{Printer, Sourced, Sure};
 

@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::args_printers::{CalibrateArgs, ImportArgs, NewArgs};
+use super::args::{CalibrateArgs, ImportArgs, NewArgs};
 use super::flags::{command_for_coupons, command_for_new_profile};
 use super::shop::today;
 use crate::base::setting::{Key, Setting};

@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use super::show::{GREEN, Manner, RED, paint, table, verdict};
+use super::show::{GREEN, RED, paint, table, verdict};
+use super::voice::Manner;
 use crate::base::numbers::quantity as figure;
 use crate::base::units::counted;
 use crate::page::promise;

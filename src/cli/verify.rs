@@ -3,10 +3,10 @@
 use std::io::Write;
 use std::path::Path;
 
-use super::Exit;
-use super::prepare::Voice;
-use super::show::{GREEN, Manner, RED, paint, say};
+use super::exit::Exit;
+use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
+use super::voice::{Manner, Voice};
 use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
 
 /// Why `verify` could not run.

@@ -1,27 +1,29 @@
 //! The command line: what can be asked for, and the job it makes.
 
+mod ballast;
+mod cut;
+mod error;
+mod goal;
 mod prepare;
+mod printers;
+mod scaling;
 #[cfg(test)]
 mod tests;
+mod values;
 
-use std::{path::PathBuf, str::FromStr};
+use std::path::PathBuf;
 
-use clap::{
-    Args, Parser, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-pub use prepare::{ArgsError, PrepareArgs, Request, ScalingArgs};
+pub use error::ArgsError;
+pub use prepare::{PrepareArgs, Request};
+pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
+pub use scaling::ScalingArgs;
+pub use values::FactorError;
 
-use super::args_printers::{CouponArgs, PrintersArgs};
 use crate::base::units::Length;
-use crate::base::words::ChoiceError;
-
-const EXIT_CODES: &str = "\
-LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.
-Exit codes: 0 every promise kept; 1 finished, but a promise is broken (a file of a kit that is missing or damaged breaks one) or \
-the goal is impossible; 2 could not run: bad arguments, a model that is not one solid body, no kit.";
+use values::EXIT_CODES;
 
 /// Hollow a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
 #[derive(Debug, Parser)]
@@ -123,24 +125,4 @@ pub struct CompletionsArgs {
 pub struct ManArgs {
     /// The command, such as prepare [default: the program itself]
     pub command: Option<String>,
-}
-
-/// Reads one of the words, which the help lists.
-fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
-where
-    T: FromStr<Err = ChoiceError> + Clone + Send + Sync + 'static,
-{
-    PossibleValuesParser::new(words).try_map(|word| word.parse::<T>())
-}
-
-/// A factor that is not positive and finite.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
-pub struct FactorError(String);
-
-pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
-    match text.trim().parse::<f64>() {
-        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err(FactorError(text.to_owned())),
-    }
 }

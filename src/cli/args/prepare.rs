@@ -1,25 +1,20 @@
 //! The arguments of `prepare`, and the job they make.
 
-use std::{
-    ffi::OsString,
-    path::{Path, PathBuf},
-};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    super::{
-        ballast_args::BallastArgs,
-        cut_arg::{CutArg, CutArgs},
-        goal_args::{HardwareArgs, RotorArgs, WaterArgs},
-        shop::chosen_printer,
-    },
-    EXIT_CODES, factor, words,
-};
+use super::ballast::BallastArgs;
+use super::cut::{CutArg, CutArgs};
+use super::error::ArgsError;
+use super::goal::{HardwareArgs, RotorArgs, WaterArgs};
+use super::scaling::ScalingArgs;
+use super::values::{EXIT_CODES, words};
 use crate::base::units::Length;
-use crate::goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up};
-use crate::job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling};
-use crate::printer::ShopError;
+use crate::cli::shop::chosen_printer;
+use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
+use crate::job::{Job, ModelChoice, PartFormat};
 
 /// What must be given, and what may be.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> [--printer <ID|FILE>] [OPTIONS]
@@ -166,22 +161,6 @@ const DECIDED_BY_JOB: [&str; 28] = [
     "fill",
 ];
 
-/// How large the model is; one of them at most.
-#[derive(Debug, Clone, Args)]
-#[group(multiple = false)]
-#[command(next_help_heading = "Size")]
-pub struct ScalingArgs {
-    /// Make the longest side this long
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub size: Option<Length>,
-    /// Multiply the file's numbers by this to get mm
-    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
-    pub scale: Option<f64>,
-    /// The unit of the numbers in an STL, OBJ or PLY file; a 3MF file says its own [default: mm]
-    #[arg(long, value_parser = words::<ModelUnit>(ModelUnit::WORDS))]
-    pub unit: Option<ModelUnit>,
-}
-
 /// What `prepare` is to do: the job, and where its kit goes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
@@ -191,32 +170,6 @@ pub struct Request {
     pub out: PathBuf,
     /// Whether a folder that is there is replaced.
     pub force: bool,
-}
-
-/// Arguments that do not go together.
-#[derive(Debug, thiserror::Error)]
-pub enum ArgsError {
-    /// The goal's.
-    #[error(transparent)]
-    Goal(#[from] RequestError),
-    /// The replayed job's.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// The plan's.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// An argument that neither the command line nor a job gives; the parser lets none pass.
-    #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
-    Missing(&'static str),
-    /// Neither the command line nor the shop names a printer.
-    #[error(
-        "--printer is missing; remedy: give it (`equipoise printers list` shows the ids), or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
-         your configuration folder"
-    )]
-    NoPrinter,
-    /// The shop's defaults cannot be used.
-    #[error(transparent)]
-    Shop(#[from] ShopError),
 }
 
 impl PrepareArgs {
@@ -274,17 +227,6 @@ impl PrepareArgs {
             ..default
         };
         Ok(asked.validate()?)
-    }
-}
-
-impl ScalingArgs {
-    /// What was asked for; mm where nothing was.
-    pub fn scaling(&self) -> Scaling {
-        match (self.size, self.scale) {
-            (Some(size), _) => Scaling::Size(size),
-            (None, Some(factor)) => Scaling::Factor(factor),
-            (None, None) => Scaling::Unit(self.unit.unwrap_or(ModelUnit::Mm)),
-        }
     }
 }
 

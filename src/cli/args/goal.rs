@@ -3,7 +3,7 @@
 
 use clap::Args;
 
-use super::args::factor;
+use super::values::factor;
 use crate::base::units::Length;
 use crate::goal::{Hardware, Liquid, Rod, Rotor, Water, Waterline};
 

@@ -1,13 +1,13 @@
 //! Where to cut: a word, or a file with the plan.
 
-use std::{convert::Infallible, path::PathBuf, str::FromStr};
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::Args;
 
-use crate::{
-    cut::CutOrder,
-    job::{CutMode, IdStyle, PinStyle, PlanError},
-};
+use crate::cut::CutOrder;
+use crate::job::{CutMode, IdStyle, PinStyle, PlanError};
 
 /// How the object is cut and its parts joined.
 #[derive(Debug, Clone, Args)]

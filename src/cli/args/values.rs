@@ -1,0 +1,33 @@
+//! Readers of single values, and the text that ends the help.
+
+use std::str::FromStr;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+
+use crate::base::words::ChoiceError;
+
+/// The text below the options in the help of a command.
+pub(super) const EXIT_CODES: &str = "\
+LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.
+Exit codes: 0 every promise kept; 1 finished, but a promise is broken (a file of a kit that is missing or damaged breaks one) or \
+the goal is impossible; 2 could not run: bad arguments, a model that is not one solid body, no kit.";
+
+/// Reads one of the words, which the help lists.
+pub(super) fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: FromStr<Err = ChoiceError> + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(words).try_map(|word| word.parse::<T>())
+}
+
+/// A factor that is not positive and finite.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
+pub struct FactorError(String);
+
+pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
+    match text.trim().parse::<f64>() {
+        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
+        _ => Err(FactorError(text.to_owned())),
+    }
+}
