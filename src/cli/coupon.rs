@@ -4,7 +4,10 @@ use std::io::Write;
 use std::path::PathBuf;
 
 use super::args::CouponArgs;
+use super::exit::Exit;
+use super::signals::Stop;
 use super::voice::Voice;
+use crate::base::watch::Watch;
 use crate::coupon::{CouponError, CouponSet, coupon_kit};
 use crate::kit::{Existing, KitError};
 use crate::printer::{MaterialError, Printer, ProfileError};
@@ -32,12 +35,13 @@ pub enum CouponCommandError {
     Output(#[from] std::io::Error),
 }
 
-/// Writes the coupons of a printer and says where.
+/// Writes the coupons of a printer, unless `stop` is pressed before; says on `out` where.
 pub fn coupon(
     args: &CouponArgs,
     voice: Voice,
+    stop: &Stop,
     out: &mut dyn Write,
-) -> Result<(), CouponCommandError> {
+) -> Result<Exit, CouponCommandError> {
     let printer = Printer::find(&args.printer)?;
     let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
     let target = args
@@ -49,7 +53,14 @@ pub fn coupon(
     } else {
         Existing::Keep
     };
-    coupon_kit(&set)?.write(&target, existing)?;
+    let watch = Watch::silent().stopped_by(stop.flag());
+    let written = coupon_kit(&set)?.write_watched(&target, existing, &watch);
+    if written.is_err()
+        && let Some(exit) = stop.end()
+    {
+        return Ok(exit);
+    }
+    written?;
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&set)?)?;
     } else if !voice.manner.quiet {
@@ -61,5 +72,5 @@ pub fn coupon(
             target.join("coupon.html").display()
         )?;
     }
-    Ok(())
+    Ok(Exit::Kept)
 }

@@ -13,6 +13,7 @@ pub mod printers_markdown;
 pub mod profiles;
 pub mod shop;
 pub mod show;
+pub mod signals;
 mod summary;
 mod values;
 pub mod verify;
@@ -23,6 +24,7 @@ use std::error::Error;
 pub use exit::Exit;
 
 use args::{Cli, Command};
+use signals::{Stop, end_process_on_signal};
 use voice::{Manner, Voice};
 
 /// Runs the command on as many threads as it asks for, and prints what came of it on the standard
@@ -42,17 +44,20 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
     };
     let out = &mut std::io::stdout();
     match cli.command {
-        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, out)?),
-        Command::Inspect(args) => Ok(inspect::inspect(&args, voice, out)?),
+        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
+        Command::Inspect(args) => {
+            end_process_on_signal();
+            Ok(inspect::inspect(&args, voice, out)?)
+        }
         Command::Printers(args) => {
             printers::run(args.action, voice.json, out)?;
             Ok(Exit::Kept)
         }
-        Command::Coupon(args) => {
-            coupon::coupon(&args, voice, out)?;
-            Ok(Exit::Kept)
+        Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),
+        Command::Verify(args) => {
+            end_process_on_signal();
+            Ok(verify::verify(&args.kit, voice, out)?)
         }
-        Command::Verify(args) => Ok(verify::verify(&args.kit, voice, out)?),
         Command::Completions(args) => {
             manual::completions(args.shell, out)?;
             Ok(Exit::Kept)

@@ -7,6 +7,7 @@ use super::bars::Bars;
 use super::exit::Exit;
 use super::flags::{flags, with_flags};
 use super::show::say;
+use super::signals::Stop;
 use super::summary::{broken, details, ten_lines};
 use super::voice::Voice;
 use crate::advice::Remedy;
@@ -32,25 +33,25 @@ pub enum PrepareError {
     Json(#[from] serde_json::Error),
 }
 
-/// Prepares the kit and writes it; says what came of it on `out`.
-pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, PrepareError> {
+/// Prepares the kit and writes it, unless `stop` is pressed before; says on `out` what came of it.
+pub fn prepare(
+    args: PrepareArgs,
+    voice: Voice,
+    stop: &Stop,
+    out: &mut dyn Write,
+) -> Result<Exit, PrepareError> {
     let request = args.request()?;
-    let existing = if request.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
-    existing.allows(&request.out).map_err(Error::from)?;
     let bars = Bars::new(voice.manner);
-    let watch = Watch::observed(bars.observer());
-    let outcome = prepare::prepare(&request.job, &watch);
+    let watch = Watch::observed(bars.observer()).stopped_by(stop.flag());
+    let outcome = run(&request, &watch);
     bars.finish();
+    // A kit that was written before the stop button was pressed stays, and so does its answer.
+    let is_written = matches!(outcome, Ok(Outcome::Prepared(_)));
+    if !is_written && let Some(exit) = stop.end() {
+        return Ok(exit);
+    }
     match outcome? {
         Outcome::Prepared(prepared) => {
-            prepared
-                .kit
-                .write(&request.out, existing)
-                .map_err(Error::from)?;
             tell_prepared(&prepared, &request, voice, out)?;
             Ok(if prepared.passes() {
                 Exit::Kept
@@ -63,6 +64,22 @@ pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<E
             Ok(Exit::NotKept)
         }
     }
+}
+
+/// Runs the job, and writes its kit if it has one.
+fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
+    let existing = if request.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    existing.allows(&request.out)?;
+    let outcome = prepare::prepare(&request.job, watch)?;
+    if let Outcome::Prepared(prepared) = &outcome {
+        let kit = &prepared.kit;
+        kit.write_watched(&request.out, existing, watch)?;
+    }
+    Ok(outcome)
 }
 
 fn tell_prepared(

@@ -4,6 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use crate::base::setting::{Key, Setting};
+use crate::base::watch::Cancelled;
 
 /// A reason why a kit was not written; nothing is left behind.
 #[derive(Debug, thiserror::Error)]
@@ -63,6 +64,9 @@ pub enum KitError {
         /// The fault that the system reports.
         source: io::Error,
     },
+    /// The caller stopped the run.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Returns the conversion of a system's fault at `path`.

@@ -6,6 +6,7 @@ use std::path::{Component, Path};
 
 use super::error::{KitError, write_error};
 use super::staging::{Staging, folder_of, sweep};
+use crate::base::watch::Watch;
 
 /// The files of a kit, in memory.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -59,13 +60,29 @@ impl Kit {
     /// # Errors
     /// On any error the old kit is where it was and nothing else is left.
     pub fn write(&self, target: &Path, existing: Existing) -> Result<(), KitError> {
+        self.write_watched(target, existing, &Watch::silent())
+    }
+
+    /// Writes the kit like [`Kit::write`] until the watch is stopped.
+    ///
+    /// # Errors
+    /// [`KitError::Cancelled`] if the watch was stopped before the kit was whole; then nothing is
+    /// written.
+    pub fn write_watched(
+        &self,
+        target: &Path,
+        existing: Existing,
+        watch: &Watch,
+    ) -> Result<(), KitError> {
         sweep(folder_of(target));
         check_target(target, existing)?;
         let staging = Staging::beside(target)?;
         let folder = staging.kit();
         for (file, bytes) in self.files() {
+            watch.check()?;
             write_file(&folder, file, bytes)?;
         }
+        watch.check()?;
         staging.replace_target()
     }
 }
@@ -220,6 +237,22 @@ mod tests {
             fs::read_to_string(target.join("checklist.json")).unwrap(),
             "one"
         );
+        assert_eq!(entries(room.path()), ["kit"]);
+    }
+
+    #[test]
+    fn a_write_that_is_stopped_leaves_nothing_and_the_old_kit_whole() {
+        let room = tempfile::tempdir().unwrap();
+        let target = room.path().join("kit");
+        kit("one").write(&target, Existing::Keep).unwrap();
+        let watch = Watch::silent();
+        watch.cancel();
+        for target in [&target, &room.path().join("deep/er/kit")] {
+            let stopped = kit("two").write_watched(target, Existing::Replace, &watch);
+            assert!(matches!(stopped, Err(KitError::Cancelled(_))));
+        }
+        let read = fs::read_to_string(target.join("checklist.json"));
+        assert_eq!(read.unwrap(), "one");
         assert_eq!(entries(room.path()), ["kit"]);
     }
 

@@ -9,8 +9,9 @@ use crate::base::words::ChoiceError;
 /// The text below the options in the help of a command.
 pub(super) const EXIT_CODES: &str = "\
 LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.
-Exit codes: 0 every promise kept; 1 finished, but a promise is broken (a file of a kit that is missing or damaged breaks one) or \
-the goal is impossible; 2 could not run: bad arguments, a model that is not one solid body, no kit.";
+Exit codes: 0 every promise is kept; 1 finished, but a promise is broken (by a missing or damaged \
+file of a kit too) or the goal is impossible; 2 could not run: bad arguments, a model that is not \
+one solid body, no kit; 130 or 143 stopped by Ctrl-C or a request to end, and nothing was written.";
 
 /// Reads one of the words, which the help lists.
 pub(super) fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
