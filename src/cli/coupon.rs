@@ -12,25 +12,26 @@ use crate::coupon::{CouponError, CouponSet, coupon_kit};
 use crate::kit::{Existing, KitError};
 use crate::printer::{MaterialError, Printer, ProfileError};
 
-/// Why no coupons were made.
+/// A reason why no coupons were written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CouponCommandError {
-    /// The printer's fault.
+    /// The printer's profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// They cannot be made.
+    /// The coupons cannot be made.
     #[error(transparent)]
     Coupon(#[from] CouponError),
-    /// They cannot be written.
+    /// The coupons cannot be written.
     #[error(transparent)]
     Kit(#[from] KitError),
     /// The sizes cannot be put into JSON.
     #[error("the sizes cannot be written as JSON")]
     Json(#[from] serde_json::Error),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
 }

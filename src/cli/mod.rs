@@ -1,4 +1,4 @@
-//! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
+//! The command line: arguments in, text and exit codes out. Nothing else in the library prints.
 
 pub mod args;
 pub mod bars;
@@ -27,7 +27,7 @@ use args::{Cli, Command};
 use signals::{Stop, end_process_on_signal};
 use voice::{Manner, Voice};
 
-/// Runs the command on as many threads as it asks for, and prints what came of it on the standard
+/// Runs the command on the number of threads it orders, and prints its result on the standard
 /// output.
 pub fn run(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
     let threads = cli.global.threads.map_or(0, usize::from);

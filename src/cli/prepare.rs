@@ -16,16 +16,17 @@ use crate::error::Error;
 use crate::kit::Existing;
 use crate::prepare::{self, Failure, Impossible, Outcome, Prepared};
 
-/// Why `prepare` could not run.
+/// A reason why `prepare` could not run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PrepareError {
-    /// The arguments do not go together.
+    /// The arguments make no job.
     #[error(transparent)]
     Args(#[from] ArgsError),
     /// A stage failed.
     #[error(transparent)]
     Run(#[from] Error),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
     /// The outcome cannot be put into JSON.
@@ -33,7 +34,7 @@ pub enum PrepareError {
     Json(#[from] serde_json::Error),
 }
 
-/// Prepares the kit and writes it, unless `stop` is pressed before; says on `out` what came of it.
+/// Prepares the kit and writes it, unless `stop` is pressed before; prints the result to `out`.
 pub fn prepare(
     args: PrepareArgs,
     voice: Voice,
@@ -52,7 +53,7 @@ pub fn prepare(
     }
     match outcome? {
         Outcome::Prepared(prepared) => {
-            tell_prepared(&prepared, &request, voice, out)?;
+            print_prepared(&prepared, &request, voice, out)?;
             Ok(if prepared.passes() {
                 Exit::Kept
             } else {
@@ -60,7 +61,7 @@ pub fn prepare(
             })
         }
         Outcome::Impossible(impossible) => {
-            tell_impossible(&impossible, voice, out)?;
+            print_impossible(&impossible, voice, out)?;
             Ok(Exit::NotKept)
         }
     }
@@ -82,7 +83,7 @@ fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
     Ok(outcome)
 }
 
-fn tell_prepared(
+fn print_prepared(
     prepared: &Prepared,
     request: &Request,
     voice: Voice,
@@ -121,7 +122,7 @@ fn tell_prepared(
     Ok(())
 }
 
-fn tell_impossible(
+fn print_impossible(
     impossible: &Impossible,
     voice: Voice,
     out: &mut dyn Write,
@@ -134,7 +135,7 @@ fn tell_impossible(
         )?);
     }
     if voice.manner.quiet {
-        // Quiet is silent about what went well only.
+        // A goal that cannot be met is reported even then.
         say(format!("{}\n{}", impossible.reason, advice(impossible)).trim_end());
         return Ok(());
     }
@@ -168,7 +169,7 @@ fn failure_text(failure: &Failure) -> String {
     with_flags(&format!("{}\n{remedies}", failure.reason))
 }
 
-/// What helps, with what to type, what may help, and what does not.
+/// Returns the remedies that help, with what to type, then hints, then remedies that do not help.
 fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
     let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
         remedies.iter().partition(|remedy| remedy.helps());

@@ -1,4 +1,4 @@
-//! What a person sees on a terminal: colours where they may be, tables, errors with their remedies.
+//! Text for a terminal: colours, tables, and errors with their remedies.
 
 use std::error::Error;
 use std::io::Write;
@@ -16,10 +16,10 @@ pub fn print_error(error: &(dyn Error + 'static), manner: Manner) {
     say(&error_text(error, manner.is_coloured));
 }
 
-/// What begins the remedy in an error's message.
+/// The words before the remedy in an error's message.
 const REMEDY_MARK: &str = "; remedy: ";
 
-/// The error, each of its causes and each remedy, a line each:
+/// Returns the error, each of its causes and each remedy, a line each:
 ///
 /// ```text
 /// error: cannot read the job j.toml
@@ -27,8 +27,8 @@ const REMEDY_MARK: &str = "; remedy: ";
 ///   remedy: check the path
 /// ```
 ///
-/// A remedy is what follows "; remedy: " in a message; in a message of several lines each keeps its
-/// own. A cause whose words its parent already said is left out.
+/// A remedy follows "; remedy: " in a message. In a message of several lines each line keeps its
+/// own. A cause whose words stand in an error above it is left out.
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
     for cause in chain(error) {
@@ -42,7 +42,7 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
             "  caused by".to_owned()
         };
         let is_list = message.contains('\n');
-        // The head of a list says again what it is the cause of.
+        // The head of a list repeats the error above it.
         let is_head = |line: &&str| is_list && !said.is_empty() && line.ends_with(':');
         for line in message
             .lines()
@@ -68,7 +68,7 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     lines.join("\n")
 }
 
-/// The error and its causes, the outermost first.
+/// Returns the error and its causes, the outermost first.
 fn chain<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
     std::iter::successors(Some(error), |cause| (*cause).source())
 }
@@ -80,7 +80,7 @@ pub(super) const GREEN: &str = "\x1b[32m";
 /// Terminal escape that ends a colour.
 const PLAIN: &str = "\x1b[0m";
 
-/// The text in a colour, if colours may be used.
+/// Returns the text in a colour, if colours may be used.
 pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
     if is_coloured {
         format!("{colour}{text}{PLAIN}")
@@ -89,7 +89,7 @@ pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
     }
 }
 
-/// "pass" in green or "FAIL" in red, for a table of promises.
+/// Returns "pass" in green or "FAIL" in red, for a table of promises.
 pub fn verdict(passes: bool, is_coloured: bool) -> String {
     if passes {
         paint("pass", GREEN, is_coloured)
@@ -98,11 +98,11 @@ pub fn verdict(passes: bool, is_coloured: bool) -> String {
     }
 }
 
-/// Blanks between the columns of a table.
+/// Number of blanks between the columns of a table.
 const COLUMN_GAP: usize = 2;
 
-/// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of
-/// colours take no room.
+/// Returns the rows as aligned columns, a line each, without blanks at the ends. Escapes of colours
+/// take no room.
 pub fn table<Row: AsRef<[String]>>(rows: &[Row]) -> String {
     let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
     let widest = |column: usize| {
@@ -126,7 +126,7 @@ fn table_line(row: &[String], widths: &[usize]) -> String {
     padded.collect::<String>().trim_end().to_owned()
 }
 
-/// How many characters of the text a terminal shows.
+/// Returns the number of characters that a terminal shows.
 fn width(text: &str) -> usize {
     let plain = [RED, GREEN, PLAIN]
         .iter()

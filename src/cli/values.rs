@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::base::units::show_mm;
 use crate::printer::{Printer, Quantity};
 
-/// The steps along x and y, told once where they are equal.
+/// Returns the steps along x and y, once if they are equal.
 pub(super) fn show_pixel(printer: &Printer) -> String {
     let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
     if x == y {
@@ -15,6 +15,7 @@ pub(super) fn show_pixel(printer: &Printer) -> String {
     }
 }
 
+/// Returns a number of a profile with its unit.
 pub(super) fn show_number(quantity: Quantity, value: f64) -> String {
     match quantity {
         _ if quantity.is_grid_step() => show_step(value),
@@ -25,16 +26,17 @@ pub(super) fn show_number(quantity: Quantity, value: f64) -> String {
     }
 }
 
-/// A step of a grid, to a tenth of a micrometre.
+/// Returns a step of a grid, to a tenth of a micrometre.
 pub(super) fn show_step(step_mm: f64) -> String {
     format!("{step_mm:.4} mm")
 }
 
+/// Returns the sides of a box, mm.
 pub(super) fn show_box([x, y, z]: [f64; 3]) -> String {
     format!("{x} × {y} × {z} mm")
 }
 
-/// The word a unit-like value has in profiles.
+/// Returns the word that stands for an enum's variant in profiles.
 pub(super) fn kebab(value: &impl Serialize) -> String {
     serde_json::to_value(value)
         .ok()

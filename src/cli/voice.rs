@@ -1,26 +1,27 @@
-//! The manner in which a command speaks: how much, in which colours, as text or as JSON.
+//! The manner in which a command prints: how much, in colour or not, as text or JSON.
 
 use std::io::IsTerminal;
 
-/// How much is said, and whether in colour; decided once, at the start.
+/// The amount and the colours of the text; decided once, at the start.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
-    /// Whether anything but errors is said.
+    /// True if only errors are printed.
     pub quiet: bool,
-    /// 0: the result in a few lines; more: every check, the stages' times and the solver's steps.
+    /// 0: the result in a few lines; more: every check, the time of each phase, the solver's steps.
     pub verbose: u8,
-    /// Whether the standard error is a terminal.
+    /// True if the standard error is a terminal.
     pub is_terminal: bool,
-    /// Whether colours may be used on the standard error.
+    /// True if the standard error may have colours.
     pub is_coloured: bool,
-    /// Whether colours may be used on the standard output.
+    /// True if the standard output may have colours.
     pub is_output_coloured: bool,
 }
 
 impl Manner {
-    /// The manner for this process: bars on a terminal only; no colours where `NO_COLOR` is set to
-    /// anything (no-color.org), where the terminal is dumb, or where what is written does not go to
-    /// one.
+    /// Returns the manner for this process.
+    ///
+    /// Bars are drawn on a terminal only. There are no colours if `NO_COLOR` is set
+    /// (no-color.org), if the terminal is dumb, or if the output goes elsewhere.
     pub fn of_process(quiet: bool, verbose: u8) -> Self {
         let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
         let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
@@ -36,17 +37,17 @@ impl Manner {
         }
     }
 
-    /// Whether the progress of a run is drawn.
+    /// Returns true if the progress of a run is drawn.
     pub fn shows_bars(self) -> bool {
         self.is_terminal && !self.quiet
     }
 }
 
-/// The manner, and the form of the result.
+/// The manner of a command, and the form of its result.
 #[derive(Debug, Clone, Copy)]
 pub struct Voice {
-    /// How the terminal is used.
+    /// The amount and the colours of the text.
     pub manner: Manner,
-    /// Whether to print JSON in place of text.
+    /// True if the result is printed as JSON.
     pub json: bool,
 }

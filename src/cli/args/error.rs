@@ -4,28 +4,29 @@ use crate::goal::RequestError;
 use crate::job::{JobError, PlanError};
 use crate::printer::ShopError;
 
-/// Arguments that do not go together.
+/// A reason why arguments make no job.
 #[derive(Debug, thiserror::Error)]
 pub enum ArgsError {
-    /// The goal's.
+    /// The goal contradicts itself.
     #[error(transparent)]
     Goal(#[from] RequestError),
-    /// The replayed job's.
+    /// The replayed job cannot be used.
     #[error(transparent)]
     Job(#[from] JobError),
-    /// The plan's.
+    /// The plan of the cuts cannot be used.
     #[error(transparent)]
     Plan(#[from] PlanError),
-    /// An argument that neither the command line nor a job gives; the parser lets none pass.
-    #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
+    /// An argument is missing; the parser already refuses that.
+    #[error("{0} is missing; remedy: give it, or replay a job with --job")]
     Missing(&'static str),
-    /// Neither the command line nor the shop names a printer.
+    /// Neither the command line nor equipoise.toml names a printer.
     #[error(
-        "--printer is missing; remedy: give it (`equipoise printers list` shows the ids), or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
-         your configuration folder"
+        "--printer is missing; remedy: give an id (`equipoise printers list` shows them), or write \
+         printer = \"ID\" into an equipoise.toml here, beside the model or in your configuration \
+         folder"
     )]
     NoPrinter,
-    /// The shop's defaults cannot be used.
+    /// The file equipoise.toml cannot be used.
     #[error(transparent)]
     Shop(#[from] ShopError),
 }

@@ -1,4 +1,4 @@
-//! The command line: what can be asked for, and the job it makes.
+//! The arguments of the command line, and the job they make.
 
 mod ballast;
 mod cut;
@@ -29,30 +29,28 @@ use values::EXIT_CODES;
 #[derive(Debug, Parser)]
 #[command(name = "equipoise", version, after_help = EXIT_CODES)]
 pub struct Cli {
-    /// What every command takes.
+    /// The options of every command.
     #[command(flatten)]
     pub global: GlobalArgs,
-    /// What to do.
+    /// The command to run.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// The most threads. Far more than there are cores, and the waiting ones take the time of those at
-/// work.
+/// The most threads. With far more threads than cores, the waiting ones slow the others down.
 const MAX_THREADS: i64 = 256;
 
-/// What every command takes.
+/// The options of every command.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Everywhere")]
 pub struct GlobalArgs {
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Say more: every check, the certificate, the time of each stage and the solver's steps
+    /// Print more: every check, the certificate, the time of each stage and the solver's steps
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Use so many threads, up to 256; the result does not depend on it [default: one for each
-    /// core]
+    /// Use this many threads, up to 256; the result does not depend on it [default: one per core]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
     pub threads: Option<u16>,
     /// Print the result as JSON on the standard output
@@ -60,25 +58,24 @@ pub struct GlobalArgs {
     pub json: bool,
 }
 
-/// What to do.
+/// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Turn a model into a kit of printable parts that does what the goal says
     Prepare(Box<PrepareArgs>),
-    /// Tell what a model is: facts, defects, mass, and what it could become
+    /// Show a model's facts, defects and mass, and what it could become
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
-    /// Make coupons to print, weigh and try, so that a profile says what the machine does
+    /// Make coupons to print, weigh and try, so that a profile matches the machine
     Coupon(CouponArgs),
-    /// Read a kit's written files again, tell what became of them, and judge them without the
-    /// solver
+    /// Judge the files of a kit again, without the solver, and name those that changed
     Verify(VerifyArgs),
-    /// Print the completions of a shell
+    /// Print the completion script of a shell
     ///
     /// For bash: equipoise completions bash > ~/.local/share/bash-completion/completions/equipoise
     Completions(CompletionsArgs),
-    /// Print the manual's page of the program, or of one of its commands
+    /// Print the manual page of the program or of a command
     ///
     /// To read one: equipoise man prepare | man -l -
     Man(ManArgs),
@@ -89,11 +86,11 @@ pub enum Command {
 pub struct InspectArgs {
     /// The model: an STL, OBJ, PLY or 3MF file
     pub model: PathBuf,
-    /// Tell what it could become on this printer: a known printer's id, or a profile file
+    /// Show what it could become on this printer: a known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
-    /// Tell what it could become with this wall [default: the printer's least; a hundredth of the
-    /// size without a printer]
+    /// Show what it could become with this wall [default: the printer's minimum; without a printer
+    /// a hundredth of the size]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -101,7 +98,7 @@ pub struct InspectArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
-    /// The model's size.
+    /// The size of the model.
     #[command(flatten)]
     pub scaling: ScalingArgs,
 }
@@ -123,6 +120,6 @@ pub struct CompletionsArgs {
 /// The arguments of `man`.
 #[derive(Debug, Args)]
 pub struct ManArgs {
-    /// The command, such as prepare [default: the program itself]
+    /// The command, such as prepare [default: the program]
     pub command: Option<String>,
 }

@@ -13,7 +13,7 @@ Exit codes: 0 every promise is kept; 1 finished, but a promise is broken (by a m
 file of a kit too) or the goal is impossible; 2 could not run: bad arguments, a model that is not \
 one solid body, no kit; 130 or 143 stopped by Ctrl-C or a request to end, and nothing was written.";
 
-/// Reads one of the words, which the help lists.
+/// Returns a reader of one of these words, which the help lists.
 pub(super) fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: FromStr<Err = ChoiceError> + Clone + Send + Sync + 'static,
@@ -26,6 +26,7 @@ where
 #[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
 pub struct FactorError(String);
 
+/// Reads a factor.
 pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
     match text.trim().parse::<f64>() {
         Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
