@@ -1,5 +1,4 @@
-//! The progress of a run on a terminal: the stage at work, how far the whole has come, how fast,
-//! and how long it will take.
+//! The progress bar of a run: its phase, the done share, the time so far and the time left.
 
 use std::{
     sync::{Arc, Mutex, PoisonError},
@@ -8,18 +7,18 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use super::show::Manner;
+use super::voice::Manner;
 use crate::base::watch::{Phase, Progress};
 
 /// Steps of a bar; finer than any terminal is wide.
 const BAR_STEPS: u64 = 1000;
-/// How often a bar is drawn anew while nothing is reported. Slower looks stuck, faster costs time.
+/// Time between two drawings of a bar. A slower one looks stuck, a faster one costs time.
 const TICK: Duration = Duration::from_millis(120);
 
-/// No time is told before so much of a run is done: it would be wrong by whole factors.
-const TELLING_SHARE: f64 = 0.2;
+/// The share of a run below which no time left is shown: it would be wrong by whole factors.
+const MIN_TIMED_SHARE: f64 = 0.2;
 
-/// The words for a phase; short, as they stand beside a bar.
+/// Returns the words for a phase, short enough to stand beside a bar.
 fn words(phase: Phase) -> &'static str {
     match phase {
         Phase::Load => "reading the model",
@@ -42,7 +41,7 @@ fn words(phase: Phase) -> &'static str {
 /// The progress of a run: one bar on a terminal, else nothing.
 ///
 /// ```
-/// # use equipoise::{base::watch::{Phase, Watch}, cli::{bars::Bars, show::Manner}};
+/// # use equipoise::{base::watch::{Phase, Watch}, cli::{bars::Bars, voice::Manner}};
 /// let bars = Bars::new(Manner::of_process(true, 0));
 /// let watch = Watch::observed(bars.observer());
 /// watch.enter(Phase::Solve);
@@ -54,11 +53,12 @@ pub struct Bars {
     course: Arc<Mutex<Course>>,
 }
 
-/// How far a run has come, and since when.
+/// The last report of a run, and its times.
 #[derive(Debug, Clone, Copy)]
 struct Course {
+    /// The start of the run.
     since: Instant,
-    /// The last report, `None` before the first.
+    /// The last report; `None` before the first.
     progress: Option<Progress>,
     /// The time of the last report.
     at: Instant,
@@ -79,24 +79,24 @@ impl Course {
         self.progress.map_or(0.0, |progress| progress.whole_ratio)
     }
 
-    /// Returns about how long the rest will take, s; `None` while too little is done to tell.
-    fn left_s(&self, now: Instant) -> Option<f64> {
+    /// Returns an estimate of the time left, s; `None` if too little is done for one.
+    fn remaining_s(&self, now: Instant) -> Option<f64> {
         let share = self.share();
         let whole_s = (self.at - self.since).as_secs_f64() / share;
-        let gone_s = (now - self.since).as_secs_f64();
-        (share >= TELLING_SHARE).then(|| (whole_s - gone_s).max(0.0))
+        let elapsed_s = (now - self.since).as_secs_f64();
+        (share >= MIN_TIMED_SHARE).then(|| (whole_s - elapsed_s).max(0.0))
     }
 
-    /// Returns the phase and its number of all phases.
+    /// Returns the words for the phase, with its number among all phases.
     fn words(&self) -> String {
         let phase = self.progress.map_or(Phase::Load, |progress| progress.phase);
         let number = Phase::ALL.iter().filter(|other| **other <= phase).count();
         format!("{number}/{} {:<17}", Phase::ALL.len(), words(phase))
     }
 
-    fn left_words(&self, now: Instant) -> String {
-        let words = |left_s: f64| format!("about {:.0} s left", left_s.ceil());
-        self.left_s(now)
+    fn remaining_words(&self, now: Instant) -> String {
+        let words = |remaining_s: f64| format!("about {:.0} s left", remaining_s.ceil());
+        self.remaining_s(now)
             .map_or("time left unknown".to_owned(), words)
     }
 }
@@ -113,13 +113,13 @@ impl Bars {
         Self { bar, course }
     }
 
-    /// Returns what a [`Watch`](crate::base::watch::Watch) is to call: it advances the bar.
+    /// Returns the observer for a [`Watch`](crate::base::watch::Watch), which advances the bar.
     pub fn observer(&self) -> impl Fn(Progress) + Send + Sync + 'static {
         let bars = self.clone();
         move |progress| bars.advance(progress)
     }
 
-    /// Shows how far the run is.
+    /// Shows a report of progress.
     pub fn advance(&self, progress: Progress) {
         let mut course = self.course.lock().unwrap_or_else(PoisonError::into_inner);
         course.progress = Some(progress);
@@ -135,7 +135,7 @@ impl Bars {
     }
 }
 
-/// A bar on the standard error that shows the course whenever it is drawn.
+/// Returns a bar on the standard error that shows the course whenever it is drawn.
 fn draw(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
     let bar = ProgressBar::with_draw_target(Some(BAR_STEPS), ProgressDrawTarget::stderr());
     let template = if manner.is_coloured {
@@ -156,7 +156,7 @@ fn draw(course: &Arc<Mutex<Course>>, manner: Manner) -> ProgressBar {
     bar.set_style(
         style
             .with_key("stage", shown(|course, _| course.words()))
-            .with_key("left", shown(Course::left_words)),
+            .with_key("left", shown(Course::remaining_words)),
     );
     bar.enable_steady_tick(TICK);
     bar
@@ -175,7 +175,7 @@ mod tests {
         is_output_coloured: false,
     };
 
-    fn course(phase: Phase, whole_ratio: f64, gone_s: u64) -> Course {
+    fn course(phase: Phase, whole_ratio: f64, elapsed_s: u64) -> Course {
         let start = Course::start();
         let progress = Progress {
             phase,
@@ -184,7 +184,7 @@ mod tests {
         };
         Course {
             progress: Some(progress),
-            at: start.since + Duration::from_secs(gone_s),
+            at: start.since + Duration::from_secs(elapsed_s),
             ..start
         }
     }
@@ -208,17 +208,17 @@ mod tests {
     }
 
     #[test]
-    fn the_time_left_is_the_time_gone_over_what_is_done_and_nothing_is_told_too_early() {
+    fn the_time_left_follows_from_the_done_share_and_is_not_shown_too_early() {
         // After 33 s two thirds are done: 16.5 s are left of 49.5.
         let late = course(Phase::Parts, 2.0 / 3.0, 33);
-        assert!((late.left_s(late.at).unwrap() - 16.5).abs() < 1e-6);
-        assert!(late.left_words(late.at).contains("about 17 s left"));
+        assert!((late.remaining_s(late.at).unwrap() - 16.5).abs() < 1e-6);
+        assert!(late.remaining_words(late.at).contains("about 17 s left"));
         let early = course(Phase::Load, 0.01, 33);
-        assert_eq!(early.left_s(early.at), None);
+        assert_eq!(early.remaining_s(early.at), None);
     }
 
     #[test]
-    fn the_phase_is_told_with_its_number() {
+    fn the_phase_is_shown_with_its_number() {
         let words = course(Phase::Columns, 0.03, 5).words();
         assert!(words.contains("4/14 measuring columns"), "{words}");
     }

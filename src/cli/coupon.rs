@@ -3,40 +3,46 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use super::{args_printers::CouponArgs, prepare::Voice};
+use super::args::CouponArgs;
+use super::exit::Exit;
+use super::signals::Stop;
+use super::voice::Voice;
+use crate::base::watch::Watch;
 use crate::coupon::{CouponError, CouponSet, coupon_kit};
 use crate::kit::{Existing, KitError};
 use crate::printer::{MaterialError, Printer, ProfileError};
 
-/// Why no coupons were made.
+/// A reason why no coupons were written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum CouponCommandError {
-    /// The printer's fault.
+    /// The printer's profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// They cannot be made.
+    /// The coupons cannot be made.
     #[error(transparent)]
     Coupon(#[from] CouponError),
-    /// They cannot be written.
+    /// The coupons cannot be written.
     #[error(transparent)]
     Kit(#[from] KitError),
     /// The sizes cannot be put into JSON.
     #[error("the sizes cannot be written as JSON")]
     Json(#[from] serde_json::Error),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
 }
 
-/// Writes the coupons of a printer and says where.
+/// Writes the coupons of a printer, unless `stop` is pressed before; says on `out` where.
 pub fn coupon(
     args: &CouponArgs,
     voice: Voice,
+    stop: &Stop,
     out: &mut dyn Write,
-) -> Result<(), CouponCommandError> {
+) -> Result<Exit, CouponCommandError> {
     let printer = Printer::find(&args.printer)?;
     let set = CouponSet::of(&printer, printer.material(args.material.as_deref())?);
     let target = args
@@ -48,7 +54,14 @@ pub fn coupon(
     } else {
         Existing::Keep
     };
-    coupon_kit(&set)?.write(&target, existing)?;
+    let watch = Watch::silent().stopped_by(stop.flag());
+    let written = coupon_kit(&set)?.write_watched(&target, existing, &watch);
+    if written.is_err()
+        && let Some(exit) = stop.end()
+    {
+        return Ok(exit);
+    }
+    written?;
     if voice.json {
         writeln!(out, "{}", serde_json::to_string_pretty(&set)?)?;
     } else if !voice.manner.quiet {
@@ -60,5 +73,5 @@ pub fn coupon(
             target.join("coupon.html").display()
         )?;
     }
-    Ok(())
+    Ok(Exit::Kept)
 }

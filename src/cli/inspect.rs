@@ -1,14 +1,14 @@
-//! `equipoise inspect`: what a model is, what is wrong with it, and what it could become.
+//! `equipoise inspect`: a model's facts and defects, and what it could become.
 
 use std::io::Write;
 
 use serde::Serialize;
 
-use super::Exit;
 use super::args::InspectArgs;
+use super::exit::Exit;
 use super::flags::{flag, flags, with_flags};
-use super::prepare::Voice;
 use super::show::{say, table};
+use super::voice::Voice;
 use crate::advice::{Case, Prospect, prospects};
 use crate::base::numbers::quantity;
 use crate::base::setting::{Key, Setting};
@@ -21,8 +21,9 @@ use crate::mesh::{Defects, MeshFacts, Solid, TriMesh, scaled};
 use crate::printer::{Printer, ProfileError, WallError};
 use crate::repair::{one_body, repair};
 
-/// Why `inspect` could not run.
+/// A reason why `inspect` could not run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum InspectError {
     /// The model cannot be read.
     #[error(transparent)]
@@ -33,7 +34,7 @@ pub enum InspectError {
     /// The wall cannot be printed.
     #[error(transparent)]
     Wall(#[from] WallError),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
     /// The facts cannot be put into JSON.
@@ -41,7 +42,7 @@ pub enum InspectError {
     Json(#[from] serde_json::Error),
 }
 
-/// What is said of a model.
+/// The facts and defects of a model.
 #[derive(Debug, Serialize)]
 struct Findings {
     triangles: usize,
@@ -49,7 +50,7 @@ struct Findings {
     shells: usize,
     genus: Option<i64>,
     size_mm: [f64; 3],
-    /// What to do about a size that nobody prints; none where it is plausible.
+    /// A remedy for a size that nobody prints; `None` if the size is plausible.
     size_hint: Option<String>,
     area_mm2: f64,
     open_edges: usize,
@@ -60,26 +61,26 @@ struct Findings {
     defects: Option<String>,
     not_one_body: Option<String>,
     solid: Option<Mass>,
-    /// What it could become with a wall; none where it is no solid of one body.
+    /// The goals it could reach with a wall; `None` if it is not a solid of one body.
     could_become: Option<Becoming>,
 }
 
-/// What a model could become.
+/// The goals that a model could reach.
 #[derive(Debug, Serialize)]
 struct Becoming {
     wall_mm: f64,
     prospects: Vec<Prospect>,
 }
 
-/// A model whose longest side is shorter is no print but a wrong unit, mm: half of it would be
-/// wall.
-const LEAST_SIZE_MM: f64 = 5.0;
-/// A model whose longest side is longer fits no printer, mm.
-const MOST_SIZE_MM: f64 = 2000.0;
+/// The least plausible longest side, mm. Half of a smaller model would be wall, so its unit is
+/// wrong.
+const MIN_SIZE_MM: f64 = 5.0;
+/// The greatest plausible longest side, mm. A longer one fits no printer.
+const MAX_SIZE_MM: f64 = 2000.0;
 
-/// The density where no material is given, g/cm³; no goal that is listed depends on it.
+/// The density of the model, g/cm³. No goal that is listed depends on it.
 const PLAIN_DENSITY_G_CM3: f64 = 1.0;
-/// The wall of a model where neither a wall nor a printer is given, as a part of its longest side.
+/// The wall over the longest side, if neither a wall nor a printer is given.
 const PLAIN_WALL_RATIO: f64 = 0.01;
 
 /// The mass properties of a solid of density 1 g/cm³, model axes.
@@ -92,8 +93,9 @@ struct Mass {
     dominance_ratio_by_axis: [f64; 3],
 }
 
-/// Tells the facts and defects of a model on `out`; a model that is no solid of one body ends as
-/// `prepare` ends with it, in [`Exit::CouldNotRun`].
+/// Writes the facts and defects of a model to `out`.
+///
+/// Returns [`Exit::CouldNotRun`], as `prepare` would, if the model is not a solid of one body.
 pub fn inspect(
     args: &InspectArgs,
     voice: Voice,
@@ -102,7 +104,7 @@ pub fn inspect(
     let (file, repairs) = repair(read_model(&args.model)?);
     let mesh = scaled(&file, args.scaling.scaling().factor(file.longest_side_mm()));
     let facts = MeshFacts::of(&mesh);
-    // Defects are told where they are to be found: in the file.
+    // Defects are located in the coordinates of the file, where a person looks for them.
     let solid = Solid::new(mesh).map_err(|defects| Defects::of(&file).unwrap_or(defects));
     let mut findings = findings(&facts, repairs.to_string(), &solid);
     if let (Ok(solid), None) = (&solid, &findings.not_one_body) {
@@ -148,9 +150,9 @@ fn findings(facts: &MeshFacts, repairs: String, solid: &Result<Solid, Defects>) 
     }
 }
 
-/// What to do about a longest side, mm, that nobody prints.
+/// Returns a remedy for a longest side, mm, that nobody prints.
 fn size_hint(longest_mm: f64) -> Option<String> {
-    let is_plausible = (LEAST_SIZE_MM..=MOST_SIZE_MM).contains(&longest_mm);
+    let is_plausible = (MIN_SIZE_MM..=MAX_SIZE_MM).contains(&longest_mm);
     (!is_plausible).then(|| {
         format!(
             "its longest side would be {}: the file's numbers are hardly mm; give their unit, cm, m \
@@ -162,17 +164,17 @@ fn size_hint(longest_mm: f64) -> Option<String> {
     })
 }
 
-/// What the solid could become with the wall that was asked for, or the printer's least.
+/// Returns the goals the solid could reach with the wall ordered, or the printer's minimum.
 fn becoming(args: &InspectArgs, solid: &Solid) -> Result<Becoming, InspectError> {
-    let asked_mm = args.wall.map(|wall| wall.mm());
+    let ordered_mm = args.wall.map(|wall| wall.mm());
     let size_mm = solid.mesh().longest_side_mm();
     let wall_mm = match &args.printer {
         Some(id) => {
             Printer::find(id)?
-                .quantised_wall(asked_mm, size_mm)?
+                .quantised_wall(ordered_mm, size_mm)?
                 .wall_mm
         }
-        None => asked_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
+        None => ordered_mm.unwrap_or(PLAIN_WALL_RATIO * size_mm),
     };
     let case = Case {
         solid,
@@ -203,7 +205,7 @@ fn mass(mesh: &TriMesh) -> Mass {
     }
 }
 
-/// The larger moment across a coordinate axis over the one about it.
+/// Returns the larger moment across a coordinate axis over the one about it.
 fn dominance(body: &Body, axis: usize) -> f64 {
     let inertia = body.inertia_g_mm2;
     let about = Vector::ith(axis, 1.0).dot(&(inertia * Vector::ith(axis, 1.0)));
@@ -259,12 +261,12 @@ fn text(findings: &Findings) -> String {
         .map_or(String::new(), becoming_text)
 }
 
-/// A quantity with blanks that a terminal can search for.
+/// Returns a quantity with plain blanks, which a terminal can search for.
 fn plain(value: f64, unit: &str) -> String {
     quantity(value, unit).replace('\u{a0}', " ")
 }
 
-/// A line for each goal and axis.
+/// Returns a line for each goal and axis.
 fn becoming_text(becoming: &Becoming) -> String {
     let line = |prospect: &Prospect| {
         let reached = prospect.reached.map(|reached| format!("it {reached}"));

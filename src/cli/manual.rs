@@ -1,5 +1,4 @@
-//! `equipoise completions` and `equipoise man`: what shells and `man` want to know, made from the
-//! arguments themselves.
+//! `equipoise completions` and `equipoise man`: made from the definition of the arguments.
 
 use std::io::Write;
 
@@ -9,25 +8,26 @@ use clap_mangen::Man;
 
 use super::args::Cli;
 
-/// Why no manual page is printed.
+/// A reason why no completions or manual page are printed.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ManualError {
     /// There is no such command.
     #[error("there is no command {0}; remedy: see equipoise help")]
     Unknown(String),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
 }
 
-/// Writes the completions of that shell.
+/// Writes the completion script of a shell.
 pub fn completions(shell: Shell, out: &mut dyn Write) -> Result<(), ManualError> {
     let mut script = Vec::new();
     clap_complete::generate(shell, &mut Cli::command(), "equipoise", &mut script);
     Ok(out.write_all(&script)?)
 }
 
-/// Writes the page of the program, or of the command of that name, as troff.
+/// Writes the manual page of the program, or of the command of that name, as troff.
 pub fn page(command: Option<&str>, out: &mut dyn Write) -> Result<(), ManualError> {
     let mut program = Cli::command();
     program.build();

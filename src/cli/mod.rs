@@ -1,13 +1,10 @@
-//! The edge: arguments in, text and exit codes out. Everything that is printed is printed here.
+//! The command line: arguments in, text and exit codes out. Nothing else in the library prints.
 
 pub mod args;
-pub mod args_printers;
-mod ballast_args;
 pub mod bars;
 pub mod coupon;
-mod cut_arg;
+mod exit;
 mod flags;
-mod goal_args;
 pub mod inspect;
 pub mod manual;
 pub mod prepare;
@@ -16,45 +13,21 @@ pub mod printers_markdown;
 pub mod profiles;
 pub mod shop;
 pub mod show;
+pub mod signals;
 mod summary;
+mod values;
 pub mod verify;
+pub mod voice;
 
 use std::error::Error;
-use std::process::ExitCode;
+
+pub use exit::Exit;
 
 use args::{Cli, Command};
-use prepare::Voice;
-use show::Manner;
+use signals::{Stop, end_process_on_signal};
+use voice::{Manner, Voice};
 
-/// How a command ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Exit {
-    /// Every promise is kept.
-    Kept,
-    /// It ran to its end, but a check failed or the goal is impossible.
-    NotKept,
-    /// It could not run: a bad file, bad arguments, a target that cannot be written.
-    CouldNotRun,
-}
-
-impl Exit {
-    /// The code the process ends with: 0, 1 or 2.
-    pub fn code(self) -> u8 {
-        match self {
-            Self::Kept => 0,
-            Self::NotKept => 1,
-            Self::CouldNotRun => 2,
-        }
-    }
-}
-
-impl From<Exit> for ExitCode {
-    fn from(exit: Exit) -> Self {
-        Self::from(exit.code())
-    }
-}
-
-/// Runs the command on as many threads as it asks for, and prints what came of it on the standard
+/// Runs the command on the number of threads it orders, and prints its result on the standard
 /// output.
 pub fn run(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Sync>> {
     let threads = cli.global.threads.map_or(0, usize::from);
@@ -71,17 +44,20 @@ fn dispatch(cli: Cli, manner: Manner) -> Result<Exit, Box<dyn Error + Send + Syn
     };
     let out = &mut std::io::stdout();
     match cli.command {
-        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, out)?),
-        Command::Inspect(args) => Ok(inspect::inspect(&args, voice, out)?),
+        Command::Prepare(args) => Ok(prepare::prepare(*args, voice, &Stop::on_signals(), out)?),
+        Command::Inspect(args) => {
+            end_process_on_signal();
+            Ok(inspect::inspect(&args, voice, out)?)
+        }
         Command::Printers(args) => {
             printers::run(args.action, voice.json, out)?;
             Ok(Exit::Kept)
         }
-        Command::Coupon(args) => {
-            coupon::coupon(&args, voice, out)?;
-            Ok(Exit::Kept)
+        Command::Coupon(args) => Ok(coupon::coupon(&args, voice, &Stop::on_signals(), out)?),
+        Command::Verify(args) => {
+            end_process_on_signal();
+            Ok(verify::verify(&args.kit, voice, out)?)
         }
-        Command::Verify(args) => Ok(verify::verify(&args.kit, voice, out)?),
         Command::Completions(args) => {
             manual::completions(args.shell, out)?;
             Ok(Exit::Kept)

@@ -2,28 +2,31 @@
 
 use std::io::Write;
 
-use super::Exit;
 use super::args::{ArgsError, PrepareArgs, Request};
 use super::bars::Bars;
+use super::exit::Exit;
 use super::flags::{flags, with_flags};
-use super::show::{Manner, say};
+use super::show::say;
+use super::signals::Stop;
 use super::summary::{broken, details, ten_lines};
+use super::voice::Voice;
 use crate::advice::Remedy;
 use crate::base::watch::Watch;
 use crate::error::Error;
 use crate::kit::Existing;
 use crate::prepare::{self, Failure, Impossible, Outcome, Prepared};
 
-/// Why `prepare` could not run.
+/// A reason why `prepare` could not run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PrepareError {
-    /// The arguments do not go together.
+    /// The arguments make no job.
     #[error(transparent)]
     Args(#[from] ArgsError),
     /// A stage failed.
     #[error(transparent)]
     Run(#[from] Error),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
     /// The outcome cannot be put into JSON.
@@ -31,35 +34,26 @@ pub enum PrepareError {
     Json(#[from] serde_json::Error),
 }
 
-/// What is said on the standard output.
-#[derive(Debug, Clone, Copy)]
-pub struct Voice {
-    /// How the terminal is used.
-    pub manner: Manner,
-    /// Whether to print JSON in place of text.
-    pub json: bool,
-}
-
-/// Prepares the kit and writes it; says what came of it on `out`.
-pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<Exit, PrepareError> {
+/// Prepares the kit and writes it, unless `stop` is pressed before; prints the result to `out`.
+pub fn prepare(
+    args: PrepareArgs,
+    voice: Voice,
+    stop: &Stop,
+    out: &mut dyn Write,
+) -> Result<Exit, PrepareError> {
     let request = args.request()?;
-    let existing = if request.force {
-        Existing::Replace
-    } else {
-        Existing::Keep
-    };
-    existing.allows(&request.out).map_err(Error::from)?;
     let bars = Bars::new(voice.manner);
-    let watch = Watch::observed(bars.observer());
-    let outcome = prepare::prepare(&request.job, &watch);
+    let watch = Watch::observed(bars.observer()).stopped_by(stop.flag());
+    let outcome = run(&request, &watch);
     bars.finish();
+    // A kit that was written before the stop button was pressed stays, and so does its answer.
+    let is_written = matches!(outcome, Ok(Outcome::Prepared(_)));
+    if !is_written && let Some(exit) = stop.end() {
+        return Ok(exit);
+    }
     match outcome? {
         Outcome::Prepared(prepared) => {
-            prepared
-                .kit
-                .write(&request.out, existing)
-                .map_err(Error::from)?;
-            tell_prepared(&prepared, &request, voice, out)?;
+            print_prepared(&prepared, &request, voice, out)?;
             Ok(if prepared.passes() {
                 Exit::Kept
             } else {
@@ -67,13 +61,29 @@ pub fn prepare(args: PrepareArgs, voice: Voice, out: &mut dyn Write) -> Result<E
             })
         }
         Outcome::Impossible(impossible) => {
-            tell_impossible(&impossible, voice, out)?;
+            print_impossible(&impossible, voice, out)?;
             Ok(Exit::NotKept)
         }
     }
 }
 
-fn tell_prepared(
+/// Runs the job, and writes its kit if it has one.
+fn run(request: &Request, watch: &Watch) -> Result<Outcome, Error> {
+    let existing = if request.force {
+        Existing::Replace
+    } else {
+        Existing::Keep
+    };
+    existing.allows(&request.out)?;
+    let outcome = prepare::prepare(&request.job, watch)?;
+    if let Outcome::Prepared(prepared) = &outcome {
+        let kit = &prepared.kit;
+        kit.write_watched(&request.out, existing, watch)?;
+    }
+    Ok(outcome)
+}
+
+fn print_prepared(
     prepared: &Prepared,
     request: &Request,
     voice: Voice,
@@ -112,7 +122,7 @@ fn tell_prepared(
     Ok(())
 }
 
-fn tell_impossible(
+fn print_impossible(
     impossible: &Impossible,
     voice: Voice,
     out: &mut dyn Write,
@@ -125,7 +135,7 @@ fn tell_impossible(
         )?);
     }
     if voice.manner.quiet {
-        // Quiet is silent about what went well only.
+        // A goal that cannot be met is reported even then.
         say(format!("{}\n{}", impossible.reason, advice(impossible)).trim_end());
         return Ok(());
     }
@@ -159,7 +169,7 @@ fn failure_text(failure: &Failure) -> String {
     with_flags(&format!("{}\n{remedies}", failure.reason))
 }
 
-/// What helps, with what to type, what may help, and what does not.
+/// Returns the remedies that help, with what to type, then hints, then remedies that do not help.
 fn remedies_text(remedies: &[Remedy], hints: &[String]) -> String {
     let (helpful, useless): (Vec<&Remedy>, Vec<&Remedy>) =
         remedies.iter().partition(|remedy| remedy.helps());

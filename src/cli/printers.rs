@@ -1,38 +1,36 @@
-//! The command `printers`: the known printers listed, one shown with its sources, a profile
-//! checked.
+//! `equipoise printers`: lists the known printers, shows one with its sources, checks a profile.
 
 use std::io::{self, Write};
 
 use serde::Serialize;
 
-use super::{
-    args_printers::PrintersAction,
-    printers_markdown::markdown,
-    profiles::{self, ProfilesError},
-    show::table,
-};
+use super::args::PrintersAction;
+use super::printers_markdown::markdown;
+use super::profiles::{self, ProfilesError};
+use super::show::table;
+use super::values::{kebab, show_box, show_number, show_pixel, show_step};
 use crate::base::units::{show_mm, show_percent};
 use crate::printer::{Printer, ProfileError, Quantity, Sourced, Sure};
 
-/// Why printers could not be told about.
+/// A reason why `printers` could not run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PrintersError {
-    /// The profile's fault.
+    /// The profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
     /// A profile could not be written.
     #[error(transparent)]
     Profiles(#[from] ProfilesError),
-    /// The output's.
+    /// The output is closed.
     #[error("cannot write to the output")]
     Output(#[from] io::Error),
-    /// JSON's, for numbers that no profile lets pass.
+    /// A number cannot be put into JSON; no profile lets one pass.
     #[error("cannot write the printer as JSON")]
     Json(#[from] serde_json::Error),
 }
 
-/// Does what `action` says (lists where it says nothing) and writes it to `out`, as text or as
-/// JSON.
+/// Runs the action, or lists the printers if it is `None`, and writes to `out`, as text or JSON.
 pub fn run(
     action: Option<PrintersAction>,
     json: bool,
@@ -86,16 +84,6 @@ fn list_row(printer: &Printer) -> [String; 7] {
     ]
 }
 
-/// The steps along x and y, told once where they are equal.
-pub(super) fn show_pixel(printer: &Printer) -> String {
-    let (x, y) = (printer.pixel_x_mm.value, printer.pixel_y_mm.value);
-    if x == y {
-        show_step(x)
-    } else {
-        format!("{} × {}", show_step(x), show_step(y))
-    }
-}
-
 fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
     if json {
         return write_json(printer, out);
@@ -109,7 +97,7 @@ fn show(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), Printe
     Ok(writeln!(out, "\n{SURE}")?)
 }
 
-/// What the words for how sure a number is mean.
+/// The meanings of the words for how sure a number is.
 const SURE: &str = "\
 sure: measured = by the shop, on its own prints; read = seen in the source; paper = from a paper the method rests on; computed = from the source's numbers;
 third party = not from the maker; recalled = remembered, not read again; own choice = for the reason given";
@@ -133,14 +121,6 @@ fn words(printer: &Printer) -> Vec<[String; 2]> {
     ]
 }
 
-/// The word a unit-like value has in profiles.
-fn kebab(value: &impl Serialize) -> String {
-    serde_json::to_value(value)
-        .ok()
-        .and_then(|word| word.as_str().map(str::to_owned))
-        .unwrap_or_default()
-}
-
 fn numbers(printer: &Printer) -> Vec<[String; 4]> {
     let mut rows = vec![["number", "value", "sure", "source"].map(str::to_owned)];
     rows.extend(plate(printer));
@@ -161,7 +141,7 @@ fn numbers(printer: &Printer) -> Vec<[String; 4]> {
     rows
 }
 
-/// What is known of the plate and the room over it, and of shrinkage.
+/// Returns the rows for the build plate and volume, and for shrinkage.
 fn plate(printer: &Printer) -> Vec<[String; 4]> {
     let boxes = [
         ("build_volume_mm", &printer.build_volume_mm),
@@ -183,28 +163,13 @@ fn plate(printer: &Printer) -> Vec<[String; 4]> {
     rows
 }
 
-/// What it means that a key is not known.
+/// Returns the consequence of a key that is not known.
 fn unknown_words(key: &str) -> &'static str {
     match key {
         "build_volume_mm" => "the fit of parts is not checked",
         "compensates_shrinkage" => "parts are written at nominal size",
         _ => "",
     }
-}
-
-fn show_number(quantity: Quantity, value: f64) -> String {
-    match quantity {
-        _ if quantity.is_grid_step() => show_step(value),
-        _ if quantity.is_ratio() => value.to_string(),
-        _ if quantity.is_angle() => format!("{value}°"),
-        Quantity::GlueDensityGCm3 => format!("{value} g/cm³"),
-        _ => show_mm(value),
-    }
-}
-
-/// A step of a grid, to a tenth of a micrometre.
-pub(super) fn show_step(step_mm: f64) -> String {
-    format!("{step_mm:.4} mm")
 }
 
 fn number_row<T>(key: &str, value: String, number: &Sourced<T>) -> [String; 4] {
@@ -233,10 +198,6 @@ fn materials(printer: &Printer) -> Vec<[String; 6]> {
         ]
     }));
     rows
-}
-
-fn show_box([x, y, z]: [f64; 3]) -> String {
-    format!("{x} × {y} × {z} mm")
 }
 
 fn check(printer: &Printer, json: bool, out: &mut dyn Write) -> Result<(), PrintersError> {
@@ -296,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn every_number_is_shown_with_its_source_and_how_sure_it_is() {
+    fn every_number_is_shown_with_its_source_and_its_certainty() {
         let shown = text(show_action("prusa-mk4"), false);
         let printer = Printer::find("prusa-mk4").unwrap();
         for (quantity, number) in printer.numbers() {
@@ -329,7 +290,7 @@ mod tests {
     }
 
     #[test]
-    fn a_profile_of_ones_own_is_checked_and_a_known_id_is_not_taken_for_a_file() {
+    fn a_profile_file_is_checked_and_a_known_id_is_no_file() {
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("shop.toml");
         let profile =

@@ -1,16 +1,16 @@
-//! The table of printers in README: made from the profiles, never typed.
+//! The table of printers in README, made from the profiles.
 
 use std::collections::BTreeSet;
 
 use super::flags::TABLE_BEGIN;
-use super::printers::show_pixel;
+use super::values::show_pixel;
 use crate::base::units::show_mm;
 use crate::printer::{Printer, Sourced, Sure};
 
 /// The mark after the table of printers in README.
 pub const END: &str = "<!-- end of the table -->";
 
-/// The table of these printers, with the marks it stands between.
+/// Returns the table of these printers, between its two marks.
 pub fn markdown(printers: &[Printer]) -> String {
     let head = "| printer | process | pixel or line | layer | least wall | clearance a side | materials | its own numbers are from |";
     let rule = "|---|---|---|---|---|---|---|---|";
@@ -47,7 +47,7 @@ fn row(printer: &Printer) -> String {
     format!("| {} |", cells.join(" | "))
 }
 
-/// The least wall, by part size where it depends on that.
+/// Returns the minimum wall, by part size if it depends on that.
 fn walls(printer: &Printer) -> String {
     let sized = printer.walls_by_part_size.iter();
     let sized =
@@ -61,17 +61,17 @@ fn walls(printer: &Printer) -> String {
     sized.chain([last]).collect::<Vec<_>>().join(", ")
 }
 
-/// Who vouches for the numbers that are neither the process's nor chosen: the first words of each
-/// source, once.
+/// Returns the sources of the numbers that are neither process defaults nor chosen: the first words
+/// of each source, once.
 fn sources(printer: &Printer) -> String {
     let numbers = printer
         .numbers()
         .into_iter()
-        .map(|(_, number)| vouched(number));
+        .map(|(_, number)| own_source(number));
     let volumes = [&printer.build_volume_mm, &printer.largest_part_mm]
         .into_iter()
         .flatten()
-        .map(vouched);
+        .map(own_source);
     let names: BTreeSet<&str> = numbers.chain(volumes).flatten().collect();
     if names.is_empty() {
         "none was found".to_owned()
@@ -80,13 +80,14 @@ fn sources(printer: &Printer) -> String {
     }
 }
 
-fn vouched<T>(number: &Sourced<T>) -> Option<&str> {
+/// Returns the name of a number's source; `None` if it is a process default or chosen.
+fn own_source<T>(number: &Sourced<T>) -> Option<&str> {
     let is_own = number.process_default_of.is_none() && number.sure != Sure::OwnChoice;
-    is_own.then(|| named(&number.source))
+    is_own.then(|| name_of(&number.source))
 }
 
-/// The words of a source before its details.
-fn named(source: &str) -> &str {
+/// Returns the words of a source before its details.
+fn name_of(source: &str) -> &str {
     source.split([',', ';', ':']).next().unwrap_or(source)
 }
 

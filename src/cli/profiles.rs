@@ -4,7 +4,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::args_printers::{CalibrateArgs, ImportArgs, NewArgs};
+use super::args::{CalibrateArgs, ImportArgs, NewArgs};
 use super::flags::{command_for_coupons, command_for_new_profile};
 use super::shop::today;
 use crate::base::setting::{Key, Setting};
@@ -15,22 +15,23 @@ use crate::printer::{
     CalibrateError, MaterialError, Measured, Printer, ProfileError, Quantity, calibrated,
 };
 
-/// Why no profile was written.
+/// A reason why no profile was written.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProfilesError {
-    /// The profile's fault.
+    /// The profile cannot be used.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// The slicer's files'.
+    /// The slicer's files cannot be used.
     #[error(transparent)]
     Import(#[from] ImportError),
-    /// The measured values'.
+    /// The measurements cannot be used.
     #[error(transparent)]
     Calibrate(#[from] CalibrateError),
     /// The printer has no such material.
     #[error(transparent)]
     Material(#[from] MaterialError),
-    /// The file is there already.
+    /// The file exists already.
     #[error(
         "{} exists; choose another (`{}`), or replace it (`{}`)",
         .0.display(),
@@ -38,7 +39,7 @@ pub enum ProfilesError {
         Setting::open(Key::Force)
     )]
     Exists(PathBuf),
-    /// A built-in printer is not a file.
+    /// A shipped printer is not a file.
     #[error(
         "{id} is a shipped printer; remedy: {}, and calibrate that",
         command_for_new_profile(id)
@@ -50,17 +51,17 @@ pub enum ProfilesError {
     /// The system refused.
     #[error("cannot write {}; remedy: check the folder and your permissions", path.display())]
     Write {
-        /// Where.
+        /// The path that cannot be written.
         path: PathBuf,
-        /// What it says.
+        /// The fault that the system reports.
         source: io::Error,
     },
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the output")]
     Output(#[from] io::Error),
 }
 
-/// Writes a shop's own profile: one that inherits, or one taken over from a slicer.
+/// Writes a shop's own profile: one that inherits, or one from a slicer's files.
 pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     let id = args.id.clone().unwrap_or_else(|| slug(&stem(&args.out)));
     let is_slicers = |path: &PathBuf| {
@@ -73,9 +74,9 @@ pub fn new(args: &NewArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
         let all = Imported::read(&args.from)?;
         all.to_toml(all.printer(args.printer.as_deref())?, &id)
     } else {
-        inheriting(&args.from[0].to_string_lossy(), &id, &args.out)?
+        inheriting_profile(&args.from[0].to_string_lossy(), &id, &args.out)?
     };
-    written_and_checked(&args.out, &text, args.force)?;
+    write_checked(&args.out, &text, args.force)?;
     Ok(writeln!(
         out,
         "{} is a profile: print coupons ({}) and calibrate it",
@@ -90,8 +91,8 @@ fn stem(path: &Path) -> String {
         .unwrap_or_default()
 }
 
-/// The text of a profile that inherits from a printer, with its numbers as remarks.
-fn inheriting(from: &str, id: &str, target: &Path) -> Result<String, ProfilesError> {
+/// Returns the text of a profile that inherits from a printer, with its numbers as comments.
+fn inheriting_profile(from: &str, id: &str, target: &Path) -> Result<String, ProfilesError> {
     let printer = Printer::find(from)?;
     let is_file = Path::new(from).is_file();
     let parent = if is_file {
@@ -115,7 +116,7 @@ fn inheriting(from: &str, id: &str, target: &Path) -> Result<String, ProfilesErr
     Ok(text)
 }
 
-/// The path of a parent as a profile at `target` names it: from its own folder where both share it.
+/// Returns the path of a parent for a profile at `target`: its name alone if they share a folder.
 fn relative(parent: &Path, target: &Path) -> String {
     let same = parent.parent() == target.parent();
     let name = parent.file_name().filter(|_| same).map(PathBuf::from);
@@ -127,7 +128,7 @@ fn toml_string(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
 
-/// Lists what is in a slicer's files, or writes the profile of one of their printers.
+/// Lists the printers of a slicer's files, or writes the profile of one of them.
 pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     let all = Imported::read(&args.files)?;
     if args.list {
@@ -139,7 +140,7 @@ pub fn import(args: &ImportArgs, out: &mut dyn Write) -> Result<(), ProfilesErro
     let Some(target) = &args.out else {
         return Ok(out.write_all(text.as_bytes())?);
     };
-    let imported = written_and_checked(target, &text, args.force)?;
+    let imported = write_checked(target, &text, args.force)?;
     Ok(writeln!(
         out,
         "{}: {} with {}",
@@ -174,8 +175,8 @@ fn list(all: &Imported, out: &mut dyn Write) -> Result<(), ProfilesError> {
     Ok(())
 }
 
-/// Writes a profile that loads; one that does not is not left behind.
-fn written_and_checked(target: &Path, text: &str, force: bool) -> Result<Printer, ProfilesError> {
+/// Writes a profile and reads it back; one that does not load is not left behind.
+fn write_checked(target: &Path, text: &str, force: bool) -> Result<Printer, ProfilesError> {
     if target.exists() && !force {
         return Err(ProfilesError::Exists(target.to_owned()));
     }
@@ -198,13 +199,13 @@ fn written_and_checked(target: &Path, text: &str, force: bool) -> Result<Printer
         Err(error) => Err(error.into()),
     };
     if printer.is_err() {
-        // What cannot be removed now cannot be helped; the fault itself is told.
+        // The fault that matters is reported, not that of removing the draft.
         let _ = fs::remove_file(&draft);
     }
     printer
 }
 
-/// Writes what was measured into a shop's own profile.
+/// Writes the measurements into a shop's own profile.
 pub fn calibrate(args: &CalibrateArgs, out: &mut dyn Write) -> Result<(), ProfilesError> {
     let name = args.file.to_string_lossy();
     if !args.file.is_file() && Printer::find(&name).is_ok() {
@@ -217,13 +218,14 @@ pub fn calibrate(args: &CalibrateArgs, out: &mut dyn Write) -> Result<(), Profil
         path: args.file.clone(),
         source,
     })?;
-    let measured = measured(args, &printer)?;
+    let measured = measurements(args, &printer)?;
     let after = calibrated(&name, &text, &measured)?;
-    written_and_checked(&args.file, &after, true)?;
-    tell(&measured, &printer, out)
+    write_checked(&args.file, &after, true)?;
+    print_changes(&measured, &printer, out)
 }
 
-fn measured(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, ProfilesError> {
+/// Returns the measurements of the arguments.
+fn measurements(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, ProfilesError> {
     let material = printer.material(args.material.as_deref())?;
     let set = CouponSet::of(printer, material);
     let lengths = [
@@ -246,7 +248,12 @@ fn measured(args: &CalibrateArgs, printer: &Printer) -> Result<Measured, Profile
     })
 }
 
-fn tell(measured: &Measured, printer: &Printer, out: &mut dyn Write) -> Result<(), ProfilesError> {
+/// Prints each new number with the one it replaces.
+fn print_changes(
+    measured: &Measured,
+    printer: &Printer,
+    out: &mut dyn Write,
+) -> Result<(), ProfilesError> {
     if let (Some(density), Some((id, _))) = (measured.density_g_cm3(), &measured.material) {
         let spread = measured.spread_ratio().map_or_else(
             || "no window yet: weigh a second coupon".to_owned(),

@@ -1,5 +1,4 @@
-//! Where a shop's defaults are looked for, and what day it is: what the program asks of the machine
-//! it runs on.
+//! The shop's default printer and the day, as the machine gives them.
 
 use std::path::{Path, PathBuf};
 use std::time::{SystemTime, UNIX_EPOCH};
@@ -10,7 +9,7 @@ use crate::{
     printer::{CONFIGURATION, Shop},
 };
 
-/// The printer and material that were asked for, or the shop's defaults.
+/// Returns the printer and material that were ordered, or the shop's defaults.
 pub fn chosen_printer(
     printer: Option<String>,
     material: Option<String>,
@@ -26,7 +25,7 @@ pub fn chosen_printer(
     })
 }
 
-/// The folders in which `equipoise.toml` is looked for, in order: the current one, the model's, the
+/// Returns the folders that may hold `equipoise.toml`, in order: the current one, the model's, the
 /// user's.
 pub fn shop_folders(model: &Path) -> Vec<PathBuf> {
     let beside = model.parent().map(Path::to_owned);
@@ -37,7 +36,8 @@ pub fn shop_folders(model: &Path) -> Vec<PathBuf> {
         .collect()
 }
 
-/// The program's folder in the user's configuration folder; none where the system names none.
+/// Returns the program's folder in the user's configuration folder; `None` if the system names
+/// none.
 fn configuration_folder() -> Option<PathBuf> {
     let named = |name: &str| {
         std::env::var_os(name)
@@ -54,7 +54,7 @@ fn configuration_folder() -> Option<PathBuf> {
 /// Seconds of a day.
 const DAY_S: u64 = 86_400;
 
-/// Today in Greenwich, as 2026-11-21.
+/// Returns the day in UTC, as 2026-11-21.
 pub fn today() -> String {
     let since = SystemTime::now()
         .duration_since(UNIX_EPOCH)
@@ -62,7 +62,7 @@ pub fn today() -> String {
     day(since / DAY_S)
 }
 
-/// The day that many days after 1970-01-01, in the Gregorian calendar.
+/// Returns the day that many days after 1970-01-01, in the Gregorian calendar.
 fn day(mut days: u64) -> String {
     let is_leap = |year: u64| {
         year.is_multiple_of(4) && (!year.is_multiple_of(100) || year.is_multiple_of(400))

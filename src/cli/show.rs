@@ -1,51 +1,10 @@
-//! What a person sees on a terminal: colours where they may be, tables, errors with their remedies.
+//! Text for a terminal: colours, tables, and errors with their remedies.
 
-use std::{
-    error::Error,
-    io::{IsTerminal, Write},
-};
+use std::error::Error;
+use std::io::Write;
 
 use super::flags::with_flags;
-
-/// How much is said, and whether in colour; decided once, at the start.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Manner {
-    /// Whether anything but errors is said.
-    pub quiet: bool,
-    /// 0: the result in a few lines; more: every check, the stages' times and the solver's steps.
-    pub verbose: u8,
-    /// Whether the standard error is a terminal.
-    pub is_terminal: bool,
-    /// Whether colours may be used on the standard error.
-    pub is_coloured: bool,
-    /// Whether colours may be used on the standard output.
-    pub is_output_coloured: bool,
-}
-
-impl Manner {
-    /// The manner for this process: bars on a terminal only; no colours where `NO_COLOR` is set to
-    /// anything (no-color.org), where the terminal is dumb, or where what is written does not go to
-    /// one.
-    pub fn of_process(quiet: bool, verbose: u8) -> Self {
-        let is_set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
-        let is_dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
-        let is_terminal = std::io::stderr().is_terminal();
-        let may = !is_set("NO_COLOR") && !is_dumb;
-        let is_output_coloured = may && std::io::stdout().is_terminal();
-        Self {
-            quiet,
-            verbose,
-            is_terminal,
-            is_coloured: may && is_terminal,
-            is_output_coloured,
-        }
-    }
-
-    /// Whether the progress of a run is drawn.
-    pub fn shows_bars(self) -> bool {
-        self.is_terminal && !self.quiet
-    }
-}
+use super::voice::Manner;
 
 /// Writes a line to the standard error; a closed one is not a reason to stop.
 pub(super) fn say(line: &str) {
@@ -57,10 +16,10 @@ pub fn print_error(error: &(dyn Error + 'static), manner: Manner) {
     say(&error_text(error, manner.is_coloured));
 }
 
-/// What begins the remedy in an error's message.
+/// The words before the remedy in an error's message.
 const REMEDY_MARK: &str = "; remedy: ";
 
-/// The error, each of its causes and each remedy, a line each:
+/// Returns the error, each of its causes and each remedy, a line each:
 ///
 /// ```text
 /// error: cannot read the job j.toml
@@ -68,8 +27,8 @@ const REMEDY_MARK: &str = "; remedy: ";
 ///   remedy: check the path
 /// ```
 ///
-/// A remedy is what follows "; remedy: " in a message; in a message of several lines each keeps its
-/// own. A cause whose words its parent already said is left out.
+/// A remedy follows "; remedy: " in a message. In a message of several lines each line keeps its
+/// own. A cause whose words stand in an error above it is left out.
 pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     let (mut lines, mut remedies, mut said) = (Vec::new(), Vec::new(), String::new());
     for cause in chain(error) {
@@ -83,7 +42,7 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
             "  caused by".to_owned()
         };
         let is_list = message.contains('\n');
-        // The head of a list says again what it is the cause of.
+        // The head of a list repeats the error above it.
         let is_head = |line: &&str| is_list && !said.is_empty() && line.ends_with(':');
         for line in message
             .lines()
@@ -109,7 +68,7 @@ pub fn error_text(error: &(dyn Error + 'static), is_coloured: bool) -> String {
     lines.join("\n")
 }
 
-/// The error and its causes, the outermost first.
+/// Returns the error and its causes, the outermost first.
 fn chain<'a>(error: &'a (dyn Error + 'static)) -> impl Iterator<Item = &'a (dyn Error + 'static)> {
     std::iter::successors(Some(error), |cause| (*cause).source())
 }
@@ -121,7 +80,7 @@ pub(super) const GREEN: &str = "\x1b[32m";
 /// Terminal escape that ends a colour.
 const PLAIN: &str = "\x1b[0m";
 
-/// The text in a colour, if colours may be used.
+/// Returns the text in a colour, if colours may be used.
 pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
     if is_coloured {
         format!("{colour}{text}{PLAIN}")
@@ -130,7 +89,7 @@ pub(super) fn paint(text: &str, colour: &str, is_coloured: bool) -> String {
     }
 }
 
-/// "pass" in green or "FAIL" in red, for a table of promises.
+/// Returns "pass" in green or "FAIL" in red, for a table of promises.
 pub fn verdict(passes: bool, is_coloured: bool) -> String {
     if passes {
         paint("pass", GREEN, is_coloured)
@@ -139,11 +98,11 @@ pub fn verdict(passes: bool, is_coloured: bool) -> String {
     }
 }
 
-/// Blanks between the columns of a table.
+/// Number of blanks between the columns of a table.
 const COLUMN_GAP: usize = 2;
 
-/// The rows with their columns under each other, a line each, no blanks at the ends. Escapes of
-/// colours take no room.
+/// Returns the rows as aligned columns, a line each, without blanks at the ends. Escapes of colours
+/// take no room.
 pub fn table<Row: AsRef<[String]>>(rows: &[Row]) -> String {
     let columns = rows.iter().map(|row| row.as_ref().len()).max().unwrap_or(0);
     let widest = |column: usize| {
@@ -167,7 +126,7 @@ fn table_line(row: &[String], widths: &[usize]) -> String {
     padded.collect::<String>().trim_end().to_owned()
 }
 
-/// How many characters of the text a terminal shows.
+/// Returns the number of characters that a terminal shows.
 fn width(text: &str) -> usize {
     let plain = [RED, GREEN, PLAIN]
         .iter()

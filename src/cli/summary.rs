@@ -1,31 +1,31 @@
-//! What a person reads of a kit that was made: ten lines, or with `-v` every check and what the
-//! solver did.
+//! The result of `prepare` for a person: ten lines, or with `-v` every check and the solver's
+//! steps.
 
 use std::path::Path;
 
-use super::show::{GREEN, Manner, RED, paint, table, verdict};
+use super::show::{GREEN, RED, paint, table, verdict};
+use super::voice::Manner;
 use crate::base::numbers::quantity as figure;
 use crate::base::units::counted;
 use crate::page::promise;
 use crate::sheet::{Checklist, Course, LogRow, PassRow};
 use crate::verify::Check;
 
-/// Shares below this are not told by their number, %: nobody prints so exactly.
-const SHOWN_PERCENT: f64 = 0.01;
-/// Shares above this say nothing of how far it is: the best value is next to zero, %.
-const FAR_PERCENT: f64 = 100.0;
-/// Lengths in mm and angles in degrees below this are told as less than it: nobody prints or
-/// balances so exactly.
-const SHOWN_OFF: f64 = 0.001;
+/// Least distance from the bound that is shown as a number, %. Nobody prints so exactly.
+const MIN_SHOWN_PERCENT: f64 = 0.01;
+/// Greatest distance from the bound that is shown, %. Beyond it the bound is next to zero.
+const MAX_SHOWN_PERCENT: f64 = 100.0;
+/// Least length in mm or angle in degrees that is shown. Nobody prints or balances so exactly.
+const MIN_SHOWN_OFFSET: f64 = 0.001;
 /// The order in which a person reads the solver's numbers.
 const STEP_NUMBERS: [&str; 4] = ["passes", "value", "bound", "residual"];
 
-/// The kit in ten lines, what failed in full below them.
+/// Returns the kit in ten lines, and below them the broken promises in full.
 pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
     let lines = [
         Some(("what it does", promise(checklist))),
-        Some(("filled solid", filled_solid(checklist))),
-        Some(("at best", proved(checklist))),
+        Some(("filled solid", solid_words(checklist))),
+        Some(("at best", bound_words(checklist))),
         balance(checklist).map(|words| ("balance", words)),
         Some((
             "mass, size",
@@ -48,13 +48,12 @@ pub fn ten_lines(checklist: &Checklist, out: &Path, manner: Manner) -> String {
         .flatten()
         .map(|(name, words)| [name.to_owned(), words])
         .collect();
-    // Blanks that keep a number and its unit on one line are for pages; on a terminal they are in
-    // the way of a search.
+    // Non-breaking blanks are for pages; on a terminal they get in the way of a search.
     table(&rows).replace('\u{a0}', " ") + &broken(&checklist.checks, manner)
 }
 
-/// The figure that was optimised, of the model filled solid.
-fn filled_solid(checklist: &Checklist) -> String {
+/// Returns the optimised figure of the model filled solid, and its mass.
+fn solid_words(checklist: &Checklist) -> String {
     let named = checklist.certificate.figure;
     let mass = figure(checklist.solid.mass_g, "g");
     match checklist.solid.value_of(named) {
@@ -63,8 +62,8 @@ fn filled_solid(checklist: &Checklist) -> String {
     }
 }
 
-/// What no hollowing can beat.
-fn proved(checklist: &Checklist) -> String {
+/// Returns the bound that no hollowing can beat, and the distance of this kit from it.
+fn bound_words(checklist: &Checklist) -> String {
     let proof = &checklist.certificate;
     let (name, bound) = (
         proof.figure.name(),
@@ -72,10 +71,10 @@ fn proved(checklist: &Checklist) -> String {
     );
     let away = |written: f64| ((written - proof.bound) / proof.bound).abs() * 100.0;
     let written = match proof.written_value.map(away) {
-        Some(percent) if percent < SHOWN_PERCENT => {
-            format!("; this kit is less than {SHOWN_PERCENT} % away")
+        Some(percent) if percent < MIN_SHOWN_PERCENT => {
+            format!("; this kit is less than {MIN_SHOWN_PERCENT} % away")
         }
-        Some(percent) if percent > FAR_PERCENT => {
+        Some(percent) if percent > MAX_SHOWN_PERCENT => {
             let written = proof.written_value.unwrap_or_default();
             format!(
                 "; this kit reaches {}",
@@ -108,16 +107,16 @@ fn balance(checklist: &Checklist) -> Option<String> {
     ))
 }
 
-/// What should be zero, no more exactly than it can be made.
+/// Returns a value that should be zero, no more exactly than it can be made.
 fn small(value: f64, unit: &str) -> String {
-    if value < SHOWN_OFF {
-        format!("less than {}", figure(SHOWN_OFF, unit))
+    if value < MIN_SHOWN_OFFSET {
+        format!("less than {}", figure(MIN_SHOWN_OFFSET, unit))
     } else {
         figure(value, unit)
     }
 }
 
-/// The size of the finished object along the model's axes.
+/// Returns the size of the finished object along the model's axes.
 fn size(checklist: &Checklist) -> String {
     let size = checklist.model.size_mm.map(|mm| figure(mm, "")).join(" × ");
     format!("{size} mm")
@@ -173,7 +172,7 @@ fn parts(checklist: &Checklist) -> String {
     )
 }
 
-/// The time of a run, and of the two stages that took most of it.
+/// Returns the time of a run, and of the two phases that took most of it.
 fn times(total_s: f64, stages: &[(String, f64)]) -> String {
     let mut longest: Vec<&(String, f64)> = stages.iter().collect();
     longest.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -185,7 +184,7 @@ fn times(total_s: f64, stages: &[(String, f64)]) -> String {
     format!("{total_s:.1} s, most of it {}", most.join(" and "))
 }
 
-/// Whether every promise is kept, in words.
+/// Returns the number of promises kept and broken, in words.
 pub fn summary(checks: &[Check], manner: Manner) -> String {
     let broken = checks.iter().filter(|check| !check.pass).count();
     let kept = format!(
@@ -205,7 +204,7 @@ pub fn summary(checks: &[Check], manner: Manner) -> String {
     )
 }
 
-/// What is wrong, a line each; nothing where all is well.
+/// Returns a table of the broken promises; empty if all are kept.
 pub fn broken(checks: &[Check], manner: Manner) -> String {
     let failed: Vec<Check> = checks.iter().filter(|check| !check.pass).cloned().collect();
     if failed.is_empty() {
@@ -215,7 +214,7 @@ pub fn broken(checks: &[Check], manner: Manner) -> String {
     }
 }
 
-/// Promise, measured, limit, verdict: one line each.
+/// Returns a table of the checks: promise, measured value, limit, verdict.
 pub fn checks_table(checks: &[Check], manner: Manner) -> String {
     let head = ["promise", "measured", "limit", "verdict"].map(str::to_owned);
     let row = |check: &Check| {
@@ -241,7 +240,7 @@ pub fn checks_table(checks: &[Check], manner: Manner) -> String {
     table(&rows)
 }
 
-/// Four significant digits, or as many as an integer has.
+/// Returns four significant digits, or all digits of an integer.
 fn quantity(value: f64, unit: &str) -> String {
     let number = match value.abs() {
         magnitude if magnitude == 0.0 || (value.fract() == 0.0 && magnitude < 1e6) => {
@@ -257,7 +256,7 @@ fn quantity(value: f64, unit: &str) -> String {
     }
 }
 
-/// Every check, the certificate, the time of each stage, and what the solver did, a row a step.
+/// Returns every check, the certificate, the time of each phase, and the solver's steps.
 pub fn details(checklist: &Checklist, manner: Manner) -> String {
     let certificate = &checklist.certificate;
     let mut text = checks_table(&checklist.checks, manner);
@@ -280,7 +279,7 @@ pub fn details(checklist: &Checklist, manner: Manner) -> String {
             .map_or(String::new(), iterations)
 }
 
-/// The solver's steps, a row each, with a column for every number that one of them has.
+/// Returns the solver's steps, a row each, with a column for every number that any of them has.
 fn steps(log: &[LogRow]) -> String {
     let mut names: Vec<&str> = Vec::new();
     for name in log.iter().flat_map(|row| row.figures.keys()) {
@@ -314,7 +313,7 @@ fn steps(log: &[LogRow]) -> String {
     }
 }
 
-/// The solver's last ascent, on coarse columns: what it found and what nothing beats, pass by pass.
+/// Returns value and bound of the solver's last ascent on coarse columns, pass by pass.
 fn iterations(course: &Course) -> String {
     let head = ["pass on coarse columns", "value", "bound"].map(str::to_owned);
     let row = |(index, pass): (usize, &PassRow)| {
@@ -334,7 +333,7 @@ fn iterations(course: &Course) -> String {
     }
 }
 
-/// A count as it is, anything else to seven digits.
+/// Returns a count as it is, any other number to seven digits.
 fn step_number(value: f64) -> String {
     let is_count = value.fract() == 0.0 && value.abs() < 1e6;
     if is_count {
@@ -371,7 +370,7 @@ mod tests {
     }
 
     #[test]
-    fn value_and_bound_are_told_pass_by_pass_where_they_were_recorded() {
+    fn value_and_bound_are_shown_pass_by_pass_if_they_were_recorded() {
         let pass = |value, bound| PassRow { value, bound };
         let course = Course {
             passes: vec![pass(2.5, 0.5), pass(1.5, 1.5)],
@@ -385,7 +384,7 @@ mod tests {
     }
 
     #[test]
-    fn the_table_of_steps_has_a_column_for_every_number_and_gaps_where_a_step_has_none() {
+    fn the_table_of_steps_has_a_column_for_every_number_and_gaps() {
         let text = steps(&[
             row("first", &[("passes", 3.0)]),
             row("second", &[("bound", 0.5), ("passes", 12.0)]),
@@ -398,7 +397,7 @@ mod tests {
     }
 
     #[test]
-    fn what_failed_is_told_in_full_and_what_passed_is_counted() {
+    fn failed_checks_are_shown_in_full_and_passed_ones_are_counted() {
         let check = |promise: &str, value| {
             Check::new(
                 CheckKind::Wall,
@@ -412,10 +411,10 @@ mod tests {
             check("two", 2.0).at(Some("at P01".into())),
         ];
         assert_eq!(summary(&checks, PLAIN), "1 of 2 promises kept, 1 BROKEN");
-        let told = broken(&checks, PLAIN);
+        let table = broken(&checks, PLAIN);
         assert!(
-            told.contains("two") && told.contains("FAIL (at P01)") && !told.contains("one"),
-            "{told}"
+            table.contains("two") && table.contains("FAIL (at P01)") && !table.contains("one"),
+            "{table}"
         );
         assert_eq!(broken(&checks[..1], PLAIN), "");
         assert_eq!(summary(&checks[..1], PLAIN), "1 of 1 promises kept");

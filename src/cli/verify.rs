@@ -1,21 +1,22 @@
-//! `equipoise verify`: judge the written files of a kit again.
+//! `equipoise verify`: judges the written files of a kit again.
 
 use std::io::Write;
 use std::path::Path;
 
-use super::Exit;
-use super::prepare::Voice;
-use super::show::{GREEN, Manner, RED, paint, say};
+use super::exit::Exit;
+use super::show::{GREEN, RED, paint, say};
 use super::summary::{checks_table, summary};
+use super::voice::{Manner, Voice};
 use crate::verify::{Check, CheckKind, FileChange, VerifyError, files_check, verify_kit};
 
-/// Why `verify` could not run.
+/// A reason why `verify` could not run.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum VerifyCommandError {
     /// The kit cannot be judged.
     #[error(transparent)]
     Verify(#[from] VerifyError),
-    /// Standard output is closed.
+    /// The standard output is closed.
     #[error("cannot write to the standard output")]
     Output(#[from] std::io::Error),
     /// The checks cannot be put into JSON.
@@ -23,7 +24,7 @@ pub enum VerifyCommandError {
     Json(#[from] serde_json::Error),
 }
 
-/// Judges the kit in `folder` from its files; says on `out` what was found.
+/// Judges the kit in `folder` from its files; prints the findings to `out`.
 pub fn verify(
     folder: &Path,
     voice: Voice,
@@ -45,11 +46,10 @@ pub fn verify(
     Ok(if is_kept { Exit::Kept } else { Exit::NotKept })
 }
 
-/// What became of the files first, then what is broken besides, then all that was judged, and the
-/// sum.
+/// Returns the changed files first, then the broken promises or all checks, then the sum.
 ///
-/// Where a file has another shape, what fails with it is named only: it follows from that. With
-/// `-v` it is told in full.
+/// If a file has another shape, the promises that break with it are only named, as they follow from
+/// it. With `-v` they are shown in full.
 fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
     let causes = changes.iter().map(|change| {
         let label = paint("FAIL", RED, manner.is_output_coloured);
@@ -60,15 +60,15 @@ fn text(checks: &[Check], changes: &[FileChange], manner: Manner) -> String {
         )
     });
     let mut text: String = causes.collect();
-    let told = |check: &&Check| {
+    let is_shown = |check: &&Check| {
         !check.pass && (check.kind != CheckKind::ChangedFiles || changes.is_empty())
     };
-    let broken: Vec<Check> = checks.iter().filter(told).cloned().collect();
+    let broken: Vec<Check> = checks.iter().filter(is_shown).cloned().collect();
     let follows = changes.iter().any(FileChange::is_of_shape) && manner.verbose == 0;
     if follows && !broken.is_empty() {
         let names: Vec<String> = broken.iter().map(|check| check.kind.to_string()).collect();
         text += &format!(
-            "  with it {} broken: {} (-v tells each)\n",
+            "  with it {} broken: {} (-v shows each)\n",
             if names.len() == 1 {
                 "one promise is".to_owned()
             } else {

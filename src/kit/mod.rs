@@ -1,5 +1,8 @@
 //! The kit as files in memory, and the folder they are written to.
 
+mod error;
 mod folder;
+mod staging;
 
-pub use folder::{COUPON_FILE, Existing, Kit, KitError};
+pub use error::KitError;
+pub use folder::{COUPON_FILE, Existing, Kit};

@@ -83,7 +83,7 @@ const ARROWS: &[(&str, &[&str])] = &[
             "base", "draw", "geom", "goal", "mass", "mesh", "repair", "sheet", "verify",
         ],
     ),
-    ("kit", &[]),
+    ("kit", &["base"]),
     (
         "coupon",
         &["geom", "io", "kit", "mesh", "page", "printer", "base"],

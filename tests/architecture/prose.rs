@@ -14,12 +14,9 @@ const QUESTIONS: [&str; 6] = ["What", "How", "Whether", "Where", "Which", "Why"]
 /// Translated idioms for "`None` if".
 const NONE_WHERE: [&str; 2] = ["none where", "none if there"];
 /// The files that define or word the flags of the command line.
-const FLAG_FILES: [&str; 5] = [
+const FLAG_FILES: [&str; 2] = [
     "src/cli/args", // and all that begins so
-    "src/cli/ballast_args.rs",
-    "src/cli/cut_arg.rs",
     "src/cli/flags.rs",
-    "src/cli/goal_args.rs",
 ];
 
 /// The share of the doc comments that still begin with a question. Final value: 0.01.

@@ -1,56 +1,56 @@
-//! The command line: what can be asked for, and the job it makes.
+//! The arguments of the command line, and the job they make.
 
+mod ballast;
+mod cut;
+mod error;
+mod goal;
 mod prepare;
+mod printers;
+mod scaling;
 #[cfg(test)]
 mod tests;
+mod values;
 
-use std::{path::PathBuf, str::FromStr};
+use std::path::PathBuf;
 
-use clap::{
-    Args, Parser, Subcommand,
-    builder::{PossibleValuesParser, TypedValueParser},
-};
+use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 
-pub use prepare::{ArgsError, PrepareArgs, Request, ScalingArgs};
+pub use error::ArgsError;
+pub use prepare::{PrepareArgs, Request};
+pub use printers::{CalibrateArgs, CouponArgs, ImportArgs, NewArgs, PrintersAction, PrintersArgs};
+pub use scaling::ScalingArgs;
+pub use values::FactorError;
 
-use super::args_printers::{CouponArgs, PrintersArgs};
 use crate::base::units::Length;
-use crate::base::words::ChoiceError;
-
-const EXIT_CODES: &str = "\
-LENGTH takes a unit (100mm, 10cm, 0.1m, 4in, 42um); without one it is in mm.
-Exit codes: 0 every promise kept; 1 finished, but a promise is broken (a file of a kit that is missing or damaged breaks one) or \
-the goal is impossible; 2 could not run: bad arguments, a model that is not one solid body, no kit.";
+use values::EXIT_CODES;
 
 /// Hollow a 3D model so that its printed, glued parts spin, stand, float or run true as asked.
 #[derive(Debug, Parser)]
 #[command(name = "equipoise", version, after_help = EXIT_CODES)]
 pub struct Cli {
-    /// What every command takes.
+    /// The options of every command.
     #[command(flatten)]
     pub global: GlobalArgs,
-    /// What to do.
+    /// The command to run.
     #[command(subcommand)]
     pub command: Command,
 }
 
-/// The most threads. Far more than there are cores, and the waiting ones take the time of those at
-/// work.
+/// The most threads. With far more threads than cores, the waiting ones slow the others down.
 const MAX_THREADS: i64 = 256;
 
-/// What every command takes.
+/// The options of every command.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Everywhere")]
 pub struct GlobalArgs {
-    /// Say nothing but errors
+    /// Print nothing but errors
     #[arg(short, long, global = true, conflicts_with = "verbose")]
     pub quiet: bool,
-    /// Say more: every check, the certificate, the time of each stage and the solver's steps
+    /// Print more: every check, the certificate, the time of each stage and the solver's steps
     #[arg(short, long, global = true, action = clap::ArgAction::Count)]
     pub verbose: u8,
-    /// Use so many threads, up to 256; the result does not depend on it [default: one for each
-    /// core]
+    /// Use this many threads, up to 256; the result does not depend on it [default: one per core]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=MAX_THREADS))]
     pub threads: Option<u16>,
     /// Print the result as JSON on the standard output
@@ -58,25 +58,24 @@ pub struct GlobalArgs {
     pub json: bool,
 }
 
-/// What to do.
+/// A command.
 #[derive(Debug, Subcommand)]
 pub enum Command {
     /// Turn a model into a kit of printable parts that does what the goal says
     Prepare(Box<PrepareArgs>),
-    /// Tell what a model is: facts, defects, mass, and what it could become
+    /// Show a model's facts, defects and mass, and what it could become
     Inspect(InspectArgs),
     /// List the known printers, show one, or check a profile of your own
     Printers(PrintersArgs),
-    /// Make coupons to print, weigh and try, so that a profile says what the machine does
+    /// Make coupons to print, weigh and try, so that a profile matches the machine
     Coupon(CouponArgs),
-    /// Read a kit's written files again, tell what became of them, and judge them without the
-    /// solver
+    /// Judge the files of a kit again, without the solver, and name those that changed
     Verify(VerifyArgs),
-    /// Print the completions of a shell
+    /// Print the completion script of a shell
     ///
     /// For bash: equipoise completions bash > ~/.local/share/bash-completion/completions/equipoise
     Completions(CompletionsArgs),
-    /// Print the manual's page of the program, or of one of its commands
+    /// Print the manual page of the program or of a command
     ///
     /// To read one: equipoise man prepare | man -l -
     Man(ManArgs),
@@ -87,11 +86,11 @@ pub enum Command {
 pub struct InspectArgs {
     /// The model: an STL, OBJ, PLY or 3MF file
     pub model: PathBuf,
-    /// Tell what it could become on this printer: a known printer's id, or a profile file
+    /// Show what it could become on this printer: a known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
-    /// Tell what it could become with this wall [default: the printer's least; a hundredth of the
-    /// size without a printer]
+    /// Show what it could become with this wall [default: the printer's minimum; without a printer
+    /// a hundredth of the size]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -99,7 +98,7 @@ pub struct InspectArgs {
         help_heading = "Printer"
     )]
     pub wall: Option<Length>,
-    /// The model's size.
+    /// The size of the model.
     #[command(flatten)]
     pub scaling: ScalingArgs,
 }
@@ -121,26 +120,6 @@ pub struct CompletionsArgs {
 /// The arguments of `man`.
 #[derive(Debug, Args)]
 pub struct ManArgs {
-    /// The command, such as prepare [default: the program itself]
+    /// The command, such as prepare [default: the program]
     pub command: Option<String>,
-}
-
-/// Reads one of the words, which the help lists.
-fn words<T>(words: &'static [&'static str]) -> impl TypedValueParser<Value = T>
-where
-    T: FromStr<Err = ChoiceError> + Clone + Send + Sync + 'static,
-{
-    PossibleValuesParser::new(words).try_map(|word| word.parse::<T>())
-}
-
-/// A factor that is not positive and finite.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a positive, finite factor; remedy: give a number above zero")]
-pub struct FactorError(String);
-
-pub(super) fn factor(text: &str) -> Result<f64, FactorError> {
-    match text.trim().parse::<f64>() {
-        Ok(factor) if factor.is_finite() && factor > 0.0 => Ok(factor),
-        _ => Err(FactorError(text.to_owned())),
-    }
 }

@@ -1,27 +1,22 @@
 //! The arguments of `prepare`, and the job they make.
 
-use std::{
-    ffi::OsString,
-    path::{Path, PathBuf},
-};
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use super::{
-    super::{
-        ballast_args::BallastArgs,
-        cut_arg::{CutArg, CutArgs},
-        goal_args::{HardwareArgs, RotorArgs, WaterArgs},
-        shop::chosen_printer,
-    },
-    EXIT_CODES, factor, words,
-};
+use super::ballast::BallastArgs;
+use super::cut::{CutArg, CutArgs};
+use super::error::ArgsError;
+use super::goal::{HardwareArgs, RotorArgs, WaterArgs};
+use super::scaling::ScalingArgs;
+use super::values::{EXIT_CODES, words};
 use crate::base::units::Length;
-use crate::goal::{self, Contact, GoalKind, Objective, RequestError, SpinPoint, Up};
-use crate::job::{Job, JobError, ModelChoice, ModelUnit, PartFormat, PlanError, Scaling};
-use crate::printer::ShopError;
+use crate::cli::shop::chosen_printer;
+use crate::goal::{self, Contact, GoalKind, Objective, SpinPoint, Up};
+use crate::job::{Job, ModelChoice, PartFormat};
 
-/// What must be given, and what may be.
+/// The usage: the required arguments, and the options.
 const USAGE: &str = "equipoise prepare <MODEL> --goal <GOAL> [--printer <ID|FILE>] [OPTIONS]
        equipoise prepare --job <FILE> [MODEL] [OPTIONS]";
 
@@ -33,14 +28,14 @@ pub struct PrepareArgs {
     #[arg(required_unless_present = "job")]
     pub model: Option<PathBuf>,
 
-    /// A known printer's id (see `equipoise printers`), or a profile file [default: the shop's,
-    /// from equipoise.toml]
+    /// A known printer's id (see `equipoise printers`), or a profile file [default: the printer in
+    /// equipoise.toml]
     #[arg(long, value_name = "ID|FILE", help_heading = "Printer")]
     pub printer: Option<String>,
-    /// A material the printer offers [default: the printer's]
+    /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID", help_heading = "Printer")]
     pub material: Option<String>,
-    /// Keep at least this wall, rounded up to whole pixels or lines [default: the printer's least]
+    /// The minimum wall, rounded up to whole pixels or lines [default: the printer's minimum]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -49,11 +44,11 @@ pub struct PrepareArgs {
     )]
     pub wall: Option<Length>,
 
-    /// What the object is to do
+    /// The goal: the object spins (top, yoyo), stands, floats, or runs true (balance)
     #[arg(long, value_parser = words::<GoalKind>(GoalKind::WORDS), required_unless_present = "job", help_heading = "Goal")]
     pub goal: Option<GoalKind>,
-    /// The spin axis or up: x, y, z, -x, -y, -z, any vector X,Y,Z, principal (the axis easiest to
-    /// spin about) or auto (the best of all) [default: z]
+    /// The spin axis or the direction up: x, y, z, -x, -y, -z or a vector X,Y,Z. Or principal (the
+    /// axis easiest to spin about), or auto (the best of all) [default: z]
     #[arg(
         long,
         value_name = "AXIS",
@@ -61,8 +56,8 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub up: Option<Up>,
-    /// Where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z in mm
-    /// [default: lowest]
+    /// The point where a top touches the ground: lowest, center (below the centre of mass) or X,Y,Z
+    /// in mm [default: lowest]
     #[arg(
         long,
         value_name = "POINT",
@@ -70,8 +65,7 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub contact: Option<Contact>,
-    /// A point of the axis a yo-yo spins or a rotor turns about: center (of mass) or X,Y,Z in mm
-    /// [default: center]
+    /// A point on the axis of a yo-yo or rotor: center (of mass) or X,Y,Z in mm [default: center]
     #[arg(
         long,
         value_name = "POINT",
@@ -79,10 +73,10 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub spin_point: Option<SpinPoint>,
-    /// What is made as good as it can be: top: critical-speed, spin-it; yoyo: spin-it, dominance;
-    /// stand: toppling-angle, lowest-center; float: metacentric-height; balance: least-removed,
-    /// least-unbalance [default: the first]. The weights of Spin-It's functional may follow it,
-    /// that of a low centre first: spin-it:γc,γI [default: 1,1]
+    /// The quantity to optimise [default: the first of its goal]. Top: critical-speed, spin-it.
+    /// Yoyo: spin-it, dominance. Stand: toppling-angle, lowest-center. Float: metacentric-height.
+    /// Balance: least-removed, least-unbalance. Spin-It's functional takes two weights, that of a
+    /// low centre first: spin-it:γc,γI [default: 1,1]
     #[arg(
         long,
         value_name = "OBJECTIVE",
@@ -90,22 +84,22 @@ pub struct PrepareArgs {
         help_heading = "Goal"
     )]
     pub objective: Option<Objective>,
-    /// How a rotor runs.
+    /// The speed and grade of a rotor.
     #[command(flatten)]
     pub rotor: RotorArgs,
-    /// How it floats.
+    /// The liquid and the waterline.
     #[command(flatten)]
     pub water: WaterArgs,
-    /// What is put into it.
+    /// The hardware.
     #[command(flatten)]
     pub hardware: HardwareArgs,
 
-    /// The model's size.
+    /// The size of the model.
     #[command(flatten)]
     pub scaling: ScalingArgs,
 
-    /// Solve with columns so far apart [default: the printer's pixel, at most a quarter of the
-    /// wall]
+    /// The distance between the solver's columns [default: the printer's pixel, at most a quarter
+    /// of the wall]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -113,28 +107,29 @@ pub struct PrepareArgs {
         help_heading = "Method"
     )]
     pub pitch: Option<Length>,
-    /// How it is cut and joined.
+    /// The cuts and joints.
     #[command(flatten)]
     pub cutting: CutArgs,
-    /// What is put into it.
+    /// The ballast or filling.
     #[command(flatten)]
     pub load: BallastArgs,
 
-    /// Write the kit to this folder [default: the model's name with -kit]
+    /// Write the kit to this folder [default: the model's name and -kit]
     #[arg(long, value_name = "DIR", help_heading = "Kit")]
     pub out: Option<PathBuf>,
-    /// Replace the folder if it is there
+    /// Replace the folder if it exists
     #[arg(long, help_heading = "Kit")]
     pub force: bool,
-    /// The file format of the parts; 3mf also for the assembly and the build plates [default: both]
+    /// The file format of the parts; 3mf writes the assembly and the build plates too [default:
+    /// both]
     #[arg(long, value_parser = words::<PartFormat>(PartFormat::WORDS), help_heading = "Kit")]
     pub format: Option<PartFormat>,
-    /// Replay the run that this job.toml describes; MODEL, if given, stands for its model
+    /// Replay the run of this job.toml; MODEL, if given, replaces its model
     #[arg(long, value_name = "FILE", help_heading = "Kit", conflicts_with_all = DECIDED_BY_JOB)]
     pub job: Option<PathBuf>,
 }
 
-/// The arguments that a replayed job has already decided.
+/// The arguments that a replayed job decides.
 const DECIDED_BY_JOB: [&str; 28] = [
     "printer",
     "material",
@@ -166,65 +161,26 @@ const DECIDED_BY_JOB: [&str; 28] = [
     "fill",
 ];
 
-/// How large the model is; one of them at most.
-#[derive(Debug, Clone, Args)]
-#[group(multiple = false)]
-#[command(next_help_heading = "Size")]
-pub struct ScalingArgs {
-    /// Make the longest side this long
-    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
-    pub size: Option<Length>,
-    /// Multiply the file's numbers by this to get mm
-    #[arg(long, value_name = "FACTOR", value_parser = factor, allow_hyphen_values = true)]
-    pub scale: Option<f64>,
-    /// The unit of the numbers in an STL, OBJ or PLY file; a 3MF file says its own [default: mm]
-    #[arg(long, value_parser = words::<ModelUnit>(ModelUnit::WORDS))]
-    pub unit: Option<ModelUnit>,
-}
-
-/// What `prepare` is to do: the job, and where its kit goes.
+/// The order for `prepare`: the job, and the target of its kit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Request {
-    /// What decides the kit.
+    /// The job, which decides the bytes of the kit.
     pub job: Job,
-    /// The folder it is written to.
+    /// The folder to write the kit to.
     pub out: PathBuf,
-    /// Whether a folder that is there is replaced.
+    /// True if an existing folder is replaced.
     pub force: bool,
 }
 
-/// Arguments that do not go together.
-#[derive(Debug, thiserror::Error)]
-pub enum ArgsError {
-    /// The goal's.
-    #[error(transparent)]
-    Goal(#[from] RequestError),
-    /// The replayed job's.
-    #[error(transparent)]
-    Job(#[from] JobError),
-    /// The plan's.
-    #[error(transparent)]
-    Plan(#[from] PlanError),
-    /// An argument that neither the command line nor a job gives; the parser lets none pass.
-    #[error("{0} is missing; remedy: give it, or a job to replay with --job")]
-    Missing(&'static str),
-    /// Neither the command line nor the shop names a printer.
-    #[error(
-        "--printer is missing; remedy: give it (`equipoise printers list` shows the ids), or write printer = \"ID\" into an equipoise.toml here, beside the model or in \
-         your configuration folder"
-    )]
-    NoPrinter,
-    /// The shop's defaults cannot be used.
-    #[error(transparent)]
-    Shop(#[from] ShopError),
-}
-
 impl PrepareArgs {
-    /// The job that was asked for, and where its kit goes.
+    /// Returns the job that was ordered, and the target of its kit.
+    ///
+    /// # Errors
+    /// The arguments contradict each other, or a file they name cannot be used.
     pub fn request(self) -> Result<Request, ArgsError> {
         let (out, force) = (self.out.clone(), self.force);
         let job = match &self.job {
-            Some(path) => replayed(Job::read(path)?, self.model),
+            Some(path) => replay(Job::read(path)?, self.model),
             None => self.new_job()?,
         };
         let out = out.unwrap_or_else(|| default_out(&job.model.path));
@@ -263,32 +219,22 @@ impl PrepareArgs {
 
     fn goal(&self) -> Result<goal::Request, ArgsError> {
         let default = goal::Request::new(self.goal.ok_or(ArgsError::Missing("--goal"))?);
-        let asked = goal::Request {
+        let request = goal::Request {
             up: self.up.unwrap_or(default.up),
             contact: self.contact.or(default.contact),
             spin_point: self.spin_point.or(default.spin_point),
             objective: self.objective.unwrap_or(default.objective),
-            rotor: self.rotor.over(default.rotor),
-            water: self.water.over(default.water),
-            hardware: self.hardware.asked(),
+            rotor: self.rotor.or_default(default.rotor),
+            water: self.water.or_default(default.water),
+            hardware: self.hardware.order(),
             ..default
         };
-        Ok(asked.validate()?)
+        Ok(request.validate()?)
     }
 }
 
-impl ScalingArgs {
-    /// What was asked for; mm where nothing was.
-    pub fn scaling(&self) -> Scaling {
-        match (self.size, self.scale) {
-            (Some(size), _) => Scaling::Size(size),
-            (None, Some(factor)) => Scaling::Factor(factor),
-            (None, None) => Scaling::Unit(self.unit.unwrap_or(ModelUnit::Mm)),
-        }
-    }
-}
-
-fn replayed(job: Job, model: Option<PathBuf>) -> Job {
+/// Returns the job with another path of its model, if one is given.
+fn replay(job: Job, model: Option<PathBuf>) -> Job {
     let path = model.unwrap_or(job.model.path);
     Job {
         model: ModelChoice { path, ..job.model },
@@ -296,7 +242,7 @@ fn replayed(job: Job, model: Option<PathBuf>) -> Job {
     }
 }
 
-/// `<model>-kit` in the current folder.
+/// Returns `<model>-kit` in the current folder.
 fn default_out(model: &Path) -> PathBuf {
     let mut name = model
         .file_stem()

@@ -67,7 +67,7 @@ fn the_readme_command_makes_the_job_it_says() {
 }
 
 #[test]
-fn what_is_not_said_gets_the_documented_default() {
+fn missing_arguments_get_the_documented_defaults() {
     let job = request(PREPARE).job;
     assert_eq!(job.model.scaling, Scaling::Unit(ModelUnit::Mm));
     assert_eq!(
@@ -92,7 +92,7 @@ fn directions_may_begin_with_a_minus_sign() {
 }
 
 #[test]
-fn everything_that_can_be_said_arrives_in_the_job() {
+fn every_argument_arrives_in_the_job() {
     let line = "equipoise prepare m.stl --printer my.toml --material pla --goal yoyo --up x --spin-point -1,2,3 \
                 --objective dominance --scale 2.5 --wall 0.1cm --pitch 0.2 --cut never --out k --force --format stl";
     let request = request(line);
@@ -147,7 +147,7 @@ fn bad_arguments_are_refused_with_exit_code_2_and_clear_words() {
 }
 
 #[test]
-fn what_must_be_said_is_asked_for() {
+fn required_arguments_are_asked_for() {
     for (line, says) in [
         ("equipoise prepare m.stl --printer prusa-mk4", "--goal"),
         (
@@ -200,14 +200,14 @@ fn parts_of_a_goal_that_do_not_go_together_are_refused() {
 }
 
 #[test]
-fn without_a_printer_the_shops_own_is_taken_and_where_there_is_none_it_is_asked_for() {
+fn without_a_printer_the_shops_own_is_used_or_asked_for() {
     let folder = tempfile::tempdir().unwrap();
     let model = folder.path().join("m.stl");
     let line = format!("equipoise prepare {} --goal top", model.display());
     let Command::Prepare(args) = parse(&line).unwrap().command else {
         panic!("{line}")
     };
-    // A user who runs the tests may have defaults of his own.
+    // The user who runs the tests may have an equipoise.toml.
     match args.request() {
         Err(error) => assert!(error.to_string().contains("equipoise.toml"), "{error}"),
         Ok(request) => assert!(!request.job.printer.id.is_empty()),

@@ -1,38 +1,38 @@
-//! Where to cut: a word, or a file with the plan.
+//! The arguments for cuts, pins and marks: a word, or a file with the plan.
 
-use std::{convert::Infallible, path::PathBuf, str::FromStr};
+use std::convert::Infallible;
+use std::path::PathBuf;
+use std::str::FromStr;
 
 use clap::Args;
 
-use crate::{
-    cut::CutOrder,
-    job::{CutMode, IdStyle, PinStyle, PlanError},
-};
+use crate::cut::CutOrder;
+use crate::job::{CutMode, IdStyle, PinStyle, PlanError};
 
-/// How the object is cut and its parts joined.
+/// The arguments for cutting the object and joining its parts.
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Method")]
 pub struct CutArgs {
-    /// Cut the object where a void would stay closed (auto), not at all (never), or as the plan in
-    /// FILE says: the kit's cuts.toml, edited [default: auto]
+    /// Cut the object to open its voids (auto), not at all (never), or as the plan in FILE says.
+    /// Such a plan is a kit's cuts.toml, edited [default: auto]
     #[arg(long, value_name = "auto|never|FILE")]
     pub cut: Option<CutArg>,
-    /// Align the parts by pins that are printed with them (printed), or by dowels cut from stock
-    /// rods (dowel) [default: printed]
+    /// Align the parts by pins printed on them (printed), or by dowels cut from stock rods (dowel)
+    /// [default: printed]
     #[arg(long, value_name = "printed|dowel")]
     pub pins: Option<PinStyle>,
-    /// Sink the parts' ids into their cut faces where there is room (engraved), or not (none)
+    /// Engrave the parts' ids into their cut faces if there is room (engraved), or not (none)
     /// [default: engraved]
     #[arg(long, value_name = "engraved|none")]
     pub ids: Option<IdStyle>,
 }
 
-/// What `--cut` was given.
+/// The value of `--cut`.
 #[derive(Debug, Clone, PartialEq)]
 pub enum CutArg {
     /// A word.
     Mode(CutMode),
-    /// A file that holds the cuts and, maybe, the pins.
+    /// A file that holds the cuts and optionally the pins.
     Plan(PathBuf),
 }
 
@@ -47,7 +47,10 @@ impl FromStr for CutArg {
 }
 
 impl CutArg {
-    /// Whether to cut, and the plan that the file holds.
+    /// Returns the mode, and the plan if it is a file.
+    ///
+    /// # Errors
+    /// The file cannot be read or is not a plan.
     pub fn order(self) -> Result<(CutMode, Option<CutOrder>), PlanError> {
         match self {
             Self::Mode(mode) => Ok((mode, None)),

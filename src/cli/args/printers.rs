@@ -7,17 +7,17 @@ use clap::{Args, Subcommand};
 /// The arguments of `printers`.
 #[derive(Debug, Args)]
 pub struct PrintersArgs {
-    /// What about them; to list them where nothing is said.
+    /// The action; `None` lists the printers.
     #[command(subcommand)]
     pub action: Option<PrintersAction>,
 }
 
-/// What to do about printers.
+/// An action on printers and their profiles.
 #[derive(Debug, Clone, PartialEq, Subcommand)]
 pub enum PrintersAction {
     /// List the known printers
     List {
-        /// Print the table of README
+        /// Print the table as in README
         #[arg(long)]
         markdown: bool,
     },
@@ -26,18 +26,17 @@ pub enum PrintersAction {
         /// A known printer's id, or a profile file
         id: String,
     },
-    /// Tell whether a profile file can be used, and everything that is wrong with it
+    /// Check a profile file and name everything that is wrong with it
     Check {
         /// The profile file
         file: PathBuf,
     },
-    /// Write a shop's own profile, that inherits from a printer or is taken over from a slicer's
-    /// files
+    /// Write a shop's own profile, based on a known printer or a slicer's files
     New(NewArgs),
-    /// Take a printer, its materials and layers over from a slicer: PrusaSlicer and SuperSlicer
-    /// .ini, Cura .def.json, .xml.fdm_material and .inst.cfg
+    /// Import a printer, its materials and layers from a slicer: PrusaSlicer and SuperSlicer .ini,
+    /// Cura .def.json, .xml.fdm_material and .inst.cfg
     Import(ImportArgs),
-    /// Write what was measured on coupons into a shop's own profile, with the day and the lot
+    /// Write the measurements of coupons into a shop's own profile, with the day and the lot
     Calibrate(CalibrateArgs),
 }
 
@@ -47,7 +46,7 @@ pub struct NewArgs {
     /// The printer's id or profile, or a slicer's files
     #[arg(long, value_name = "ID|FILE", required = true, num_args = 1..)]
     pub from: Vec<PathBuf>,
-    /// Which printer of the slicer's
+    /// The name of the printer in the slicer's files
     #[arg(long, value_name = "NAME")]
     pub printer: Option<String>,
     /// The new profile's id: lower-case letters, digits and hyphens [default: the file's name]
@@ -56,7 +55,7 @@ pub struct NewArgs {
     /// The file to write
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
-    /// Replace the file if it is there
+    /// Replace the file if it exists
     #[arg(long)]
     pub force: bool,
 }
@@ -64,13 +63,13 @@ pub struct NewArgs {
 /// The arguments of `printers import`.
 #[derive(Debug, Clone, PartialEq, Args)]
 pub struct ImportArgs {
-    /// The slicer's files, together
+    /// The slicer's files, all at once
     #[arg(required = true)]
     pub files: Vec<PathBuf>,
     /// List the printers and materials in them
     #[arg(long, conflicts_with_all = ["printer", "id", "out"])]
     pub list: bool,
-    /// Which printer of theirs
+    /// The name of the printer in them
     #[arg(long, value_name = "NAME")]
     pub printer: Option<String>,
     /// The new profile's id: lower-case letters, digits and hyphens [default: the printer's name]
@@ -79,7 +78,7 @@ pub struct ImportArgs {
     /// The file to write [default: the standard output]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
-    /// Replace the file if it is there
+    /// Replace the file if it exists
     #[arg(long)]
     pub force: bool,
 }
@@ -92,25 +91,25 @@ pub struct CalibrateArgs {
     /// The material that was measured [default: the printer's]
     #[arg(long, value_name = "ID")]
     pub material: Option<String>,
-    /// Its lot
+    /// The lot of the material
     #[arg(long)]
     pub lot: String,
     /// The day, as 2026-11-21 [default: today]
     #[arg(long, value_name = "DAY")]
     pub date: Option<String>,
-    /// What a density coupon weighs, g; once for each
+    /// The mass of a density coupon, g; once per coupon
     #[arg(long, value_name = "G", allow_hyphen_values = true)]
     pub weighed: Vec<f64>,
-    /// The coupons' volume as drawn, mm³ [default: that of `equipoise coupon`]
+    /// The nominal volume of a density coupon, mm³ [default: that of `equipoise coupon`]
     #[arg(long, value_name = "MM3", allow_hyphen_values = true)]
     pub volume: Option<f64>,
-    /// The clearance a side at which the pin goes in by hand, to be glued, mm
+    /// The clearance per side at which the pin goes in by hand, to be glued, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
-    /// The clearance a side at which it is pressed in and holds, mm
+    /// The clearance per side at which the pin is pressed in and holds, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub press: Option<f64>,
-    /// The clearance a side at which it falls out, mm
+    /// The clearance per side at which the pin falls out, mm
     #[arg(long, value_name = "MM", allow_hyphen_values = true)]
     pub loose: Option<f64>,
     /// The thinnest pin that stood, mm
@@ -127,13 +126,13 @@ pub struct CouponArgs {
     /// A known printer's id, or a profile file
     #[arg(long, value_name = "ID|FILE")]
     pub printer: String,
-    /// A material the printer offers [default: the printer's]
+    /// A material that the printer offers [default: the printer's]
     #[arg(long, value_name = "ID")]
     pub material: Option<String>,
-    /// Write the coupons to this folder [default: the printer's id with -coupon]
+    /// Write the coupons to this folder [default: the printer's id and -coupon]
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Replace the folder if it is there
+    /// Replace the folder if it exists
     #[arg(long)]
     pub force: bool,
 }

@@ -1,0 +1,66 @@
+//! A run that a signal stops says so, ends with the signal's code and leaves nothing behind.
+
+#![cfg(unix)]
+#![allow(
+    clippy::unwrap_used,
+    reason = "a test whose process cannot be started has failed"
+)]
+
+mod common;
+
+use std::fs;
+use std::path::Path;
+use std::process::{Command, Output, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use common::ELLIPSOID;
+
+/// Starts a `prepare` that takes some seconds, and sends it a signal after half a second.
+fn stopped(signal: &str, out: &Path) -> Output {
+    let child = Command::new(env!("CARGO_BIN_EXE_equipoise"))
+        .args(["prepare", ELLIPSOID, "--printer", "objet-connex350"])
+        .args(["--goal", "top", "--size", "100mm", "--force", "--out"])
+        .arg(out)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    thread::sleep(Duration::from_millis(500));
+    let kill = format!("kill -{signal} {}", child.id());
+    let sent = Command::new("sh").args(["-c", &kill]).status().unwrap();
+    assert!(sent.success(), "the run ended before the signal");
+    child.wait_with_output().unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).unwrap();
+    entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect()
+}
+
+#[test]
+fn a_stopped_run_says_so_and_leaves_nothing_behind() {
+    for (signal, code) in [("INT", 130), ("TERM", 143)] {
+        let room = tempfile::tempdir().unwrap();
+        let output = stopped(signal, &room.path().join("deep/er/kit"));
+        let said = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(code), "{said}");
+        assert_eq!(said, "stopped; nothing was written\n");
+        assert!(output.stdout.is_empty());
+        assert_eq!(names(room.path()), Vec::<String>::new());
+    }
+}
+
+#[test]
+fn a_kit_that_was_to_be_replaced_is_still_there() {
+    let room = tempfile::tempdir().unwrap();
+    let kit = room.path().join("kit");
+    fs::create_dir(&kit).unwrap();
+    fs::write(kit.join("checklist.json"), "old").unwrap();
+    let output = stopped("INT", &kit);
+    assert_eq!(output.status.code(), Some(130));
+    assert_eq!(names(room.path()), ["kit"]);
+    assert_eq!(names(&kit), ["checklist.json"]);
+}
