@@ -1,4 +1,4 @@
-//! How much of a void's wall is in sight of its openings.
+//! The share of a void's wall that is in sight of its openings.
 
 use rayon::prelude::*;
 
@@ -16,33 +16,33 @@ use crate::{
     mesh::{Solid, area_mm2, spread_points},
 };
 
-/// Points of a void's wall that are looked at: a share of 5 % is then known to half a per cent.
+/// Sample points on the wall of a void. A hidden share of 5 % is then known to within 0.5 %.
 const SAMPLES: f64 = 2000.0;
-/// Of a small piece at least so many points are looked at.
+/// Least number of sample points on a piece, however small.
 const LEAST_SAMPLES: usize = 24;
-/// Places across a mouth, along each of two directions, that are looked from.
+/// Number of viewpoints across a mouth, along each of two directions.
 const EYES_ACROSS: usize = 5;
-/// So many where little is hidden from those: what is seen only from between them is slivers, a few
-/// thousandths of a wall.
+/// Number of viewpoints across a mouth in the second, finer test. Only slivers, a few thousandths
+/// of a wall, are visible from the additional viewpoints alone.
 const CLOSER_EYES_ACROSS: usize = 16;
-/// Where more than this share of a piece is hidden, no closer look will find it clean.
+/// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
 const HIDDEN_RATIO: f64 = 0.15;
-/// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
+/// Share of a line of sight that is tested. The rest would hit the wall at its end.
 const LOOKED_RATIO: f64 = 0.999;
 
-/// A place that is looked from, in a mouth of a cut.
+/// A viewpoint in the mouth of a cut.
 struct Eye {
     cut: usize,
     at: Point,
 }
 
-/// How a void is looked into.
+/// The parameters of the line-of-sight test.
 pub(crate) struct Look<'a> {
     tree: &'a CutTree,
-    /// The radius of the least opening: nearer to a rim no tool enters.
+    /// Radius of the least opening, mm. The tool gets no nearer to a rim than this.
     tool_radius_mm: f64,
     reach_mm: f64,
-    /// Pieces of which more than this share is hidden from few places are not looked at from more.
+    /// Hidden share of a piece above which the finer test is skipped.
     given_up_ratio: f64,
 }
 
@@ -58,8 +58,8 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The same, but from many places however much is hidden: slower, and right for what is told of
-    /// a plan.
+    /// Returns the same test, but with the finer viewpoints for every piece. It is slower, and
+    /// meant for the numbers reported with a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
             given_up_ratio: 1.0,
@@ -67,8 +67,9 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// The places that are looked from through mouths, each of a cut: of every mouth that lets the
-    /// tool in those where it finds room; the middle of the widest mouth where none lets it in.
+    /// Returns the viewpoints in these mouths, each given with the index of its cut. In every mouth
+    /// that admits the tool, they are the places with room for it. If no mouth admits the tool, the
+    /// only viewpoint is the middle of the widest mouth.
     fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
         let discs = mouths
             .iter()
@@ -101,7 +102,8 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// Whether the eye's cut is made where it looks from, and no other is between it and a point.
+    /// Returns true if the eye's cut exists where the eye is, and no other cut lies between eye and
+    /// point.
     fn is_before(&self, eye: &Eye, at: &Point) -> bool {
         let parts = |cut: usize| {
             let [from, to] = [&eye.at, at].map(|p| self.tree.planes[cut].distance(p));
@@ -113,7 +115,7 @@ impl<'a> Look<'a> {
     }
 }
 
-/// Places spread over the box of a mouth, so many along each of two directions.
+/// Returns a grid of places over the bounding box of a mouth, `count` along each direction.
 fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
     let Some((min, max)) = mouth.bounds() else {
         return Vec::new();
@@ -126,22 +128,22 @@ fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
     (0..count * count).map(at).collect()
 }
 
-/// The wall of a piece of a void, and what is not seen of it.
+/// The wall of a piece of a void, and its visible and hidden parts.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Seen {
-    /// The area of the wall, mm².
+    /// Area of the wall, mm².
     pub(crate) wall_mm2: f64,
-    /// The area in sight and within reach, mm²; of a sample.
+    /// Area in sight and within reach, mm², estimated from the sample.
     pub(crate) seen_mm2: f64,
-    /// The points of the sample that are not.
+    /// Sample points out of sight or out of reach.
     pub(crate) hidden: Vec<Point>,
-    /// The points of the sample that are.
+    /// Sample points in sight and within reach.
     pub(crate) visible: Vec<Point>,
-    /// The area that each of its points stands for, mm².
+    /// Area that each sample point stands for, mm².
     pub(crate) share_mm2: f64,
 }
 
-/// A point of a wall, and the places in mouths that it is seen from.
+/// A point of a wall, and the viewpoints that see it.
 pub(crate) struct Sightlines {
     pub(crate) at: Point,
     pub(crate) eyes: Vec<Point>,
@@ -156,9 +158,9 @@ impl Sightlines {
 /// The walls of one void.
 pub(crate) struct Walls {
     bvh: Bvh,
-    /// The sample for a glance at all of it.
+    /// Sample points on the wall of the whole void.
     points: Vec<Point>,
-    /// The area that a point of the sample stands for, mm².
+    /// Area that each sample point stands for, mm².
     share_mm2: f64,
 }
 
@@ -177,8 +179,9 @@ impl Walls {
         }
     }
 
-    /// About the share of the wall that is in sight through these mouths, each of a cut, before the
-    /// void is cut: what lies behind another plane is not.
+    /// Estimates the share of the wall that is in sight through these mouths before the void is
+    /// cut. Each mouth comes with the index of its cut. A point behind another plane counts as
+    /// hidden.
     pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
@@ -188,8 +191,9 @@ impl Walls {
         visible.len() as f64 / self.points.len().max(1) as f64
     }
 
-    /// Every point of the sample with the places in these mouths, each of a cut, that see it before
-    /// the void is cut: from many places only where few do not.
+    /// Returns every sample point with the viewpoints that see it before the void is cut. Each
+    /// mouth comes with the index of its cut. The finer viewpoints are used only for points that
+    /// the coarse ones do not see.
     pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
@@ -214,12 +218,13 @@ impl Walls {
         self.points.par_iter().map(lines).collect()
     }
 
-    /// The area of the wall, mm².
+    /// Returns the area of the wall, mm².
     pub(crate) fn area_mm2(&self) -> f64 {
         SAMPLES * self.share_mm2
     }
 
-    /// What is in sight of the piece's own mouths and within reach; nothing if the piece has none.
+    /// Returns the wall in sight of the piece's own mouths and within reach. Without mouths, all of
+    /// it is hidden.
     pub(crate) fn seen(&self, piece: &Piece, look: &Look) -> Seen {
         let wall = wall(piece);
         let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
@@ -242,8 +247,8 @@ impl Walls {
         }
     }
 
-    /// The points that are hidden and those that are not: from few places first, and from many
-    /// where little is hidden.
+    /// Splits points into hidden and visible ones. If few are hidden from the coarse viewpoints,
+    /// these are tested again from the finer ones.
     fn looked_at(
         &self,
         points: Vec<Point>,
@@ -260,15 +265,14 @@ impl Walls {
         (hidden, visible)
     }
 
-    /// The points that are hidden from all eyes or out of reach of those that see them, and the
-    /// others.
+    /// Splits points into those that no eye sees within reach, and the others.
     fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
         points
             .into_par_iter()
             .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
     }
 
-    /// Whether a point is in sight of an eye and within reach.
+    /// Returns true if a point is in sight of an eye and within reach.
     fn sees(&self, eye: &Eye, at: &Point, look: &Look) -> bool {
         let line = at - eye.at;
         line.norm() <= look.reach_mm
@@ -279,7 +283,7 @@ impl Walls {
     }
 }
 
-/// The triangles of a piece but for its mouths.
+/// Returns the triangles of a piece without its mouths.
 fn wall(piece: &Piece) -> Vec<[Point; 3]> {
     let mut is_wall = vec![true; piece.mesh.triangles().len()];
     for &face in piece.caps.iter().flat_map(|cap| &cap.faces) {
@@ -309,7 +313,7 @@ impl Seen {
         }
     }
 
-    /// The share that is seen; 0 of nothing.
+    /// Returns the visible share of the wall, or 0 if there is no wall.
     pub(crate) fn ratio(&self) -> f64 {
         if self.wall_mm2 > 0.0 {
             self.seen_mm2 / self.wall_mm2
@@ -354,7 +358,7 @@ mod tests {
         }
     }
 
-    /// A shaft of 4 × 4 mm from z = 2 down to −20 with an arm of 20 mm at its foot.
+    /// Returns a shaft of 4 × 4 mm from z = 2 down to −20, with an arm of 20 mm at its foot.
     fn bend() -> Solid {
         let shaft = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(2.0, 2.0, 2.0));
         let arm = primitives::cuboid(
@@ -377,9 +381,9 @@ mod tests {
 
     #[test]
     fn the_far_arm_of_a_bend_is_out_of_sight() {
-        // A line from the mouth slips in under the corner at most 16/4 times as steep as deep: it
-        // meets the arm's floor 1 mm beyond the shaft. Of 32·20 + 2·16 (shaft and its foot) + 16·16
-        // (arm) mm² all of the arm but that is hidden.
+        // A line from the mouth past the corner drops at least 16 mm over 4 mm. So it meets the
+        // floor of the arm within 1 mm of the shaft. The shaft and its foot have 32·20 + 2·16 mm²,
+        // the arm 16·16 mm². All of the arm beyond that 1 mm is hidden.
         let ratio = seen_ratio(&bend(), &[level(0.0)]);
         assert!(ratio > 0.5 && ratio < 0.75, "{ratio}");
         assert_eq!(seen_ratio(&bend(), &[]), 0.0);
@@ -392,8 +396,8 @@ mod tests {
 
     #[test]
     fn what_the_tool_does_not_reach_is_not_in_sight() {
-        // A straight shaft of 40 mm cut off near its top: of 4·6·38 + 36 mm² of wall below the cut
-        // a tool of 20 mm reaches half; the 2 mm above the cut are all seen.
+        // A straight shaft of 40 mm, cut off near its top. Below the cut it has 4·6·38 + 36 mm² of
+        // wall, and a tool of 20 mm reaches half of it. The 2 mm above the cut are all visible.
         let shaft = primitives::cuboid(&Point::new(-3.0, -3.0, -38.0), &Point::new(3.0, 3.0, 2.0));
         let shaft = Solid::new(shaft).unwrap();
         assert_eq!(seen_ratio(&shaft, &[level(0.0)]), 1.0);

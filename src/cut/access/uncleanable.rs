@@ -1,4 +1,4 @@
-//! What of a void is better kept solid, because a plan does not let it be cleaned.
+//! The parts of voids that are better kept solid, because a plan does not let them be cleaned.
 
 use rayon::prelude::*;
 
@@ -25,36 +25,36 @@ use crate::{
     mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
 };
 
-/// Hidden points nearer to each other than this many times their spacing are one place.
+/// Hidden points belong to one patch if they are nearer than this many times their spacing.
 const LINK_RATIO: f64 = 3.0;
-/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all
-/// around, so it may begin a little behind the first.
+/// The body kept solid starts at this quantile of a patch's hidden points. It grows in all
+/// directions later, so it may start a little behind the first point.
 const BEGIN_SHARE: f64 = 0.25;
-/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved
-/// again.
+/// Share of the allowed hidden area that is left hidden. The rest is a margin for changes when the
+/// body is solved again.
 const LEFT_HIDDEN_RATIO: f64 = 0.8;
-/// So many hidden places are weighed against each other in a round: each costs a cut of the void;
-/// smaller ones are left to the next round, and hide next to nothing.
+/// Greatest number of hidden patches compared in a round, because each costs a cut of the void.
+/// Smaller patches wait for the next round and hide next to nothing.
 const WEIGHED_ENDS: usize = 16;
-/// What is to be kept solid beyond this share of a piece is all of it.
+/// If more than this share of a piece is to be kept solid, all of it is.
 const WHOLE_RATIO: f64 = 0.5;
-/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep
-/// its corners but for rounding.
+/// Distance within which two corners are the same, mm. Both pieces are cut from the same mesh and
+/// keep its corners up to rounding.
 const SAME_CORNER_MM: f64 = 1e-9;
 
-/// A void that the plan does not let be cleaned.
+/// A void that cannot be cleaned with this plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unclean {
     /// The void.
     pub void: VoidId,
     /// The reason.
     pub cause: UncleanCause,
-    /// What of it is to be kept solid, as bodies.
+    /// The bodies inside it that should be kept solid.
     pub lumps: Vec<TriMesh>,
 }
 
-/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are
-/// not asked. With `whole` all of such a void must go.
+/// Returns the voids that cannot be cleaned with this plan, with the bodies to keep solid in each.
+/// Seats for parts are left out. With `whole`, each such void is kept solid entirely.
 pub fn unclean(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -97,7 +97,8 @@ pub fn unclean(
     dirty.par_iter().map(of).collect()
 }
 
-/// The plain voids that none of the cuts meets: all of them must go.
+/// Returns the voids that no cut meets, each to be kept solid entirely. Seats for parts are left
+/// out.
 pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
     let tree = tree_of(cuts)?;
     let voids = hollowed.voids.iter().enumerate();
@@ -121,10 +122,10 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutErro
     Ok(shut.map(all).collect())
 }
 
-/// What of voids lies beyond joints that have not at least two pins that fit one way only: the
-/// pieces within that of the two parts in which less is empty, and what lies within a
-/// margin around them. Kept solid, they leave the joint material for pins, or no need of it.
-/// Seats for parts stay.
+/// Returns the ends of voids beyond joints that lack two pins fitting one way only. Of the two
+/// parts at such a joint, the one with less empty volume is taken. Each end is the box around a
+/// void's piece in that part, grown by a margin (mm). If these ends are kept solid, the joint gains
+/// material for pins or is no longer needed. Seats for parts are left out.
 pub fn beyond(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -182,7 +183,7 @@ pub fn beyond(
         .collect())
 }
 
-/// The corner of a piece of a void that is farthest from all cuts.
+/// Returns the corner of a void's piece that is farthest from all cuts.
 fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
     let off_cuts_mm = |p: &Point| {
         tree.planes
@@ -196,8 +197,8 @@ fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
         .copied()
 }
 
-/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of
-/// both.
+/// Returns true if a part has the wall of a void's piece: they share its corner farthest from all
+/// cuts.
 fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
     let corner = farthest_corner(lump, tree);
     corner.is_some_and(|corner| {
@@ -208,8 +209,9 @@ fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
     })
 }
 
-/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen:
-/// those first that are solid for the least volume over what they hide.
+/// Returns the bodies to keep solid: every piece that lets nothing out, and hidden ends of the
+/// others. Ends are added until enough of the wall is visible. Those with the least volume per
+/// hidden area come first.
 fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let pieces = opened.chamber.split(opened.tree)?;
     let seen = opened.seen_each(&pieces);
@@ -235,15 +237,15 @@ fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     Ok(lumps)
 }
 
-/// What is to be kept solid for one hidden place.
+/// The bodies to keep solid for one hidden patch.
 struct End {
     bodies: Vec<TriMesh>,
     area_mm2: f64,
     volume_mm3: f64,
 }
 
-/// The ends for the largest hidden places, those first that cost the least volume over the hidden
-/// area.
+/// Returns the ends for the largest hidden patches, ordered by volume per hidden area, cheapest
+/// first.
 fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError> {
     let of = |(place, piece, seen): &(Place, &Piece, &Seen)| {
         let bodies = end(piece, seen, place)?;
@@ -261,13 +263,13 @@ fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError
     Ok(ends)
 }
 
-/// A place of a piece's wall that is hidden.
+/// A connected hidden part of a piece's wall.
 struct Place {
     points: Vec<Point>,
     area_mm2: f64,
 }
 
-/// The places of a wall that are hidden: points of the sample near each other.
+/// Groups the hidden sample points of a wall into patches of near neighbours.
 fn places(seen: &Seen) -> Vec<Place> {
     let hidden = &seen.hidden;
     let link_mm = LINK_RATIO * seen.share_mm2.sqrt();
@@ -293,8 +295,8 @@ fn places(seen: &Seen) -> Vec<Place> {
     places
 }
 
-/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in
-/// sight; all of it where that is most of it.
+/// Returns the bodies of the piece at and behind a hidden patch, as seen from the middle of the
+/// visible points. Returns the whole piece if they are most of it.
 fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutError> {
     let middle = |points: &[Point]| {
         points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / points.len().max(1) as f64
@@ -336,8 +338,8 @@ mod tests {
         printer::{Cleaning, CleaningRule},
     };
 
-    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked
-    /// of it.
+    /// Returns a block with a shaft and an arm at its foot, the request, and a cut across the
+    /// shaft.
     fn bent() -> (Hollowed, PlanRequest, CutOrder) {
         let cuboid = |low: [f64; 3], high: [f64; 3]| primitives::cuboid(&low.into(), &high.into());
         let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
@@ -387,7 +389,8 @@ mod tests {
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
     }
 
-    /// A block with a post on it, hollow up to the post's top but for a thin wall, cut across both.
+    /// Returns a block with a post, hollow up to a thin wall below the post's top, and cuts across
+    /// both.
     fn posted() -> (Hollowed, PlanRequest, CutPlan) {
         let cuboid = |low: [f64; 3], high: [f64; 3]| {
             Csg::of_mesh(&primitives::cuboid(&low.into(), &high.into()))
@@ -441,7 +444,7 @@ mod tests {
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
         let wider = beyond(&hollowed, &plan, 2.0 * request.min_opening_mm).unwrap()[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
-        // With its joints pinned nothing need go.
+        // With all joints pinned, nothing needs to be kept solid.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
         assert_eq!(beyond(&hollowed, &pinned, 0.0).unwrap(), vec![]);

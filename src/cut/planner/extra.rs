@@ -1,4 +1,4 @@
-//! Further cuts, where the fewest that open every void do not let every void be cleaned.
+//! Extra cuts, for bodies that the fewest opening cuts do not let be cleaned.
 
 use rayon::prelude::*;
 
@@ -16,31 +16,31 @@ use crate::{
     mesh::off_vertices,
 };
 
-/// Cuts that are made at most so that voids can be seen into. A void that still hides something is
-/// winding; cutting on would leave crumbs, and keeping its end solid costs less.
+/// Greatest number of cuts added for visibility. A void that still hides something is winding: more
+/// cuts would leave crumbs, and keeping its end solid costs less.
 const MAX_SIGHT_CUTS: usize = 3;
-/// A further cut must bring at least this share of what is missing, or it is not worth its joint.
+/// Least share of the missing sight that an extra cut must add to be worth its joint.
 const WORTH_RATIO: f64 = 0.1;
-/// Where along a direction further cuts are tried: at these shares of the hidden points.
+/// Quantiles of the hidden points, along a direction, at which extra cuts are tried.
 const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
-/// Of the cuts that are within this share of the best, the least burdensome is taken.
+/// Cuts within this share of the best gain compete by their burden.
 const NEARLY_BEST_RATIO: f64 = 0.05;
-/// How many of those are weighed: each costs a cut of a void and two passes over the model.
+/// Number of extra cuts that are measured. Each costs a cut of a void and two passes over the
+/// model.
 const WEIGHED: usize = 6;
-/// How many of the best plans are glanced at before further cuts are made: two planes may leave a
-/// corner out of sight, and a further cut costs a joint. A glance takes some hundredths of a
+/// Number of the best plans that are estimated before any extra cut is made. Two planes may leave a
+/// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
 /// second.
 const GLANCED_PLANS: usize = 48;
-/// So many are glanced at together before those that seem clean are tried.
+/// Number of plans estimated in parallel before the promising ones are measured.
 const GLANCED_AT_ONCE: usize = 8;
-/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for
-/// trial.
+/// Error of an estimate. A plan that seems to lack no more than this is measured.
 const GLANCE_ERROR_RATIO: f64 = 0.01;
-/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what
-/// further cuts mend.
+/// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
+/// them.
 const HOPELESS_TRIALS: usize = 3;
 
-/// Cuts for trial, and how they open the voids.
+/// Cuts made on trial, and the access they give to the voids.
 #[derive(Clone)]
 pub(crate) struct Tried {
     pub(crate) planes: Vec<Plane>,
@@ -71,18 +71,18 @@ impl Tried {
         }
     }
 
-    /// The areas of all voids as [`VoidAccess::area_mm2`] has them, mm².
+    /// Returns the sum of [`VoidAccess::area_mm2`] over all voids, mm².
     fn area_mm2(&self) -> f64 {
         self.voids.iter().map(VoidAccess::area_mm2).sum()
     }
 
-    /// Whether every void can be cleaned.
+    /// Returns true if every void can be cleaned.
     pub(crate) fn is_clean(&self) -> bool {
         self.voids.iter().all(|void| void.is_clean)
     }
 
-    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a
-    /// joint.
+    /// Returns true if no void lacks more than the planner's margin of sight. Keeping that much
+    /// solid costs less than a joint.
     fn is_nearly_clean(&self, scene: &Scene) -> bool {
         let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
         self.voids
@@ -90,7 +90,7 @@ impl Tried {
             .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
     }
 
-    /// The cleaner of two, the first where they are alike.
+    /// Returns the cleaner of two attempts, or the first if they are equal.
     fn or_cleaner(self, other: Self) -> Self {
         if other.lack_mm2 < self.lack_mm2 {
             other
@@ -99,14 +99,14 @@ impl Tried {
         }
     }
 
-    /// The same cuts and one more; the voids that it does not meet stay as they are.
+    /// Returns these cuts with one more. Voids that it does not meet keep their access.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
         let voids = looked_at_again(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
         Ok(Self::of(scene, planes, voids))
     }
 
-    /// About the lack with one more cut, of the voids that it meets.
+    /// Estimates the lack with one more cut, mm². Only the voids that it meets change.
     fn glanced_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
         let planes = [&self.planes[..], &[plane]].concat();
         let lack_mm2 = |before: &VoidAccess| {
@@ -120,8 +120,8 @@ impl Tried {
     }
 }
 
-/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the
-/// changed planes meets.
+/// Updates the access to the voids after some planes have changed. Only the voids that meet one of
+/// these planes are measured again.
 pub(crate) fn looked_at_again(
     scene: &Scene,
     before: &[VoidAccess],
@@ -138,13 +138,13 @@ pub(crate) fn looked_at_again(
     before.iter().map(again).collect()
 }
 
-/// Whether a plane passes through a void.
+/// Returns true if a plane passes through a void.
 fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
     plane.passes_through(scene.hollowed.voids[void.index()].mesh().vertices())
 }
 
-/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
-/// in sight.
+/// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
+/// required.
 fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
     let asked = asked_ratio(scene.request);
     if asked == 0.0 {
@@ -154,10 +154,10 @@ fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
         .max(0.0)
 }
 
-/// The first of the plans with which every void can be cleaned; the cleanest where there is none.
+/// Returns the first of the plans with which every void can be cleaned, or else the cleanest.
 ///
-/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most
-/// hopeful of the others.
+/// Estimates all plans and measures those that seem clean, in their order. Then it measures the
+/// most promising of the others.
 pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
     let glance = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
@@ -185,15 +185,16 @@ pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, Cut
     trial.best.map_or_else(|| Tried::new(scene, &[]), Ok)
 }
 
-/// Plans cut for trial.
+/// A series of plans that are measured one after another.
 struct Trial<'a> {
     scene: &'a Scene<'a>,
-    /// The cleanest so far.
+    /// The cleanest plan so far.
     best: Option<Tried>,
 }
 
 impl Trial<'_> {
-    /// The plan cut for trial, if every void is clean.
+    /// Measures a plan. Returns it if every void is clean, and otherwise remembers it if it is the
+    /// cleanest.
     fn of(&mut self, planes: &[Plane]) -> Result<Option<Tried>, CutError> {
         let tried = Tried::new(self.scene, planes)?;
         if tried.is_clean() {
@@ -207,8 +208,8 @@ impl Trial<'_> {
     }
 }
 
-/// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut
-/// brings much more; each is told in the notes.
+/// Adds cuts through hidden points until every void can be cleaned or no cut gains enough. Each cut
+/// gets a remark in the notes.
 pub(crate) fn add_extra_cuts(
     scene: &Scene,
     mut tried: Tried,
@@ -233,7 +234,7 @@ pub(crate) fn add_extra_cuts(
     Ok(tried)
 }
 
-/// The remark on a further cut: the voids of which it brings more into sight.
+/// Returns the remark on an extra cut: the voids with more of the wall in sight.
 fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
     let pairs = before.voids.iter().zip(&after.voids);
     let changed = pairs.filter(|(b, a)| a.sight_ratio > b.sight_ratio);
@@ -248,7 +249,8 @@ fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
     }
 }
 
-/// The cuts with the one more that lets the void that lacks most be cleaned best.
+/// Adds the cut that is best for the void that lacks the most. Returns `None` if there is no void
+/// or no cut to try.
 fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
     let Some(worst) = tried
@@ -290,8 +292,8 @@ fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
         .map(|(_, next)| next))
 }
 
-/// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
-/// of the points.
+/// Returns planes through hidden points of a void, normal to the axes of the model, the goal, the
+/// void and the points.
 fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
@@ -322,7 +324,7 @@ fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     normals.iter().flat_map(at).collect::<Vec<_>>()
 }
 
-/// The axes along which points are spread most and least.
+/// Returns the principal axes of a set of points.
 fn axes_of(points: &[Point]) -> Vec<Vector> {
     let count = points.len().max(1) as f64;
     let middle = points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / count;

@@ -21,15 +21,15 @@ use crate::{
     geom::{Plane, Vector},
     mesh::off_vertices,
 };
-/// A face whose normal has this much of the vertical ends at one height, within a thousandth of a
-/// layer over 100 mm.
+/// Least cosine between the vertical and the normal of a level face. Over 100 mm, such a face
+/// deviates from one height by less than a thousandth of a layer.
 const LEVEL_COSINE: f64 = 1.0 - 1e-9;
 
-/// A face so near to the plate lies on it, mm.
+/// Height below which a face lies on the plate, mm.
 const ON_PLATE_MM: f64 = 1e-6;
 
-/// How often all cuts are gone through: a part that rests on one cut and ends at another depends on
-/// both.
+/// Number of sweeps over all cuts. The height of a part that rests on one cut and ends at another
+/// depends on both.
 const SWEEPS: usize = 4;
 
 /// A cut face that is level in the printer.
@@ -37,17 +37,17 @@ struct Level {
     cut: usize,
     part: usize,
     area_mm2: f64,
-    /// Its height over the plate before any cut is moved, mm.
+    /// Height above the plate before any cut is moved, mm.
     height_mm: f64,
-    /// The cut's normal along the printer's z: +1 or −1.
+    /// Direction of the cut's normal along the printer's z: +1 or −1.
     up: f64,
-    /// The cut the part rests on, with its normal along z.
+    /// The cut on which the part rests, with the direction of its normal along z.
     rest: Option<(usize, f64)>,
 }
 
-/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the
-/// plan itself where that would change more than a hair: the number of pieces, a cavity, or an
-/// opening below the least.
+/// Moves the cuts to whole layers, by half a layer at most, and places the pins again. Returns the
+/// plan unchanged if the number of pieces would change, a cavity would form, or an opening would
+/// fall below the least.
 pub(crate) fn at_layers(
     scene: &Scene,
     layout: &Layout,
@@ -84,7 +84,7 @@ pub(crate) fn at_layers(
     })
 }
 
-/// Which cuts are moved for which part, and how far along their normals, mm.
+/// Returns each moved cut, the part for which it moves, and the distance along its normal, mm.
 fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, usize, f64)> {
     if request.layer_mm <= 0.0 {
         return Vec::new();
@@ -115,7 +115,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .collect()
 }
 
-/// How far the face's plane must move along its normal to end at the nearest whole layer, mm.
+/// Returns the distance along its normal, mm, that brings the face to the nearest whole layer.
 fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
     let sunk_mm = level.rest.map_or(0.0, |(cut, up)| moved_mm[cut] * up);
     let height_mm = level.height_mm - sunk_mm;
@@ -123,7 +123,7 @@ fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
     (layers * layer_mm - height_mm) * level.up
 }
 
-/// The level cut faces of a piece as it will lie in the printer.
+/// Returns the level cut faces of a piece in its pose in the printer.
 fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -> Vec<Level> {
     let piece = &layout.pieces[part];
     let pin_cuts = pin_cuts(layout, plan, part);
@@ -157,7 +157,7 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
     levels
 }
 
-/// The cuts on whose faces pins stand out of the part.
+/// Returns the cuts on whose faces pins stand out of the part.
 fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
     let id = PartId::of(part);
     let carries = |cut: usize| {
@@ -180,8 +180,7 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it
-/// must be.
+/// Returns the layout with the moved planes, or `None` if it has other pieces or a worse opening.
 fn still_open(
     scene: &Scene,
     layout: &Layout,
@@ -219,7 +218,7 @@ mod tests {
         geom::{Point, Vector},
     };
 
-    /// How far the faces of a body's parts that look up are from whole layers, in layers.
+    /// Returns the distances of a body's upward cut faces from whole layers, in layers.
     fn off_layers(request: &PlanRequest) -> Vec<f64> {
         let outer = cuboid([0.0; 3], [50.0, 47.0, 41.3]);
         let hollowed = with_balls(outer, &[[14.0, 20.0, 20.0, 8.0], [36.0, 26.0, 21.0, 8.0]]);
@@ -248,7 +247,7 @@ mod tests {
                 ..request()
             });
             assert!(!off.is_empty());
-            // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest
+            // Planes stay 1e-6 mm off vertices, in steps of 2e-6 mm: about 1e-4 of the thinnest
             // layer.
             assert!(off.iter().all(|off| *off < 1e-3), "{layer_mm}: {off:?}");
         }

@@ -1,5 +1,5 @@
-//! Cuts kept to the sides of others beyond which nothing needs them, so that a cut for one void
-//! does not divide everything.
+//! Cuts limited to the sides of other cuts on which they are needed, so that a cut for one void
+//! does not divide the whole body.
 
 use crate::{
     cut::{
@@ -18,15 +18,15 @@ use crate::{
 /// Cuts, each made only where it is needed.
 pub(crate) struct LimitedCuts {
     pub(crate) tree: CutTree,
-    /// How the cuts open the voids.
+    /// Access that the cuts give to the voids.
     pub(crate) voids: Vec<VoidAccess>,
-    /// What they leave.
+    /// Pieces that the cuts leave.
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The cuts, the last first, each kept to a side of another where that leaves fewer parts, the
-/// voids as clean as `voids` are with all cuts made everywhere, and no more parts that are too
-/// large for the printer.
+/// Limits each cut to a side of another if that leaves fewer parts; the last cut is tried first.
+/// The voids must stay as clean as in `voids`, which describes the cuts made everywhere. The number
+/// of parts too large for the printer must not grow.
 pub(crate) fn limit_cuts(
     scene: &Scene,
     planes: &[Plane],
@@ -58,12 +58,12 @@ pub(crate) fn limit_cuts(
 }
 
 impl LimitedCuts {
-    /// The same with one more limit, if that is better.
+    /// Returns the cuts with one more limit, or `None` if that is no better.
     fn with(&self, scene: &Scene, cut: usize, limit: Limit) -> Result<Option<Self>, CutError> {
         let Some(tree) = self.tree.kept_to(cut, limit) else {
             return Ok(None);
         };
-        // Cuts that are kept to a side of this one are made in fewer places too.
+        // Cuts that are limited to a side of this one are also made in fewer places.
         let is_changed =
             |other: usize| other == cut || tree.limits(other).iter().any(|limit| limit.cut == cut);
         let changed: Vec<Plane> = (0..tree.planes.len())
@@ -92,7 +92,7 @@ impl LimitedCuts {
         Ok(is_better.then_some(next))
     }
 
-    /// How many pieces do not fit the build volume.
+    /// Counts the pieces that do not fit the build volume.
     fn oversize(&self, scene: &Scene) -> usize {
         self.pieces
             .iter()
@@ -100,7 +100,7 @@ impl LimitedCuts {
             .count()
     }
 
-    /// Whether every cut is made somewhere.
+    /// Returns true if every cut is made somewhere.
     fn has_all_cuts(&self) -> bool {
         let is_made = |cut: usize| {
             self.pieces
@@ -112,7 +112,7 @@ impl LimitedCuts {
     }
 }
 
-/// Whether a void can be cleaned less than before.
+/// Returns true if a void is harder to clean than before.
 fn is_worse(scene: &Scene, before: &VoidAccess, after: &VoidAccess) -> bool {
     let needed_mm = after.least_opening_mm(scene.request);
     let is_narrower = after.opening_mm < before.opening_mm && after.opening_mm < needed_mm;
@@ -136,7 +136,7 @@ mod tests {
         printer::{Cleaning, CleaningRule},
     };
 
-    /// A bar with two balls, the cut across the second, and the one along both.
+    /// Returns a bar with two balls, a cut across the second ball, and one along both.
     fn bar() -> (Hollowed, [Plane; 2], PlanRequest) {
         let body = with_balls(
             cuboid([0.0; 3], [60.0, 20.0, 20.0]),
@@ -258,7 +258,7 @@ mod tests {
                 "{quarters:?}"
             );
         }
-        // The section of the ball is nearly in the middle.
+        // The section of the ball is nearly central.
         assert!(
             quarters
                 .iter()
@@ -276,7 +276,7 @@ mod tests {
             offset_mm: 30.013,
         };
         let kept = kept_of(&scene, &[between, along]);
-        // The one between them opens nothing and may end at the other, on either side of it.
+        // The cut between the balls opens nothing, so it may end at the other cut, on either side.
         assert!(kept.tree.limits(1).is_empty());
         assert_eq!((kept.tree.limits(0).len(), kept.pieces.len()), (1, 3));
     }

@@ -1,21 +1,21 @@
-//! The planes of symmetry of a body: where a print shop would cut it first.
+//! The planes of symmetry of a body, where a print shop would cut it first.
 
 use crate::{
     geom::{Bvh, Plane, Point, Vector},
     mesh::TriMesh,
 };
 
-/// Vertices that are reflected, at most: they are taken evenly from all.
+/// Greatest number of reflected vertices, taken at even steps from all.
 const SAMPLES: usize = 256;
-/// How far a reflected vertex may lie off the surface, as a share of the model's diagonal. Less,
-/// and a sculpted figure has no symmetry; more, and an ellipsoid has planes that it has not.
+/// Greatest distance of a reflected vertex from the surface, as a share of the model's diagonal.
+/// With less, a sculpted figure has no symmetry; with more, an ellipsoid has false planes.
 const TOLERANCE_RATIO: f64 = 0.01;
 
-/// Those of the planes through `center` normal to `directions` in which the body that a mesh bounds
-/// is its own mirror image, to a hundredth of its diagonal.
+/// Returns the planes of mirror symmetry among those through `center` and normal to `directions`.
+/// The tolerance is 1 % of the body's diagonal.
 ///
-/// Every plane of symmetry holds the centre of mass and is normal to a principal axis, so that the
-/// principal axes miss one only where two moments are equal.
+/// Every plane of symmetry contains the centre of mass and is normal to a principal axis. So the
+/// principal axes can miss one only if two moments are equal.
 pub(crate) fn mirror_planes(mesh: &TriMesh, center: &Point, directions: &[Vector]) -> Vec<Plane> {
     let bvh = Bvh::new(mesh.iter_corners());
     let farthest_mm = TOLERANCE_RATIO * mesh.aabb().size().norm();
