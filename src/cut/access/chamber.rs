@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use crate::{
     cut::{
-        access::sight::{Look, Sightlines, Walls},
+        access::sight::{SightTest, Sightlines, Walls},
         error::CutError,
         geometry::{outline::Outline, section::Section, tree::CutTree},
         hollowed::{Hollowed, Void},
@@ -44,16 +44,16 @@ impl<'a> Chamber<'a> {
     /// Estimates the share of the wall that is in sight after these cuts, from the sections of the
     /// uncut void. This takes about a tenth of the time of cutting it. A mouth that another plane
     /// crosses counts whole, so the estimate may be slightly too large there.
-    pub(crate) fn glance(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
+    pub(crate) fn estimate_sight_ratio(&self, tree: &CutTree, request: &PlanRequest) -> f64 {
         self.walls
-            .glimpsed(&self.mouths(tree), &Look::new(tree, request))
+            .estimate_sight_ratio(&self.mouths(tree), &SightTest::new(tree, request))
     }
 
     /// Estimates which mouths see each point of the wall after these cuts, as
     /// [`Self::estimate_sight_ratio`] does.
     pub(crate) fn sightlines(&self, tree: &CutTree, request: &PlanRequest) -> Vec<Sightlines> {
         self.walls
-            .sightlines(&self.mouths(tree), &Look::new(tree, request))
+            .sightlines(&self.mouths(tree), &SightTest::new(tree, request))
     }
 
     /// Returns the void minus some bodies.
@@ -104,7 +104,7 @@ mod tests {
     }
 
     #[test]
-    fn a_glance_tells_what_cutting_and_looking_tells_but_for_two_hundredths() {
+    fn the_estimate_is_within_two_hundredths_of_the_measured_sight() {
         let hollowed = shapes();
         let chambers = Chamber::all(&hollowed).unwrap();
         let cleaning = Cleaning {
@@ -136,7 +136,7 @@ mod tests {
             let tree = CutTree::everywhere(planes);
             let told = accesses(&chambers, &tree, &request).unwrap();
             for (chamber, told) in chambers.iter().zip(told) {
-                let glance = chamber.glance(&tree, &request);
+                let glance = chamber.estimate_sight_ratio(&tree, &request);
                 assert!(
                     (glance - told.sight_ratio).abs() < 0.02,
                     "{planes:?}: {glance} against {told:?}"

@@ -19,16 +19,16 @@ use crate::{
 /// Sample points on the wall of a void. A hidden share of 5 % is then known to within 0.5 %.
 const SAMPLES: f64 = 2000.0;
 /// Least number of sample points on a piece, however small.
-const LEAST_SAMPLES: usize = 24;
+const MIN_SAMPLES: usize = 24;
 /// Number of viewpoints across a mouth, along each of two directions.
 const EYES_ACROSS: usize = 5;
 /// Number of viewpoints across a mouth in the second, finer test. Only slivers, a few thousandths
 /// of a wall, are visible from the additional viewpoints alone.
-const CLOSER_EYES_ACROSS: usize = 16;
+const FINE_EYES_ACROSS: usize = 16;
 /// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
 const HIDDEN_RATIO: f64 = 0.15;
 /// Share of a line of sight that is tested. The rest would hit the wall at its end.
-const LOOKED_RATIO: f64 = 0.999;
+const TESTED_LINE_RATIO: f64 = 0.999;
 
 /// A viewpoint in the mouth of a cut.
 struct Eye {
@@ -37,16 +37,16 @@ struct Eye {
 }
 
 /// The parameters of the line-of-sight test.
-pub(crate) struct Look<'a> {
+pub(crate) struct SightTest<'a> {
     tree: &'a CutTree,
     /// Radius of the least opening, mm. The tool gets no nearer to a rim than this.
     tool_radius_mm: f64,
     reach_mm: f64,
     /// Hidden share of a piece above which the finer test is skipped.
-    given_up_ratio: f64,
+    max_hidden_ratio: f64,
 }
 
-impl<'a> Look<'a> {
+impl<'a> SightTest<'a> {
     pub(crate) fn new(tree: &'a CutTree, request: &PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
         let tool_radius_mm = request.min_opening_mm / 2.0;
@@ -54,7 +54,7 @@ impl<'a> Look<'a> {
             tree,
             tool_radius_mm,
             reach_mm,
-            given_up_ratio: HIDDEN_RATIO,
+            max_hidden_ratio: HIDDEN_RATIO,
         }
     }
 
@@ -62,7 +62,7 @@ impl<'a> Look<'a> {
     /// meant for the numbers reported with a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
-            given_up_ratio: 1.0,
+            max_hidden_ratio: 1.0,
             ..self
         }
     }
@@ -86,7 +86,7 @@ impl<'a> Look<'a> {
             .count();
         let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
         for ((cut, outline), _) in &discs[..wide] {
-            let places = across(outline, count)
+            let places = grid_over(outline, count)
                 .into_iter()
                 .filter(|at| is_wide(outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.eye(*cut, &at)));
@@ -105,18 +105,18 @@ impl<'a> Look<'a> {
     /// Returns true if the eye's cut exists where the eye is, and no other cut lies between eye and
     /// point.
     fn is_before(&self, eye: &Eye, at: &Point) -> bool {
-        let parts = |cut: usize| {
+        let separates = |cut: usize| {
             let [from, to] = [&eye.at, at].map(|p| self.tree.planes[cut].distance(p));
             let crossing = eye.at + (at - eye.at) * (from / (from - to));
             (from > 0.0) != (to > 0.0) && self.tree.acts_at(cut, &crossing)
         };
         let others = (0..self.tree.planes.len()).filter(|&cut| cut != eye.cut);
-        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(parts)
+        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(separates)
     }
 }
 
 /// Returns a grid of places over the bounding box of a mouth, `count` along each direction.
-fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
+fn grid_over(mouth: &Outline, count: usize) -> Vec<Point2> {
     let Some((min, max)) = mouth.bounds() else {
         return Vec::new();
     };
@@ -130,7 +130,7 @@ fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
 
 /// The wall of a piece of a void, and its visible and hidden parts.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Seen {
+pub(crate) struct Visibility {
     /// Area of the wall, mm².
     pub(crate) wall_mm2: f64,
     /// Area in sight and within reach, mm², estimated from the sample.
@@ -182,34 +182,42 @@ impl Walls {
     /// Estimates the share of the wall that is in sight through these mouths before the void is
     /// cut. Each mouth comes with the index of its cut. A point behind another plane counts as
     /// hidden.
-    pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
+    pub(crate) fn estimate_sight_ratio(
+        &self,
+        mouths: &[(usize, Outline)],
+        sight: &SightTest,
+    ) -> f64 {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let (_, visible) = self.looked_at(self.points.clone(), &mouths, look);
+        let (_, visible) = self.classify(self.points.clone(), &mouths, sight);
         visible.len() as f64 / self.points.len().max(1) as f64
     }
 
     /// Returns every sample point with the viewpoints that see it before the void is cut. Each
     /// mouth comes with the index of its cut. The finer viewpoints are used only for points that
     /// the coarse ones do not see.
-    pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
+    pub(crate) fn sightlines(
+        &self,
+        mouths: &[(usize, Outline)],
+        sight: &SightTest,
+    ) -> Vec<Sightlines> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let [few, many] = [EYES_ACROSS, CLOSER_EYES_ACROSS].map(|count| look.eyes(&mouths, count));
-        let seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
+        let [few, many] = [EYES_ACROSS, FINE_EYES_ACROSS].map(|count| sight.eyes(&mouths, count));
+        let eyes_seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
             eyes.iter()
-                .filter(|eye| self.sees(eye, at, look))
+                .filter(|eye| self.sees(eye, at, sight))
                 .map(|eye| eye.at)
                 .collect()
         };
         let lines = |at: &Point| {
-            let eyes = seeing(at, &few);
+            let eyes = eyes_seeing(at, &few);
             let eyes = if eyes.is_empty() {
-                seeing(at, &many)
+                eyes_seeing(at, &many)
             } else {
                 eyes
             };
@@ -225,11 +233,11 @@ impl Walls {
 
     /// Returns the wall in sight of the piece's own mouths and within reach. Without mouths, all of
     /// it is hidden.
-    pub(crate) fn seen(&self, piece: &Piece, look: &Look) -> Seen {
+    pub(crate) fn inspect(&self, piece: &Piece, sight: &SightTest) -> Visibility {
         let wall = wall(piece);
         let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
         let count = (wall_mm2 / self.share_mm2).ceil() as usize;
-        let points = spread_points(&wall, count.max(LEAST_SAMPLES));
+        let points = spread_points(&wall, count.max(MIN_SAMPLES));
         let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
         let share_mm2 = wall_mm2 / points.len().max(1) as f64;
         let mouths: Vec<(usize, &Outline)> = piece
@@ -237,8 +245,8 @@ impl Walls {
             .iter()
             .map(|cap| (cap.cut, &cap.outline))
             .collect();
-        let (hidden, visible) = self.looked_at(points, &mouths, look);
-        Seen {
+        let (hidden, visible) = self.classify(points, &mouths, sight);
+        Visibility {
             wall_mm2,
             seen_mm2: share_mm2 * visible.len() as f64,
             hidden,
@@ -249,37 +257,44 @@ impl Walls {
 
     /// Splits points into hidden and visible ones. If few are hidden from the coarse viewpoints,
     /// these are tested again from the finer ones.
-    fn looked_at(
+    fn classify(
         &self,
         points: Vec<Point>,
         mouths: &[(usize, &Outline)],
-        look: &Look,
+        sight: &SightTest,
     ) -> (Vec<Point>, Vec<Point>) {
         let total = points.len() as f64;
-        let (hidden, mut visible) = self.parted(points, &look.eyes(mouths, EYES_ACROSS), look);
-        if hidden.len() as f64 > look.given_up_ratio * total {
+        let (hidden, mut visible) =
+            self.partition_by_sight(points, &sight.eyes(mouths, EYES_ACROSS), sight);
+        if hidden.len() as f64 > sight.max_hidden_ratio * total {
             return (hidden, visible);
         }
-        let (hidden, more) = self.parted(hidden, &look.eyes(mouths, CLOSER_EYES_ACROSS), look);
+        let (hidden, more) =
+            self.partition_by_sight(hidden, &sight.eyes(mouths, FINE_EYES_ACROSS), sight);
         visible.extend(more);
         (hidden, visible)
     }
 
     /// Splits points into those that no eye sees within reach, and the others.
-    fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
+    fn partition_by_sight(
+        &self,
+        points: Vec<Point>,
+        eyes: &[Eye],
+        sight: &SightTest,
+    ) -> (Vec<Point>, Vec<Point>) {
         points
             .into_par_iter()
-            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
+            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, sight)))
     }
 
     /// Returns true if a point is in sight of an eye and within reach.
-    fn sees(&self, eye: &Eye, at: &Point, look: &Look) -> bool {
+    fn sees(&self, eye: &Eye, at: &Point, sight: &SightTest) -> bool {
         let line = at - eye.at;
-        line.norm() <= look.reach_mm
-            && look.is_before(eye, at)
+        line.norm() <= sight.reach_mm
+            && sight.is_before(eye, at)
             && !self
                 .bvh
-                .is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
+                .is_crossed_by(&eye.at, &(eye.at + line * TESTED_LINE_RATIO))
     }
 }
 
@@ -297,7 +312,7 @@ fn wall(piece: &Piece) -> Vec<[Point; 3]> {
         .collect()
 }
 
-impl Seen {
+impl Visibility {
     pub(crate) fn and(mut self, other: Self) -> Self {
         self.hidden.extend(other.hidden);
         self.visible.extend(other.visible);
@@ -335,15 +350,15 @@ mod tests {
     fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
         let tree = CutTree::everywhere(planes);
-        let look = Look {
+        let sight = SightTest {
             reach_mm,
-            ..Look::new(&tree, &request())
+            ..SightTest::new(&tree, &request())
         };
         let pieces = split(void.mesh(), &tree).unwrap();
         pieces
             .iter()
-            .map(|piece| walls.seen(piece, &look))
-            .fold(Seen::default(), Seen::and)
+            .map(|piece| walls.inspect(piece, &sight))
+            .fold(Visibility::default(), Visibility::and)
             .ratio()
     }
 

@@ -7,7 +7,7 @@ use crate::{
     cut::{
         access::{
             chamber::Chamber,
-            sight::{Look, Seen},
+            sight::{SightTest, Visibility},
         },
         error::CutError,
         geometry::{opening::is_dimple, tree::CutTree},
@@ -27,7 +27,7 @@ const SIGHT_MARGIN_RATIO: f64 = 0.005;
 /// Part of that margin that must remain in the end. In the acceptance table on four printers, the
 /// check found up to 0.0045 less than the planner. In 2 of its 104 voids the difference was more
 /// than 0.0012.
-const LAST_MARGIN_RATIO: f64 = 0.002;
+const MIN_MARGIN_RATIO: f64 = 0.002;
 
 /// The access to a void.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -74,19 +74,19 @@ impl VoidAccess {
     /// sight, and the whole area if something cannot get out. Areas are estimated as those of a
     /// ball of the void's volume.
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
-        let asked = asked_ratio(request);
+        let required = asked_ratio(request);
         let closed = if self.is_clean {
             0.0
         } else {
-            f64::from(u8::from(self.sight_ratio >= asked))
+            f64::from(u8::from(self.sight_ratio >= required))
         };
-        self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
+        self.area_mm2() * ((required - self.sight_ratio).max(0.0) + closed)
     }
 
     /// Returns true if the void can be cleaned by the rule with the least margin. This is enough
     /// for bodies that are solved again only to make up for pins.
     pub fn is_clean_without_margin(&self, request: &PlanRequest) -> bool {
-        let least = request.cleaning.sight_ratio + LAST_MARGIN_RATIO;
+        let least = request.cleaning.sight_ratio + MIN_MARGIN_RATIO;
         let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
         self.is_clean || (is_seen && self.opening_mm >= self.least_opening_mm(request))
     }
@@ -124,7 +124,7 @@ pub(crate) struct Opened<'a> {
     pub(crate) needed_mm: f64,
     /// True if the visible share must be accurate because it is reported, not only compared with
     /// the requirement.
-    pub(crate) is_told: bool,
+    pub(crate) is_thorough: bool,
 }
 
 /// Measures the access that the cuts give to each void.
@@ -149,7 +149,7 @@ pub(crate) fn report(
     let chambers = Chamber::all(hollowed)?;
     let of = |void| {
         Opened {
-            is_told: true,
+            is_thorough: true,
             ..Opened::new(&chambers, VoidId::of(void), tree, request)
         }
         .access()
@@ -182,7 +182,7 @@ impl<'a> Opened<'a> {
             tree,
             request,
             needed_mm: chamber.void.least_opening_mm(request),
-            is_told: false,
+            is_thorough: false,
         }
     }
 
@@ -203,7 +203,7 @@ impl<'a> Opened<'a> {
         let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
         let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
             && mouths.iter().any(|mouths| self.is_wide(mouths));
-        let sight_ratio = self.seen(&pieces).ratio();
+        let sight_ratio = self.inspect(&pieces).ratio();
         Ok(VoidAccess {
             opened_by: (0..self.tree.planes.len())
                 .filter(met)
@@ -233,25 +233,29 @@ impl<'a> Opened<'a> {
     }
 
     /// Returns the visibility of all pieces together.
-    fn seen(&self, pieces: &[Piece]) -> Seen {
-        self.seen_each(pieces)
+    fn inspect(&self, pieces: &[Piece]) -> Visibility {
+        self.inspect_each(pieces)
             .into_iter()
-            .fold(Seen::default(), Seen::and)
+            .fold(Visibility::default(), Visibility::and)
     }
 
     /// Returns the visibility of each piece.
-    pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
-        let look = Look::new(self.tree, self.request);
-        let look = if self.is_told { look.thorough() } else { look };
+    pub(crate) fn inspect_each(&self, pieces: &[Piece]) -> Vec<Visibility> {
+        let sight = SightTest::new(self.tree, self.request);
+        let sight = if self.is_thorough {
+            sight.thorough()
+        } else {
+            sight
+        };
         pieces
             .iter()
-            .map(|piece| self.chamber.walls.seen(piece, &look))
+            .map(|piece| self.chamber.walls.inspect(piece, &sight))
             .collect()
     }
 
     /// Returns the points of the wall that are out of sight or reach.
     pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
-        Ok(self.seen(&self.chamber.split(self.tree)?).hidden)
+        Ok(self.inspect(&self.chamber.split(self.tree)?).hidden)
     }
 }
 

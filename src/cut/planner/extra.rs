@@ -27,28 +27,28 @@ const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
 const NEARLY_BEST_RATIO: f64 = 0.05;
 /// Number of extra cuts that are measured. Each costs a cut of a void and two passes over the
 /// model.
-const WEIGHED: usize = 6;
+const MEASURED_CUTS: usize = 6;
 /// Number of the best plans that are estimated before any extra cut is made. Two planes may leave a
 /// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
 /// second.
-const GLANCED_PLANS: usize = 48;
+const ESTIMATED_PLANS: usize = 48;
 /// Number of plans estimated in parallel before the promising ones are measured.
-const GLANCED_AT_ONCE: usize = 8;
+const ESTIMATED_AT_ONCE: usize = 8;
 /// Error of an estimate. A plan that seems to lack no more than this is measured.
-const GLANCE_ERROR_RATIO: f64 = 0.01;
+const ESTIMATE_ERROR_RATIO: f64 = 0.01;
 /// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
 /// them.
-const HOPELESS_TRIALS: usize = 3;
+const FALLBACK_PLANS: usize = 3;
 
-/// Cuts made on trial, and the access they give to the voids.
+/// A trial set of cuts, and the access they give to the voids.
 #[derive(Clone)]
-pub(crate) struct Tried {
+pub(crate) struct Attempt {
     pub(crate) planes: Vec<Plane>,
     pub(crate) voids: Vec<VoidAccess>,
     lack_mm2: f64,
 }
 
-impl Tried {
+impl Attempt {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
         let planes: Vec<Plane> = planes
             .iter()
@@ -102,16 +102,16 @@ impl Tried {
     /// Returns these cuts with one more. Voids that it does not meet keep their access.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let voids = looked_at_again(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
+        let voids = update_accesses(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
         Ok(Self::of(scene, planes, voids))
     }
 
     /// Estimates the lack with one more cut, mm². Only the voids that it meets change.
-    fn glanced_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
+    fn estimate_lack_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
         let planes = [&self.planes[..], &[plane]].concat();
         let lack_mm2 = |before: &VoidAccess| {
             if meets(scene, before.void, &plane) {
-                before.area_mm2() * glanced_lack_ratio(scene, before.void, &planes)
+                before.area_mm2() * estimate_lack_ratio(scene, before.void, &planes)
             } else {
                 before.lack_mm2(scene.request)
             }
@@ -122,7 +122,7 @@ impl Tried {
 
 /// Updates the access to the voids after some planes have changed. Only the voids that meet one of
 /// these planes are measured again.
-pub(crate) fn looked_at_again(
+pub(crate) fn update_accesses(
     scene: &Scene,
     before: &[VoidAccess],
     tree: &CutTree,
@@ -145,64 +145,66 @@ fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
 
 /// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
 /// required.
-fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
-    let asked = asked_ratio(scene.request);
-    if asked == 0.0 {
+fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
+    let required = asked_ratio(scene.request);
+    if required == 0.0 {
         return 0.0;
     }
-    (asked - scene.chambers[void.index()].glance(&CutTree::everywhere(planes), scene.request))
-        .max(0.0)
+    (required
+        - scene.chambers[void.index()]
+            .estimate_sight_ratio(&CutTree::everywhere(planes), scene.request))
+    .max(0.0)
 }
 
 /// Returns the first of the plans with which every void can be cleaned, or else the cleanest.
 ///
 /// Estimates all plans and measures those that seem clean, in their order. Then it measures the
 /// most promising of the others.
-pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
-    let glance = |planes: &Vec<Plane>| {
+pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Attempt, CutError> {
+    let estimate = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
-            .map(|void| glanced_lack_ratio(scene, VoidId::of(void), planes))
+            .map(|void| estimate_lack_ratio(scene, VoidId::of(void), planes))
             .fold(0.0, f64::max)
     };
-    let mut trial = Trial { scene, best: None };
+    let mut attempts = Attempts { scene, best: None };
     let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
-    for some in plans[..plans.len().min(GLANCED_PLANS)].chunks(GLANCED_AT_ONCE) {
-        let lacks: Vec<f64> = some.par_iter().map(glance).collect();
+    for some in plans[..plans.len().min(ESTIMATED_PLANS)].chunks(ESTIMATED_AT_ONCE) {
+        let lacks: Vec<f64> = some.par_iter().map(estimate).collect();
         for (lack, planes) in lacks.into_iter().zip(some) {
-            if lack > GLANCE_ERROR_RATIO {
+            if lack > ESTIMATE_ERROR_RATIO {
                 others.push((lack, planes));
-            } else if let Some(clean) = trial.of(planes)? {
+            } else if let Some(clean) = attempts.measure(planes)? {
                 return Ok(clean);
             }
         }
     }
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (_, planes) in others.into_iter().take(HOPELESS_TRIALS) {
-        if let Some(clean) = trial.of(planes)? {
+    for (_, planes) in others.into_iter().take(FALLBACK_PLANS) {
+        if let Some(clean) = attempts.measure(planes)? {
             return Ok(clean);
         }
     }
-    trial.best.map_or_else(|| Tried::new(scene, &[]), Ok)
+    attempts.best.map_or_else(|| Attempt::new(scene, &[]), Ok)
 }
 
 /// A series of plans that are measured one after another.
-struct Trial<'a> {
+struct Attempts<'a> {
     scene: &'a Scene<'a>,
     /// The cleanest plan so far.
-    best: Option<Tried>,
+    best: Option<Attempt>,
 }
 
-impl Trial<'_> {
+impl Attempts<'_> {
     /// Measures a plan. Returns it if every void is clean, and otherwise remembers it if it is the
     /// cleanest.
-    fn of(&mut self, planes: &[Plane]) -> Result<Option<Tried>, CutError> {
-        let tried = Tried::new(self.scene, planes)?;
-        if tried.is_clean() {
-            return Ok(Some(tried));
+    fn measure(&mut self, planes: &[Plane]) -> Result<Option<Attempt>, CutError> {
+        let attempt = Attempt::new(self.scene, planes)?;
+        if attempt.is_clean() {
+            return Ok(Some(attempt));
         }
         self.best = Some(match self.best.take() {
-            Some(best) => best.or_cleaner(tried),
-            None => tried,
+            Some(best) => best.or_cleaner(attempt),
+            None => attempt,
         });
         Ok(None)
     }
@@ -212,30 +214,30 @@ impl Trial<'_> {
 /// gets a remark in the notes.
 pub(crate) fn add_extra_cuts(
     scene: &Scene,
-    mut tried: Tried,
+    mut attempt: Attempt,
     notes: &mut Vec<Remark>,
-) -> Result<Tried, CutError> {
+) -> Result<Attempt, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
-        if tried.is_nearly_clean(scene) {
+        if attempt.is_nearly_clean(scene) {
             break;
         }
-        let Some(next) = one_more(scene, &tried)? else {
+        let Some(next) = add_best_cut(scene, &attempt)? else {
             break;
         };
-        let gain_mm2 = tried.lack_mm2 - next.lack_mm2;
-        if gain_mm2 < WORTH_RATIO * tried.lack_mm2
-            || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
+        let gain_mm2 = attempt.lack_mm2 - next.lack_mm2;
+        if gain_mm2 < WORTH_RATIO * attempt.lack_mm2
+            || gain_mm2 < scene.request.worth_ratio * attempt.area_mm2()
         {
             break;
         }
-        notes.push(cleaning_cut(&tried, &next));
-        tried = next;
+        notes.push(cleaning_cut(&attempt, &next));
+        attempt = next;
     }
-    Ok(tried)
+    Ok(attempt)
 }
 
 /// Returns the remark on an extra cut: the voids with more of the wall in sight.
-fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
+fn cleaning_cut(before: &Attempt, after: &Attempt) -> Remark {
     let pairs = before.voids.iter().zip(&after.voids);
     let changed = pairs.filter(|(b, a)| a.sight_ratio > b.sight_ratio);
     let gain = |(b, a): (&VoidAccess, &VoidAccess)| SightGain {
@@ -251,50 +253,50 @@ fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
 
 /// Adds the cut that is best for the void that lacks the most. Returns `None` if there is no void
 /// or no cut to try.
-fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
+fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
-    let Some(worst) = tried
+    let Some(worst) = attempt
         .voids
         .iter()
         .max_by(|a, b| lack(a).total_cmp(&lack(b)))
     else {
         return Ok(None);
     };
-    let tree = CutTree::everywhere(&tried.planes);
+    let tree = CutTree::everywhere(&attempt.planes);
     let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
-    let planes = through(scene, worst.void, &hidden);
-    let glanced = planes
+    let planes = planes_through(scene, worst.void, &hidden);
+    let estimated = planes
         .par_iter()
-        .map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
-    let mut glanced: Vec<(f64, Plane)> = glanced.collect();
-    glanced.sort_by(|a, b| a.0.total_cmp(&b.0));
-    glanced.truncate(WEIGHED);
-    let more = glanced
+        .map(|plane| (attempt.estimate_lack_mm2(scene, *plane), *plane));
+    let mut estimated: Vec<(f64, Plane)> = estimated.collect();
+    estimated.sort_by(|a, b| a.0.total_cmp(&b.0));
+    estimated.truncate(MEASURED_CUTS);
+    let more = estimated
         .par_iter()
-        .map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
-    let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
+        .map(|(_, plane)| attempt.with(scene, off_vertices(&scene.material, plane)));
+    let mut more = more.collect::<Result<Vec<Attempt>, _>>()?;
     more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
     let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else {
         return Ok(None);
     };
-    let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (tried.lack_mm2 - least_mm2);
+    let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (attempt.lack_mm2 - least_mm2);
     let near = more
         .into_iter()
         .take_while(|next| next.lack_mm2 <= enough_mm2);
-    let penalty = |next: &Tried| {
+    let penalty = |next: &Attempt| {
         next.planes
             .last()
             .map_or(0.0, |plane| burden(scene, plane).penalty(scene))
     };
-    let weighed = near.map(|next| (penalty(&next), next));
-    Ok(weighed
+    let scored = near.map(|next| (penalty(&next), next));
+    Ok(scored
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, next)| next))
 }
 
 /// Returns planes through hidden points of a void, normal to the axes of the model, the goal, the
 /// void and the points.
-fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
+fn planes_through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];

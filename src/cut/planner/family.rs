@@ -72,31 +72,33 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
                 .iter()
                 .zip(&breadths)
                 .map(|(void, &breadth_mm)| extent(void, normal, breadth_mm));
-            in_direction(normal, &extents.collect::<Vec<_>>())
+            candidates_along(normal, &extents.collect::<Vec<_>>())
         })
         .collect();
-    let middles = symmetry(hollowed.outer.mesh()).into_iter().map(|plane| {
-        let extents = hollowed
-            .voids
-            .iter()
-            .zip(&breadths)
-            .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
-        candidate(plane, &extents.collect::<Vec<_>>())
-    });
+    let middles = symmetry_planes(hollowed.outer.mesh())
+        .into_iter()
+        .map(|plane| {
+            let extents = hollowed
+                .voids
+                .iter()
+                .zip(&breadths)
+                .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
+            candidate(plane, &extents.collect::<Vec<_>>())
+        });
     let middles = middles.filter(|middle| middle.met != 0);
     rows.concat().into_iter().chain(middles).collect()
 }
 
 /// Returns the planes of symmetry of the model.
-fn symmetry(model: &TriMesh) -> Vec<Plane> {
+fn symmetry_planes(model: &TriMesh) -> Vec<Plane> {
     let center = Body::new(&moments_of_mesh(model), 1.0).center;
     mirror_planes(model, &center, &principal_axes(model))
 }
 
-/// Returns the directions of the family: the model's axes, the goal's axis and its perpendiculars,
-/// and the principal axes of the solid and of every void. Then come the normals of the seats, a
-/// Fibonacci spiral over the half sphere, and the directions in which voids lie flattest. For the
-/// spiral see Swinbank and Purser, "Fibonacci grids", Q. J. R. Meteorol. Soc. 132, 2006.
+/// Returns the directions of the family. The axes of the model and of the goal come first, then the
+/// principal axes of the solid and of every void. The normals of the seats follow, then a Fibonacci
+/// spiral over the half sphere, and the directions in which voids lie flattest. For the spiral see
+/// Swinbank and Purser, "Fibonacci grids", Q. J. R. Meteorol. Soc. 132, 2006.
 fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     let mut directions = vec![Vector::x(), Vector::y(), Vector::z()];
     let axis = request.axis.direction.normalize();
@@ -107,7 +109,7 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
     directions.extend(seat::normals(&hollowed.seats().collect::<Vec<_>>()));
     directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
-    directions.extend(flattest(&centers(hollowed)));
+    directions.extend(flattest_directions(&centers(hollowed)));
     directions.retain(|d| d.iter().all(|c| c.is_finite()));
     directions
 }
@@ -134,7 +136,7 @@ fn centers(hollowed: &Hollowed) -> Vec<Point> {
 /// or a face and a corner, touch the parallel planes. See Houle and Toussaint, "Computing the width
 /// of a set", IEEE TPAMI 10, 1988. So if some plane opens several balls of one size, a plane of the
 /// family opens them too.
-fn flattest(points: &[Point]) -> Vec<Vector> {
+fn flattest_directions(points: &[Point]) -> Vec<Vector> {
     let pairs = |count: usize| (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
     let lines: Vec<Vector> = pairs(points.len())
         .filter_map(|(i, j)| (points[i] - points[j]).try_normalize(f64::MIN_POSITIVE))
@@ -198,7 +200,7 @@ impl Extent<'_> {
 
 /// Returns the candidates normal to one direction: those through the middles of seats, then those
 /// of every cell.
-fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
+fn candidates_along(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
     let cells = ends

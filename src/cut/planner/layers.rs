@@ -21,8 +21,9 @@ use crate::{
     geom::{Plane, Vector},
     mesh::off_vertices,
 };
-/// Least cosine between the vertical and the normal of a level face. Over 100 mm, such a face
-/// deviates from one height by less than a thousandth of a layer.
+
+/// Least cosine between the vertical and the normal of a level face. Over 100 mm, such a face rises
+/// by less than 0.005 mm.
 const LEVEL_COSINE: f64 = 1.0 - 1e-9;
 
 /// Height below which a face lies on the plate, mm.
@@ -48,7 +49,7 @@ struct Level {
 /// Moves the cuts to whole layers, by half a layer at most, and places the pins again. Returns the
 /// plan unchanged if the number of pieces would change, a cavity would form, or an opening would
 /// fall below the least.
-pub(crate) fn at_layers(
+pub(crate) fn snap_to_layers(
     scene: &Scene,
     layout: &Layout,
     plan: CutPlan,
@@ -75,7 +76,7 @@ pub(crate) fn at_layers(
         moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
-    let Some(layout) = still_open(scene, layout, planes)? else {
+    let Some(layout) = move_planes(scene, layout, planes)? else {
         return Ok(plan);
     };
     Ok(CutPlan {
@@ -93,7 +94,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .flat_map(|part| levels(request, layout, plan, part))
         .collect();
     levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
-    let decides = |cut: usize| {
+    let deciding_level = |cut: usize| {
         levels
             .iter()
             .find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM)
@@ -101,7 +102,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
     let mut moved_mm = vec![0.0; layout.tree.planes.len()];
     for _ in 0..SWEEPS {
         for cut in 0..moved_mm.len() {
-            if let Some(level) = decides(cut) {
+            if let Some(level) = deciding_level(cut) {
                 moved_mm[cut] = to_layer_mm(level, &moved_mm, request.layer_mm);
             }
         }
@@ -111,7 +112,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .enumerate()
         .filter(|(_, moved)| **moved != 0.0);
     moves
-        .filter_map(|(cut, &moved)| Some((cut, decides(cut)?.part, moved)))
+        .filter_map(|(cut, &moved)| Some((cut, deciding_level(cut)?.part, moved)))
         .collect()
 }
 
@@ -181,7 +182,7 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
 }
 
 /// Returns the layout with the moved planes, or `None` if it has other pieces or a worse opening.
-fn still_open(
+fn move_planes(
     scene: &Scene,
     layout: &Layout,
     planes: Vec<Plane>,
@@ -254,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn where_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
+    fn if_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
         let both = PlanRequest {
             pose: PosePreference::OpenHollowUp,
             layer_mm: 0.2,
@@ -266,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn without_layers_nothing_is_moved() {
+    fn without_layers_no_cut_moves() {
         let outer = cuboid([0.0; 3], [30.0; 3]);
         let hollowed = with_balls(outer, &[[15.0, 15.0, 15.0, 8.0]]);
         let still = plan(

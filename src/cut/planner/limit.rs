@@ -1,5 +1,5 @@
-//! Cuts limited to the sides of other cuts on which they are needed, so that a cut for one void
-//! does not divide the whole body.
+//! Cuts limited to the sides of other cuts on which they are needed. A cut for one void then does
+//! not divide the whole body.
 
 use crate::{
     cut::{
@@ -10,7 +10,7 @@ use crate::{
             pose::fits,
             split::{Piece, check_no_cavity},
         },
-        planner::{extra::looked_at_again, score::Scene},
+        planner::{extra::update_accesses, score::Scene},
     },
     geom::Plane,
 };
@@ -33,7 +33,7 @@ pub(crate) fn limit_cuts(
     voids: Vec<VoidAccess>,
 ) -> Result<LimitedCuts, CutError> {
     let tree = CutTree::everywhere(planes);
-    let mut kept = LimitedCuts {
+    let mut limited = LimitedCuts {
         pieces: scene.split(&tree)?,
         tree,
         voids,
@@ -41,7 +41,7 @@ pub(crate) fn limit_cuts(
     for cut in (0..planes.len()).rev() {
         for other in (0..planes.len()).filter(|&other| other != cut) {
             for is_above in [true, false] {
-                if let Some(better) = kept.with(
+                if let Some(better) = limited.with(
                     scene,
                     cut,
                     Limit {
@@ -49,12 +49,12 @@ pub(crate) fn limit_cuts(
                         is_above,
                     },
                 )? {
-                    kept = better;
+                    limited = better;
                 }
             }
         }
     }
-    Ok(kept)
+    Ok(limited)
 }
 
 impl LimitedCuts {
@@ -70,7 +70,7 @@ impl LimitedCuts {
             .filter(|&other| is_changed(other))
             .map(|other| tree.planes[other])
             .collect();
-        let voids = looked_at_again(scene, &self.voids, &tree, &changed)?;
+        let voids = update_accesses(scene, &self.voids, &tree, &changed)?;
         if self
             .voids
             .iter()
@@ -87,13 +87,13 @@ impl LimitedCuts {
         };
         let is_better = next.pieces.len() < self.pieces.len()
             && check_no_cavity(&next.pieces).is_ok()
-            && next.oversize(scene) <= self.oversize(scene)
+            && next.count_oversize(scene) <= self.count_oversize(scene)
             && next.has_all_cuts();
         Ok(is_better.then_some(next))
     }
 
     /// Counts the pieces that do not fit the build volume.
-    fn oversize(&self, scene: &Scene) -> usize {
+    fn count_oversize(&self, scene: &Scene) -> usize {
         self.pieces
             .iter()
             .filter(|piece| !fits(piece, &self.tree.planes, scene.request))
@@ -166,7 +166,7 @@ mod tests {
         )
     }
 
-    fn kept_of(scene: &Scene, planes: &[Plane]) -> LimitedCuts {
+    fn limit_clean_cuts(scene: &Scene, planes: &[Plane]) -> LimitedCuts {
         let voids = accesses(&scene.chambers, &CutTree::everywhere(planes), scene.request).unwrap();
         assert!(voids.iter().all(|void| void.is_clean), "{voids:?}");
         limit_cuts(scene, planes, voids).unwrap()
@@ -176,36 +176,39 @@ mod tests {
     fn a_cut_for_one_void_leaves_the_half_of_another_whole() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
-        let kept = kept_of(&scene, &planes);
+        let limited = limit_clean_cuts(&scene, &planes);
         assert_eq!(
-            kept.tree.limits(1),
+            limited.tree.limits(1),
             [Limit {
                 cut: 0,
                 is_above: false
             }]
         );
         assert_eq!(
-            (kept.pieces.len(), joints(&kept.pieces, &kept.tree).len()),
+            (
+                limited.pieces.len(),
+                joints(&limited.pieces, &limited.tree).len()
+            ),
             (3, 3)
         );
         assert_eq!(
-            kept.voids[1].opened_by,
+            limited.voids[1].opened_by,
             [CutId::of(0), CutId::of(1)],
             "its other half is cut along"
         );
         assert!(
-            kept.voids.iter().all(|void| void.is_clean),
+            limited.voids.iter().all(|void| void.is_clean),
             "{:?}",
-            kept.voids
+            limited.voids
         );
     }
 
     #[test]
-    fn the_cut_closed_first_is_the_one_made_last() {
+    fn the_last_cut_made_is_the_first_to_be_glued() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
-        let kept = kept_of(&scene, &planes);
-        let cuts: Vec<usize> = joints(&kept.pieces, &kept.tree)
+        let limited = limit_clean_cuts(&scene, &planes);
+        let cuts: Vec<usize> = joints(&limited.pieces, &limited.tree)
             .iter()
             .map(|joint| joint.cut)
             .collect();
@@ -213,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn cuts_kept_to_different_sides_meet_in_quarters_of_the_face_between_them() {
+    fn cuts_limited_to_opposite_sides_divide_the_face_between_them_into_quarters() {
         let (body, [across, along], request) = bar();
         let upright = Plane {
             normal: Vector::y(),
@@ -275,21 +278,21 @@ mod tests {
             normal: Vector::x(),
             offset_mm: 30.013,
         };
-        let kept = kept_of(&scene, &[between, along]);
+        let limited = limit_clean_cuts(&scene, &[between, along]);
         // The cut between the balls opens nothing, so it may end at the other cut, on either side.
-        assert!(kept.tree.limits(1).is_empty());
-        assert_eq!((kept.tree.limits(0).len(), kept.pieces.len()), (1, 3));
+        assert!(limited.tree.limits(1).is_empty());
+        assert_eq!((limited.tree.limits(0).len(), limited.pieces.len()), (1, 3));
     }
 
     #[test]
-    fn a_plan_with_a_cut_on_one_side_is_written_read_and_made_again_to_the_bit() {
+    fn a_plan_with_a_limited_cut_survives_writing_and_reading_to_the_bit() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
         let LimitedCuts {
             tree,
             voids,
             pieces,
-        } = kept_of(&scene, &planes);
+        } = limit_clean_cuts(&scene, &planes);
         let layout = Layout {
             tree,
             voids,
@@ -335,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn cuts_kept_to_each_other_are_refused_and_so_are_those_kept_to_none() {
+    fn limits_in_a_circle_to_both_sides_or_to_unknown_cuts_are_refused() {
         let cut = |id: &str, other: &str| {
             format!(
                 "[[cuts]]\nid = \"{id}\"\npoint_mm = [0, 0, 0]\nnormal = [1, 0, 0]\nwithin = [{{ cut = \"{other}\", side = \"above\" }}]\n"

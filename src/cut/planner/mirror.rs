@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_its_own_image_in_three_planes_and_not_in_a_skew_one() {
+    fn a_box_has_three_planes_of_symmetry_and_no_skew_one() {
         let mesh = cuboid(&Point::new(1.0, 2.0, 3.0), &Point::new(11.0, 8.0, 7.0));
         let center = Point::new(6.0, 5.0, 5.0);
         assert_eq!(mirror_planes(&mesh, &center, &axes()).len(), 3);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_with_a_bump_has_lost_the_plane_that_the_bump_is_above() {
+    fn a_bump_takes_away_the_plane_of_symmetry_below_it() {
         let bumped = ball(&Point::origin(), 10.0, 4).map_vertices(|p| {
             if p.z > 8.0 {
                 p + Vector::z() * (p.z - 8.0)

@@ -27,12 +27,12 @@ use crate::{
         pieces::{pose::fits, rejoin::rejoined, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
-            extra::{Tried, add_extra_cuts, cleanest},
-            layers::at_layers,
+            extra::{Attempt, add_extra_cuts, cleanest},
+            layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden},
             search::smallest_plans,
-            to_plan::{named_as, to_plan},
+            to_plan::{rename_cuts, to_plan},
         },
         remark::Remark,
         request::PlanRequest,
@@ -60,14 +60,14 @@ pub fn plan(
 }
 
 fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    check(request)?;
+    check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    notes.extend(limited_cuts(&layout.tree));
+    notes.extend(limited_cut_remarks(&layout.tree));
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
-    at_layers(&scene, &layout, plan, notes)
+    snap_to_layers(&scene, &layout, plan, notes)
 }
 
 /// Plans the ordered cuts, each limited to its ordered sides and without the faces ordered to stay
@@ -104,20 +104,20 @@ fn plan_ordered(
     hollowed: &Hollowed,
     request: &PlanRequest,
     order: &CutOrder,
-    others: UnorderedJoints,
+    unordered: UnorderedJoints,
 ) -> Result<CutPlan, CutError> {
-    check(request)?;
+    check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
     let cuts = order
         .cuts
         .iter()
-        .map(|cut| beside_faces(&scene, cut))
+        .map(|cut| move_off_faces(&scene, cut))
         .collect::<Result<Vec<_>, CutError>>()?;
-    let (tree, own) = (tree_of(&cuts)?, order.numbered());
-    let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
+    let (tree, numbered) = (tree_of(&cuts)?, order.numbered());
+    let bridges = bridges_on(&tree.planes, &numbered.cuts, &numbered.uncut);
     let pieces = rejoined(scene.split(&tree)?, &tree, &bridges)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
-    let pins = match (&own.pins, others) {
+    let pins = match (&numbered.pins, unordered) {
         (None, _) => Pins::Placed,
         (Some(pins), UnorderedJoints::None) => Pins::Ordered(pins),
         (Some(pins), UnorderedJoints::Placed) => Pins::Around(pins),
@@ -135,12 +135,12 @@ fn plan_ordered(
     )?;
     Ok(CutPlan {
         solid: order.solid.clone(),
-        ..named_as(plan, &cuts)
+        ..rename_cuts(plan, &cuts)
     })
 }
 
 /// Returns the cut as ordered, or moved off faces of which it would leave a thin sheet.
-fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
+fn move_off_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
     let plane = cut.plane()?;
     let moved_mm = off_faces(&scene.material, &plane).offset_mm - plane.offset_mm;
     let point_mm = if moved_mm == 0.0 {
@@ -174,7 +174,7 @@ pub fn plan_of(
 }
 
 /// Returns an error if a length is out of range.
-fn check(request: &PlanRequest) -> Result<(), CutError> {
+fn check_request(request: &PlanRequest) -> Result<(), CutError> {
     let pins = &request.pins;
     let positive = [
         ("min_opening_mm", request.min_opening_mm),
@@ -210,7 +210,7 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
     let found = smallest_plans(scene)?;
     notes.push(Remark::Fewest(found.proof()));
     let best = cleanest(scene, &found.plans)?;
-    let Tried { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
+    let Attempt { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
     let score = |(index, plane): (usize, &Plane)| Remark::Score {
         cut: CutId::of(index),
         terms: burden(scene, plane).terms(scene).to_vec(),
@@ -220,7 +220,7 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
 }
 
 /// Returns a remark on each cut that is limited to sides of others.
-fn limited_cuts(tree: &CutTree) -> impl Iterator<Item = Remark> {
+fn limited_cut_remarks(tree: &CutTree) -> impl Iterator<Item = Remark> {
     let remark = |cut: usize| {
         let sides: Vec<CutSide> = tree.limits(cut).iter().map(Limit::side).collect();
         let cut = CutId::of(cut);

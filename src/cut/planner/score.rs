@@ -14,9 +14,8 @@
 //! | build volume | halves that do not fit it | each | 0.5 |
 //! | overhang | share of the surface that overhangs by more than 45° | all | 0.3 |
 //!
-//! If wide joints are wanted, the room for pins is a quarter of the disc in the joint with its
-//! voids filled, and no room is bad. Overhang is measured with the cut faces down or up, as the
-//! request prefers.
+//! If wide joints are wanted, voids in a joint count as filled and the disc as a quarter. Bad is
+//! no room at all. Overhang is measured with the cut faces down or up, as the request prefers.
 //!
 //! The number of cuts comes before the score, and so does cleaning. Among the plans with the fewest
 //! cuts, the planner takes the best-scored one with which every void is clean. This includes the
@@ -35,6 +34,7 @@ use crate::{
         hollowed::Hollowed,
         joints::pin_size::needed_room_mm,
         pieces::split::{Piece, split_body},
+        planner::cover::VoidSet,
         remark::Term,
         request::{PlanRequest, PosePreference},
     },
@@ -81,11 +81,7 @@ impl<'a> Scene<'a> {
     }
 
     /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.
-    pub(crate) fn openings(
-        &self,
-        plane: &Plane,
-        met: crate::cut::planner::cover::VoidSet,
-    ) -> Vec<Option<Opening>> {
+    pub(crate) fn openings(&self, plane: &Plane, met: VoidSet) -> Vec<Option<Opening>> {
         let voids = self.hollowed.voids.iter().enumerate();
         voids
             .map(|(i, void)| {
@@ -119,8 +115,7 @@ const EXTRA_PART_WEIGHT: f64 = 0.2;
 const CONTACT_WEIGHT: f64 = 1.0;
 /// Weight of a seam as long as the circle about the model. Seams are visible and cost glue.
 const SEAM_WEIGHT: f64 = 0.5;
-/// Weight of a seam over features such as ears and folds of cloth. Steps show there, and edges
-/// chip.
+/// Weight of a seam over features such as ears and folds. Steps show there, and edges chip.
 const DETAIL_WEIGHT: f64 = 0.1;
 /// Weight of a joint without area to glue.
 const GLUE_WEIGHT: f64 = 0.3;
@@ -129,9 +124,8 @@ const BUILD_VOLUME_WEIGHT: f64 = 0.5;
 /// Weight of a surface that is all overhang. Support must be printed and removed, and leaves marks.
 const OVERHANG_WEIGHT: f64 = 0.3;
 
-/// Turning beyond that of a convex seam at which a seam runs over features everywhere, rad: two
-/// full turns.
-const PLENTY_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
+/// Excess turning of a seam that runs over features everywhere, rad: two full turns.
+const FULL_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
 /// Area of a joint with enough to glue, as a multiple of the disc that a pin needs.
 const AMPLE_GLUE_DISCS: f64 = 4.0;
 /// Cosine between the normal and the vertical above which a downward surface is overhang: 45°, the
@@ -171,13 +165,13 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
         *plane,
         Section::of_mesh(&scene.material, plane),
     );
-    let outside = scene.hollowed.outer.mesh().vertices().len();
-    let joints = joints(&sides, outside);
-    let cut: Vec<&Joint> = joints
+    let first_void_vertex = scene.hollowed.outer.mesh().vertices().len();
+    let joints = joints(&sides, first_void_vertex);
+    let needed: Vec<&Joint> = joints
         .iter()
         .filter(|joint| !is_needless(joint, &joints))
         .collect();
-    let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
+    let is_part = |piece: u32| needed.iter().any(|joint| joint.pieces.contains(&piece));
     let volumes = sides
         .piece_volumes_mm3()
         .into_iter()
@@ -185,11 +179,11 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let volumes: Vec<f64> = volumes
         .map(|(_, volume)| volume / scene.volume_mm3)
         .collect();
-    let groups = || cut.iter().flat_map(|joint| &joint.groups);
+    let groups = || needed.iter().flat_map(|joint| &joint.groups);
     let needed_mm = needed_room_mm(scene.request);
     let disc_mm = |&group: &usize| {
         if scene.request.wants_wide_joints {
-            let is_outside = |ring: &Ring| (ring.above as usize) < outside;
+            let is_outside = |ring: &Ring| (ring.above as usize) < first_void_vertex;
             sides.filled_disc_diameter_mm(group, is_outside) / WIDE_JOINT_RATIO
         } else {
             sides.disc_diameter_mm(group, needed_mm / 2.0)
@@ -201,13 +195,13 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
             .map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm())
             .sum(),
         extra_parts: volumes.len().saturating_sub(2),
-        room_mm: cut.iter().map(room_mm).fold(needed_mm, f64::min),
+        room_mm: needed.iter().map(room_mm).fold(needed_mm, f64::min),
         smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
         contact_mm: plane.distance(&scene.request.axis.point).abs(),
         detail_rad: groups()
             .map(|&group| excess_turn_rad(&sides.section.rings[sides.polygons[group][0]]))
             .sum(),
-        glue_mm2: cut
+        glue_mm2: needed
             .iter()
             .map(|joint| glue_mm2(&sides, joint))
             .fold(f64::INFINITY, f64::min),
@@ -252,7 +246,7 @@ fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
     let mut halves = [Aabb::EMPTY; 2];
     for corners in scene.hollowed.outer.mesh().iter_corners() {
         for i in 0..3 {
-            grow(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
+            grow_halves(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
         }
     }
     room_mm.sort_by(f64::total_cmp);
@@ -270,15 +264,16 @@ fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
 
 /// Grows the boxes of the halves above and below a plane, in the plane's coordinates, to include an
 /// edge.
-fn grow(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
+fn grow_halves(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
     let (u, v) = plane.basis();
     let [low, high] = [plane.distance(&from), plane.distance(&to)];
-    let turned = |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
+    let in_plane_frame =
+        |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
     let side = usize::from(low < 0.0);
-    halves[side] = halves[side].grown_over(&turned(&from, low));
+    halves[side] = halves[side].grown_over(&in_plane_frame(&from, low));
     if (low < 0.0) != (high < 0.0) {
-        let met = turned(&(from + (to - from) * (low / (low - high))), 0.0);
-        *halves = halves.map(|half| half.grown_over(&met));
+        let crossing = in_plane_frame(&(from + (to - from) * (low / (low - high))), 0.0);
+        *halves = halves.map(|half| half.grown_over(&crossing));
     }
 }
 
@@ -374,7 +369,7 @@ impl Burden {
             (Term::Seam, SEAM_WEIGHT * self.seam_mm / circle_mm),
             (
                 Term::Detail,
-                DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0),
+                DETAIL_WEIGHT * (self.detail_rad / FULL_DETAIL_RAD).min(1.0),
             ),
             (
                 Term::Glue,
@@ -445,8 +440,7 @@ mod tests {
     }
 
     #[test]
-    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not()
-    {
+    fn wide_joints_need_a_wide_outline_however_thin_the_wall() {
         let usual = request();
         let wide = PlanRequest {
             wants_wide_joints: true,
@@ -496,7 +490,7 @@ mod tests {
     }
 
     #[test]
-    fn half_a_ball_on_its_cut_face_hangs_over_nowhere_but_in_its_void() {
+    fn half_a_ball_on_its_cut_face_overhangs_only_in_its_void() {
         // The outside looks up everywhere. In the void's half, the ceiling within 45° of its pole
         // overhangs: 1 − cos 45° of a half sphere.
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);

@@ -23,7 +23,7 @@ const ROUNDS: [usize; 3] = [64, 512, 4096];
 
 /// Number of planes of the smallest covers that get a full score. Each takes two or three
 /// milliseconds on 100k triangles.
-const JUDGED_PLANES: usize = 48;
+const SCORED_PLANES: usize = 48;
 
 /// Weight of a void that two planes meet. It falls into more pieces, and a pocket may remain
 /// between the planes.
@@ -34,7 +34,7 @@ const COMPARED_COVERS: usize = 20_000;
 
 /// A candidate with its measured openings.
 #[derive(Debug, Clone)]
-struct Exact {
+struct MeasuredPlane {
     plane: Plane,
     openings: Vec<Option<Opening>>,
     /// The voids that it opens wide enough.
@@ -87,12 +87,12 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
     );
     let bound = smallest_cover(&family.iter().map(|c| c.met).collect::<Vec<_>>(), all);
     let (least, bound_nodes) = bound.map_or((usize::MAX, 0), |cover| (cover.at_least, cover.nodes));
-    let mut exact: Vec<Exact> = Vec::new();
+    let mut measured: Vec<MeasuredPlane> = Vec::new();
     let mut best = None;
     for round in ROUNDS.map(|round| round.min(family.len())) {
-        let fresh = &family[exact.len().min(round)..round];
-        exact.par_extend(fresh.par_iter().map(|candidate| measured(scene, candidate)));
-        best = smallest_cover(&exact.iter().map(|e| e.opened).collect::<Vec<_>>(), all);
+        let fresh = &family[measured.len().min(round)..round];
+        measured.par_extend(fresh.par_iter().map(|candidate| measure(scene, candidate)));
+        best = smallest_cover(&measured.iter().map(|e| e.opened).collect::<Vec<_>>(), all);
         if best
             .as_ref()
             .is_some_and(|cover| cover.chosen.len() == least)
@@ -100,13 +100,13 @@ pub(crate) fn smallest_plans(scene: &Scene) -> Result<Found, CutError> {
             break;
         }
     }
-    let cover = best.ok_or_else(|| unopenable(scene, &exact))?;
+    let cover = best.ok_or_else(|| unopenable(scene, &measured))?;
     Ok(Found {
-        plans: ranked(scene, &exact, &cover.chosen),
+        plans: rank_covers(scene, &measured, &cover.chosen),
         family: family.len(),
         nodes: cover.nodes + bound_nodes,
         is_proved: cover.chosen.len() == least
-            || (exact.len() == family.len() && cover.chosen.len() == cover.at_least),
+            || (measured.len() == family.len() && cover.chosen.len() == cover.at_least),
     })
 }
 
@@ -135,12 +135,12 @@ fn promising_first(family: Vec<Candidate>, all: VoidSet, ample_mm: f64) -> Vec<C
     }
     let capped = |c: &Candidate| c.guess_mm.min(ample_mm);
     places.sort_by(|(i, a), (j, b)| i.cmp(j).then(capped(b).total_cmp(&capped(a))));
-    let mut taken = vec![0; classes.len()];
+    let mut counts = vec![0; classes.len()];
     let mut turns: Vec<((bool, usize), Candidate)> = Vec::with_capacity(places.len());
     for (_, candidate) in places {
         let class = class_of(&candidate);
-        taken[class] += 1;
-        turns.push(((classes[class].1 > least, taken[class]), candidate));
+        counts[class] += 1;
+        turns.push(((classes[class].1 > least, counts[class]), candidate));
     }
     turns.sort_by_key(|&(turn, _)| turn);
     turns.into_iter().map(|(_, candidate)| candidate).collect()
@@ -164,7 +164,7 @@ fn classes(family: &[Candidate], all: VoidSet) -> Vec<(VoidSet, usize)> {
 }
 
 /// Measures the candidate's openings on its sections.
-fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
+fn measure(scene: &Scene, candidate: &Candidate) -> MeasuredPlane {
     let openings = scene.openings(&candidate.plane, candidate.met);
     let enough = |void: usize, o: &Option<Opening>| {
         o.is_some_and(|o| o.diameter_mm >= needed_mm(scene, void))
@@ -174,7 +174,7 @@ fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
         .enumerate()
         .filter(|(i, o)| enough(*i, o))
         .fold(0, |set, (i, _)| set | 1 << i);
-    Exact {
+    MeasuredPlane {
         plane: candidate.plane,
         openings,
         opened,
@@ -183,10 +183,10 @@ fn measured(scene: &Scene, candidate: &Candidate) -> Exact {
 
 /// Returns the covers as small as `known`, best first, or only `known` if the search finds no
 /// others.
-fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
+fn rank_covers(scene: &Scene, measured: &[MeasuredPlane], known: &[usize]) -> Vec<Vec<Plane>> {
     let voids = scene.hollowed.voids.len();
     let all = VoidSet::MAX >> (MAX_VOIDS - voids);
-    let opened: Vec<VoidSet> = exact.iter().map(|e| e.opened).collect();
+    let opened: Vec<VoidSet> = measured.iter().map(|e| e.opened).collect();
     let mut covers = covers_of_size(&opened, all, [known.len(), COMPARED_COVERS]);
     if covers.is_empty() {
         covers.push(known.to_vec());
@@ -194,14 +194,14 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
     // A seat's opening is wide enough or not; more width is of no use.
     let holds_nothing = |&void: &usize| scene.hollowed.voids[void].holds.is_none();
     let empty: Vec<usize> = (0..voids).filter(holds_nothing).collect();
-    let by_opening = |cover: &Vec<usize>| {
-        opening_penalty(scene, openings_mm(exact, cover, &empty))
-            + CROSSED_WEIGHT * crossed(exact, cover, voids)
+    let opening_score = |cover: &Vec<usize>| {
+        opening_penalty(scene, openings_mm(measured, cover, &empty))
+            + CROSSED_WEIGHT * count_crossed(measured, cover, voids)
     };
     let mut covers: Vec<(f64, Vec<usize>)> =
-        covers.into_iter().map(|c| (by_opening(&c), c)).collect();
+        covers.into_iter().map(|c| (opening_score(&c), c)).collect();
     covers.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let burdens = burdens_of(scene, exact, &covers);
+    let burdens = burdens_of(scene, measured, &covers);
     let penalty = |cover: &[usize]| {
         let cuts = cover.iter().map(|&i| burdens[i].map(|b| b.penalty(scene)));
         cuts.sum::<Option<f64>>()
@@ -213,23 +213,27 @@ fn ranked(scene: &Scene, exact: &[Exact], known: &[usize]) -> Vec<Vec<Plane>> {
     scored.sort_by(|a, b| a.0.total_cmp(&b.0));
     scored
         .iter()
-        .map(|(_, cover)| cover.iter().map(|&i| exact[i].plane).collect())
+        .map(|(_, cover)| cover.iter().map(|&i| measured[i].plane).collect())
         .collect()
 }
 
 /// Counts the voids that more than one of the cover's planes meet.
-fn crossed(exact: &[Exact], cover: &[usize], voids: usize) -> f64 {
+fn count_crossed(measured: &[MeasuredPlane], cover: &[usize], voids: usize) -> f64 {
     let meeting = |void: usize| {
         cover
             .iter()
-            .filter(|&&i| exact[i].openings[void].is_some())
+            .filter(|&&i| measured[i].openings[void].is_some())
             .count()
     };
     (0..voids).filter(|&void| meeting(void) > 1).count() as f64
 }
 
 /// Scores the first [`SCORED_PLANES`] planes that the covers name, in the covers' order.
-fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> Vec<Option<Burden>> {
+fn burdens_of(
+    scene: &Scene,
+    measured: &[MeasuredPlane],
+    covers: &[(f64, Vec<usize>)],
+) -> Vec<Option<Burden>> {
     let mut named: Vec<usize> = Vec::new();
     for (_, cover) in covers {
         let fresh: Vec<usize> = cover
@@ -237,17 +241,17 @@ fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> V
             .copied()
             .filter(|i| !named.contains(i))
             .collect();
-        if named.len() + fresh.len() > JUDGED_PLANES && !named.is_empty() {
+        if named.len() + fresh.len() > SCORED_PLANES && !named.is_empty() {
             break;
         }
         named.extend(fresh);
     }
-    let judged: Vec<(usize, Burden)> = named
+    let scored: Vec<(usize, Burden)> = named
         .par_iter()
-        .map(|&i| (i, burden(scene, &exact[i].plane)))
+        .map(|&i| (i, burden(scene, &measured[i].plane)))
         .collect();
-    let mut burdens = vec![None; exact.len()];
-    for (i, burden) in judged {
+    let mut burdens = vec![None; measured.len()];
+    for (i, burden) in scored {
         burdens[i] = Some(burden);
     }
     burdens
@@ -255,16 +259,16 @@ fn burdens_of(scene: &Scene, exact: &[Exact], covers: &[(f64, Vec<usize>)]) -> V
 
 /// Returns the widest opening of each void by the cover's planes, mm.
 fn openings_mm<'a>(
-    exact: &'a [Exact],
+    measured: &'a [MeasuredPlane],
     cover: &'a [usize],
     voids: &'a [usize],
 ) -> impl Iterator<Item = f64> + 'a {
-    let planes = move || cover.iter().map(|&i| &exact[i]);
+    let planes = move || cover.iter().map(|&i| &measured[i]);
     voids.iter().map(move |&void| widest_mm(planes(), void))
 }
 
 /// Returns the widest opening of a void by some planes, mm.
-fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
+fn widest_mm<'a>(planes: impl Iterator<Item = &'a MeasuredPlane>, void: usize) -> f64 {
     planes
         .filter_map(|e| e.openings[void])
         .map(|o| o.diameter_mm)
@@ -272,8 +276,8 @@ fn widest_mm<'a>(planes: impl Iterator<Item = &'a Exact>, void: usize) -> f64 {
 }
 
 /// Returns the obstacle with the voids that none of the planes opens wide enough.
-fn unopenable(scene: &Scene, exact: &[Exact]) -> Obstacle {
-    let widest = |&void: &usize| widest_mm(exact.iter(), void);
+fn unopenable(scene: &Scene, measured: &[MeasuredPlane]) -> Obstacle {
+    let widest = |&void: &usize| widest_mm(measured.iter(), void);
     let is_closed = |&void: &usize| widest(&void) < needed_mm(scene, void);
     let voids: Vec<usize> = (0..scene.hollowed.voids.len()).filter(is_closed).collect();
     let needed_mm = voids

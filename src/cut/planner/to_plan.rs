@@ -47,9 +47,10 @@ pub(crate) fn to_plan(
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
-    let told = joints.iter().zip(&placements);
+    let pairs = joints.iter().zip(&placements);
     notes.extend(
-        told.clone()
+        pairs
+            .clone()
             .filter_map(|(joint, placement)| pin_lack(scene.request, joint, placement)),
     );
     notes.extend(voids.iter().filter_map(|void| narrow_piece(scene, void)));
@@ -58,7 +59,7 @@ pub(crate) fn to_plan(
         cuts: (0..tree.planes.len())
             .map(|index| cut(tree, index))
             .collect(),
-        joints: told
+        joints: pairs
             .map(|(joint, placement)| joint_note(&pin_scene, joint, placement))
             .collect(),
         pins: placements
@@ -78,7 +79,7 @@ pub(crate) fn to_plan(
 }
 
 /// Gives the plan's cuts the names of the order. The planner itself only numbers them.
-pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
+pub(crate) fn rename_cuts(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
     let name = |id: &mut CutId| {
         let index = index_of(&plan.cuts, id);
         if let Some(cut) = index.and_then(|index| cuts.get(index)) {
