@@ -1,4 +1,4 @@
-//! The openings that cuts make into voids, and what of the walls is seen through them.
+//! The access that cuts give to voids: the openings, and the wall that is visible through them.
 
 pub(crate) mod chamber;
 pub(crate) mod sight;

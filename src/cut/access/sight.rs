@@ -1,4 +1,4 @@
-//! How much of a void's wall is in sight of its openings.
+//! The share of a void's wall that is in sight of its openings.
 
 use rayon::prelude::*;
 
@@ -16,37 +16,37 @@ use crate::{
     mesh::{Solid, area_mm2, spread_points},
 };
 
-/// Points of a void's wall that are looked at: a share of 5 % is then known to half a per cent.
+/// Sample points on the wall of a void. A hidden share of 5 % is then known to within 0.5 %.
 const SAMPLES: f64 = 2000.0;
-/// Of a small piece at least so many points are looked at.
-const LEAST_SAMPLES: usize = 24;
-/// Places across a mouth, along each of two directions, that are looked from.
+/// Least number of sample points on a piece, however small.
+const MIN_SAMPLES: usize = 24;
+/// Number of viewpoints across a mouth, along each of two directions.
 const EYES_ACROSS: usize = 5;
-/// So many where little is hidden from those: what is seen only from between them is slivers, a few
-/// thousandths of a wall.
-const CLOSER_EYES_ACROSS: usize = 16;
-/// Where more than this share of a piece is hidden, no closer look will find it clean.
+/// Number of viewpoints across a mouth in the second, finer test. Only slivers, a few thousandths
+/// of a wall, are visible from the additional viewpoints alone.
+const FINE_EYES_ACROSS: usize = 16;
+/// Hidden share of a piece above which the finer test is skipped, because it cannot pass.
 const HIDDEN_RATIO: f64 = 0.15;
-/// The part of a line of sight that is looked along: the rest would meet the wall it ends on.
-const LOOKED_RATIO: f64 = 0.999;
+/// Share of a line of sight that is tested. The rest would hit the wall at its end.
+const TESTED_LINE_RATIO: f64 = 0.999;
 
-/// A place that is looked from, in a mouth of a cut.
+/// A viewpoint in the mouth of a cut.
 struct Eye {
     cut: usize,
     at: Point,
 }
 
-/// How a void is looked into.
-pub(crate) struct Look<'a> {
+/// The parameters of the line-of-sight test.
+pub(crate) struct SightTest<'a> {
     tree: &'a CutTree,
-    /// The radius of the least opening: nearer to a rim no tool enters.
+    /// Radius of the least opening, mm. The tool gets no nearer to a rim than this.
     tool_radius_mm: f64,
     reach_mm: f64,
-    /// Pieces of which more than this share is hidden from few places are not looked at from more.
-    given_up_ratio: f64,
+    /// Hidden share of a piece above which the finer test is skipped.
+    max_hidden_ratio: f64,
 }
 
-impl<'a> Look<'a> {
+impl<'a> SightTest<'a> {
     pub(crate) fn new(tree: &'a CutTree, request: &PlanRequest) -> Self {
         let reach_mm = request.cleaning.reach_mm.unwrap_or(f64::INFINITY);
         let tool_radius_mm = request.min_opening_mm / 2.0;
@@ -54,21 +54,22 @@ impl<'a> Look<'a> {
             tree,
             tool_radius_mm,
             reach_mm,
-            given_up_ratio: HIDDEN_RATIO,
+            max_hidden_ratio: HIDDEN_RATIO,
         }
     }
 
-    /// The same, but from many places however much is hidden: slower, and right for what is told of
-    /// a plan.
+    /// Returns the same test, but with the finer viewpoints for every piece. It is slower, and
+    /// meant for the numbers reported with a plan.
     pub(crate) fn thorough(self) -> Self {
         Self {
-            given_up_ratio: 1.0,
+            max_hidden_ratio: 1.0,
             ..self
         }
     }
 
-    /// The places that are looked from through mouths, each of a cut: of every mouth that lets the
-    /// tool in those where it finds room; the middle of the widest mouth where none lets it in.
+    /// Returns the viewpoints in these mouths, each given with the index of its cut. In every mouth
+    /// that admits the tool, they are the places with room for it. If no mouth admits the tool, the
+    /// only viewpoint is the middle of the widest mouth.
     fn eyes(&self, mouths: &[(usize, &Outline)], count: usize) -> Vec<Eye> {
         let discs = mouths
             .iter()
@@ -85,7 +86,7 @@ impl<'a> Look<'a> {
             .count();
         let mut eyes: Vec<Eye> = middles.take(wide.max(1)).collect();
         for ((cut, outline), _) in &discs[..wide] {
-            let places = across(outline, count)
+            let places = grid_over(outline, count)
                 .into_iter()
                 .filter(|at| is_wide(outline.signed_distance(at)));
             eyes.extend(places.map(|at| self.eye(*cut, &at)));
@@ -101,20 +102,21 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// Whether the eye's cut is made where it looks from, and no other is between it and a point.
+    /// Returns true if the eye's cut exists where the eye is, and no other cut lies between eye and
+    /// point.
     fn is_before(&self, eye: &Eye, at: &Point) -> bool {
-        let parts = |cut: usize| {
+        let separates = |cut: usize| {
             let [from, to] = [&eye.at, at].map(|p| self.tree.planes[cut].distance(p));
             let crossing = eye.at + (at - eye.at) * (from / (from - to));
             (from > 0.0) != (to > 0.0) && self.tree.acts_at(cut, &crossing)
         };
         let others = (0..self.tree.planes.len()).filter(|&cut| cut != eye.cut);
-        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(parts)
+        self.tree.acts_at(eye.cut, &eye.at) && !others.into_iter().any(separates)
     }
 }
 
-/// Places spread over the box of a mouth, so many along each of two directions.
-fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
+/// Returns a grid of places over the bounding box of a mouth, `count` along each direction.
+fn grid_over(mouth: &Outline, count: usize) -> Vec<Point2> {
     let Some((min, max)) = mouth.bounds() else {
         return Vec::new();
     };
@@ -126,22 +128,22 @@ fn across(mouth: &Outline, count: usize) -> Vec<Point2> {
     (0..count * count).map(at).collect()
 }
 
-/// The wall of a piece of a void, and what is not seen of it.
+/// The wall of a piece of a void, and its visible and hidden parts.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Seen {
-    /// The area of the wall, mm².
+pub(crate) struct Visibility {
+    /// Area of the wall, mm².
     pub(crate) wall_mm2: f64,
-    /// The area in sight and within reach, mm²; of a sample.
+    /// Area in sight and within reach, mm², estimated from the sample.
     pub(crate) seen_mm2: f64,
-    /// The points of the sample that are not.
+    /// Sample points out of sight or out of reach.
     pub(crate) hidden: Vec<Point>,
-    /// The points of the sample that are.
+    /// Sample points in sight and within reach.
     pub(crate) visible: Vec<Point>,
-    /// The area that each of its points stands for, mm².
+    /// Area that each sample point stands for, mm².
     pub(crate) share_mm2: f64,
 }
 
-/// A point of a wall, and the places in mouths that it is seen from.
+/// A point of a wall, and the viewpoints that see it.
 pub(crate) struct Sightlines {
     pub(crate) at: Point,
     pub(crate) eyes: Vec<Point>,
@@ -156,9 +158,9 @@ impl Sightlines {
 /// The walls of one void.
 pub(crate) struct Walls {
     bvh: Bvh,
-    /// The sample for a glance at all of it.
+    /// Sample points on the wall of the whole void.
     points: Vec<Point>,
-    /// The area that a point of the sample stands for, mm².
+    /// Area that each sample point stands for, mm².
     share_mm2: f64,
 }
 
@@ -177,35 +179,45 @@ impl Walls {
         }
     }
 
-    /// About the share of the wall that is in sight through these mouths, each of a cut, before the
-    /// void is cut: what lies behind another plane is not.
-    pub(crate) fn glimpsed(&self, mouths: &[(usize, Outline)], look: &Look) -> f64 {
+    /// Estimates the share of the wall that is in sight through these mouths before the void is
+    /// cut. Each mouth comes with the index of its cut. A point behind another plane counts as
+    /// hidden.
+    pub(crate) fn estimate_sight_ratio(
+        &self,
+        mouths: &[(usize, Outline)],
+        sight: &SightTest,
+    ) -> f64 {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let (_, visible) = self.looked_at(self.points.clone(), &mouths, look);
+        let (_, visible) = self.classify(self.points.clone(), &mouths, sight);
         visible.len() as f64 / self.points.len().max(1) as f64
     }
 
-    /// Every point of the sample with the places in these mouths, each of a cut, that see it before
-    /// the void is cut: from many places only where few do not.
-    pub(crate) fn sightlines(&self, mouths: &[(usize, Outline)], look: &Look) -> Vec<Sightlines> {
+    /// Returns every sample point with the viewpoints that see it before the void is cut. Each
+    /// mouth comes with the index of its cut. The finer viewpoints are used only for points that
+    /// the coarse ones do not see.
+    pub(crate) fn sightlines(
+        &self,
+        mouths: &[(usize, Outline)],
+        sight: &SightTest,
+    ) -> Vec<Sightlines> {
         let mouths: Vec<(usize, &Outline)> = mouths
             .iter()
             .map(|(cut, outline)| (*cut, outline))
             .collect();
-        let [few, many] = [EYES_ACROSS, CLOSER_EYES_ACROSS].map(|count| look.eyes(&mouths, count));
-        let seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
+        let [few, many] = [EYES_ACROSS, FINE_EYES_ACROSS].map(|count| sight.eyes(&mouths, count));
+        let eyes_seeing = |at: &Point, eyes: &[Eye]| -> Vec<Point> {
             eyes.iter()
-                .filter(|eye| self.sees(eye, at, look))
+                .filter(|eye| self.sees(eye, at, sight))
                 .map(|eye| eye.at)
                 .collect()
         };
         let lines = |at: &Point| {
-            let eyes = seeing(at, &few);
+            let eyes = eyes_seeing(at, &few);
             let eyes = if eyes.is_empty() {
-                seeing(at, &many)
+                eyes_seeing(at, &many)
             } else {
                 eyes
             };
@@ -214,17 +226,18 @@ impl Walls {
         self.points.par_iter().map(lines).collect()
     }
 
-    /// The area of the wall, mm².
+    /// Returns the area of the wall, mm².
     pub(crate) fn area_mm2(&self) -> f64 {
         SAMPLES * self.share_mm2
     }
 
-    /// What is in sight of the piece's own mouths and within reach; nothing if the piece has none.
-    pub(crate) fn seen(&self, piece: &Piece, look: &Look) -> Seen {
+    /// Returns the wall in sight of the piece's own mouths and within reach. Without mouths, all of
+    /// it is hidden.
+    pub(crate) fn inspect(&self, piece: &Piece, sight: &SightTest) -> Visibility {
         let wall = wall(piece);
         let wall_mm2: f64 = wall.iter().map(area_mm2).sum();
         let count = (wall_mm2 / self.share_mm2).ceil() as usize;
-        let points = spread_points(&wall, count.max(LEAST_SAMPLES));
+        let points = spread_points(&wall, count.max(MIN_SAMPLES));
         let points: Vec<Point> = points.into_iter().map(|point| point.at).collect();
         let share_mm2 = wall_mm2 / points.len().max(1) as f64;
         let mouths: Vec<(usize, &Outline)> = piece
@@ -232,8 +245,8 @@ impl Walls {
             .iter()
             .map(|cap| (cap.cut, &cap.outline))
             .collect();
-        let (hidden, visible) = self.looked_at(points, &mouths, look);
-        Seen {
+        let (hidden, visible) = self.classify(points, &mouths, sight);
+        Visibility {
             wall_mm2,
             seen_mm2: share_mm2 * visible.len() as f64,
             hidden,
@@ -242,44 +255,50 @@ impl Walls {
         }
     }
 
-    /// The points that are hidden and those that are not: from few places first, and from many
-    /// where little is hidden.
-    fn looked_at(
+    /// Splits points into hidden and visible ones. If few are hidden from the coarse viewpoints,
+    /// these are tested again from the finer ones.
+    fn classify(
         &self,
         points: Vec<Point>,
         mouths: &[(usize, &Outline)],
-        look: &Look,
+        sight: &SightTest,
     ) -> (Vec<Point>, Vec<Point>) {
         let total = points.len() as f64;
-        let (hidden, mut visible) = self.parted(points, &look.eyes(mouths, EYES_ACROSS), look);
-        if hidden.len() as f64 > look.given_up_ratio * total {
+        let (hidden, mut visible) =
+            self.partition_by_sight(points, &sight.eyes(mouths, EYES_ACROSS), sight);
+        if hidden.len() as f64 > sight.max_hidden_ratio * total {
             return (hidden, visible);
         }
-        let (hidden, more) = self.parted(hidden, &look.eyes(mouths, CLOSER_EYES_ACROSS), look);
+        let (hidden, more) =
+            self.partition_by_sight(hidden, &sight.eyes(mouths, FINE_EYES_ACROSS), sight);
         visible.extend(more);
         (hidden, visible)
     }
 
-    /// The points that are hidden from all eyes or out of reach of those that see them, and the
-    /// others.
-    fn parted(&self, points: Vec<Point>, eyes: &[Eye], look: &Look) -> (Vec<Point>, Vec<Point>) {
+    /// Splits points into those that no eye sees within reach, and the others.
+    fn partition_by_sight(
+        &self,
+        points: Vec<Point>,
+        eyes: &[Eye],
+        sight: &SightTest,
+    ) -> (Vec<Point>, Vec<Point>) {
         points
             .into_par_iter()
-            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, look)))
+            .partition(|at| !eyes.iter().any(|eye| self.sees(eye, at, sight)))
     }
 
-    /// Whether a point is in sight of an eye and within reach.
-    fn sees(&self, eye: &Eye, at: &Point, look: &Look) -> bool {
+    /// Returns true if a point is in sight of an eye and within reach.
+    fn sees(&self, eye: &Eye, at: &Point, sight: &SightTest) -> bool {
         let line = at - eye.at;
-        line.norm() <= look.reach_mm
-            && look.is_before(eye, at)
+        line.norm() <= sight.reach_mm
+            && sight.is_before(eye, at)
             && !self
                 .bvh
-                .is_crossed_by(&eye.at, &(eye.at + line * LOOKED_RATIO))
+                .is_crossed_by(&eye.at, &(eye.at + line * TESTED_LINE_RATIO))
     }
 }
 
-/// The triangles of a piece but for its mouths.
+/// Returns the triangles of a piece without its mouths.
 fn wall(piece: &Piece) -> Vec<[Point; 3]> {
     let mut is_wall = vec![true; piece.mesh.triangles().len()];
     for &face in piece.caps.iter().flat_map(|cap| &cap.faces) {
@@ -293,7 +312,7 @@ fn wall(piece: &Piece) -> Vec<[Point; 3]> {
         .collect()
 }
 
-impl Seen {
+impl Visibility {
     pub(crate) fn and(mut self, other: Self) -> Self {
         self.hidden.extend(other.hidden);
         self.visible.extend(other.visible);
@@ -309,7 +328,7 @@ impl Seen {
         }
     }
 
-    /// The share that is seen; 0 of nothing.
+    /// Returns the visible share of the wall, or 0 if there is no wall.
     pub(crate) fn ratio(&self) -> f64 {
         if self.wall_mm2 > 0.0 {
             self.seen_mm2 / self.wall_mm2
@@ -331,15 +350,15 @@ mod tests {
     fn seen_within(void: &Solid, planes: &[Plane], reach_mm: f64) -> f64 {
         let walls = Walls::of(void);
         let tree = CutTree::everywhere(planes);
-        let look = Look {
+        let sight = SightTest {
             reach_mm,
-            ..Look::new(&tree, &request())
+            ..SightTest::new(&tree, &request())
         };
         let pieces = split(void.mesh(), &tree).unwrap();
         pieces
             .iter()
-            .map(|piece| walls.seen(piece, &look))
-            .fold(Seen::default(), Seen::and)
+            .map(|piece| walls.inspect(piece, &sight))
+            .fold(Visibility::default(), Visibility::and)
             .ratio()
     }
 
@@ -354,7 +373,7 @@ mod tests {
         }
     }
 
-    /// A shaft of 4 × 4 mm from z = 2 down to −20 with an arm of 20 mm at its foot.
+    /// Returns a shaft of 4 × 4 mm from z = 2 down to −20, with an arm of 20 mm at its foot.
     fn bend() -> Solid {
         let shaft = primitives::cuboid(&Point::new(-2.0, -2.0, -20.0), &Point::new(2.0, 2.0, 2.0));
         let arm = primitives::cuboid(
@@ -377,9 +396,9 @@ mod tests {
 
     #[test]
     fn the_far_arm_of_a_bend_is_out_of_sight() {
-        // A line from the mouth slips in under the corner at most 16/4 times as steep as deep: it
-        // meets the arm's floor 1 mm beyond the shaft. Of 32·20 + 2·16 (shaft and its foot) + 16·16
-        // (arm) mm² all of the arm but that is hidden.
+        // A line from the mouth past the corner drops at least 16 mm over 4 mm. So it meets the
+        // floor of the arm within 1 mm of the shaft. The shaft and its foot have 32·20 + 2·16 mm²,
+        // the arm 16·16 mm². All of the arm beyond that 1 mm is hidden.
         let ratio = seen_ratio(&bend(), &[level(0.0)]);
         assert!(ratio > 0.5 && ratio < 0.75, "{ratio}");
         assert_eq!(seen_ratio(&bend(), &[]), 0.0);
@@ -392,8 +411,8 @@ mod tests {
 
     #[test]
     fn what_the_tool_does_not_reach_is_not_in_sight() {
-        // A straight shaft of 40 mm cut off near its top: of 4·6·38 + 36 mm² of wall below the cut
-        // a tool of 20 mm reaches half; the 2 mm above the cut are all seen.
+        // A straight shaft of 40 mm, cut off near its top. Below the cut it has 4·6·38 + 36 mm² of
+        // wall, and a tool of 20 mm reaches half of it. The 2 mm above the cut are all visible.
         let shaft = primitives::cuboid(&Point::new(-3.0, -3.0, -38.0), &Point::new(3.0, 3.0, 2.0));
         let shaft = Solid::new(shaft).unwrap();
         assert_eq!(seen_ratio(&shaft, &[level(0.0)]), 1.0);

@@ -1,4 +1,4 @@
-//! What of a void is better kept solid, because a plan does not let it be cleaned.
+//! The parts of voids that are better kept solid, because a plan does not let them be cleaned.
 
 use rayon::prelude::*;
 
@@ -6,7 +6,7 @@ use crate::{
     cut::{
         access::{
             chamber::Chamber,
-            sight::Seen,
+            sight::Visibility,
             void_access::{Mouths, Opened, VoidAccess, asked_ratio},
         },
         error::CutError,
@@ -25,36 +25,36 @@ use crate::{
     mesh::{Csg, TriMesh, bodies, union_find::UnionFind},
 };
 
-/// Hidden points nearer to each other than this many times their spacing are one place.
+/// Hidden points belong to one patch if they are nearer than this many times their spacing.
 const LINK_RATIO: f64 = 3.0;
-/// What is kept solid begins where this share of a place's hidden points is passed: it is grown all
-/// around, so it may begin a little behind the first.
-const BEGIN_SHARE: f64 = 0.25;
-/// Of what may stay hidden, so much is left; the rest is room for what moves when it is solved
-/// again.
-const LEFT_HIDDEN_RATIO: f64 = 0.8;
-/// So many hidden places are weighed against each other in a round: each costs a cut of the void;
-/// smaller ones are left to the next round, and hide next to nothing.
-const WEIGHED_ENDS: usize = 16;
-/// What is to be kept solid beyond this share of a piece is all of it.
+/// The body kept solid starts at this quantile of a patch's hidden points. It grows in all
+/// directions later, so it may start a little behind the first point.
+const START_QUANTILE: f64 = 0.25;
+/// Share of the allowed hidden area that is left hidden. The rest is a margin for changes when the
+/// body is solved again.
+const ALLOWED_HIDDEN_RATIO: f64 = 0.8;
+/// Greatest number of hidden patches compared in a round, because each costs a cut of the void.
+/// Smaller patches wait for the next round and hide next to nothing.
+const COMPARED_ENDS: usize = 16;
+/// If more than this share of a piece is to be kept solid, all of it is.
 const WHOLE_RATIO: f64 = 0.5;
-/// Corners this near to each other are one, mm: both pieces are cut from the same mesh, and keep
-/// its corners but for rounding.
+/// Distance within which two corners are the same, mm. Both pieces are cut from the same mesh and
+/// keep its corners up to rounding.
 const SAME_CORNER_MM: f64 = 1e-9;
 
-/// A void that the plan does not let be cleaned.
+/// A void that cannot be cleaned with this plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Unclean {
     /// The void.
     pub void: VoidId,
     /// The reason.
     pub cause: UncleanCause,
-    /// What of it is to be kept solid, as bodies.
+    /// The bodies inside it that should be kept solid.
     pub lumps: Vec<TriMesh>,
 }
 
-/// The voids that the plan does not let be cleaned, with what of them must go; seats for parts are
-/// not asked. With `whole` all of such a void must go.
+/// Returns the voids that cannot be cleaned with this plan, with the bodies to keep solid in each.
+/// Seats for parts are left out. With `whole`, each such void is kept solid entirely.
 pub fn unclean(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -63,28 +63,28 @@ pub fn unclean(
 ) -> Result<Vec<Unclean>, CutError> {
     let tree = plan.tree()?;
     let is_empty = |void: VoidId| hollowed.voids[void.index()].holds.is_none();
-    let dirty: Vec<_> = plan
+    let unclean: Vec<_> = plan
         .voids
         .iter()
         .filter(|void| !void.is_clean && is_empty(void.void))
         .collect();
-    let chambers = if dirty.is_empty() {
+    let chambers = if unclean.is_empty() {
         Vec::new()
     } else {
         Chamber::all(hollowed)?
     };
     let of = |access: &&VoidAccess| {
         let opened = Opened::new(&chambers, access.void, &tree, request);
-        let (void, needed_mm, asked) = (opened.void, opened.needed_mm, asked_ratio(request));
-        let lumps = if whole {
+        let (void, needed_mm, required) = (opened.void, opened.needed_mm, asked_ratio(request));
+        let solid = if whole {
             vec![opened.chamber.void.mesh().clone()]
         } else {
-            lumps(&opened)?
+            bodies_to_keep_solid(&opened)?
         };
-        let cause = if access.sight_ratio < asked {
+        let cause = if access.sight_ratio < required {
             UncleanCause::Hidden {
                 sight_ratio: access.sight_ratio,
-                asked_ratio: asked,
+                asked_ratio: required,
             }
         } else {
             UncleanCause::Narrow {
@@ -92,12 +92,17 @@ pub fn unclean(
                 least_opening_mm: needed_mm,
             }
         };
-        Ok(Unclean { void, cause, lumps })
+        Ok(Unclean {
+            void,
+            cause,
+            lumps: solid,
+        })
     };
-    dirty.par_iter().map(of).collect()
+    unclean.par_iter().map(of).collect()
 }
 
-/// The plain voids that none of the cuts meets: all of them must go.
+/// Returns the voids that no cut meets, each to be kept solid entirely. Seats for parts are left
+/// out.
 pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutError> {
     let tree = tree_of(cuts)?;
     let voids = hollowed.voids.iter().enumerate();
@@ -112,19 +117,19 @@ pub fn closed(hollowed: &Hollowed, cuts: &[Cut]) -> Result<Vec<Unclean>, CutErro
             .collect();
         tree.planes[cut].passes_through(&there)
     };
-    let shut = empty.filter(|(_, void)| !(0..cuts.len()).any(|cut| is_met(void.mesh(), cut)));
+    let unmet = empty.filter(|(_, void)| !(0..cuts.len()).any(|cut| is_met(void.mesh(), cut)));
     let all = |(id, void): (VoidId, &Void)| Unclean {
         void: id,
         cause: UncleanCause::Closed,
         lumps: vec![void.mesh().clone()],
     };
-    Ok(shut.map(all).collect())
+    Ok(unmet.map(all).collect())
 }
 
-/// What of voids lies beyond joints that have not at least two pins that fit one way only: the
-/// pieces within that of the two parts in which less is empty, and what lies within a
-/// margin around them. Kept solid, they leave the joint material for pins, or no need of it.
-/// Seats for parts stay.
+/// Returns the ends of voids beyond joints that lack two pins fitting one way only. Of the two
+/// parts at such a joint, the one with less empty volume is taken. Each end is the box around a
+/// void's piece in that part, grown by a margin (mm). If these ends are kept solid, the joint gains
+/// material for pins or is no longer needed. Seats for parts are left out.
 pub fn beyond(
     hollowed: &Hollowed,
     plan: &CutPlan,
@@ -160,46 +165,47 @@ pub fn beyond(
             .find(is_it)
             .is_some_and(|note| !note.is_aligned())
     };
-    let lesser = |joint: &Joint| {
+    let less_hollow = |joint: &Joint| {
         let sides = [joint.below, joint.above]
             .into_iter()
             .filter(|&part| empty_mm3(part) > 0.0);
         sides.min_by(|&a, &b| empty_mm3(a).total_cmp(&empty_mm3(b)))
     };
-    let given_up: Vec<usize> = joints(&parts, &tree)
+    let ends: Vec<usize> = joints(&parts, &tree)
         .iter()
         .filter(lacks_pins)
-        .filter_map(lesser)
+        .filter_map(less_hollow)
         .collect();
-    let end = |(_, piece): &(usize, Piece)| {
+    let solid_end = |(_, piece): &(usize, Piece)| {
         let at = farthest_corner(&piece.mesh, &tree)?;
         Some(SolidEnd::new(&at, &piece.mesh.aabb().inflated(margin_mm)))
     };
     Ok(inside
         .iter()
-        .filter(|(part, _)| given_up.contains(part))
-        .filter_map(end)
+        .filter(|(part, _)| ends.contains(part))
+        .filter_map(solid_end)
         .collect())
 }
 
-/// The corner of a piece of a void that is farthest from all cuts.
-fn farthest_corner(lump: &TriMesh, tree: &CutTree) -> Option<Point> {
+/// Returns the corner of a void's piece that is farthest from all cuts.
+fn farthest_corner(piece: &TriMesh, tree: &CutTree) -> Option<Point> {
     let off_cuts_mm = |p: &Point| {
         tree.planes
             .iter()
             .map(|plane| plane.distance(p).abs())
             .fold(f64::INFINITY, f64::min)
     };
-    lump.vertices()
+    piece
+        .vertices()
         .iter()
         .max_by(|a, b| off_cuts_mm(a).total_cmp(&off_cuts_mm(b)))
         .copied()
 }
 
-/// Whether a part's wall is that of a piece of a void: the corner farthest from all cuts is one of
-/// both.
-fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
-    let corner = farthest_corner(lump, tree);
+/// Returns true if a part has the wall of a void's piece: they share its corner farthest from all
+/// cuts.
+fn borders(part: &Piece, piece: &TriMesh, tree: &CutTree) -> bool {
+    let corner = farthest_corner(piece, tree);
     corner.is_some_and(|corner| {
         part.mesh
             .vertices()
@@ -208,67 +214,72 @@ fn borders(part: &Piece, lump: &TriMesh, tree: &CutTree) -> bool {
     })
 }
 
-/// The pieces that let nothing out, and of the others ends that are hidden until enough is seen:
-/// those first that are solid for the least volume over what they hide.
-fn lumps(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
+/// Returns the bodies to keep solid: every piece that lets nothing out, and hidden ends of the
+/// others. Ends are added until enough of the wall is visible. Those with the least volume per
+/// hidden area come first.
+fn bodies_to_keep_solid(opened: &Opened) -> Result<Vec<TriMesh>, CutError> {
     let pieces = opened.chamber.split(opened.tree)?;
-    let seen = opened.seen_each(&pieces);
+    let seen = opened.inspect_each(&pieces);
     let wall_mm2: f64 = seen.iter().map(|seen| seen.wall_mm2).sum();
-    let (mut lumps, mut hidden) = (Vec::new(), Vec::new());
+    let (mut solid, mut hidden) = (Vec::new(), Vec::new());
     for (piece, seen) in pieces.iter().zip(&seen) {
         if opened.lets_out(&Mouths::of(piece, &opened.tree.planes)) {
-            hidden.extend(places(seen).into_iter().map(|place| (place, piece, seen)));
+            hidden.extend(
+                hidden_patches(seen)
+                    .into_iter()
+                    .map(|patch| (patch, piece, seen)),
+            );
         } else {
-            lumps.push(piece.mesh.clone());
+            solid.push(piece.mesh.clone());
         }
     }
     hidden.sort_by(|a, b| b.0.area_mm2.total_cmp(&a.0.area_mm2));
-    let mut hidden_mm2: f64 = hidden.iter().map(|(place, ..)| place.area_mm2).sum();
-    let left_mm2 = LEFT_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
+    let mut hidden_mm2: f64 = hidden.iter().map(|(patch, ..)| patch.area_mm2).sum();
+    let allowed_mm2 = ALLOWED_HIDDEN_RATIO * (1.0 - asked_ratio(opened.request)) * wall_mm2;
     for end in cheapest_ends(&hidden)? {
-        if hidden_mm2 <= left_mm2 {
+        if hidden_mm2 <= allowed_mm2 {
             break;
         }
         hidden_mm2 -= end.area_mm2;
-        lumps.extend(end.bodies);
+        solid.extend(end.bodies);
     }
-    Ok(lumps)
+    Ok(solid)
 }
 
-/// What is to be kept solid for one hidden place.
+/// The bodies to keep solid for one hidden patch.
 struct End {
     bodies: Vec<TriMesh>,
     area_mm2: f64,
     volume_mm3: f64,
 }
 
-/// The ends for the largest hidden places, those first that cost the least volume over the hidden
-/// area.
-fn cheapest_ends(hidden: &[(Place, &Piece, &Seen)]) -> Result<Vec<End>, CutError> {
-    let of = |(place, piece, seen): &(Place, &Piece, &Seen)| {
-        let bodies = end(piece, seen, place)?;
+/// Returns the ends for the largest hidden patches, ordered by volume per hidden area, cheapest
+/// first.
+fn cheapest_ends(hidden: &[(HiddenPatch, &Piece, &Visibility)]) -> Result<Vec<End>, CutError> {
+    let of = |(patch, piece, seen): &(HiddenPatch, &Piece, &Visibility)| {
+        let bodies = end_behind(piece, seen, patch)?;
         let volume_mm3 = bodies.iter().map(TriMesh::signed_volume_mm3).sum();
         Ok(End {
             bodies,
-            area_mm2: place.area_mm2,
+            area_mm2: patch.area_mm2,
             volume_mm3,
         })
     };
-    let ends = hidden[..hidden.len().min(WEIGHED_ENDS)].par_iter().map(of);
+    let ends = hidden[..hidden.len().min(COMPARED_ENDS)].par_iter().map(of);
     let mut ends = ends.collect::<Result<Vec<End>, CutError>>()?;
-    let price_mm = |end: &End| end.volume_mm3 / end.area_mm2;
-    ends.sort_by(|a, b| price_mm(a).total_cmp(&price_mm(b)));
+    let cost_mm = |end: &End| end.volume_mm3 / end.area_mm2;
+    ends.sort_by(|a, b| cost_mm(a).total_cmp(&cost_mm(b)));
     Ok(ends)
 }
 
-/// A place of a piece's wall that is hidden.
-struct Place {
+/// A connected hidden part of a piece's wall.
+struct HiddenPatch {
     points: Vec<Point>,
     area_mm2: f64,
 }
 
-/// The places of a wall that are hidden: points of the sample near each other.
-fn places(seen: &Seen) -> Vec<Place> {
+/// Groups the hidden sample points of a wall into patches of near neighbours.
+fn hidden_patches(seen: &Visibility) -> Vec<HiddenPatch> {
     let hidden = &seen.hidden;
     let link_mm = LINK_RATIO * seen.share_mm2.sqrt();
     let mut sets = UnionFind::new(hidden.len());
@@ -280,37 +291,41 @@ fn places(seen: &Seen) -> Vec<Place> {
         }
     }
     let (labels, count) = sets.labels();
-    let mut places: Vec<Place> = (0..count)
-        .map(|_| Place {
+    let mut patches: Vec<HiddenPatch> = (0..count)
+        .map(|_| HiddenPatch {
             points: Vec::new(),
             area_mm2: 0.0,
         })
         .collect();
     for (point, label) in hidden.iter().zip(labels) {
-        places[label as usize].points.push(*point);
-        places[label as usize].area_mm2 += seen.share_mm2;
+        patches[label as usize].points.push(*point);
+        patches[label as usize].area_mm2 += seen.share_mm2;
     }
-    places
+    patches
 }
 
-/// What of the piece lies at and behind a hidden place, as seen from the middle of what is in
-/// sight; all of it where that is most of it.
-fn end(piece: &Piece, seen: &Seen, place: &Place) -> Result<Vec<TriMesh>, CutError> {
+/// Returns the bodies of the piece at and behind a hidden patch, as seen from the middle of the
+/// visible points. Returns the whole piece if they are most of it.
+fn end_behind(
+    piece: &Piece,
+    seen: &Visibility,
+    patch: &HiddenPatch,
+) -> Result<Vec<TriMesh>, CutError> {
     let middle = |points: &[Point]| {
         points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / points.len().max(1) as f64
     };
     let whole = || vec![piece.mesh.clone()];
-    let away = middle(&place.points) - middle(&seen.visible);
+    let away = middle(&patch.points) - middle(&seen.visible);
     let Some(normal) = away.try_normalize(f64::EPSILON) else {
         return Ok(whole());
     };
-    let mut heights: Vec<f64> = place.points.iter().map(|p| normal.dot(&p.coords)).collect();
+    let mut heights: Vec<f64> = patch.points.iter().map(|p| normal.dot(&p.coords)).collect();
     heights.sort_by(f64::total_cmp);
-    let offset_mm = heights[(BEGIN_SHARE * heights.len() as f64) as usize];
+    let offset_mm = heights[(START_QUANTILE * heights.len() as f64) as usize];
     let (beyond, _) = Csg::of_mesh(&piece.mesh)?.split_by_plane(&Plane { normal, offset_mm })?;
     let holds = |body: &TriMesh| {
         let room = body.aabb().inflated(seen.share_mm2.sqrt());
-        place.points.iter().any(|p| room.distance_squared(p) == 0.0)
+        patch.points.iter().any(|p| room.distance_squared(p) == 0.0)
     };
     let ends: Vec<TriMesh> = bodies(&beyond.to_mesh()?)
         .into_iter()
@@ -336,8 +351,8 @@ mod tests {
         printer::{Cleaning, CleaningRule},
     };
 
-    /// A block with a shaft and an arm at its foot in it, cut across the shaft, and what is asked
-    /// of it.
+    /// Returns a block with a shaft and an arm at its foot, the request, and a cut across the
+    /// shaft.
     fn bent() -> (Hollowed, PlanRequest, CutOrder) {
         let cuboid = |low: [f64; 3], high: [f64; 3]| primitives::cuboid(&low.into(), &high.into());
         let shaft = Csg::of_mesh(&cuboid([-6.0, -6.0, -30.0], [6.0, 6.0, 10.0])).unwrap();
@@ -370,7 +385,7 @@ mod tests {
     }
 
     #[test]
-    fn the_far_end_of_an_arm_is_what_must_go() {
+    fn the_far_end_of_an_arm_must_be_solid() {
         let (hollowed, request, order) = bent();
         let plan = plan_by(&hollowed, &request, &order).unwrap();
         let found = unclean(&hollowed, &plan, &request, false).unwrap();
@@ -387,7 +402,8 @@ mod tests {
         assert_eq!(all[0].lumps, vec![hollowed.voids[0].mesh().clone()]);
     }
 
-    /// A block with a post on it, hollow up to the post's top but for a thin wall, cut across both.
+    /// Returns a block with a post, hollow up to a thin wall below the post's top, and cuts across
+    /// both.
     fn posted() -> (Hollowed, PlanRequest, CutPlan) {
         let cuboid = |low: [f64; 3], high: [f64; 3]| {
             Csg::of_mesh(&primitives::cuboid(&low.into(), &high.into()))
@@ -424,7 +440,7 @@ mod tests {
     }
 
     #[test]
-    fn beyond_a_joint_without_pins_lies_what_is_hollow_of_the_part_with_less_of_it() {
+    fn at_a_joint_without_pins_the_less_hollow_part_becomes_solid() {
         let (hollowed, request, plan) = posted();
         let pins: Vec<usize> = plan.joints.iter().map(|joint| joint.pins.len()).collect();
         assert!(
@@ -441,14 +457,14 @@ mod tests {
         assert!(end.is_sound() && end.at_mm[2] > 58.9, "{end:?}");
         let wider = beyond(&hollowed, &plan, 2.0 * request.min_opening_mm).unwrap()[0];
         assert!((end.low_mm[0] - wider.low_mm[0] - 2.0 * request.min_opening_mm).abs() < 1e-9);
-        // With its joints pinned nothing need go.
+        // With all joints pinned, nothing needs to be kept solid.
         let mut pinned = plan.clone();
         pinned.joints.retain(|joint| joint.is_aligned());
         assert_eq!(beyond(&hollowed, &pinned, 0.0).unwrap(), vec![]);
     }
 
     #[test]
-    fn where_any_opening_does_nothing_must_go() {
+    fn if_any_opening_suffices_nothing_must_be_solid() {
         let (hollowed, request, order) = bent();
         let request = PlanRequest {
             cleaning: Cleaning::MELT_OUT,
@@ -460,7 +476,7 @@ mod tests {
     }
 
     #[test]
-    fn the_planner_cuts_along_the_bend_so_that_all_is_seen() {
+    fn the_planner_cuts_along_the_bend_so_that_all_is_in_sight() {
         let (hollowed, request, _) = bent();
         let plan = crate::cut::scenes::plan(&hollowed, &request).unwrap();
         assert!(plan.voids[0].is_clean, "{:?}", plan.voids);

@@ -1,4 +1,4 @@
-//! How a finished plan opens each void.
+//! The access to each void in a finished plan.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -7,7 +7,7 @@ use crate::{
     cut::{
         access::{
             chamber::Chamber,
-            sight::{Look, Seen},
+            sight::{SightTest, Visibility},
         },
         error::CutError,
         geometry::{opening::is_dimple, tree::CutTree},
@@ -19,45 +19,44 @@ use crate::{
     geom::{Plane, Point},
 };
 
-/// More of the wall than asked must be in sight by this share, so that a judge who looks at other
-/// points, and voids solved for once more, still find enough. Less, and kits at the limit fail now
-/// and then; more costs cuts that nobody needs.
+/// Share of the wall that must be in sight beyond the required share. The check samples other
+/// points, and voids are solved again, so they need this margin. With less, kits at the limit fail
+/// now and then; with more, there are needless cuts.
 const SIGHT_MARGIN_RATIO: f64 = 0.005;
 
-/// What of that margin must be left in the end: a judge who looks at other points and from more
-/// places finds up to 0.0045 less, and more than 0.0012 less in 2 of 104 voids (the acceptance
-/// table on four printers).
-const LAST_MARGIN_RATIO: f64 = 0.002;
+/// Part of that margin that must remain in the end. In the acceptance table on four printers, the
+/// check found up to 0.0045 less than the planner. In 2 of its 104 voids the difference was more
+/// than 0.0012.
+const MIN_MARGIN_RATIO: f64 = 0.002;
 
-/// How a void is opened.
+/// The access to a void.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct VoidAccess {
-    /// The void's index in the hollowed body.
+    /// Index of the void in the hollowed body.
     pub void: VoidId,
-    /// The diameter of the part that it holds, which must pass through its opening, mm; `None` if
-    /// it holds none.
+    /// Diameter of the part that the void holds, mm, which must pass through its opening. `None` if
+    /// the void holds no part.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part_opening_mm: Option<f64>,
-    /// The void's volume, mm³.
+    /// Volume of the void, mm³.
     pub volume_mm3: f64,
-    /// The ids of the cuts that pass through it.
+    /// Ids of the cuts that pass through the void.
     pub opened_by: Vec<CutId>,
-    /// The diameter of the largest disc that passes the widest mouth of its pieces; of the piece
-    /// where that is least, mm. Dimples in plain sight are not asked. 0 when the void stays closed.
+    /// Diameter of the largest disc that passes the widest mouth of a piece, mm; the least over all
+    /// pieces. Dimples in plain sight do not count. 0 if the void stays closed.
     pub opening_mm: f64,
-    /// The greatest distance of a point of its surface from the mouth of its piece, mm.
+    /// Greatest distance of a point of the surface from the mouth of its piece, mm.
     pub depth_mm: f64,
-    /// The share of its wall that is in sight of the mouths of its own piece and within the tool's
-    /// reach; of a sample of points.
+    /// Share of the wall in sight of the mouths of its own piece and within the tool's reach. It is
+    /// estimated from sample points.
     pub sight_ratio: f64,
-    /// Whether every piece of it can be cleaned by the printer's rule. Of filament, too, the
-    /// planner asks for sight: how parts will lie, and so what needs no support, is settled after
-    /// the cuts.
+    /// True if every piece can be cleaned by the printer's rule. The planner requires line of sight
+    /// for filament too: poses, and with them support, are settled after the cuts.
     pub is_clean: bool,
 }
 
 impl VoidAccess {
-    /// A void that no cut opens.
+    /// Returns the access to a void that no cut opens.
     pub(crate) fn closed(id: VoidId, void: &Void) -> Self {
         Self {
             void: id,
@@ -71,39 +70,41 @@ impl VoidAccess {
         }
     }
 
-    /// How far the void is from clean, mm²: 0 where it is; else the area that is missing in sight,
-    /// and all of it where something cannot get out. Areas are those of a ball of its volume.
+    /// Measures how far the void is from clean, mm²; 0 if it is clean. Counts the area that lacks
+    /// sight, and the whole area if something cannot get out. Areas are estimated as those of a
+    /// ball of the void's volume.
     pub(crate) fn lack_mm2(&self, request: &PlanRequest) -> f64 {
-        let asked = asked_ratio(request);
+        let required = asked_ratio(request);
         let closed = if self.is_clean {
             0.0
         } else {
-            f64::from(u8::from(self.sight_ratio >= asked))
+            f64::from(u8::from(self.sight_ratio >= required))
         };
-        self.area_mm2() * ((asked - self.sight_ratio).max(0.0) + closed)
+        self.area_mm2() * ((required - self.sight_ratio).max(0.0) + closed)
     }
 
-    /// Whether it can be cleaned by the rule, with hardly any of the planner's margin left: for
-    /// what is not solved for once more but to make up for pins.
+    /// Returns true if the void can be cleaned by the rule with the least margin. This is enough
+    /// for bodies that are solved again only to make up for pins.
     pub fn is_clean_without_margin(&self, request: &PlanRequest) -> bool {
-        let least = request.cleaning.sight_ratio + LAST_MARGIN_RATIO;
+        let least = request.cleaning.sight_ratio + MIN_MARGIN_RATIO;
         let is_seen = (least..asked_ratio(request)).contains(&self.sight_ratio);
         self.is_clean || (is_seen && self.opening_mm >= self.least_opening_mm(request))
     }
 
-    /// Diameter of the disc that must pass through its opening, mm: that of the part that it holds,
-    /// or the least one that lets a void be cleaned.
+    /// Returns the diameter of the disc that must pass through the opening, mm. It is that of the
+    /// part the void holds, or else the least opening for cleaning.
     pub fn least_opening_mm(&self, request: &PlanRequest) -> f64 {
         self.part_opening_mm.unwrap_or(request.min_opening_mm)
     }
 
-    /// The area of a ball of its volume but for a factor, mm²: a measure of its wall.
+    /// Returns a measure of the wall, mm²: the area of a ball of the void's volume up to a constant
+    /// factor.
     pub(crate) fn area_mm2(&self) -> f64 {
         self.volume_mm3.abs().powf(2.0 / 3.0)
     }
 }
 
-/// The share of a wall that the planner wants in sight.
+/// Returns the share of a wall that the planner requires in sight.
 pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
     let least = request.cleaning.sight_ratio;
     if least > 0.0 {
@@ -113,19 +114,20 @@ pub(crate) fn asked_ratio(request: &PlanRequest) -> f64 {
     }
 }
 
-/// A void and what is asked of its openings.
+/// A void under some cuts, and the requirements on its openings.
 pub(crate) struct Opened<'a> {
     pub(crate) void: VoidId,
     pub(crate) chamber: &'a Chamber<'a>,
     pub(crate) tree: &'a CutTree,
     pub(crate) request: &'a PlanRequest,
-    /// The least opening, mm.
+    /// Least opening, mm.
     pub(crate) needed_mm: f64,
-    /// Whether the share in sight is to be told, not only held against what is asked.
-    pub(crate) is_told: bool,
+    /// True if the visible share must be accurate because it is reported, not only compared with
+    /// the requirement.
+    pub(crate) is_thorough: bool,
 }
 
-/// How the cuts open each void.
+/// Measures the access that the cuts give to each void.
 pub(crate) fn accesses(
     chambers: &[Chamber],
     tree: &CutTree,
@@ -137,7 +139,8 @@ pub(crate) fn accesses(
         .collect()
 }
 
-/// How the cuts open each void, the shares in sight as they are told of a finished plan.
+/// Measures the access to each void with the thorough line-of-sight test, for the report of a
+/// finished plan.
 pub(crate) fn report(
     hollowed: &Hollowed,
     tree: &CutTree,
@@ -146,7 +149,7 @@ pub(crate) fn report(
     let chambers = Chamber::all(hollowed)?;
     let of = |void| {
         Opened {
-            is_told: true,
+            is_thorough: true,
             ..Opened::new(&chambers, VoidId::of(void), tree, request)
         }
         .access()
@@ -154,7 +157,7 @@ pub(crate) fn report(
     (0..hollowed.voids.len()).into_par_iter().map(of).collect()
 }
 
-/// How the cuts open one void.
+/// Measures the access that the cuts give to one void.
 pub(crate) fn access(
     chambers: &[Chamber],
     void: VoidId,
@@ -165,7 +168,7 @@ pub(crate) fn access(
 }
 
 impl<'a> Opened<'a> {
-    /// A void of a body under these cuts.
+    /// Returns a void of a body under these cuts.
     pub(crate) fn new(
         chambers: &'a [Chamber],
         void: VoidId,
@@ -179,11 +182,11 @@ impl<'a> Opened<'a> {
             tree,
             request,
             needed_mm: chamber.void.least_opening_mm(request),
-            is_told: false,
+            is_thorough: false,
         }
     }
 
-    /// The void is cut into its pieces, each piece's mouths are measured, and its wall is looked at
+    /// Cuts the void into pieces, measures the mouths of each, and tests the wall's visibility
     /// through them.
     fn access(&self) -> Result<VoidAccess, CutError> {
         let pieces = self.chamber.split(self.tree)?;
@@ -200,7 +203,7 @@ impl<'a> Opened<'a> {
         let deep = mouths.iter().filter(|mouths| !mouths.is_dimple());
         let lets_out = mouths.iter().all(|mouths| self.lets_out(mouths))
             && mouths.iter().any(|mouths| self.is_wide(mouths));
-        let sight_ratio = self.seen(&pieces).ratio();
+        let sight_ratio = self.inspect(&pieces).ratio();
         Ok(VoidAccess {
             opened_by: (0..self.tree.planes.len())
                 .filter(met)
@@ -217,7 +220,8 @@ impl<'a> Opened<'a> {
         })
     }
 
-    /// Whether what is in a piece gets out of its mouths, or lies open in a dimple.
+    /// Returns true if the content of a piece can leave through its mouths, or lies open in a
+    /// dimple.
     pub(crate) fn lets_out(&self, mouths: &Mouths) -> bool {
         mouths.is_dimple() || self.is_wide(mouths)
     }
@@ -228,34 +232,38 @@ impl<'a> Opened<'a> {
             .lets_out(&mouths.diameters_mm, self.needed_mm)
     }
 
-    /// What is seen of all pieces together.
-    fn seen(&self, pieces: &[Piece]) -> Seen {
-        self.seen_each(pieces)
+    /// Returns the visibility of all pieces together.
+    fn inspect(&self, pieces: &[Piece]) -> Visibility {
+        self.inspect_each(pieces)
             .into_iter()
-            .fold(Seen::default(), Seen::and)
+            .fold(Visibility::default(), Visibility::and)
     }
 
-    /// What is seen of each piece.
-    pub(crate) fn seen_each(&self, pieces: &[Piece]) -> Vec<Seen> {
-        let look = Look::new(self.tree, self.request);
-        let look = if self.is_told { look.thorough() } else { look };
+    /// Returns the visibility of each piece.
+    pub(crate) fn inspect_each(&self, pieces: &[Piece]) -> Vec<Visibility> {
+        let sight = SightTest::new(self.tree, self.request);
+        let sight = if self.is_thorough {
+            sight.thorough()
+        } else {
+            sight
+        };
         pieces
             .iter()
-            .map(|piece| self.chamber.walls.seen(piece, &look))
+            .map(|piece| self.chamber.walls.inspect(piece, &sight))
             .collect()
     }
 
-    /// The points of the wall that are out of sight or reach.
+    /// Returns the points of the wall that are out of sight or reach.
     pub(crate) fn hidden(&self) -> Result<Vec<Point>, CutError> {
-        Ok(self.seen(&self.chamber.split(self.tree)?).hidden)
+        Ok(self.inspect(&self.chamber.split(self.tree)?).hidden)
     }
 }
 
 /// The mouths of a piece of a void.
 pub(crate) struct Mouths {
-    /// The diameters of the largest discs through them, the widest first, mm.
+    /// Diameters of the largest discs through the mouths, widest first, mm.
     diameters_mm: Vec<f64>,
-    /// The greatest distance of the piece's surface from the widest mouth's plane, mm.
+    /// Greatest distance of the piece's surface from the plane of its widest mouth, mm.
     depth_mm: f64,
 }
 

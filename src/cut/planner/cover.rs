@@ -6,30 +6,31 @@ pub(crate) type VoidSet = u128;
 /// The most voids a [`VoidSet`] can name.
 pub(crate) const MAX_VOIDS: usize = VoidSet::BITS as usize;
 
-/// What a search over a family of sets found.
+/// The result of a search over a family of sets.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Cover {
-    /// Indices of sets that together hold every element: a smallest choice if as few as `at_least`.
+    /// Indices of sets that together hold every element. Their number is minimal if it equals
+    /// `at_least`.
     pub(crate) chosen: Vec<usize>,
-    /// No choice of fewer sets than this holds every element.
+    /// Lower bound on the number of sets: no choice of fewer holds every element.
     pub(crate) at_least: usize,
-    /// How many partial choices were looked at: the size of the proof.
+    /// Number of partial choices examined: the size of the proof.
     pub(crate) nodes: u64,
 }
 
-/// How many partial choices are looked at before a search settles for the greedy cover: a second or
-/// two. Ten voids need some hundred, twenty some thousand.
+/// Number of partial choices after which a search returns the greedy cover, a second or two. Ten
+/// voids need some hundred, twenty some thousand.
 const MAX_NODES: u64 = 50_000;
 
-/// A smallest choice of `sets` whose union is `all`, proved smallest by exhausting every smaller
-/// size; the greedy choice where that would take more than [`MAX_NODES`]; `None` when even all of
-/// them leave something out.
+/// Returns a smallest choice of `sets` whose union is `all`, proved by exhausting every smaller
+/// size. Returns the greedy choice if the proof would take more than [`MAX_NODES`], and `None` if
+/// even all sets together miss an element.
 ///
-/// Branches on the element in the fewest sets; prunes where the sets left, at the size of the
-/// largest, cannot hold what is missing.
+/// Branches on the element in the fewest sets. Prunes a branch if the remaining sets, at the size
+/// of the largest, cannot hold the missing elements.
 pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
     let greedy = greedy_cover(sets, all)?;
-    let useful = undominated(sets, all);
+    let useful = drop_dominated(sets, all);
     let mut nodes = 0;
     for size in 0..greedy.len() {
         let mut search = Search {
@@ -63,9 +64,10 @@ pub(crate) fn smallest_cover(sets: &[VoidSet], all: VoidSet) -> Option<Cover> {
     })
 }
 
-/// A choice of sets whose union is `all`, by always taking the first of those that hold the most of
-/// what is missing; `None` when there is none. At most ln n + 1 times the smallest (Johnson,
-/// "Approximation algorithms for combinatorial problems", J. Comput. Syst. Sci. 9, 1974).
+/// Returns a choice of sets whose union is `all`, or `None` if there is none. Each step takes the
+/// first of the sets that hold the most missing elements. The choice is at most ln n + 1 times the
+/// smallest (Johnson, "Approximation algorithms for combinatorial problems", J. Comput. Syst. Sci.
+/// 9, 1974).
 pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>> {
     let (mut missing, mut chosen) = (all, Vec::new());
     while missing != 0 {
@@ -80,8 +82,9 @@ pub(crate) fn greedy_cover(sets: &[VoidSet], all: VoidSet) -> Option<Vec<usize>>
     Some(chosen)
 }
 
-/// Choices of `size` sets whose union is `all`, each as ascending indices, at most `limit` of them
-/// (and what [`MAX_NODES`] allow), in the order in which sets early in the list come first.
+/// Returns choices of `size` sets whose union is `all`, each as ascending indices. There are at
+/// most `limit` of them, and fewer if [`MAX_NODES`] ends the search. They are in lexicographic
+/// order.
 pub(crate) fn covers_of_size(
     sets: &[VoidSet],
     all: VoidSet,
@@ -104,20 +107,20 @@ pub(crate) fn covers_of_size(
     search.found
 }
 
-/// The sets that are not part of another (of equal ones the first).
-fn undominated(sets: &[VoidSet], all: VoidSet) -> Vec<(usize, VoidSet)> {
+/// Returns the sets that are not a proper part of another; of equal sets, the first.
+fn drop_dominated(sets: &[VoidSet], all: VoidSet) -> Vec<(usize, VoidSet)> {
     let mut distinct: Vec<(usize, VoidSet)> =
         sets.iter().map(|set| set & all).enumerate().collect();
     distinct.sort_by_key(|&(index, set)| (set, index));
     distinct.dedup_by_key(|&mut (_, set)| set);
     let is_part = |a: VoidSet, b: VoidSet| a != b && a & b == a;
-    let mut kept: Vec<_> = distinct
+    let mut maximal: Vec<_> = distinct
         .iter()
         .copied()
         .filter(|&(_, a)| !distinct.iter().any(|&(_, b)| is_part(a, b)))
         .collect();
-    kept.sort_unstable();
-    kept
+    maximal.sort_unstable();
+    maximal
 }
 
 struct Search<'a> {
@@ -129,7 +132,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Adds sets to `chosen` until nothing is missing.
+    /// Adds sets to `chosen` until no element is missing.
     fn extend(&mut self, missing: VoidSet, chosen: &mut Vec<usize>) {
         self.nodes += 1;
         if missing == 0 {
@@ -149,7 +152,7 @@ impl Search<'_> {
         }
     }
 
-    /// Whether `left` more sets, each as useful as the most useful, could hold what is missing.
+    /// Returns true if `left` sets, each as large as the largest, could hold the missing elements.
     fn can_suffice(&self, missing: VoidSet, left: usize) -> bool {
         let most = self
             .sets
@@ -160,7 +163,7 @@ impl Search<'_> {
         left > 0 && most as usize * left >= missing.count_ones() as usize
     }
 
-    /// The missing element that the fewest sets hold, as a set.
+    /// Returns the missing element that the fewest sets hold, as a set.
     fn rarest(&self, missing: VoidSet) -> VoidSet {
         let bits = (0..VoidSet::BITS)
             .map(|i| 1 << i)
@@ -182,7 +185,7 @@ mod tests {
 
     #[test]
     fn greedy_would_take_three_but_two_suffice() {
-        // The largest set (4 of 6) tempts; the two halves of three are the answer.
+        // The largest set holds 4 of 6 elements, but the answer is the two halves of three.
         assert_eq!(
             greedy_cover(
                 &[0b001111, 0b010101, 0b101010, 0b010000, 0b100000],
@@ -205,8 +208,8 @@ mod tests {
     }
 
     #[test]
-    fn on_families_of_four_sets_over_four_elements_the_answer_is_that_of_exhaustion() {
-        // Each family is written as a 16-bit number; every 97th is tried, 675 in all.
+    fn small_families_have_the_same_answer_as_exhaustive_search() {
+        // Each family is written as a 16-bit number. Every 97th is tried, 676 in all.
         for code in (0u32..=0xffff).step_by(97) {
             let sets: Vec<VoidSet> = (0..4)
                 .map(|i| VoidSet::from(code >> (4 * i) & 0xf))

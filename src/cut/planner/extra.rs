@@ -1,4 +1,4 @@
-//! Further cuts, where the fewest that open every void do not let every void be cleaned.
+//! Extra cuts, for bodies that the fewest opening cuts do not let be cleaned.
 
 use rayon::prelude::*;
 
@@ -16,39 +16,39 @@ use crate::{
     mesh::off_vertices,
 };
 
-/// Cuts that are made at most so that voids can be seen into. A void that still hides something is
-/// winding; cutting on would leave crumbs, and keeping its end solid costs less.
+/// Greatest number of cuts added for visibility. A void that still hides something is winding: more
+/// cuts would leave crumbs, and keeping its end solid costs less.
 const MAX_SIGHT_CUTS: usize = 3;
-/// A further cut must bring at least this share of what is missing, or it is not worth its joint.
+/// Least share of the missing sight that an extra cut must add to be worth its joint.
 const WORTH_RATIO: f64 = 0.1;
-/// Where along a direction further cuts are tried: at these shares of the hidden points.
+/// Quantiles of the hidden points, along a direction, at which extra cuts are tried.
 const QUANTILES: [f64; 3] = [0.2, 0.5, 0.8];
-/// Of the cuts that are within this share of the best, the least burdensome is taken.
+/// Cuts within this share of the best gain compete by their burden.
 const NEARLY_BEST_RATIO: f64 = 0.05;
-/// How many of those are weighed: each costs a cut of a void and two passes over the model.
-const WEIGHED: usize = 6;
-/// How many of the best plans are glanced at before further cuts are made: two planes may leave a
-/// corner out of sight, and a further cut costs a joint. A glance takes some hundredths of a
+/// Number of extra cuts that are measured. Each costs a cut of a void and two passes over the
+/// model.
+const MEASURED_CUTS: usize = 6;
+/// Number of the best plans that are estimated before any extra cut is made. Two planes may leave a
+/// corner out of sight, and an extra cut costs a joint. An estimate takes some hundredths of a
 /// second.
-const GLANCED_PLANS: usize = 48;
-/// So many are glanced at together before those that seem clean are tried.
-const GLANCED_AT_ONCE: usize = 8;
-/// What a glance finds may be so much off: a plan that seems to lack no more than this is cut for
-/// trial.
-const GLANCE_ERROR_RATIO: f64 = 0.01;
-/// How many plans are cut for trial though they seem to lack more: the cleanest is taken for what
-/// further cuts mend.
-const HOPELESS_TRIALS: usize = 3;
+const ESTIMATED_PLANS: usize = 48;
+/// Number of plans estimated in parallel before the promising ones are measured.
+const ESTIMATED_AT_ONCE: usize = 8;
+/// Error of an estimate. A plan that seems to lack no more than this is measured.
+const ESTIMATE_ERROR_RATIO: f64 = 0.01;
+/// Number of plans measured although they seem to lack more. Extra cuts start from the cleanest of
+/// them.
+const FALLBACK_PLANS: usize = 3;
 
-/// Cuts for trial, and how they open the voids.
+/// A trial set of cuts, and the access they give to the voids.
 #[derive(Clone)]
-pub(crate) struct Tried {
+pub(crate) struct Attempt {
     pub(crate) planes: Vec<Plane>,
     pub(crate) voids: Vec<VoidAccess>,
     lack_mm2: f64,
 }
 
-impl Tried {
+impl Attempt {
     pub(crate) fn new(scene: &Scene, planes: &[Plane]) -> Result<Self, CutError> {
         let planes: Vec<Plane> = planes
             .iter()
@@ -71,18 +71,18 @@ impl Tried {
         }
     }
 
-    /// The areas of all voids as [`VoidAccess::area_mm2`] has them, mm².
+    /// Returns the sum of [`VoidAccess::area_mm2`] over all voids, mm².
     fn area_mm2(&self) -> f64 {
         self.voids.iter().map(VoidAccess::area_mm2).sum()
     }
 
-    /// Whether every void can be cleaned.
+    /// Returns true if every void can be cleaned.
     pub(crate) fn is_clean(&self) -> bool {
         self.voids.iter().all(|void| void.is_clean)
     }
 
-    /// Whether no void lacks more than the planner's margin of sight: that costs less solid than a
-    /// joint.
+    /// Returns true if no void lacks more than the planner's margin of sight. Keeping that much
+    /// solid costs less than a joint.
     fn is_nearly_clean(&self, scene: &Scene) -> bool {
         let margin = scene.request.cleaning.sight_ratio..asked_ratio(scene.request);
         self.voids
@@ -90,7 +90,7 @@ impl Tried {
             .all(|void| void.is_clean || margin.contains(&void.sight_ratio))
     }
 
-    /// The cleaner of two, the first where they are alike.
+    /// Returns the cleaner of two attempts, or the first if they are equal.
     fn or_cleaner(self, other: Self) -> Self {
         if other.lack_mm2 < self.lack_mm2 {
             other
@@ -99,19 +99,19 @@ impl Tried {
         }
     }
 
-    /// The same cuts and one more; the voids that it does not meet stay as they are.
+    /// Returns these cuts with one more. Voids that it does not meet keep their access.
     fn with(&self, scene: &Scene, plane: Plane) -> Result<Self, CutError> {
         let planes = [&self.planes[..], &[plane]].concat();
-        let voids = looked_at_again(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
+        let voids = update_accesses(scene, &self.voids, &CutTree::everywhere(&planes), &[plane])?;
         Ok(Self::of(scene, planes, voids))
     }
 
-    /// About the lack with one more cut, of the voids that it meets.
-    fn glanced_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
+    /// Estimates the lack with one more cut, mm². Only the voids that it meets change.
+    fn estimate_lack_mm2(&self, scene: &Scene, plane: Plane) -> f64 {
         let planes = [&self.planes[..], &[plane]].concat();
         let lack_mm2 = |before: &VoidAccess| {
             if meets(scene, before.void, &plane) {
-                before.area_mm2() * glanced_lack_ratio(scene, before.void, &planes)
+                before.area_mm2() * estimate_lack_ratio(scene, before.void, &planes)
             } else {
                 before.lack_mm2(scene.request)
             }
@@ -120,9 +120,9 @@ impl Tried {
     }
 }
 
-/// How cuts open the voids, where that is known of other cuts: those are looked at that one of the
-/// changed planes meets.
-pub(crate) fn looked_at_again(
+/// Updates the access to the voids after some planes have changed. Only the voids that meet one of
+/// these planes are measured again.
+pub(crate) fn update_accesses(
     scene: &Scene,
     before: &[VoidAccess],
     tree: &CutTree,
@@ -138,103 +138,106 @@ pub(crate) fn looked_at_again(
     before.iter().map(again).collect()
 }
 
-/// Whether a plane passes through a void.
+/// Returns true if a plane passes through a void.
 fn meets(scene: &Scene, void: VoidId, plane: &Plane) -> bool {
     plane.passes_through(scene.hollowed.voids[void.index()].mesh().vertices())
 }
 
-/// About the share of its wall that a void lacks in sight between the planes; 0 where none must be
-/// in sight.
-fn glanced_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
-    let asked = asked_ratio(scene.request);
-    if asked == 0.0 {
+/// Estimates the share of a void's wall that lacks sight with these cuts; 0 if no sight is
+/// required.
+fn estimate_lack_ratio(scene: &Scene, void: VoidId, planes: &[Plane]) -> f64 {
+    let required = asked_ratio(scene.request);
+    if required == 0.0 {
         return 0.0;
     }
-    (asked - scene.chambers[void.index()].glance(&CutTree::everywhere(planes), scene.request))
-        .max(0.0)
+    (required
+        - scene.chambers[void.index()]
+            .estimate_sight_ratio(&CutTree::everywhere(planes), scene.request))
+    .max(0.0)
 }
 
-/// The first of the plans with which every void can be cleaned; the cleanest where there is none.
+/// Returns the first of the plans with which every void can be cleaned, or else the cleanest.
 ///
-/// All are glanced at, and those cut for trial in their order that seem to be clean; then the most
-/// hopeful of the others.
-pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Tried, CutError> {
-    let glance = |planes: &Vec<Plane>| {
+/// Estimates all plans and measures those that seem clean, in their order. Then it measures the
+/// most promising of the others.
+pub(crate) fn cleanest(scene: &Scene, plans: &[Vec<Plane>]) -> Result<Attempt, CutError> {
+    let estimate = |planes: &Vec<Plane>| {
         (0..scene.chambers.len())
-            .map(|void| glanced_lack_ratio(scene, VoidId::of(void), planes))
+            .map(|void| estimate_lack_ratio(scene, VoidId::of(void), planes))
             .fold(0.0, f64::max)
     };
-    let mut trial = Trial { scene, best: None };
+    let mut attempts = Attempts { scene, best: None };
     let mut others: Vec<(f64, &Vec<Plane>)> = Vec::new();
-    for some in plans[..plans.len().min(GLANCED_PLANS)].chunks(GLANCED_AT_ONCE) {
-        let lacks: Vec<f64> = some.par_iter().map(glance).collect();
+    for some in plans[..plans.len().min(ESTIMATED_PLANS)].chunks(ESTIMATED_AT_ONCE) {
+        let lacks: Vec<f64> = some.par_iter().map(estimate).collect();
         for (lack, planes) in lacks.into_iter().zip(some) {
-            if lack > GLANCE_ERROR_RATIO {
+            if lack > ESTIMATE_ERROR_RATIO {
                 others.push((lack, planes));
-            } else if let Some(clean) = trial.of(planes)? {
+            } else if let Some(clean) = attempts.measure(planes)? {
                 return Ok(clean);
             }
         }
     }
     others.sort_by(|a, b| a.0.total_cmp(&b.0));
-    for (_, planes) in others.into_iter().take(HOPELESS_TRIALS) {
-        if let Some(clean) = trial.of(planes)? {
+    for (_, planes) in others.into_iter().take(FALLBACK_PLANS) {
+        if let Some(clean) = attempts.measure(planes)? {
             return Ok(clean);
         }
     }
-    trial.best.map_or_else(|| Tried::new(scene, &[]), Ok)
+    attempts.best.map_or_else(|| Attempt::new(scene, &[]), Ok)
 }
 
-/// Plans cut for trial.
-struct Trial<'a> {
+/// A series of plans that are measured one after another.
+struct Attempts<'a> {
     scene: &'a Scene<'a>,
-    /// The cleanest so far.
-    best: Option<Tried>,
+    /// The cleanest plan so far.
+    best: Option<Attempt>,
 }
 
-impl Trial<'_> {
-    /// The plan cut for trial, if every void is clean.
-    fn of(&mut self, planes: &[Plane]) -> Result<Option<Tried>, CutError> {
-        let tried = Tried::new(self.scene, planes)?;
-        if tried.is_clean() {
-            return Ok(Some(tried));
+impl Attempts<'_> {
+    /// Measures a plan. Returns it if every void is clean, and otherwise remembers it if it is the
+    /// cleanest.
+    fn measure(&mut self, planes: &[Plane]) -> Result<Option<Attempt>, CutError> {
+        let attempt = Attempt::new(self.scene, planes)?;
+        if attempt.is_clean() {
+            return Ok(Some(attempt));
         }
         self.best = Some(match self.best.take() {
-            Some(best) => best.or_cleaner(tried),
-            None => tried,
+            Some(best) => best.or_cleaner(attempt),
+            None => attempt,
         });
         Ok(None)
     }
 }
 
-/// The cuts with further ones through what stays hidden, until every void can be cleaned or no cut
-/// brings much more; each is told in the notes.
+/// Adds cuts through hidden points until every void can be cleaned or no cut gains enough. Each cut
+/// gets a remark in the notes.
 pub(crate) fn add_extra_cuts(
     scene: &Scene,
-    mut tried: Tried,
+    mut attempt: Attempt,
     notes: &mut Vec<Remark>,
-) -> Result<Tried, CutError> {
+) -> Result<Attempt, CutError> {
     for _ in 0..MAX_SIGHT_CUTS {
-        if tried.is_nearly_clean(scene) {
+        if attempt.is_nearly_clean(scene) {
             break;
         }
-        let Some(next) = one_more(scene, &tried)? else {
+        let Some(next) = add_best_cut(scene, &attempt)? else {
             break;
         };
-        let gain_mm2 = tried.lack_mm2 - next.lack_mm2;
-        if gain_mm2 < WORTH_RATIO * tried.lack_mm2
-            || gain_mm2 < scene.request.worth_ratio * tried.area_mm2()
+        let gain_mm2 = attempt.lack_mm2 - next.lack_mm2;
+        if gain_mm2 < WORTH_RATIO * attempt.lack_mm2
+            || gain_mm2 < scene.request.worth_ratio * attempt.area_mm2()
         {
             break;
         }
-        notes.push(cleaning_cut(&tried, &next));
-        tried = next;
+        notes.push(cleaning_cut(&attempt, &next));
+        attempt = next;
     }
-    Ok(tried)
+    Ok(attempt)
 }
 
-/// The remark on a further cut: the voids of which it brings more into sight.
-fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
+/// Returns the remark on an extra cut: the voids with more of the wall in sight.
+fn cleaning_cut(before: &Attempt, after: &Attempt) -> Remark {
     let pairs = before.voids.iter().zip(&after.voids);
     let changed = pairs.filter(|(b, a)| a.sight_ratio > b.sight_ratio);
     let gain = |(b, a): (&VoidAccess, &VoidAccess)| SightGain {
@@ -248,51 +251,52 @@ fn cleaning_cut(before: &Tried, after: &Tried) -> Remark {
     }
 }
 
-/// The cuts with the one more that lets the void that lacks most be cleaned best.
-fn one_more(scene: &Scene, tried: &Tried) -> Result<Option<Tried>, CutError> {
+/// Adds the cut that is best for the void that lacks the most. Returns `None` if there is no void
+/// or no cut to try.
+fn add_best_cut(scene: &Scene, attempt: &Attempt) -> Result<Option<Attempt>, CutError> {
     let lack = |void: &&VoidAccess| void.lack_mm2(scene.request);
-    let Some(worst) = tried
+    let Some(worst) = attempt
         .voids
         .iter()
         .max_by(|a, b| lack(a).total_cmp(&lack(b)))
     else {
         return Ok(None);
     };
-    let tree = CutTree::everywhere(&tried.planes);
+    let tree = CutTree::everywhere(&attempt.planes);
     let hidden = Opened::new(&scene.chambers, worst.void, &tree, scene.request).hidden()?;
-    let planes = through(scene, worst.void, &hidden);
-    let glanced = planes
+    let planes = planes_through(scene, worst.void, &hidden);
+    let estimated = planes
         .par_iter()
-        .map(|plane| (tried.glanced_mm2(scene, *plane), *plane));
-    let mut glanced: Vec<(f64, Plane)> = glanced.collect();
-    glanced.sort_by(|a, b| a.0.total_cmp(&b.0));
-    glanced.truncate(WEIGHED);
-    let more = glanced
+        .map(|plane| (attempt.estimate_lack_mm2(scene, *plane), *plane));
+    let mut estimated: Vec<(f64, Plane)> = estimated.collect();
+    estimated.sort_by(|a, b| a.0.total_cmp(&b.0));
+    estimated.truncate(MEASURED_CUTS);
+    let more = estimated
         .par_iter()
-        .map(|(_, plane)| tried.with(scene, off_vertices(&scene.material, plane)));
-    let mut more = more.collect::<Result<Vec<Tried>, _>>()?;
+        .map(|(_, plane)| attempt.with(scene, off_vertices(&scene.material, plane)));
+    let mut more = more.collect::<Result<Vec<Attempt>, _>>()?;
     more.sort_by(|a, b| a.lack_mm2.total_cmp(&b.lack_mm2));
     let Some(least_mm2) = more.first().map(|best| best.lack_mm2) else {
         return Ok(None);
     };
-    let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (tried.lack_mm2 - least_mm2);
+    let enough_mm2 = least_mm2 + NEARLY_BEST_RATIO * (attempt.lack_mm2 - least_mm2);
     let near = more
         .into_iter()
         .take_while(|next| next.lack_mm2 <= enough_mm2);
-    let penalty = |next: &Tried| {
+    let penalty = |next: &Attempt| {
         next.planes
             .last()
             .map_or(0.0, |plane| burden(scene, plane).penalty(scene))
     };
-    let weighed = near.map(|next| (penalty(&next), next));
-    Ok(weighed
+    let scored = near.map(|next| (penalty(&next), next));
+    Ok(scored
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, next)| next))
 }
 
-/// Planes through hidden points of a void: along the model's axes, the goal's, the void's and those
-/// of the points.
-fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
+/// Returns planes through hidden points of a void, normal to the axes of the model, the goal, the
+/// void and the points.
+fn planes_through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     let axis = scene.request.axis.direction.normalize();
     let (u, v) = orthonormal_basis(&axis);
     let mut normals = vec![Vector::x(), Vector::y(), Vector::z(), axis, u, v];
@@ -322,7 +326,7 @@ fn through(scene: &Scene, void: VoidId, hidden: &[Point]) -> Vec<Plane> {
     normals.iter().flat_map(at).collect::<Vec<_>>()
 }
 
-/// The axes along which points are spread most and least.
+/// Returns the principal axes of a set of points.
 fn axes_of(points: &[Point]) -> Vec<Vector> {
     let count = points.len().max(1) as f64;
     let middle = points.iter().fold(Vector::zeros(), |sum, p| sum + p.coords) / count;

@@ -1,4 +1,4 @@
-//! The family of planes a plan is chosen from.
+//! The family of planes from which a plan is chosen.
 
 use rayon::prelude::*;
 
@@ -14,31 +14,32 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// How many directions are spread over the half sphere: about 10° apart. Fewer miss skew planes
-/// through three voids, more cost time in proportion.
+/// Number of directions spread over the half sphere, about 10° apart. Fewer miss skew planes
+/// through three voids; more cost time in proportion.
 const SPREAD_DIRECTIONS: usize = 160;
 
-/// How many voids, the largest, decide between them on directions of their own: with ten there are
-/// a thousand, and their number grows with the fourth power.
+/// Number of voids, largest first, whose centres define further directions. Ten voids give a
+/// thousand, and the number grows with the fourth power.
 const PAIRED_VOIDS: usize = 10;
 
-/// Two lines between voids that lean less than this (sine) against each other have no common normal
-/// to speak of.
+/// Sine of the angle below which two lines between voids count as parallel and define no common
+/// normal.
 const PARALLEL_SINE: f64 = 1e-6;
 
-/// How many offsets are tried in each interval in which the same voids are met.
+/// Number of offsets tried in each interval in which a plane meets the same voids.
 const OFFSETS_PER_INTERVAL: usize = 9;
 
-/// Intervals narrower than this hold no offset that a printer could tell from their ends, mm.
+/// Least width of an interval, mm. A printer could not tell offsets inside a narrower one from its
+/// ends.
 const MIN_INTERVAL_MM: f64 = 0.02;
 
 /// A plane that may be cut, and the voids whose extent it meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Candidate {
     pub(crate) plane: Plane,
-    /// The voids the plane meets; it may open fewer wide enough.
+    /// The voids that the plane meets. It may open fewer of them wide enough.
     pub(crate) met: VoidSet,
-    /// A cheap guess of the narrowest opening, mm: that of ellipsoids of the voids' extents.
+    /// Cheap estimate of the narrowest opening, mm, taking the voids as ellipsoids.
     pub(crate) guess_mm: f64,
 }
 
@@ -47,15 +48,15 @@ pub(crate) struct Candidate {
 struct Extent<'a> {
     low_mm: f64,
     high_mm: f64,
-    /// The diameter of the ball of the void's volume, mm.
+    /// Diameter of the ball with the void's volume, mm.
     breadth_mm: f64,
-    /// The seat of the part that the void holds.
+    /// Seat of the part that the void holds.
     seat: Option<&'a Seat>,
 }
 
-/// All candidates: for each direction the voids' extents are intervals, whose ends part the offsets
-/// into cells that meet the same voids; each cell is sampled. Sorted by direction, then offset; the
-/// model's planes of symmetry come last.
+/// Returns all candidates, sorted by direction, then offset; the model's planes of symmetry come
+/// last. Along each direction, the ends of the voids' extents divide the offsets into cells. Planes
+/// in a cell meet the same voids, and each cell is sampled.
 pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Candidate> {
     let breadths: Vec<f64> = hollowed
         .voids
@@ -71,31 +72,33 @@ pub(crate) fn candidates(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Cand
                 .iter()
                 .zip(&breadths)
                 .map(|(void, &breadth_mm)| extent(void, normal, breadth_mm));
-            in_direction(normal, &extents.collect::<Vec<_>>())
+            candidates_along(normal, &extents.collect::<Vec<_>>())
         })
         .collect();
-    let middles = symmetry(hollowed.outer.mesh()).into_iter().map(|plane| {
-        let extents = hollowed
-            .voids
-            .iter()
-            .zip(&breadths)
-            .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
-        candidate(plane, &extents.collect::<Vec<_>>())
-    });
+    let middles = symmetry_planes(hollowed.outer.mesh())
+        .into_iter()
+        .map(|plane| {
+            let extents = hollowed
+                .voids
+                .iter()
+                .zip(&breadths)
+                .map(|(void, &breadth_mm)| extent(void, &plane.normal, breadth_mm));
+            candidate(plane, &extents.collect::<Vec<_>>())
+        });
     let middles = middles.filter(|middle| middle.met != 0);
     rows.concat().into_iter().chain(middles).collect()
 }
 
-/// The planes of symmetry of the model.
-fn symmetry(model: &TriMesh) -> Vec<Plane> {
+/// Returns the planes of symmetry of the model.
+fn symmetry_planes(model: &TriMesh) -> Vec<Plane> {
     let center = Body::new(&moments_of_mesh(model), 1.0).center;
     mirror_planes(model, &center, &principal_axes(model))
 }
 
-/// The directions of the family: the model's axes, the principal axes of the solid and of every
-/// void, the goal's axis and its perpendiculars, a Fibonacci spiral over the half sphere (Swinbank
-/// and Purser, "Fibonacci grids", Q. J. R. Meteorol. Soc. 132, 2006), and the directions in which
-/// voids lie flattest.
+/// Returns the directions of the family. The axes of the model and of the goal come first, then the
+/// principal axes of the solid and of every void. The normals of the seats follow, then a Fibonacci
+/// spiral over the half sphere, and the directions in which voids lie flattest. For the spiral see
+/// Swinbank and Purser, "Fibonacci grids", Q. J. R. Meteorol. Soc. 132, 2006.
 fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     let mut directions = vec![Vector::x(), Vector::y(), Vector::z()];
     let axis = request.axis.direction.normalize();
@@ -106,12 +109,12 @@ fn directions(hollowed: &Hollowed, request: &PlanRequest) -> Vec<Vector> {
     directions.extend(solids.flat_map(|solid| principal_axes(solid.mesh())));
     directions.extend(seat::normals(&hollowed.seats().collect::<Vec<_>>()));
     directions.extend((0..SPREAD_DIRECTIONS).map(on_half_sphere));
-    directions.extend(flattest(&centers(hollowed)));
+    directions.extend(flattest_directions(&centers(hollowed)));
     directions.retain(|d| d.iter().all(|c| c.is_finite()));
     directions
 }
 
-/// The centres of the largest voids.
+/// Returns the centres of the largest voids.
 fn centers(hollowed: &Hollowed) -> Vec<Point> {
     let bodies = hollowed
         .voids
@@ -128,12 +131,12 @@ fn centers(hollowed: &Hollowed) -> Vec<Point> {
         .collect()
 }
 
-/// The directions in which points may lie flattest: the common normals of two lines through two of
-/// them each. The least distance of parallel planes about any of the points is found along one of
-/// these (two edges, or a side and a corner, touch the planes: Houle and Toussaint, "Computing the
-/// width of a set", IEEE TPAMI 10, 1988), so that balls of one size which some plane opens are
-/// opened by one of the family.
-fn flattest(points: &[Point]) -> Vec<Vector> {
+/// Returns the directions in which points may lie flattest: the common normals of any two lines
+/// through two points each. The width of any subset is reached along one of them, where two edges,
+/// or a face and a corner, touch the parallel planes. See Houle and Toussaint, "Computing the width
+/// of a set", IEEE TPAMI 10, 1988. So if some plane opens several balls of one size, a plane of the
+/// family opens them too.
+fn flattest_directions(points: &[Point]) -> Vec<Vector> {
     let pairs = |count: usize| (0..count).flat_map(|i| (0..i).map(move |j| (i, j)));
     let lines: Vec<Vector> = pairs(points.len())
         .filter_map(|(i, j)| (points[i] - points[j]).try_normalize(f64::MIN_POSITIVE))
@@ -143,7 +146,7 @@ fn flattest(points: &[Point]) -> Vec<Vector> {
         .collect()
 }
 
-/// Point `index` of the spiral over the upper half sphere.
+/// Returns point `index` of the spiral over the upper half sphere.
 fn on_half_sphere(index: usize) -> Vector {
     let z = (index as f64 + 0.5) / SPREAD_DIRECTIONS as f64;
     let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
@@ -152,18 +155,18 @@ fn on_half_sphere(index: usize) -> Vector {
     Vector::new(radius * cos, radius * sin, z)
 }
 
-/// The principal axes of the region a mesh bounds.
+/// Returns the principal axes of the region that a mesh bounds.
 fn principal_axes(mesh: &TriMesh) -> [Vector; 3] {
     let axes = Body::new(&moments_of_mesh(mesh), 1.0).principal().axes;
     [0, 1, 2].map(|i| axes.column(i).into_owned().normalize())
 }
 
-/// The diameter of the ball that has the volume of the mesh, mm.
+/// Returns the diameter of the ball with the volume of the mesh, mm.
 fn breadth_mm(mesh: &TriMesh) -> f64 {
     (moments_of_mesh(mesh).volume().abs() * 6.0 / std::f64::consts::PI).cbrt()
 }
 
-/// The extent of a void along `normal`.
+/// Returns the extent of a void along `normal`.
 fn extent<'a>(void: &'a Void, normal: &Vector, breadth_mm: f64) -> Extent<'a> {
     let heights = void
         .mesh()
@@ -186,7 +189,7 @@ impl Extent<'_> {
         self.low_mm < offset_mm && offset_mm < self.high_mm
     }
 
-    /// The opening of an ellipsoid of this extent and volume at the offset, mm.
+    /// Estimates the opening at the offset, mm: that of an ellipsoid of this extent and volume.
     fn guess_mm(&self, offset_mm: f64) -> f64 {
         let length = self.high_mm - self.low_mm;
         let across = (self.breadth_mm.powi(3) / length).sqrt();
@@ -195,9 +198,9 @@ impl Extent<'_> {
     }
 }
 
-/// The candidates normal to one direction: those through the middles of seats, then those of every
-/// cell.
-fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
+/// Returns the candidates normal to one direction: those through the middles of seats, then those
+/// of every cell.
+fn candidates_along(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
     let mut ends: Vec<f64> = extents.iter().flat_map(|e| [e.low_mm, e.high_mm]).collect();
     ends.sort_by(f64::total_cmp);
     let cells = ends
@@ -219,8 +222,8 @@ fn in_direction(normal: &Vector, extents: &[Extent]) -> Vec<Candidate> {
         .collect()
 }
 
-/// The plane with the voids it meets; of those that hold a part, the ones that it lets the part
-/// into.
+/// Returns the plane with the voids it meets. A void that holds a part counts only if the part fits
+/// through the opening.
 fn candidate(plane: Plane, extents: &[Extent]) -> Candidate {
     let offset_mm = plane.offset_mm;
     let is_met = |extent: &Extent| {

@@ -21,15 +21,16 @@ use crate::{
     geom::{Plane, Vector},
     mesh::off_vertices,
 };
-/// A face whose normal has this much of the vertical ends at one height, within a thousandth of a
-/// layer over 100 mm.
+
+/// Least cosine between the vertical and the normal of a level face. Over 100 mm, such a face rises
+/// by less than 0.005 mm.
 const LEVEL_COSINE: f64 = 1.0 - 1e-9;
 
-/// A face so near to the plate lies on it, mm.
+/// Height below which a face lies on the plate, mm.
 const ON_PLATE_MM: f64 = 1e-6;
 
-/// How often all cuts are gone through: a part that rests on one cut and ends at another depends on
-/// both.
+/// Number of sweeps over all cuts. The height of a part that rests on one cut and ends at another
+/// depends on both.
 const SWEEPS: usize = 4;
 
 /// A cut face that is level in the printer.
@@ -37,18 +38,18 @@ struct Level {
     cut: usize,
     part: usize,
     area_mm2: f64,
-    /// Its height over the plate before any cut is moved, mm.
+    /// Height above the plate before any cut is moved, mm.
     height_mm: f64,
-    /// The cut's normal along the printer's z: +1 or −1.
+    /// Direction of the cut's normal along the printer's z: +1 or −1.
     up: f64,
-    /// The cut the part rests on, with its normal along z.
+    /// The cut on which the part rests, with the direction of its normal along z.
     rest: Option<(usize, f64)>,
 }
 
-/// The plan with its cuts moved to layers, by half a layer at most, and pins placed for them; the
-/// plan itself where that would change more than a hair: the number of pieces, a cavity, or an
-/// opening below the least.
-pub(crate) fn at_layers(
+/// Moves the cuts to whole layers, by half a layer at most, and places the pins again. Returns the
+/// plan unchanged if the number of pieces would change, a cavity would form, or an opening would
+/// fall below the least.
+pub(crate) fn snap_to_layers(
     scene: &Scene,
     layout: &Layout,
     plan: CutPlan,
@@ -75,7 +76,7 @@ pub(crate) fn at_layers(
         moved_mm: planes[cut].offset_mm - layout.tree.planes[cut].offset_mm,
     });
     let moved = moved.collect();
-    let Some(layout) = still_open(scene, layout, planes)? else {
+    let Some(layout) = move_planes(scene, layout, planes)? else {
         return Ok(plan);
     };
     Ok(CutPlan {
@@ -84,7 +85,7 @@ pub(crate) fn at_layers(
     })
 }
 
-/// Which cuts are moved for which part, and how far along their normals, mm.
+/// Returns each moved cut, the part for which it moves, and the distance along its normal, mm.
 fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, usize, f64)> {
     if request.layer_mm <= 0.0 {
         return Vec::new();
@@ -93,7 +94,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .flat_map(|part| levels(request, layout, plan, part))
         .collect();
     levels.sort_by(|a, b| b.area_mm2.total_cmp(&a.area_mm2));
-    let decides = |cut: usize| {
+    let deciding_level = |cut: usize| {
         levels
             .iter()
             .find(|level| level.cut == cut && level.height_mm > ON_PLATE_MM)
@@ -101,7 +102,7 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
     let mut moved_mm = vec![0.0; layout.tree.planes.len()];
     for _ in 0..SWEEPS {
         for cut in 0..moved_mm.len() {
-            if let Some(level) = decides(cut) {
+            if let Some(level) = deciding_level(cut) {
                 moved_mm[cut] = to_layer_mm(level, &moved_mm, request.layer_mm);
             }
         }
@@ -111,11 +112,11 @@ fn moves(request: &PlanRequest, layout: &Layout, plan: &CutPlan) -> Vec<(usize, 
         .enumerate()
         .filter(|(_, moved)| **moved != 0.0);
     moves
-        .filter_map(|(cut, &moved)| Some((cut, decides(cut)?.part, moved)))
+        .filter_map(|(cut, &moved)| Some((cut, deciding_level(cut)?.part, moved)))
         .collect()
 }
 
-/// How far the face's plane must move along its normal to end at the nearest whole layer, mm.
+/// Returns the distance along its normal, mm, that brings the face to the nearest whole layer.
 fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
     let sunk_mm = level.rest.map_or(0.0, |(cut, up)| moved_mm[cut] * up);
     let height_mm = level.height_mm - sunk_mm;
@@ -123,7 +124,7 @@ fn to_layer_mm(level: &Level, moved_mm: &[f64], layer_mm: f64) -> f64 {
     (layers * layer_mm - height_mm) * level.up
 }
 
-/// The level cut faces of a piece as it will lie in the printer.
+/// Returns the level cut faces of a piece in its pose in the printer.
 fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -> Vec<Level> {
     let piece = &layout.pieces[part];
     let pin_cuts = pin_cuts(layout, plan, part);
@@ -157,7 +158,7 @@ fn levels(request: &PlanRequest, layout: &Layout, plan: &CutPlan, part: usize) -
     levels
 }
 
-/// The cuts on whose faces pins stand out of the part.
+/// Returns the cuts on whose faces pins stand out of the part.
 fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
     let id = PartId::of(part);
     let carries = |cut: usize| {
@@ -180,9 +181,8 @@ fn pin_cuts(layout: &Layout, plan: &CutPlan, part: usize) -> Vec<usize> {
         .collect()
 }
 
-/// The layout with the moved planes, if they leave the same pieces and every opening as wide as it
-/// must be.
-fn still_open(
+/// Returns the layout with the moved planes, or `None` if it has other pieces or a worse opening.
+fn move_planes(
     scene: &Scene,
     layout: &Layout,
     planes: Vec<Plane>,
@@ -219,7 +219,7 @@ mod tests {
         geom::{Point, Vector},
     };
 
-    /// How far the faces of a body's parts that look up are from whole layers, in layers.
+    /// Returns the distances of a body's upward cut faces from whole layers, in layers.
     fn off_layers(request: &PlanRequest) -> Vec<f64> {
         let outer = cuboid([0.0; 3], [50.0, 47.0, 41.3]);
         let hollowed = with_balls(outer, &[[14.0, 20.0, 20.0, 8.0], [36.0, 26.0, 21.0, 8.0]]);
@@ -248,14 +248,14 @@ mod tests {
                 ..request()
             });
             assert!(!off.is_empty());
-            // Planes keep 1e-6 mm off vertices, in steps of 2e-6 mm: some 1e-4 of the thinnest
+            // Planes stay 1e-6 mm off vertices, in steps of 2e-6 mm: about 1e-4 of the thinnest
             // layer.
             assert!(off.iter().all(|off| *off < 1e-3), "{layer_mm}: {off:?}");
         }
     }
 
     #[test]
-    fn where_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
+    fn if_both_faces_of_a_cut_look_up_one_of_them_ends_at_a_whole_layer() {
         let both = PlanRequest {
             pose: PosePreference::OpenHollowUp,
             layer_mm: 0.2,
@@ -267,7 +267,7 @@ mod tests {
     }
 
     #[test]
-    fn without_layers_nothing_is_moved() {
+    fn without_layers_no_cut_moves() {
         let outer = cuboid([0.0; 3], [30.0; 3]);
         let hollowed = with_balls(outer, &[[15.0, 15.0, 15.0, 8.0]]);
         let still = plan(

@@ -1,4 +1,4 @@
-//! Cuts, the pieces that they leave, and how they open the voids.
+//! Cuts, the pieces they leave, and the access they give to the voids.
 
 use crate::{
     cut::{
@@ -18,7 +18,7 @@ use crate::{
     geom::Plane,
 };
 
-/// Cuts, how they open the voids, and the pieces they leave.
+/// Cuts, the access they give to the voids, and the pieces they leave.
 pub(crate) struct Layout {
     pub(crate) tree: CutTree,
     pub(crate) voids: Vec<VoidAccess>,
@@ -27,8 +27,8 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The pieces between the cuts, each made only where it is needed, and left joined where a cut
-    /// would part them needlessly.
+    /// Cuts the body, each cut only where it is needed. Pieces that a cut would separate needlessly
+    /// stay joined.
     pub(crate) fn new(
         scene: &Scene,
         planes: Vec<Plane>,
@@ -46,7 +46,7 @@ impl Layout {
         };
         let bridges = bridges(&cutting, &parted);
         let pieces = rejoined(parted.clone(), &tree, &bridges)?;
-        // What stays joined must not seal what the cut opened.
+        // Pieces that stay joined must not seal an opening.
         let (pieces, bridges) = if check_no_cavity(&pieces).is_ok() {
             (pieces, bridges)
         } else {

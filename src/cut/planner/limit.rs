@@ -1,5 +1,5 @@
-//! Cuts kept to the sides of others beyond which nothing needs them, so that a cut for one void
-//! does not divide everything.
+//! Cuts limited to the sides of other cuts on which they are needed. A cut for one void then does
+//! not divide the whole body.
 
 use crate::{
     cut::{
@@ -10,7 +10,7 @@ use crate::{
             pose::fits,
             split::{Piece, check_no_cavity},
         },
-        planner::{extra::looked_at_again, score::Scene},
+        planner::{extra::update_accesses, score::Scene},
     },
     geom::Plane,
 };
@@ -18,22 +18,22 @@ use crate::{
 /// Cuts, each made only where it is needed.
 pub(crate) struct LimitedCuts {
     pub(crate) tree: CutTree,
-    /// How the cuts open the voids.
+    /// Access that the cuts give to the voids.
     pub(crate) voids: Vec<VoidAccess>,
-    /// What they leave.
+    /// Pieces that the cuts leave.
     pub(crate) pieces: Vec<Piece>,
 }
 
-/// The cuts, the last first, each kept to a side of another where that leaves fewer parts, the
-/// voids as clean as `voids` are with all cuts made everywhere, and no more parts that are too
-/// large for the printer.
+/// Limits each cut to a side of another if that leaves fewer parts; the last cut is tried first.
+/// The voids must stay as clean as in `voids`, which describes the cuts made everywhere. The number
+/// of parts too large for the printer must not grow.
 pub(crate) fn limit_cuts(
     scene: &Scene,
     planes: &[Plane],
     voids: Vec<VoidAccess>,
 ) -> Result<LimitedCuts, CutError> {
     let tree = CutTree::everywhere(planes);
-    let mut kept = LimitedCuts {
+    let mut limited = LimitedCuts {
         pieces: scene.split(&tree)?,
         tree,
         voids,
@@ -41,7 +41,7 @@ pub(crate) fn limit_cuts(
     for cut in (0..planes.len()).rev() {
         for other in (0..planes.len()).filter(|&other| other != cut) {
             for is_above in [true, false] {
-                if let Some(better) = kept.with(
+                if let Some(better) = limited.with(
                     scene,
                     cut,
                     Limit {
@@ -49,28 +49,28 @@ pub(crate) fn limit_cuts(
                         is_above,
                     },
                 )? {
-                    kept = better;
+                    limited = better;
                 }
             }
         }
     }
-    Ok(kept)
+    Ok(limited)
 }
 
 impl LimitedCuts {
-    /// The same with one more limit, if that is better.
+    /// Returns the cuts with one more limit, or `None` if that is no better.
     fn with(&self, scene: &Scene, cut: usize, limit: Limit) -> Result<Option<Self>, CutError> {
         let Some(tree) = self.tree.kept_to(cut, limit) else {
             return Ok(None);
         };
-        // Cuts that are kept to a side of this one are made in fewer places too.
+        // Cuts that are limited to a side of this one are also made in fewer places.
         let is_changed =
             |other: usize| other == cut || tree.limits(other).iter().any(|limit| limit.cut == cut);
         let changed: Vec<Plane> = (0..tree.planes.len())
             .filter(|&other| is_changed(other))
             .map(|other| tree.planes[other])
             .collect();
-        let voids = looked_at_again(scene, &self.voids, &tree, &changed)?;
+        let voids = update_accesses(scene, &self.voids, &tree, &changed)?;
         if self
             .voids
             .iter()
@@ -87,20 +87,20 @@ impl LimitedCuts {
         };
         let is_better = next.pieces.len() < self.pieces.len()
             && check_no_cavity(&next.pieces).is_ok()
-            && next.oversize(scene) <= self.oversize(scene)
+            && next.count_oversize(scene) <= self.count_oversize(scene)
             && next.has_all_cuts();
         Ok(is_better.then_some(next))
     }
 
-    /// How many pieces do not fit the build volume.
-    fn oversize(&self, scene: &Scene) -> usize {
+    /// Counts the pieces that do not fit the build volume.
+    fn count_oversize(&self, scene: &Scene) -> usize {
         self.pieces
             .iter()
             .filter(|piece| !fits(piece, &self.tree.planes, scene.request))
             .count()
     }
 
-    /// Whether every cut is made somewhere.
+    /// Returns true if every cut is made somewhere.
     fn has_all_cuts(&self) -> bool {
         let is_made = |cut: usize| {
             self.pieces
@@ -112,7 +112,7 @@ impl LimitedCuts {
     }
 }
 
-/// Whether a void can be cleaned less than before.
+/// Returns true if a void is harder to clean than before.
 fn is_worse(scene: &Scene, before: &VoidAccess, after: &VoidAccess) -> bool {
     let needed_mm = after.least_opening_mm(scene.request);
     let is_narrower = after.opening_mm < before.opening_mm && after.opening_mm < needed_mm;
@@ -136,7 +136,7 @@ mod tests {
         printer::{Cleaning, CleaningRule},
     };
 
-    /// A bar with two balls, the cut across the second, and the one along both.
+    /// Returns a bar with two balls, a cut across the second ball, and one along both.
     fn bar() -> (Hollowed, [Plane; 2], PlanRequest) {
         let body = with_balls(
             cuboid([0.0; 3], [60.0, 20.0, 20.0]),
@@ -166,7 +166,7 @@ mod tests {
         )
     }
 
-    fn kept_of(scene: &Scene, planes: &[Plane]) -> LimitedCuts {
+    fn limit_clean_cuts(scene: &Scene, planes: &[Plane]) -> LimitedCuts {
         let voids = accesses(&scene.chambers, &CutTree::everywhere(planes), scene.request).unwrap();
         assert!(voids.iter().all(|void| void.is_clean), "{voids:?}");
         limit_cuts(scene, planes, voids).unwrap()
@@ -176,36 +176,39 @@ mod tests {
     fn a_cut_for_one_void_leaves_the_half_of_another_whole() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
-        let kept = kept_of(&scene, &planes);
+        let limited = limit_clean_cuts(&scene, &planes);
         assert_eq!(
-            kept.tree.limits(1),
+            limited.tree.limits(1),
             [Limit {
                 cut: 0,
                 is_above: false
             }]
         );
         assert_eq!(
-            (kept.pieces.len(), joints(&kept.pieces, &kept.tree).len()),
+            (
+                limited.pieces.len(),
+                joints(&limited.pieces, &limited.tree).len()
+            ),
             (3, 3)
         );
         assert_eq!(
-            kept.voids[1].opened_by,
+            limited.voids[1].opened_by,
             [CutId::of(0), CutId::of(1)],
             "its other half is cut along"
         );
         assert!(
-            kept.voids.iter().all(|void| void.is_clean),
+            limited.voids.iter().all(|void| void.is_clean),
             "{:?}",
-            kept.voids
+            limited.voids
         );
     }
 
     #[test]
-    fn the_cut_closed_first_is_the_one_made_last() {
+    fn the_last_cut_made_is_the_first_to_be_glued() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
-        let kept = kept_of(&scene, &planes);
-        let cuts: Vec<usize> = joints(&kept.pieces, &kept.tree)
+        let limited = limit_clean_cuts(&scene, &planes);
+        let cuts: Vec<usize> = joints(&limited.pieces, &limited.tree)
             .iter()
             .map(|joint| joint.cut)
             .collect();
@@ -213,7 +216,7 @@ mod tests {
     }
 
     #[test]
-    fn cuts_kept_to_different_sides_meet_in_quarters_of_the_face_between_them() {
+    fn cuts_limited_to_opposite_sides_divide_the_face_between_them_into_quarters() {
         let (body, [across, along], request) = bar();
         let upright = Plane {
             normal: Vector::y(),
@@ -258,7 +261,7 @@ mod tests {
                 "{quarters:?}"
             );
         }
-        // The section of the ball is nearly in the middle.
+        // The section of the ball is nearly central.
         assert!(
             quarters
                 .iter()
@@ -275,21 +278,21 @@ mod tests {
             normal: Vector::x(),
             offset_mm: 30.013,
         };
-        let kept = kept_of(&scene, &[between, along]);
-        // The one between them opens nothing and may end at the other, on either side of it.
-        assert!(kept.tree.limits(1).is_empty());
-        assert_eq!((kept.tree.limits(0).len(), kept.pieces.len()), (1, 3));
+        let limited = limit_clean_cuts(&scene, &[between, along]);
+        // The cut between the balls opens nothing, so it may end at the other cut, on either side.
+        assert!(limited.tree.limits(1).is_empty());
+        assert_eq!((limited.tree.limits(0).len(), limited.pieces.len()), (1, 3));
     }
 
     #[test]
-    fn a_plan_with_a_cut_on_one_side_is_written_read_and_made_again_to_the_bit() {
+    fn a_plan_with_a_limited_cut_survives_writing_and_reading_to_the_bit() {
         let (body, planes, request) = bar();
         let scene = Scene::new(&body, &request).unwrap();
         let LimitedCuts {
             tree,
             voids,
             pieces,
-        } = kept_of(&scene, &planes);
+        } = limit_clean_cuts(&scene, &planes);
         let layout = Layout {
             tree,
             voids,
@@ -335,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn cuts_kept_to_each_other_are_refused_and_so_are_those_kept_to_none() {
+    fn limits_in_a_circle_to_both_sides_or_to_unknown_cuts_are_refused() {
         let cut = |id: &str, other: &str| {
             format!(
                 "[[cuts]]\nid = \"{id}\"\npoint_mm = [0, 0, 0]\nnormal = [1, 0, 0]\nwithin = [{{ cut = \"{other}\", side = \"above\" }}]\n"

@@ -1,21 +1,21 @@
-//! The planes of symmetry of a body: where a print shop would cut it first.
+//! The planes of symmetry of a body, where a print shop would cut it first.
 
 use crate::{
     geom::{Bvh, Plane, Point, Vector},
     mesh::TriMesh,
 };
 
-/// Vertices that are reflected, at most: they are taken evenly from all.
+/// Greatest number of reflected vertices, taken at even steps from all.
 const SAMPLES: usize = 256;
-/// How far a reflected vertex may lie off the surface, as a share of the model's diagonal. Less,
-/// and a sculpted figure has no symmetry; more, and an ellipsoid has planes that it has not.
+/// Greatest distance of a reflected vertex from the surface, as a share of the model's diagonal.
+/// With less, a sculpted figure has no symmetry; with more, an ellipsoid has false planes.
 const TOLERANCE_RATIO: f64 = 0.01;
 
-/// Those of the planes through `center` normal to `directions` in which the body that a mesh bounds
-/// is its own mirror image, to a hundredth of its diagonal.
+/// Returns the planes of mirror symmetry among those through `center` and normal to `directions`.
+/// The tolerance is 1 % of the body's diagonal.
 ///
-/// Every plane of symmetry holds the centre of mass and is normal to a principal axis, so that the
-/// principal axes miss one only where two moments are equal.
+/// Every plane of symmetry contains the centre of mass and is normal to a principal axis. So the
+/// principal axes can miss one only if two moments are equal.
 pub(crate) fn mirror_planes(mesh: &TriMesh, center: &Point, directions: &[Vector]) -> Vec<Plane> {
     let bvh = Bvh::new(mesh.iter_corners());
     let farthest_mm = TOLERANCE_RATIO * mesh.aabb().size().norm();
@@ -48,7 +48,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_is_its_own_image_in_three_planes_and_not_in_a_skew_one() {
+    fn a_box_has_three_planes_of_symmetry_and_no_skew_one() {
         let mesh = cuboid(&Point::new(1.0, 2.0, 3.0), &Point::new(11.0, 8.0, 7.0));
         let center = Point::new(6.0, 5.0, 5.0);
         assert_eq!(mirror_planes(&mesh, &center, &axes()).len(), 3);
@@ -56,7 +56,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ball_with_a_bump_has_lost_the_plane_that_the_bump_is_above() {
+    fn a_bump_takes_away_the_plane_of_symmetry_below_it() {
         let bumped = ball(&Point::origin(), 10.0, 4).map_vertices(|p| {
             if p.z > 8.0 {
                 p + Vector::z() * (p.z - 8.0)

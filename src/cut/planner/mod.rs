@@ -27,12 +27,12 @@ use crate::{
         pieces::{pose::fits, rejoin::rejoined, split::Piece},
         plan::{Cut, CutPlan, bridges_on, tree_of},
         planner::{
-            extra::{Tried, add_extra_cuts, cleanest},
-            layers::at_layers,
+            extra::{Attempt, add_extra_cuts, cleanest},
+            layers::snap_to_layers,
             layout::Layout,
             score::{Scene, burden},
             search::smallest_plans,
-            to_plan::{named_as, to_plan},
+            to_plan::{rename_cuts, to_plan},
         },
         remark::Remark,
         request::PlanRequest,
@@ -42,16 +42,16 @@ use crate::{
     mesh::{off_faces, off_vertices},
 };
 
-/// How many further cuts may be made so that parts fit the build volume.
+/// Greatest number of extra cuts that make parts fit the build volume.
 const MAX_FITTING_CUTS: usize = 8;
 
-/// The fewest cuts that open every void by at least the asked disc, the best of them by named terms
-/// with which every void can be cleaned by the printer's rule; further cuts where none of them
-/// does, or where a part would not fit the build volume; and pins for every joint. Voids that no
-/// cut lets be cleaned are told by [`is_clean`](crate::cut::VoidAccess::is_clean).
+/// Finds the fewest cuts that open every void by the required disc, and places pins in every joint.
+/// Among plans of equally few cuts, it takes the best-scored with which every void can be cleaned
+/// by the printer's rule. It adds cuts if there is none, or if a part would not fit the build
+/// volume. [`is_clean`](crate::cut::VoidAccess::is_clean) is false for voids that stay uncleanable.
 ///
-/// "Fewest" is proved by exact set cover over the family of planes tried; the notes say over how
-/// many. About a second for 200k triangles and ten voids.
+/// "Fewest" is proved by exact set cover over the family of planes tried; the notes give its size.
+/// The search takes about a second for 200k triangles and ten voids.
 pub fn plan(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -60,19 +60,18 @@ pub fn plan(
 }
 
 fn plan_fewest(hollowed: &Hollowed, request: &PlanRequest) -> Result<CutPlan, CutError> {
-    check(request)?;
+    check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
     let mut notes = Vec::new();
     let mut layout = opening_cuts(&scene, &mut notes)?;
     fit_build_volume(&scene, &mut layout, &mut notes)?;
-    notes.extend(limited_cuts(&layout.tree));
+    notes.extend(limited_cut_remarks(&layout.tree));
     let plan = to_plan(&scene, &layout, Pins::Placed, notes.clone())?;
-    at_layers(&scene, &layout, plan, notes)
+    snap_to_layers(&scene, &layout, plan, notes)
 }
 
-/// The plan by a person's order: each cut through what lies on the sides that it is kept to, but
-/// for the faces that are to stay whole; pins as ordered, or placed as in [`plan`]. Joints and
-/// openings follow.
+/// Plans the ordered cuts, each limited to its ordered sides and without the faces ordered to stay
+/// whole. Pins are as ordered, or placed as in [`plan`]. Joints and openings follow.
 pub fn plan_by(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -86,8 +85,8 @@ pub fn plan_by(
     ))
 }
 
-/// The plan by an order as in [`plan_by`], but that joints in which none of its pins stands get the
-/// planner's.
+/// Plans the ordered cuts as in [`plan_by`], but the planner places pins in joints without an
+/// ordered pin.
 pub fn plan_around(
     hollowed: &Hollowed,
     request: &PlanRequest,
@@ -105,20 +104,20 @@ fn plan_ordered(
     hollowed: &Hollowed,
     request: &PlanRequest,
     order: &CutOrder,
-    others: UnorderedJoints,
+    unordered: UnorderedJoints,
 ) -> Result<CutPlan, CutError> {
-    check(request)?;
+    check_request(request)?;
     let scene = Scene::new(hollowed, request)?;
     let cuts = order
         .cuts
         .iter()
-        .map(|cut| beside_faces(&scene, cut))
+        .map(|cut| move_off_faces(&scene, cut))
         .collect::<Result<Vec<_>, CutError>>()?;
-    let (tree, own) = (tree_of(&cuts)?, order.numbered());
-    let bridges = bridges_on(&tree.planes, &own.cuts, &own.uncut);
+    let (tree, numbered) = (tree_of(&cuts)?, order.numbered());
+    let bridges = bridges_on(&tree.planes, &numbered.cuts, &numbered.uncut);
     let pieces = rejoined(scene.split(&tree)?, &tree, &bridges)?;
     let voids = accesses(&scene.chambers, &tree, request)?;
-    let pins = match (&own.pins, others) {
+    let pins = match (&numbered.pins, unordered) {
         (None, _) => Pins::Placed,
         (Some(pins), UnorderedJoints::None) => Pins::Ordered(pins),
         (Some(pins), UnorderedJoints::Placed) => Pins::Around(pins),
@@ -136,12 +135,12 @@ fn plan_ordered(
     )?;
     Ok(CutPlan {
         solid: order.solid.clone(),
-        ..named_as(plan, &cuts)
+        ..rename_cuts(plan, &cuts)
     })
 }
 
-/// The cut as ordered, or beside the faces that it would leave a sheet of.
-fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
+/// Returns the cut as ordered, or moved off faces of which it would leave a thin sheet.
+fn move_off_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
     let plane = cut.plane()?;
     let moved_mm = off_faces(&scene.material, &plane).offset_mm - plane.offset_mm;
     let point_mm = if moved_mm == 0.0 {
@@ -155,14 +154,14 @@ fn beside_faces(scene: &Scene, cut: &Cut) -> Result<Cut, CutError> {
     })
 }
 
-/// Which pins joints get where a person ordered none.
+/// The pins in joints for which none were ordered.
 enum UnorderedJoints {
     None,
     Placed,
 }
 
-/// The plan with what it does to the voids of a body that was solved for again: their volumes,
-/// openings, depths and sights. Cuts, pins and joints stay.
+/// Returns the plan with its voids measured again on a body that was solved again. Volumes,
+/// openings, depths and visible shares change; cuts, pins and joints stay.
 pub fn plan_of(
     hollowed: &Hollowed,
     plan: CutPlan,
@@ -174,8 +173,8 @@ pub fn plan_of(
     })
 }
 
-/// Refuses lengths that cannot be.
-fn check(request: &PlanRequest) -> Result<(), CutError> {
+/// Returns an error if a length is out of range.
+fn check_request(request: &PlanRequest) -> Result<(), CutError> {
     let pins = &request.pins;
     let positive = [
         ("min_opening_mm", request.min_opening_mm),
@@ -203,7 +202,7 @@ fn check(request: &PlanRequest) -> Result<(), CutError> {
     })
 }
 
-/// The best of the smallest plans, and its pieces.
+/// Returns the layout of the best of the smallest plans.
 fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutError> {
     if scene.hollowed.voids.is_empty() {
         return Layout::new(scene, Vec::new(), Vec::new());
@@ -211,7 +210,7 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
     let found = smallest_plans(scene)?;
     notes.push(Remark::Fewest(found.proof()));
     let best = cleanest(scene, &found.plans)?;
-    let Tried { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
+    let Attempt { planes, voids, .. } = add_extra_cuts(scene, best, notes)?;
     let score = |(index, plane): (usize, &Plane)| Remark::Score {
         cut: CutId::of(index),
         terms: burden(scene, plane).terms(scene).to_vec(),
@@ -220,8 +219,8 @@ fn opening_cuts(scene: &Scene, notes: &mut Vec<Remark>) -> Result<Layout, CutErr
     Layout::new(scene, planes, voids)
 }
 
-/// The cuts that are made on sides of others only.
-fn limited_cuts(tree: &CutTree) -> impl Iterator<Item = Remark> {
+/// Returns a remark on each cut that is limited to sides of others.
+fn limited_cut_remarks(tree: &CutTree) -> impl Iterator<Item = Remark> {
     let remark = |cut: usize| {
         let sides: Vec<CutSide> = tree.limits(cut).iter().map(Limit::side).collect();
         let cut = CutId::of(cut);
@@ -230,7 +229,7 @@ fn limited_cuts(tree: &CutTree) -> impl Iterator<Item = Remark> {
     (0..tree.planes.len()).filter_map(remark)
 }
 
-/// Cuts pieces that do not fit the build volume in two, across their longest extent, until all fit.
+/// Bisects pieces that do not fit the build volume, across their longest extent, until all fit.
 fn fit_build_volume(
     scene: &Scene,
     layout: &mut Layout,

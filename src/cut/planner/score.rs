@@ -1,21 +1,25 @@
-//! How good a plan is: named terms, each 0 (nothing to improve) to 1 (bad), weighed and added.
+//! The score of a plan: named terms, each from 0 (nothing to improve) to 1 (bad), weighted and
+//! added.
 //!
 //! | term | measured | bad | weight |
 //! |---|---|---|---|
-//! | opening | the narrowest opening, mm | nothing; good from three times the least | 1 |
-//! | room for pins | the disc in the joint with least, mm; where wide joints are wanted a quarter of that with its voids filled | half of what pins need, filled nothing | 2 |
-//! | smallest part | its share of the volume | nothing; good from 2 % | 2 |
+//! | opening | narrowest opening, mm | nothing; good from three times the least | 1 |
+//! | room for pins | largest disc in the tightest joint, mm | half of what pins need | 2 |
+//! | smallest part | share of the volume | nothing; good from 2 % | 2 |
 //! | parts | pieces beyond two | each | 0.2 |
 //! | contact | distance of the cut from the contact point, mm | nothing; good from 3 mm | 1 |
-//! | seam | its length on the outside, mm | the circle about the model | 0.5 |
-//! | detail | how much more the seam turns than a convex one, rad | two turns more | 0.1 |
-//! | glue | the area of the joint with least, mm² | nothing; good from four pins' discs | 0.3 |
+//! | seam | length on the outside, mm | circle about the model | 0.5 |
+//! | detail | turning of the seam beyond a convex one, rad | two turns more | 0.1 |
+//! | glue | area of the smallest joint, mm² | nothing; good from four pins' discs | 0.3 |
 //! | build volume | halves that do not fit it | each | 0.5 |
-//! | overhang | the share of the surface that leans less than 45° over the plate, as the cut face lies | all | 0.3 |
+//! | overhang | share of the surface that overhangs by more than 45° | all | 0.3 |
 //!
-//! The number of cuts comes before the score, and so does cleaning: of the plans with the fewest
-//! cuts the first in the order of the score is taken with which every void is clean, the share of
-//! its wall in sight included ([`crate::cut::access::void_access`]).
+//! If wide joints are wanted, voids in a joint count as filled and the disc as a quarter. Bad is
+//! no room at all. Overhang is measured with the cut faces down or up, as the request prefers.
+//!
+//! The number of cuts comes before the score, and so does cleaning. Among the plans with the fewest
+//! cuts, the planner takes the best-scored one with which every void is clean. This includes the
+//! share of its wall in sight ([`crate::cut::access::void_access`]).
 
 use crate::{
     cut::{
@@ -39,15 +43,15 @@ use crate::{
     mesh::{Csg, TriMesh},
 };
 
-/// The body that is to be cut, with what every plane is compared against.
+/// The body to cut, and the data against which every plane is compared.
 pub(crate) struct Scene<'a> {
     pub(crate) hollowed: &'a Hollowed,
     pub(crate) request: &'a PlanRequest,
-    /// The surface of the material: the outside and the voids turned inside out.
+    /// Surface of the material: the outside and the inverted voids.
     pub(crate) material: TriMesh,
-    /// The same, ready to be cut.
+    /// The material, prepared for cutting.
     body: Csg,
-    /// The voids, ready to be cut and looked into.
+    /// The voids, prepared for cutting and line-of-sight tests.
     pub(crate) chambers: Vec<Chamber<'a>>,
     volume_mm3: f64,
     diagonal_mm: f64,
@@ -71,12 +75,12 @@ impl<'a> Scene<'a> {
         })
     }
 
-    /// The pieces of the body between the cuts.
+    /// Returns the pieces of the body between the cuts.
     pub(crate) fn split(&self, tree: &CutTree) -> Result<Vec<Piece>, CutError> {
         split_body(&self.body, tree)
     }
 
-    /// How the plane opens each void of `met`; `None` for those it misses.
+    /// Returns the plane's opening into each void of `met`; `None` for voids that it misses.
     pub(crate) fn openings(&self, plane: &Plane, met: VoidSet) -> Vec<Option<Opening>> {
         let voids = self.hollowed.voids.iter().enumerate();
         voids
@@ -89,88 +93,85 @@ impl<'a> Scene<'a> {
     }
 }
 
-/// Openings wider than this many times the least asked for are no better.
+/// Openings wider than this many times the required one score no better.
 pub(crate) const AMPLE_OPENING_RATIO: f64 = 3.0;
-/// A joint that is so many times as wide with its voids filled as what a pin needs has room for two
-/// bosses, and for an opening between them.
+/// Width of a wide joint with its voids filled, as a multiple of the room a pin needs. Such a joint
+/// has room for two bosses and an opening between them.
 const WIDE_JOINT_RATIO: f64 = 4.0;
-/// Parts larger than this share of the material are not too small.
+/// Share of the material above which a part is not too small.
 const AMPLE_PART_RATIO: f64 = 0.02;
-/// Cuts farther than this from the contact point do not disturb it, mm.
+/// Distance from the contact point beyond which a cut does not disturb it, mm.
 const AMPLE_CONTACT_MM: f64 = 3.0;
 
-/// Weight of the narrowest opening: washing out is what cuts are for.
+/// Weight of the narrowest opening. Washing out is the purpose of the cuts.
 const OPENING_WEIGHT: f64 = 1.0;
-/// Weight of a joint without room for pins: parts that cannot be aligned spoil the balance.
+/// Weight of a joint without room for pins. Parts that cannot be aligned spoil the balance.
 const ROOM_WEIGHT: f64 = 2.0;
-/// Weight of crumbs: they are lost, or glued wrongly.
+/// Weight of crumbs. They get lost or are glued wrongly.
 const SMALL_PART_WEIGHT: f64 = 2.0;
-/// Weight of each piece a cut leaves beyond two: every part is one more to print, clean and glue.
+/// Weight of each piece beyond two. Every part is one more to print, clean and glue.
 const EXTRA_PART_WEIGHT: f64 = 0.2;
-/// Weight of a cut through the contact point: the tip wears along a seam.
+/// Weight of a cut through the contact point. The tip wears along a seam.
 const CONTACT_WEIGHT: f64 = 1.0;
-/// Weight of a seam as long as the circle about the model: looks, and glue.
+/// Weight of a seam as long as the circle about the model. Seams are visible and cost glue.
 const SEAM_WEIGHT: f64 = 0.5;
-/// Weight of a seam over features, such as ears and folds of cloth: a step shows there, and edges
-/// chip.
+/// Weight of a seam over features such as ears and folds. Steps show there, and edges chip.
 const DETAIL_WEIGHT: f64 = 0.1;
-/// Weight of a joint without face to glue.
+/// Weight of a joint without area to glue.
 const GLUE_WEIGHT: f64 = 0.3;
 /// Weight of each half that must be cut again to fit the printer.
 const BUILD_VOLUME_WEIGHT: f64 = 0.5;
-/// Weight of a surface that all hangs over the plate: support is printed, removed, and leaves
-/// marks.
+/// Weight of a surface that is all overhang. Support must be printed and removed, and leaves marks.
 const OVERHANG_WEIGHT: f64 = 0.3;
 
-/// A seam that turns by so much more than a convex one runs over features everywhere, rad: two full
-/// turns.
-const PLENTY_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
-/// A joint with the area of so many discs as wide as a pin needs has enough to glue.
+/// Excess turning of a seam that runs over features everywhere, rad: two full turns.
+const FULL_DETAIL_RAD: f64 = 2.0 * std::f64::consts::TAU;
+/// Area of a joint with enough to glue, as a multiple of the disc that a pin needs.
 const AMPLE_GLUE_DISCS: f64 = 4.0;
-/// A surface that looks down hangs over where its normal is nearer to the vertical than this
-/// cosine: 45°, the usual limit.
+/// Cosine between the normal and the vertical above which a downward surface is overhang: 45°, the
+/// usual limit.
 const OVERHANG_COSINE: f64 = std::f64::consts::FRAC_1_SQRT_2;
 
-/// What a cut does to the body, apart from the voids it opens.
+/// The effect of a cut on the body, apart from the voids it opens.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Burden {
-    /// The visible length of the seam, mm.
+    /// Visible length of the seam, mm.
     pub(crate) seam_mm: f64,
-    /// The diameter of the largest disc of material in the joint that has the least, mm (at most
-    /// what pins need; 0 when below half of it); where wide joints are wanted a quarter of that
-    /// with the voids in it filled.
+    /// Diameter of the largest disc of material in the tightest joint, mm: at most what pins need,
+    /// and 0 below half of that. If wide joints are wanted, a quarter of the diameter with the
+    /// voids in the joint filled.
     pub(crate) room_mm: f64,
-    /// How many pieces it leaves beyond two.
+    /// Number of pieces beyond two.
     pub(crate) extra_parts: usize,
-    /// The volume of the smallest piece over that of the body.
+    /// Volume of the smallest piece over that of the body.
     pub(crate) smallest_ratio: f64,
-    /// The distance of the cut from the contact point, mm.
+    /// Distance of the cut from the contact point, mm.
     pub(crate) contact_mm: f64,
-    /// How much more the seam turns than a convex one, rad.
+    /// Turning of the seam beyond that of a convex one, rad.
     pub(crate) detail_rad: f64,
-    /// The area of material in the joint that has the least, mm².
+    /// Least area of material in a joint, mm².
     pub(crate) glue_mm2: f64,
-    /// How many halves do not fit the build volume.
+    /// Number of halves that do not fit the build volume.
     pub(crate) oversize: usize,
-    /// The share of the surface that hangs over the plate when both halves lie as is preferred.
+    /// Share of the surface that overhangs when both halves lie in the preferred pose.
     pub(crate) overhang_ratio: f64,
 }
 
-/// What the plane does to the body, pieces left out that stay joined to another because nothing
-/// opens between them. Costs two passes over the triangles.
+/// Measures the effect of a plane on the body. Pieces that stay joined to another, because nothing
+/// opens between them, do not count. Takes two passes over the triangles.
 pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let sides = Sides::new(
         &scene.material,
         *plane,
         Section::of_mesh(&scene.material, plane),
     );
-    let outside = scene.hollowed.outer.mesh().vertices().len();
-    let joints = joints(&sides, outside);
-    let cut: Vec<&Joint> = joints
+    let first_void_vertex = scene.hollowed.outer.mesh().vertices().len();
+    let joints = joints(&sides, first_void_vertex);
+    let needed: Vec<&Joint> = joints
         .iter()
         .filter(|joint| !is_needless(joint, &joints))
         .collect();
-    let is_part = |piece: u32| cut.iter().any(|joint| joint.pieces.contains(&piece));
+    let is_part = |piece: u32| needed.iter().any(|joint| joint.pieces.contains(&piece));
     let volumes = sides
         .piece_volumes_mm3()
         .into_iter()
@@ -178,11 +179,11 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     let volumes: Vec<f64> = volumes
         .map(|(_, volume)| volume / scene.volume_mm3)
         .collect();
-    let groups = || cut.iter().flat_map(|joint| &joint.groups);
+    let groups = || needed.iter().flat_map(|joint| &joint.groups);
     let needed_mm = needed_room_mm(scene.request);
     let disc_mm = |&group: &usize| {
         if scene.request.wants_wide_joints {
-            let is_outside = |ring: &Ring| (ring.above as usize) < outside;
+            let is_outside = |ring: &Ring| (ring.above as usize) < first_void_vertex;
             sides.filled_disc_diameter_mm(group, is_outside) / WIDE_JOINT_RATIO
         } else {
             sides.disc_diameter_mm(group, needed_mm / 2.0)
@@ -194,13 +195,13 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
             .map(|&group| sides.section.rings[sides.polygons[group][0]].length_mm())
             .sum(),
         extra_parts: volumes.len().saturating_sub(2),
-        room_mm: cut.iter().map(room_mm).fold(needed_mm, f64::min),
+        room_mm: needed.iter().map(room_mm).fold(needed_mm, f64::min),
         smallest_ratio: volumes.into_iter().fold(1.0, f64::min),
         contact_mm: plane.distance(&scene.request.axis.point).abs(),
         detail_rad: groups()
             .map(|&group| excess_turn_rad(&sides.section.rings[sides.polygons[group][0]]))
             .sum(),
-        glue_mm2: cut
+        glue_mm2: needed
             .iter()
             .map(|joint| glue_mm2(&sides, joint))
             .fold(f64::INFINITY, f64::min),
@@ -212,7 +213,7 @@ pub(crate) fn burden(scene: &Scene, plane: &Plane) -> Burden {
     }
 }
 
-/// The area of material in a joint, mm².
+/// Returns the area of material in a joint, mm².
 fn glue_mm2(sides: &Sides, joint: &Joint) -> f64 {
     let rings = joint
         .groups
@@ -223,8 +224,8 @@ fn glue_mm2(sides: &Sides, joint: &Joint) -> f64 {
         .sum()
 }
 
-/// How much more a ring turns than a convex one, rad; 0 for a convex ring, however finely it is
-/// divided.
+/// Returns the turning of a ring beyond that of a convex one, rad; 0 for a convex ring, however
+/// finely it is divided.
 fn excess_turn_rad(ring: &Ring) -> f64 {
     let sides: Vec<_> = ring
         .segments()
@@ -240,13 +241,12 @@ fn excess_turn_rad(ring: &Ring) -> f64 {
     (turn - std::f64::consts::TAU).max(0.0)
 }
 
-/// How many of the two halves are larger than the build volume, each side against the side of its
-/// rank.
+/// Counts the halves that are larger than the build volume, comparing sorted side lengths.
 fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
     let mut halves = [Aabb::EMPTY; 2];
     for corners in scene.hollowed.outer.mesh().iter_corners() {
         for i in 0..3 {
-            grow(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
+            grow_halves(&mut halves, plane, [corners[i], corners[(i + 1) % 3]]);
         }
     }
     room_mm.sort_by(f64::total_cmp);
@@ -262,21 +262,23 @@ fn oversize(scene: &Scene, plane: &Plane, mut room_mm: [f64; 3]) -> usize {
     halves.iter().filter(|half| is_over(half)).count()
 }
 
-/// Grows the boxes of the halves above and below a plane, in its own coordinates, over an edge.
-fn grow(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
+/// Grows the boxes of the halves above and below a plane, in the plane's coordinates, to include an
+/// edge.
+fn grow_halves(halves: &mut [Aabb; 2], plane: &Plane, [from, to]: [Point; 2]) {
     let (u, v) = plane.basis();
     let [low, high] = [plane.distance(&from), plane.distance(&to)];
-    let turned = |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
+    let in_plane_frame =
+        |p: &Point, height: f64| Point::new(u.dot(&p.coords), v.dot(&p.coords), height);
     let side = usize::from(low < 0.0);
-    halves[side] = halves[side].grown_over(&turned(&from, low));
+    halves[side] = halves[side].grown_over(&in_plane_frame(&from, low));
     if (low < 0.0) != (high < 0.0) {
-        let met = turned(&(from + (to - from) * (low / (low - high))), 0.0);
-        *halves = halves.map(|half| half.grown_over(&met));
+        let crossing = in_plane_frame(&(from + (to - from) * (low / (low - high))), 0.0);
+        *halves = halves.map(|half| half.grown_over(&crossing));
     }
 }
 
-/// The share of the material's surface that leans less than 45° over the plate, both halves lying
-/// on their cut faces, or with them up where hollows are to look up.
+/// Returns the share of the material's surface that overhangs by more than 45°. Both halves lie on
+/// their cut faces, or with these up if hollows should open upwards.
 fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
     let down = match scene.request.pose {
         PosePreference::CutFaceDown => -1.0,
@@ -301,11 +303,12 @@ fn overhang_ratio(scene: &Scene, plane: &Plane) -> f64 {
 struct Joint {
     pieces: [u32; 2],
     groups: Vec<usize>,
-    /// Whether a void opens in one of the polygons.
+    /// True if a void opens in one of the polygons.
     is_open: bool,
 }
 
-/// The joints of the section; vertices of the material from `first_void_vertex` on are the voids'.
+/// Returns the joints of the section. Vertices of the material from `first_void_vertex` on belong
+/// to voids.
 fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
     let mut joints: Vec<Joint> = Vec::new();
     for (group, rings) in sides.polygons.iter().enumerate() {
@@ -327,7 +330,7 @@ fn joints(sides: &Sides, first_void_vertex: usize) -> Vec<Joint> {
     joints
 }
 
-/// Whether nothing opens in the joint, and one of its pieces has no other.
+/// Returns true if nothing opens in the joint and it is the only joint of one of its pieces.
 fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
     let count = |piece: &u32| {
         joints
@@ -339,12 +342,12 @@ fn is_needless(joint: &Joint, joints: &[Joint]) -> bool {
 }
 
 impl Burden {
-    /// The sum of the weighed terms of one cut, 0 at best.
+    /// Returns the sum of the weighted terms of one cut, 0 at best.
     pub(crate) fn penalty(&self, scene: &Scene) -> f64 {
         self.terms(scene).iter().map(|(_, value)| value).sum()
     }
 
-    /// The weighed terms of one cut by their names, each 0 at best.
+    /// Returns the weighted terms of one cut with their names, each 0 at best.
     pub(crate) fn terms(&self, scene: &Scene) -> [(Term, f64); 9] {
         let needed_mm = needed_room_mm(scene.request);
         let ample_glue_mm2 = AMPLE_GLUE_DISCS * std::f64::consts::FRAC_PI_4 * needed_mm * needed_mm;
@@ -366,7 +369,7 @@ impl Burden {
             (Term::Seam, SEAM_WEIGHT * self.seam_mm / circle_mm),
             (
                 Term::Detail,
-                DETAIL_WEIGHT * (self.detail_rad / PLENTY_DETAIL_RAD).min(1.0),
+                DETAIL_WEIGHT * (self.detail_rad / FULL_DETAIL_RAD).min(1.0),
             ),
             (
                 Term::Glue,
@@ -381,7 +384,7 @@ impl Burden {
     }
 }
 
-/// The weighed term of the narrowest of the voids' openings (mm), 0 at best.
+/// Returns the weighted term of the narrowest of the voids' openings (mm), 0 at best.
 pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f64>) -> f64 {
     let ample_mm = AMPLE_OPENING_RATIO * scene.request.min_opening_mm;
     OPENING_WEIGHT
@@ -390,7 +393,8 @@ pub(crate) fn opening_penalty(scene: &Scene, openings_mm: impl Iterator<Item = f
             .fold(0.0, f64::max)
 }
 
-/// How far `value` falls short of `ample`: 0 when it does not, 1 when it is nothing.
+/// Returns the relative shortfall of `value` against `ample`: 0 if there is none, 1 if `value` is
+/// 0.
 fn shortfall(value: f64, ample: f64) -> f64 {
     (1.0 - value / ample).clamp(0.0, 1.0)
 }
@@ -426,8 +430,7 @@ mod tests {
             [0.0, 10.0],
         ];
         let points = corners.map(|[x, y]| crate::cut::Point2::new(x, y)).to_vec();
-        // Into the notch and out of it again: one corner turned back by a quarter, and as much more
-        // at the others.
+        // The notch turns one corner back by a quarter, and the others turn by as much more.
         let turn = excess_turn_rad(&Ring {
             points,
             above: 0,
@@ -437,8 +440,7 @@ mod tests {
     }
 
     #[test]
-    fn where_wide_joints_are_wanted_a_thin_wall_about_a_wide_void_has_room_and_a_thin_slab_has_not()
-    {
+    fn wide_joints_need_a_wide_outline_however_thin_the_wall() {
         let usual = request();
         let wide = PlanRequest {
             wants_wide_joints: true,
@@ -448,7 +450,7 @@ mod tests {
         let needed_mm = needed_room_mm(&usual);
         assert_eq!(burden_of(&shell, &usual, 0.1).room_mm, 0.0);
         assert_eq!(burden_of(&shell, &wide, 0.1).room_mm, needed_mm);
-        // A slab's section is as long as you like, and no disc of more than 8 mm lies in it.
+        // The section of a slab is long, but no disc wider than 8 mm fits in it.
         let slab = with_balls(
             cuboid([0.0; 3], [8.0, 40.0, 60.0]),
             &[[4.0, 20.0, 30.0, 2.0]],
@@ -488,14 +490,14 @@ mod tests {
     }
 
     #[test]
-    fn half_a_ball_on_its_cut_face_hangs_over_nowhere_but_in_its_void() {
-        // Outside all looks up; of the void's half the ceiling within 45° of its pole: 1 − cos 45°
-        // of a half sphere.
+    fn half_a_ball_on_its_cut_face_overhangs_only_in_its_void() {
+        // The outside looks up everywhere. In the void's half, the ceiling within 45° of its pole
+        // overhangs: 1 − cos 45° of a half sphere.
         let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 12.0]]);
         let share = 144.0 / (625.0 + 144.0) * (1.0 - OVERHANG_COSINE);
         let down = burden_of(&body, &request(), 0.1).overhang_ratio;
-        // The ball has 12 rows of facets: 45° lies in the middle of the third, so that a row more
-        // or less counts.
+        // The ball has 12 rows of facets. 45° lies in the middle of the third, so one row more or
+        // less may count.
         assert!((down - share).abs() < 0.35 * share, "{down} {share}");
         let up = PlanRequest {
             pose: PosePreference::OpenHollowUp,

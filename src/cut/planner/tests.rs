@@ -1,4 +1,4 @@
-//! What the planner promises of the number of cuts, on bodies whose answer is known.
+//! Tests of the number of cuts that the planner finds, on bodies with a known answer.
 
 use crate::{
     cut::{
@@ -23,8 +23,7 @@ fn pearls_on_a_skew_string_need_one_cut() {
 
 #[test]
 fn two_voids_side_by_side_only_in_a_skew_direction_need_one_cut() {
-    // Their extents along x, along y and along z do not overlap, so no plane normal to an axis
-    // meets both.
+    // Their extents along x, y and z do not overlap, so no plane normal to an axis meets both.
     let body = with_balls(
         cuboid([-30.0; 3], [30.0; 3]),
         &[[-15.0, -15.0, -15.0, 6.0], [15.0, 15.0, 15.0, 6.0]],
@@ -63,7 +62,7 @@ fn three_voids_in_a_triangle_need_the_one_plane_through_them_all() {
 
 #[test]
 fn four_small_voids_at_the_corners_of_a_tetrahedron_need_two_cuts() {
-    // A plane within 1.5 mm of three corners misses the fourth, some 40 mm off; two planes take two
+    // A plane within 1.5 mm of three corners misses the fourth by some 40 mm. Two planes take two
     // corners each.
     let corner = |x: f64, y: f64, z: f64| [15.0 * x, 15.0 * y, 15.0 * z, 2.5];
     let tetrahedron = [
@@ -98,8 +97,8 @@ fn a_void_too_narrow_to_open_is_named() {
     );
 }
 
-/// A body of 60 × 30 × 30 mm with a void and, behind it, pockets for balls of 5 mm with 0.2 mm of
-/// room.
+/// Returns a body of 60 × 30 × 30 mm with a void. Behind it are pockets for balls of 5 mm with a
+/// clearance of 0.2 mm.
 fn with_pockets(pockets: &[[f64; 3]]) -> Hollowed {
     let voids = [
         &[[15.0, 15.0, 15.0, 9.0]][..],
@@ -128,7 +127,7 @@ fn one_cut_opens_a_void_and_lets_a_ball_into_its_pocket() {
     assert_eq!(plan.cuts.len(), 1);
     assert!(plan.voids[1].opening_mm >= 5.0, "{:?}", plan.voids);
     let plane = plan.cuts[0].plane().unwrap();
-    // √(2.7² − 2.5²) of its middle.
+    // Distance from the middle of the pocket: √(2.7² − 2.5²).
     assert!(plane.distance(&Point::new(50.0, 22.0, 8.0)).abs() <= 1.02);
 }
 

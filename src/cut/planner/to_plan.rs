@@ -1,5 +1,4 @@
-//! A plan told from its cuts and the pieces they leave: pins, joints, and what a person should
-//! know.
+//! The plan as data: its cuts, joints, pins and labels, and remarks for the user.
 
 use crate::{
     cut::{
@@ -26,7 +25,7 @@ use crate::{
     geom::Plane,
 };
 
-/// The plan's data for these cuts and pieces, with these pins.
+/// Builds the plan from these cuts and pieces, and places the pins.
 pub(crate) fn to_plan(
     scene: &Scene,
     layout: &Layout,
@@ -48,9 +47,10 @@ pub(crate) fn to_plan(
     let joints = joints(pieces, tree);
     let placements = pinned(&pin_scene, &joints, pins)?;
     let (labels, unlabelled) = labels(&pin_scene, &joints, &placements);
-    let told = joints.iter().zip(&placements);
+    let pairs = joints.iter().zip(&placements);
     notes.extend(
-        told.clone()
+        pairs
+            .clone()
             .filter_map(|(joint, placement)| pin_lack(scene.request, joint, placement)),
     );
     notes.extend(voids.iter().filter_map(|void| narrow_piece(scene, void)));
@@ -59,7 +59,7 @@ pub(crate) fn to_plan(
         cuts: (0..tree.planes.len())
             .map(|index| cut(tree, index))
             .collect(),
-        joints: told
+        joints: pairs
             .map(|(joint, placement)| joint_note(&pin_scene, joint, placement))
             .collect(),
         pins: placements
@@ -78,8 +78,8 @@ pub(crate) fn to_plan(
     })
 }
 
-/// The plan with its cuts called as in the order it was made by: the planner numbers them.
-pub(crate) fn named_as(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
+/// Gives the plan's cuts the names of the order. The planner itself only numbers them.
+pub(crate) fn rename_cuts(mut plan: CutPlan, cuts: &[Cut]) -> CutPlan {
     let name = |id: &mut CutId| {
         let index = index_of(&plan.cuts, id);
         if let Some(cut) = index.and_then(|index| cuts.get(index)) {
@@ -122,7 +122,7 @@ fn joint_note(scene: &PinScene, joint: &Joint, placement: &Placement) -> JointNo
     }
 }
 
-/// The remark on a void one of whose pieces has a narrow mouth.
+/// Returns the remark on a void with a piece whose mouth is too narrow.
 fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
     let least_opening_mm = void.least_opening_mm(scene.request);
     (void.opening_mm < least_opening_mm).then_some(Remark::NarrowPiece {
@@ -132,7 +132,7 @@ fn narrow_piece(scene: &Scene, void: &VoidAccess) -> Option<Remark> {
     })
 }
 
-/// The remark on a joint that has not at least two pins that fit one way only.
+/// Returns the remark on a joint that lacks two pins fitting one way only.
 fn pin_lack(request: &PlanRequest, joint: &Joint, placement: &Placement) -> Option<Remark> {
     let (widest_mm, needed_mm) = (placement.widest_mm, needed_room_mm(request));
     let cause = match placement.sites.len() {
