@@ -1,4 +1,4 @@
-//! A pin with the material that is kept solid around it, and what bosses are asked for.
+//! A pin with the material kept solid around it, and the request for bosses.
 
 use crate::{
     cut::{
@@ -12,37 +12,37 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// What bosses are to be found for.
+/// Request for bosses.
 #[derive(Debug, Clone, Copy)]
 pub struct BossOrder<'a> {
-    /// The body as it is hollowed now.
+    /// The body with its current voids.
     pub hollowed: &'a Hollowed,
-    /// What the plan was asked for.
+    /// The request that the plan answers.
     pub request: &'a PlanRequest,
-    /// The plan of its cuts and pins.
+    /// The plan with its cuts and pins.
     pub plan: &'a CutPlan,
-    /// The pins that a person ordered: they get bosses where they need them, and no other pins are
-    /// looked for.
+    /// The pins the user ordered, if any. They get bosses where they need them, and no further pins
+    /// are placed.
     pub ordered: Option<&'a [PinSite]>,
-    /// Joints for which no bosses are looked for any more.
+    /// Joints that get no more bosses.
     pub given_up: &'a [JointName],
-    /// Where bosses stood that cost too much, model frame, mm: none is looked for beside them.
+    /// Places of bosses that cost too much, model frame, mm. No boss is placed near them.
     pub refused: &'a [[f64; 3]],
-    /// The price of keeping material solid.
+    /// Price of keeping material solid.
     pub price: MaterialPrice,
 }
 
-/// What keeping material solid costs: near an optimum the objective changes, to first order, by the
-/// integral of the optimal quadric over what is filled.
+/// Price of keeping material solid. Near an optimum the objective changes, to first order, by the
+/// integral of the optimal quadric over the material filled in.
 #[derive(Debug, Clone, Copy)]
 pub struct MaterialPrice {
-    /// The quadric whose positive side is empty.
+    /// The optimal quadric; it is positive in the voids.
     pub quadric: Quadric,
-    /// The frame that it is given in.
+    /// Frame of the quadric's coordinates.
     pub frame: Frame,
 }
 
-/// A joint by the names of what meets there.
+/// A joint, named by its cut and its two parts.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct JointName {
     /// The cut's id.
@@ -51,22 +51,22 @@ pub struct JointName {
     pub parts: [PartId; 2],
 }
 
-/// A pin with the material that is to be kept solid around it and its socket.
+/// A pin with the material kept solid around it and its socket.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Boss {
-    /// The pin; its id is not settled yet.
+    /// The pin; its id is assigned later.
     pub pin: PinSite,
     /// The ids of the parts it joins.
     pub parts: [PartId; 2],
-    /// Closed, facing outward, model frame, mm; it reaches into the wall.
+    /// Closed mesh with outward normals, model frame, mm; it reaches into the wall.
     pub body: TriMesh,
-    /// Whether something of it is empty so far. A boss that is solid already is kept so when
-    /// everything is solved again.
+    /// True if part of the body lies in a void so far. A boss that is solid already stays solid
+    /// when the voids are solved again.
     pub is_new: bool,
 }
 
 impl Boss {
-    /// The joint that its pin aligns.
+    /// Returns the joint that its pin aligns.
     pub fn joint(&self) -> JointName {
         JointName {
             cut: self.pin.cut.clone(),

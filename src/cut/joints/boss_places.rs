@@ -1,4 +1,4 @@
-//! Where pins with bosses might go: places of a cut, and pairs of them.
+//! Candidate places of pins with bosses in a cut, and pairs of them.
 
 use std::cmp::Ordering;
 
@@ -11,58 +11,58 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// About how many places of a cut are looked at; more find room in narrower walls.
+/// Approximate number of places examined per cut; more find room in narrower walls.
 const PLACES_PER_CUT: f64 = 6000.0;
-/// Places nearer together than this tell nothing new, mm.
+/// Smallest distance of two places, mm; closer ones add no information.
 const MIN_PITCH_MM: f64 = 0.15;
-/// A pair of pins is at least this share of the widest possible distance apart: nearer ones align
+/// Least distance of a pair of pins, as a share of the widest possible one: closer pins align
 /// worse.
 const SPREAD_RATIO: f64 = 0.5;
-/// How often it is looked whether bosses leave the voids open, each of which costs a boolean.
-const TRIED_OPENINGS: usize = 24;
+/// Largest number of checks that bosses leave the voids open; each costs a boolean.
+const MAX_OPENING_CHECKS: usize = 24;
 
-/// A place for a pin with what it costs to keep the material around it.
+/// A place for a pin, with the price of keeping the material around it.
 pub(crate) struct Site {
     pub(crate) at: Point2,
     pub(crate) price: f64,
-    /// How much of each void's wall its boss hides, as a share of it.
-    pub(crate) hides: Vec<f64>,
+    /// Share of each void's wall that its boss hides.
+    pub(crate) hidden_ratios: Vec<f64>,
     pub(crate) body: TriMesh,
 }
 
-/// What bosses cost.
+/// Cost of a set of bosses.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Cost {
-    /// How much less than asked is in sight of the voids' walls, mm².
-    pub(crate) lack_mm2: f64,
+    /// Visible wall area that is missing from what the cleaning rule requires, mm².
+    pub(crate) shortfall_mm2: f64,
     pub(crate) price: f64,
 }
 
 impl Cost {
-    /// The cost of bosses at some sites together.
+    /// Returns the cost of bosses at some sites together.
     pub(crate) fn of(sites: &[&Site], view: &BossView) -> Self {
-        let hides: Vec<&[f64]> = sites.iter().map(|site| &site.hides[..]).collect();
+        let hidden_ratios: Vec<&[f64]> = sites.iter().map(|site| &site.hidden_ratios[..]).collect();
         Self {
-            lack_mm2: view.lack_mm2(&hides),
+            shortfall_mm2: view.shortfall_mm2(&hidden_ratios),
             price: sites.iter().map(|site| site.price).sum(),
         }
     }
 
-    /// Less where less is hidden of what must be seen, then where the price is less.
-    pub(crate) fn order(&self, other: &Self) -> Ordering {
-        self.lack_mm2
-            .total_cmp(&other.lack_mm2)
+    /// Orders by the missing visible area, then by price.
+    pub(crate) fn compare(&self, other: &Self) -> Ordering {
+        self.shortfall_mm2
+            .total_cmp(&other.shortfall_mm2)
             .then(self.price.total_cmp(&other.price))
     }
 }
 
-/// Two sites by their indices, with what they cost together.
+/// Two sites by index, with their joint cost.
 pub(crate) struct Pair {
     pub(crate) sites: [usize; 2],
     pub(crate) cost: Cost,
 }
 
-/// A square grid over what an outline holds.
+/// Returns a square grid over the bounding box of an outline; empty if the outline is.
 pub(crate) fn grid(outline: &Outline) -> Vec<Point2> {
     let Some((min, max)) = outline.bounds() else {
         return Vec::new();
@@ -77,39 +77,39 @@ pub(crate) fn grid(outline: &Outline) -> Vec<Point2> {
         .collect()
 }
 
-/// Pairs of sites that are far enough apart: those first that leave in sight what must be, or lack
-/// least; of these the cheapest, and of equally cheap ones the farthest.
+/// Returns the pairs of sites that are far enough apart, best first. They are ordered by missing
+/// visible area, then by price, then by distance, widest first.
 pub(crate) fn best_pairs(sites: &[Site], gap_mm: f64, view: &BossView) -> Vec<Pair> {
     let indices = || (0..sites.len()).flat_map(|i| (i + 1..sites.len()).map(move |j| [i, j]));
-    let apart = |[i, j]: [usize; 2]| (sites[i].at - sites[j].at).norm();
-    let widest = indices().map(apart).fold(0.0, f64::max);
-    let least = gap_mm.max(SPREAD_RATIO * widest);
+    let distance = |[i, j]: [usize; 2]| (sites[i].at - sites[j].at).norm();
+    let widest = indices().map(distance).fold(0.0, f64::max);
+    let min_distance = gap_mm.max(SPREAD_RATIO * widest);
     let pair = |[i, j]: [usize; 2]| Pair {
         sites: [i, j],
         cost: Cost::of(&[&sites[i], &sites[j]], view),
     };
     let mut pairs: Vec<Pair> = indices()
-        .filter(|&pair| apart(pair) >= least)
+        .filter(|&pair| distance(pair) >= min_distance)
         .map(pair)
         .collect();
     pairs.sort_by(|a, b| {
         a.cost
-            .order(&b.cost)
-            .then(apart(b.sites).total_cmp(&apart(a.sites)))
+            .compare(&b.cost)
+            .then(distance(b.sites).total_cmp(&distance(a.sites)))
             .then(a.sites.cmp(&b.sites))
     });
     pairs
 }
 
-/// Which pairs of sites leave every void open, found with few looks: what closes one alone does so
-/// in every pair, and so do, most likely, the sites beside it.
+/// Finds pairs of sites that leave every void open, with few checks. A site that closes a void
+/// alone does so in every pair; its neighbours most likely do too.
 pub(crate) struct OpenPairs<'a> {
     view: &'a BossView<'a>,
     sites: &'a [Site],
-    /// Sites nearer than this to one that closes a void are not looked at, mm.
+    /// Sites closer than this to one that closes a void are skipped, mm.
     near_mm: f64,
-    opens: Vec<Option<bool>>,
-    looks_left: usize,
+    open_alone: Vec<Option<bool>>,
+    checks_left: usize,
 }
 
 impl<'a> OpenPairs<'a> {
@@ -118,43 +118,45 @@ impl<'a> OpenPairs<'a> {
             view,
             sites,
             near_mm,
-            opens: vec![None; sites.len()],
-            looks_left: TRIED_OPENINGS,
+            open_alone: vec![None; sites.len()],
+            checks_left: MAX_OPENING_CHECKS,
         }
     }
 
-    /// Whether no more looks are left.
-    pub(crate) fn is_over(&self) -> bool {
-        self.looks_left == 0
+    /// True if no checks are left.
+    pub(crate) fn is_exhausted(&self) -> bool {
+        self.checks_left == 0
     }
 
-    /// Whether bosses at both sites leave every void open.
-    pub(crate) fn holds(&mut self, pair: [usize; 2]) -> Result<bool, CutError> {
-        if pair.iter().any(|&site| self.is_beside_closing(site)) {
+    /// Returns true if bosses at both sites leave every void open. Sites close to one that closes a
+    /// void count as closing.
+    pub(crate) fn leaves_open(&mut self, pair: [usize; 2]) -> Result<bool, CutError> {
+        if pair.iter().any(|&site| self.is_near_closing(site)) {
             return Ok(false);
         }
         for site in pair {
-            if self.opens[site].is_none() {
-                self.opens[site] = Some(self.look(&[site])?);
+            if self.open_alone[site].is_none() {
+                self.open_alone[site] = Some(self.check_open(&[site])?);
             }
         }
-        Ok(pair.iter().all(|&site| self.opens[site] == Some(true)) && self.look(&pair)?)
+        Ok(pair.iter().all(|&site| self.open_alone[site] == Some(true))
+            && self.check_open(&pair)?)
     }
 
-    fn is_beside_closing(&self, site: usize) -> bool {
+    fn is_near_closing(&self, site: usize) -> bool {
         let at = &self.sites[site].at;
         let closing = self
             .sites
             .iter()
-            .zip(&self.opens)
-            .filter(|(_, opens)| **opens == Some(false));
+            .zip(&self.open_alone)
+            .filter(|(_, is_open)| **is_open == Some(false));
         closing
             .into_iter()
             .any(|(other, _)| (other.at - at).norm() < self.near_mm)
     }
 
-    fn look(&mut self, sites: &[usize]) -> Result<bool, CutError> {
-        self.looks_left = self.looks_left.saturating_sub(1);
+    fn check_open(&mut self, sites: &[usize]) -> Result<bool, CutError> {
+        self.checks_left = self.checks_left.saturating_sub(1);
         let bodies: Vec<TriMesh> = sites
             .iter()
             .map(|&site| self.sites[site].body.clone())
@@ -175,16 +177,16 @@ mod tests {
         geom::{Plane, Vector},
     };
 
-    /// Sites along x, each with its price, what it hides of the one void, and a boss that is a post
-    /// or a lid.
+    /// Returns sites along x. Each row is the position, the price, the hidden share of the one
+    /// void, and whether the boss is a lid (else a post).
     fn sites(rows: &[(f64, f64, f64, bool)]) -> Vec<Site> {
-        let site = |&(x, price, hides, is_lid): &(f64, f64, f64, bool)| {
+        let site = |&(x, price, hidden_ratio, is_lid): &(f64, f64, f64, bool)| {
             let side = if is_lid { 20.0 } else { 1.0 };
             let body = cuboid([x - side, -side, -4.0], [x + side, side, -2.0]).into_mesh();
             Site {
                 at: Point2::new(x, 0.0),
                 price,
-                hides: vec![hides],
+                hidden_ratios: vec![hidden_ratio],
                 body,
             }
         };
@@ -214,15 +216,14 @@ mod tests {
                 (9.0, 2.0, 0.0, false),
             ]);
             let best = best_pairs(&sites, 3.0, view);
-            // Equally cheap are 0 and 1 with 3: the farther apart. 0 and 1 are too near each other.
+            // Pairs 0-3 and 1-3 are equally cheap, and 0-3 is wider. Sites 0 and 1 are too close.
             assert_eq!(best[0].sites, [0, 3]);
             assert!(best.iter().all(|pair| pair.sites != [0, 1]));
         });
     }
 
     #[test]
-    fn a_pair_with_a_site_that_closes_the_void_does_not_hold_and_its_neighbours_are_not_looked_at()
-    {
+    fn a_pair_with_a_closing_site_is_refused_and_its_neighbours_are_not_checked() {
         in_a_box(|view| {
             let sites = sites(&[
                 (-9.0, 1.0, 0.0, true),
@@ -231,11 +232,11 @@ mod tests {
                 (9.0, 1.0, 0.0, false),
             ]);
             let mut open = OpenPairs::new(view, &sites, 2.0);
-            assert!(!open.holds([0, 2]).unwrap());
-            let looks_left = open.looks_left;
-            assert!(!open.holds([1, 3]).unwrap(), "beside what closes");
-            assert_eq!(open.looks_left, looks_left);
-            assert!(open.holds([2, 3]).unwrap());
+            assert!(!open.leaves_open([0, 2]).unwrap());
+            let checks_left = open.checks_left;
+            assert!(!open.leaves_open([1, 3]).unwrap(), "beside what closes");
+            assert_eq!(open.checks_left, checks_left);
+            assert!(open.leaves_open([2, 3]).unwrap());
         });
     }
 }

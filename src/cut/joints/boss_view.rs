@@ -1,4 +1,4 @@
-//! What bosses in a void hide of its wall, and whether they leave it open.
+//! Checks the walls that bosses hide in voids, and that the voids stay open.
 
 use std::f64::consts::PI;
 
@@ -19,27 +19,27 @@ use crate::{
     mesh::{TriMesh, bodies},
 };
 
-/// Bosses are to leave so much more of a wall in sight than is asked: solving again moves the voids
-/// about them. Less, and more must be kept solid afterwards, which costs far more than a dearer
-/// place.
+/// Share of the wall that bosses leave visible beyond the requirement, because solving again moves
+/// the voids around them. Falling short means more solid material afterwards, which costs far more
+/// than a dearer place.
 const SPARE_RATIO: f64 = 0.01;
 
-/// The plain voids of a body as its cuts open them, before bosses stand in them.
+/// The plain voids of a body as its cuts open them, without bosses.
 pub(crate) struct BossView<'a> {
     views: Vec<View<'a>>,
     tree: &'a CutTree,
-    /// Nearer to a boss than this no tool enters, mm.
+    /// Distance from a boss within which no tool fits, mm.
     tool_radius_mm: f64,
 }
 
 /// One void.
 struct View<'a> {
     chamber: Chamber<'a>,
-    /// The diameter of the least opening, mm.
-    needed_mm: f64,
-    /// The points of its wall with where they are seen from; none where no sight is asked.
+    /// Diameter of the smallest opening allowed, mm.
+    min_opening_mm: f64,
+    /// Points of its wall with the points that see them; empty if no sight is required.
     lines: Vec<Sightlines>,
-    /// How much of the wall may be hidden, as a share of it, before less is in sight than asked.
+    /// Share of the wall that may be hidden before too little is visible.
     spare_ratio: f64,
 }
 
@@ -60,7 +60,7 @@ impl<'a> BossView<'a> {
         })
     }
 
-    /// How much of each void's wall a boss hides that was in sight, as a share of it.
+    /// Returns the share of each void's wall that was visible and that the boss hides.
     pub(crate) fn hidden_by(&self, boss: &TriMesh) -> Vec<f64> {
         let block = Convex::of(boss);
         self.views
@@ -69,19 +69,19 @@ impl<'a> BossView<'a> {
             .collect()
     }
 
-    /// How much less than asked is in sight, mm² of all walls, where so much of each is hidden by
-    /// some bosses together.
-    pub(crate) fn lack_mm2(&self, hidden: &[&[f64]]) -> f64 {
-        let lack = |(void, view): (usize, &View)| {
+    /// Returns the visible area that is missing, mm² over all walls, when the given bosses hide
+    /// their shares together.
+    pub(crate) fn shortfall_mm2(&self, hidden: &[&[f64]]) -> f64 {
+        let shortfall = |(void, view): (usize, &View)| {
             let hidden: f64 = hidden.iter().map(|shares| shares[void]).sum();
-            // What was hidden before is no boss's fault.
-            let fault = (hidden - view.spare_ratio).min(hidden).max(0.0);
-            fault * view.chamber.walls.area_mm2()
+            // Walls hidden before are not counted against the bosses.
+            let caused = (hidden - view.spare_ratio).min(hidden).max(0.0);
+            caused * view.chamber.walls.area_mm2()
         };
-        self.views.iter().enumerate().map(lack).sum()
+        self.views.iter().enumerate().map(shortfall).sum()
     }
 
-    /// Whether every void stays open where these bosses stand in it.
+    /// Returns true if every void stays open with these bosses in it.
     pub(crate) fn stays_open(&self, bosses: &[TriMesh]) -> Result<bool, CutError> {
         let open = self
             .views
@@ -96,16 +96,16 @@ impl<'a> BossView<'a> {
 
 impl<'a> View<'a> {
     fn new(chamber: Chamber<'a>, tree: &CutTree, request: &PlanRequest) -> Self {
-        let asked = asked_ratio(request);
-        let lines = if asked > 0.0 {
+        let required = asked_ratio(request);
+        let lines = if required > 0.0 {
             chamber.sightlines(tree, request)
         } else {
             Vec::new()
         };
         let seen = lines.iter().filter(|lines| lines.is_seen()).count();
-        let spare_ratio = seen as f64 / lines.len().max(1) as f64 - asked - SPARE_RATIO;
+        let spare_ratio = seen as f64 / lines.len().max(1) as f64 - required - SPARE_RATIO;
         Self {
-            needed_mm: chamber.void.least_opening_mm(request),
+            min_opening_mm: chamber.void.least_opening_mm(request),
             chamber,
             lines,
             spare_ratio,
@@ -113,26 +113,28 @@ impl<'a> View<'a> {
     }
 
     fn hidden_by(&self, block: &Convex, tool_radius_mm: f64) -> f64 {
-        let is_blind =
-            |eye: &Point, at: &Point| block.holds(eye, tool_radius_mm) || block.parts(eye, at);
+        let is_blocked =
+            |eye: &Point, at: &Point| block.contains(eye, tool_radius_mm) || block.blocks(eye, at);
         let is_hidden = |line: &&Sightlines| {
             let at = &line.at;
-            line.is_seen() && !block.holds(at, 0.0) && line.eyes.iter().all(|eye| is_blind(eye, at))
+            line.is_seen()
+                && !block.contains(at, 0.0)
+                && line.eyes.iter().all(|eye| is_blocked(eye, at))
         };
         self.lines.par_iter().filter(is_hidden).count() as f64 / self.lines.len().max(1) as f64
     }
 
-    /// Whether what bosses leave is opened by a disc as wide as needed in all its pieces but
-    /// crumbs, which will be filled.
+    /// Returns true if a disc of the required width opens every piece that the bosses leave. Tiny
+    /// pieces do not count: they will be filled.
     fn stays_open(&self, bosses: &[TriMesh], tree: &CutTree) -> Result<bool, CutError> {
         let rest = self.chamber.without(bosses)?;
-        let crumb_mm3 = PI / 6.0 * self.needed_mm.powi(3);
+        let crumb_mm3 = PI / 6.0 * self.min_opening_mm.powi(3);
         for piece in bodies(&rest) {
             let mut is_open = piece.signed_volume_mm3() < crumb_mm3;
             for parting in tree.partings() {
-                let there = reached(&parting, &piece)?;
-                is_open |= opening(&there, &parting.plane)
-                    .is_some_and(|o| o.diameter_mm >= self.needed_mm);
+                let region = reached(&parting, &piece)?;
+                is_open |= opening(&region, &parting.plane)
+                    .is_some_and(|o| o.diameter_mm >= self.min_opening_mm);
             }
             if !is_open {
                 return Ok(false);
@@ -142,7 +144,7 @@ impl<'a> View<'a> {
     }
 }
 
-/// A convex body as the half-spaces that it is common to.
+/// A convex body as an intersection of half-spaces.
 struct Convex {
     faces: Vec<Plane>,
     center: Point,
@@ -150,14 +152,14 @@ struct Convex {
 }
 
 impl Convex {
-    /// Of the boundary of a convex body, facing outward.
+    /// Builds it from the outward-facing boundary of a convex body.
     fn of(mesh: &TriMesh) -> Self {
         let face = |[a, b, c]: [Point; 3]| {
             let normal = (b - a).cross(&(c - a)).try_normalize(f64::MIN_POSITIVE)?;
             Some(Plane::through(&a, &normal))
         };
         let center = mesh.aabb().center();
-        let far = mesh
+        let radius_mm = mesh
             .vertices()
             .iter()
             .map(|p| (p - center).norm())
@@ -165,19 +167,20 @@ impl Convex {
         Self {
             faces: mesh.iter_corners().filter_map(face).collect(),
             center,
-            radius_mm: far,
+            radius_mm,
         }
     }
 
-    /// Whether a point is in it, or about so near.
-    fn holds(&self, p: &Point, near_mm: f64) -> bool {
+    /// Returns true if a point is inside, or outside by about `near_mm` at most.
+    fn contains(&self, p: &Point, near_mm: f64) -> bool {
         (p - self.center).norm() <= self.radius_mm + near_mm
             && self.faces.iter().all(|face| face.distance(p) <= near_mm)
     }
 
-    /// Whether it stands between two points: the part of the line in all half-spaces (Cyrus and
-    /// Beck, "Generalized two- and three-dimensional clipping", Computers & Graphics 3, 1978).
-    fn parts(&self, from: &Point, to: &Point) -> bool {
+    /// Returns true if it meets the segment between two points. Clips the segment by all
+    /// half-spaces (Cyrus and Beck, "Generalized two- and three-dimensional clipping", Computers &
+    /// Graphics 3, 1978).
+    fn blocks(&self, from: &Point, to: &Point) -> bool {
         let along = to - from;
         if self.distance_mm(from, &along) > self.radius_mm {
             return false;
@@ -196,7 +199,7 @@ impl Convex {
         enter < leave
     }
 
-    /// The distance of its centre from a line between two points, mm.
+    /// Returns the distance of its centre from the segment `from` to `from + along`, mm.
     fn distance_mm(&self, from: &Point, along: &Vector) -> f64 {
         let to_center = self.center - from;
         let place =
@@ -213,7 +216,7 @@ mod tests {
         printer::{Cleaning, CleaningRule},
     };
 
-    /// A box with a shaft of 20 × 20 mm from z = −20 to 20 in it, to be seen by 95 %.
+    /// Returns a box with a shaft of 20 × 20 mm from z = −20 to 20, of which 95 % must be visible.
     fn shaft() -> (Hollowed, PlanRequest) {
         let void = cuboid([-10.0, -10.0, -20.0], [10.0, 10.0, 20.0]);
         let cleaning = Cleaning {
@@ -244,13 +247,13 @@ mod tests {
         let tree = level();
         let view = BossView::new(&body, &tree, &request).unwrap();
         let lid = cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]);
-        // Beneath the lid: walls 16 mm deep about 80 mm, and the floor; of all 40 mm about 80 mm,
-        // and two floors.
+        // Below the lid lie walls 16 mm deep with a perimeter of 80 mm, and the floor. In all the
+        // walls are 40 mm deep, with two floors.
         let expected = (16.0 * 80.0 + 400.0) / (40.0 * 80.0 + 800.0);
         let hidden = view.hidden_by(lid.mesh());
         assert!((hidden[0] - expected).abs() < 0.02, "{hidden:?} {expected}");
-        let lack_mm2 = view.lack_mm2(&[&hidden]);
-        // All was in sight: what may be hidden are 5 % less both margins.
+        let lack_mm2 = view.shortfall_mm2(&[&hidden]);
+        // Everything was visible: bosses may hide 5 % less both margins.
         let spare = 1.0 - asked_ratio(&request) - SPARE_RATIO;
         assert!(
             (lack_mm2 - (hidden[0] - spare) * 4000.0).abs() < 1.0,
@@ -259,7 +262,7 @@ mod tests {
         let post = cuboid([-11.0, -11.0, -6.0], [-8.0, -8.0, 6.0]);
         let hidden = view.hidden_by(post.mesh());
         assert!(
-            hidden[0] < 0.02 && view.lack_mm2(&[&hidden]) == 0.0,
+            hidden[0] < 0.02 && view.shortfall_mm2(&[&hidden]) == 0.0,
             "{hidden:?}"
         );
     }
@@ -277,27 +280,28 @@ mod tests {
     }
 
     #[test]
-    fn a_convex_body_stands_between_points_only_where_it_meets_the_line() {
+    fn a_convex_body_blocks_two_points_only_if_it_meets_their_segment() {
         let block = Convex::of(cuboid([-1.0; 3], [1.0; 3]).mesh());
         let at = |x: f64, y: f64| Point::new(x, y, 0.0);
-        assert!(block.parts(&at(-3.0, 0.0), &at(3.0, 0.0)));
+        assert!(block.blocks(&at(-3.0, 0.0), &at(3.0, 0.0)));
         assert!(
-            !block.parts(&at(-3.0, 0.0), &at(-1.5, 0.0)),
+            !block.blocks(&at(-3.0, 0.0), &at(-1.5, 0.0)),
             "it begins behind the end"
         );
         assert!(
-            !block.parts(&at(-3.0, 1.1), &at(3.0, 1.1)),
+            !block.blocks(&at(-3.0, 1.1), &at(3.0, 1.1)),
             "it passes beside"
         );
-        // Past the corner at (1, 1) by 0.07 mm, and through it by as much.
+        // Passes the corner at (1, 1) at 0.07 mm, and cuts it by as much.
         assert!(
-            !block.parts(&at(0.0, 2.1), &at(2.1, 0.0)) && block.parts(&at(0.0, 1.9), &at(1.9, 0.0))
+            !block.blocks(&at(0.0, 2.1), &at(2.1, 0.0))
+                && block.blocks(&at(0.0, 1.9), &at(1.9, 0.0))
         );
-        assert!(block.holds(&at(1.2, 0.0), 0.3) && !block.holds(&at(1.2, 0.0), 0.1));
+        assert!(block.contains(&at(1.2, 0.0), 0.3) && !block.contains(&at(1.2, 0.0), 0.1));
     }
 
     #[test]
-    fn where_no_sight_is_asked_nothing_counts_as_hidden() {
+    fn nothing_counts_as_hidden_if_no_sight_is_required() {
         let (body, request) = shaft();
         let request = PlanRequest {
             cleaning: Cleaning::MELT_OUT,
@@ -306,6 +310,6 @@ mod tests {
         let tree = level();
         let view = BossView::new(&body, &tree, &request).unwrap();
         let hidden = view.hidden_by(cuboid([-11.0, -11.0, -4.0], [11.0, 11.0, -2.0]).mesh());
-        assert_eq!((hidden[0], view.lack_mm2(&[&hidden])), (0.0, 0.0));
+        assert_eq!((hidden[0], view.shortfall_mm2(&[&hidden])), (0.0, 0.0));
     }
 }

@@ -1,7 +1,8 @@
-//! Bosses: material to be kept solid around pins, where the walls alone leave them no room.
+//! Bosses: material kept solid around pins where the walls alone leave them no room.
 //!
-//! A site is as good as it is cheap. Near an optimum the objective changes, to first order, by the
-//! integral of the optimal quadric over what is filled, so that is the price of a boss.
+//! The cheapest site is the best. Near an optimum the objective changes, to first order, by the
+//! integral of the optimal quadric over the material filled in. That integral is the price of a
+//! boss.
 
 use crate::{
     cut::{
@@ -18,7 +19,7 @@ use crate::{
             face::Face,
             pin_shape::PinSite,
             pin_size::{Size, short_pairs, size_pairs},
-            pins::seated,
+            pins::seat_ordered,
             placement::{Facing, PinScene, Placement, is_confused},
         },
         order::CutOrder,
@@ -32,16 +33,17 @@ use crate::{
 };
 use rayon::prelude::*;
 
-/// Places whose price is found, at most.
+/// Largest number of places that are priced.
 const PRICED_PLACES: usize = 300;
 
-/// The pins, with bosses where they need them, of every joint that has not two pins that fit one
-/// way only; of ordered pins those of joints in which one stands in too little material. A joint
-/// for which there is no place has none of them. Where no place leaves every void open, one is
-/// taken that closes some: what it closes is to be kept solid.
+/// Places pins with bosses in every joint without two pins that fit one way only. If pins are
+/// ordered, returns those of joints in which one stands in too little material.
 ///
-/// The axis of every boss keeps the wall from the outside, from pockets, from other cuts and from
-/// other pins.
+/// A joint without a place for them gets none. If no place leaves every void open, one is taken
+/// that closes some; what it closes must be kept solid.
+///
+/// The axis of every boss keeps the wall thickness from the outside, pockets, other cuts and other
+/// pins.
 pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     if order.ordered.is_none() && order.plan.joints.iter().all(JointNote::is_aligned) {
         return Ok(Vec::new());
@@ -59,7 +61,7 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
     };
     let (hollow, filled) = (scene(&material), scene(&filled));
     let joints = joints(&pieces, &tree);
-    let placements = seated(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
+    let placements = seat_ordered(&hollow, &joints, own.pins.as_deref().unwrap_or_default())?;
     let search = Search {
         order,
         hollow: &hollow,
@@ -68,63 +70,70 @@ pub fn bosses(order: &BossOrder) -> Result<Vec<Boss>, CutError> {
         view: BossView::new(order.hollowed, &tree, order.request)?,
     };
     match order.ordered {
-        Some(pins) => Ok(search.for_all_ordered(&joints, pins)),
-        None => search.for_joints(&joints, placements),
+        Some(pins) => Ok(search.boss_all_ordered(&joints, pins)),
+        None => search.boss_joints(&joints, placements),
     }
 }
 
 struct Search<'a> {
     order: &'a BossOrder<'a>,
-    /// The body as it is.
+    /// The body with its voids.
     hollow: &'a PinScene<'a>,
     /// The body with its voids filled.
     filled: &'a PinScene<'a>,
-    /// What makes the bosses' bodies.
+    /// Maker of the bosses' bodies.
     maker: BossMaker<'a>,
-    /// What is seen of its voids.
+    /// Visible walls of the voids.
     view: BossView<'a>,
 }
 
 impl Search<'_> {
-    /// The bosses of ordered pins: of every joint in which one of them lacks material.
-    fn for_all_ordered(&self, joints: &[Joint], pins: &[PinSite]) -> Vec<Boss> {
-        let able: Vec<Boss> = pins
+    /// Returns the bosses of ordered pins, for every joint in which one of them lacks material.
+    fn boss_all_ordered(&self, joints: &[Joint], pins: &[PinSite]) -> Vec<Boss> {
+        let candidates: Vec<Boss> = pins
             .iter()
-            .filter_map(|pin| self.for_ordered(joints, pin))
+            .filter_map(|pin| self.boss_ordered(joints, pin))
             .collect();
-        // As when the planner finds a pattern: all of a joint's pins keep their material, or none
-        // needs to.
-        let is_needy = |boss: &&Boss| {
-            able.iter()
+        // As in patterns of the planner, either all pins of a joint get bosses or none does.
+        let lacks_material = |boss: &&Boss| {
+            candidates
+                .iter()
                 .any(|other| other.is_new && other.joint() == boss.joint())
         };
-        able.iter().filter(is_needy).cloned().collect()
+        candidates.iter().filter(lacks_material).cloned().collect()
     }
 
-    /// The bosses of every joint that has not two pins that fit one way only.
-    fn for_joints(
+    /// Finds bosses for every joint without two pins that fit one way only.
+    fn boss_joints(
         &self,
         joints: &[Joint],
         mut placements: Vec<Placement>,
     ) -> Result<Vec<Boss>, CutError> {
         let mut bosses = Vec::new();
         for (index, joint) in joints.iter().enumerate() {
-            if !placements[index].is_sound() && !self.order.given_up.contains(&self.name(joint)) {
+            if !placements[index].is_sound()
+                && !self.order.given_up.contains(&self.joint_name(joint))
+            {
                 let others = placements
                     .iter()
                     .enumerate()
                     .filter(|(i, _)| *i != index)
                     .map(|(_, p)| p);
                 let others: Vec<&Placement> = others.collect();
-                let is_bare = placements[index].sites.is_empty();
-                let pair = self.found(joint, &others)?;
-                let found = if pair.is_none() && is_bare {
-                    self.lone(joint, &others)
+                let has_no_pins = placements[index].sites.is_empty();
+                let pair = self.find_pattern(joint, &others)?;
+                let found = if pair.is_none() && has_no_pins {
+                    self.find_single(joint, &others)
                 } else {
                     pair
                 };
                 if let Some(found) = found {
-                    bosses.extend(found.sites.iter().filter_map(|pin| self.boss(joint, pin)));
+                    bosses.extend(
+                        found
+                            .sites
+                            .iter()
+                            .filter_map(|pin| self.make_boss(joint, pin)),
+                    );
                     placements[index] = found;
                 }
             }
@@ -132,26 +141,27 @@ impl Search<'_> {
         Ok(bosses)
     }
 
-    /// The boss of an ordered pin that has its material, or could have.
-    fn for_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
+    /// Returns the boss of an ordered pin. `None` if the filled body has too little material around
+    /// it.
+    fn boss_ordered(&self, joints: &[Joint], pin: &PinSite) -> Option<Boss> {
         let cut = index_of(&self.order.plan.cuts, &pin.cut)?;
         let (plane, outline) = (&self.filled.tree.planes[cut], self.maker.outline(cut));
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
         let is_of = |joint: &&Joint| joint.cut == cut && self.is_of_joint(joint, &outline, &at);
         let joint = joints.iter().find(is_of)?;
-        self.has_meat(self.filled, joint, pin)
-            .then(|| self.boss(joint, pin))
+        self.has_material(self.filled, joint, pin)
+            .then(|| self.make_boss(joint, pin))
             .flatten()
     }
 
-    /// Whether the wall nearest to a place in the cut is of this joint.
+    /// Returns true if the wall nearest to a place in the cut belongs to this joint.
     fn is_of_joint(&self, joint: &Joint, outline: &Outline, at: &Point2) -> bool {
         let foot = outline.nearest(at);
         let inner = foot + (at - foot).normalize() * (self.order.request.wall_mm / 2.0);
         joint.faces.iter().any(|face| face.holds(&inner))
     }
 
-    fn has_meat(&self, scene: &PinScene, joint: &Joint, pin: &PinSite) -> bool {
+    fn has_material(&self, scene: &PinScene, joint: &Joint, pin: &PinSite) -> bool {
         let plane = &scene.tree.planes[joint.cut];
         let is_upward = plane.normal.dot(&Vector::from(pin.direction)) > 0.0;
         let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));
@@ -159,12 +169,16 @@ impl Search<'_> {
             others: &[],
             is_upward,
         };
-        Face::bare(scene, joint, facing).has_meat(&at, &Size::of(pin))
+        Face::without_points(scene, joint, facing).has_material(&at, &Size::of(pin))
     }
 
-    /// The cheapest pattern of pins for a joint, looking either way, of the thinnest pins that fit
-    /// one way only.
-    fn found(&self, joint: &Joint, others: &[&Placement]) -> Result<Option<Placement>, CutError> {
+    /// Finds the cheapest pattern of two pins for a joint, in either direction. Takes the thinnest
+    /// pins that fit one way only.
+    fn find_pattern(
+        &self,
+        joint: &Joint,
+        others: &[&Placement],
+    ) -> Result<Option<Placement>, CutError> {
         let thin_first = |mut pairs: Vec<[Size; 2]>| {
             let equal = pairs.pop();
             pairs.into_iter().rev().chain(equal)
@@ -172,15 +186,16 @@ impl Search<'_> {
         let request = self.order.request;
         let pairs = thin_first(size_pairs(request)).chain(thin_first(short_pairs(request)));
         let pairs: Vec<[Size; 2]> = pairs.collect();
-        let ways = [true, false]
+        let attempts = [true, false]
             .into_iter()
             .flat_map(|must_open| pairs.iter().map(move |sizes| (must_open, sizes)));
-        for (must_open, sizes) in ways {
+        for (must_open, sizes) in attempts {
             let mut best: Option<(Cost, Placement)> = None;
             for is_upward in [true, false] {
-                let found = self.along(joint, Facing { others, is_upward }, sizes, must_open)?;
+                let found =
+                    self.find_pattern_along(joint, Facing { others, is_upward }, sizes, must_open)?;
                 best = match (best, found) {
-                    (Some(best), Some(found)) if found.0.order(&best.0).is_ge() => Some(best),
+                    (Some(best), Some(found)) if found.0.compare(&best.0).is_ge() => Some(best),
                     (best, found) => found.or(best),
                 };
             }
@@ -191,33 +206,33 @@ impl Search<'_> {
         Ok(None)
     }
 
-    /// The cheapest single pin of the thinnest size for a joint without room for two; only the
-    /// parts' outlines tell the turn then.
-    fn lone(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
+    /// Finds the cheapest single pin of the thinnest size, for a joint without room for two. Only
+    /// the parts' outlines then show the rotation.
+    fn find_single(&self, joint: &Joint, others: &[&Placement]) -> Option<Placement> {
         let [_, size] = size_pairs(self.order.request).pop()?;
         let along = |is_upward: bool| {
-            let face = Face::bare(self.filled, joint, Facing { others, is_upward });
+            let face = Face::without_points(self.filled, joint, Facing { others, is_upward });
             let sites = self.sites(joint, &face, &size).into_iter();
             let costs = sites.map(|site| (Cost::of(&[&site], &self.view), site.at));
-            let (cost, at) = costs.min_by(|a, b| a.0.order(&b.0))?;
+            let (cost, at) = costs.min_by(|a, b| a.0.compare(&b.0))?;
             Some((cost, face.placement(&[(at, size)], false)))
         };
         let found = [true, false].into_iter().filter_map(along);
         found
-            .min_by(|a, b| a.0.order(&b.0))
+            .min_by(|a, b| a.0.compare(&b.0))
             .map(|(_, placement)| placement)
     }
 
-    /// The best pattern of two pins of these sizes, and what it costs; with `must_open` of those
-    /// that leave every void open.
-    fn along(
+    /// Finds the best pattern of two pins of these sizes and its cost. With `must_open`, considers
+    /// only patterns that leave every void open.
+    fn find_pattern_along(
         &self,
         joint: &Joint,
         facing: Facing,
         sizes: &[Size; 2],
         must_open: bool,
     ) -> Result<Option<(Cost, Placement)>, CutError> {
-        let face = Face::bare(self.filled, joint, facing);
+        let face = Face::without_points(self.filled, joint, facing);
         let sites = self.sites(joint, &face, &sizes[0]);
         let mut open = OpenPairs::new(
             &self.view,
@@ -227,20 +242,20 @@ impl Search<'_> {
         for pair in best_pairs(&sites, face.gap_mm(&sizes[0]), &self.view) {
             let [i, j] = pair.sites;
             let pattern = [(sites[i].at, sizes[0]), (sites[j].at, sizes[1])];
-            let is_taken = !is_confused(&face.end_views(&pattern), facing.others)
-                && (!must_open || open.holds(pair.sites)?);
-            if is_taken {
+            let is_usable = !is_confused(&face.end_views(&pattern), facing.others)
+                && (!must_open || open.leaves_open(pair.sites)?);
+            if is_usable {
                 return Ok(Some((pair.cost, face.placement(&pattern, true))));
             }
-            if open.is_over() {
+            if open.is_exhausted() {
                 break;
             }
         }
         Ok(None)
     }
 
-    /// The places of a joint where a boss of this size joins its wall and keeps off the outside,
-    /// with their prices.
+    /// Returns priced places of a joint where a boss of this size joins the wall and stays inside
+    /// the outline.
     fn sites(&self, joint: &Joint, face: &Face, size: &Size) -> Vec<Site> {
         let request = self.order.request;
         let plane = &self.filled.tree.planes[joint.cut];
@@ -261,11 +276,11 @@ impl Search<'_> {
                 is_near(p)
                     && !is_refused(p)
                     && self.is_of_joint(joint, &outline, p)
-                    && face.has_meat(p, size)
+                    && face.has_material(p, size)
             })
             .collect();
         let stride = places.len().div_ceil(PRICED_PLACES).max(1);
-        let priced = |&at: &Point2| -> Option<Site> {
+        let price_site = |&at: &Point2| -> Option<Site> {
             let axis = PinAxis {
                 middle: chart.lift(plane, &at),
                 along: face.along(),
@@ -274,18 +289,18 @@ impl Search<'_> {
             Some(Site {
                 at,
                 price: self.maker.price(&axis, size),
-                hides: self.view.hidden_by(&body),
+                hidden_ratios: self.view.hidden_by(&body),
                 body,
             })
         };
         places
             .par_iter()
             .step_by(stride)
-            .filter_map(priced)
+            .filter_map(price_site)
             .collect()
     }
 
-    fn name(&self, joint: &Joint) -> JointName {
+    fn joint_name(&self, joint: &Joint) -> JointName {
         let cut = self.order.plan.cuts[joint.cut].id.clone();
         JointName {
             cut,
@@ -293,11 +308,11 @@ impl Search<'_> {
         }
     }
 
-    /// The pin with its boss, none where it has no volume: a round or long bar about it that
-    /// reaches to the outside in the cut, so that it stands in the wall.
-    fn boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
-        let JointName { cut, parts } = self.name(joint);
-        let is_new = !self.has_meat(self.hollow, joint, pin);
+    /// Builds a pin's boss: a round or long bar around the pin. It reaches the outside in the cut,
+    /// so that it stands in the wall. `None` if it has no volume.
+    fn make_boss(&self, joint: &Joint, pin: &PinSite) -> Option<Boss> {
+        let JointName { cut, parts } = self.joint_name(joint);
+        let is_new = !self.has_material(self.hollow, joint, pin);
         let body = self.maker.body(joint, &PinAxis::of(pin), &Size::of(pin))?;
         Some(Boss {
             pin: PinSite { cut, ..pin.clone() },

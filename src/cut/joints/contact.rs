@@ -1,4 +1,4 @@
-//! The faces in which the parts of a joint touch.
+//! Faces in which the parts of a joint touch.
 
 use crate::{
     cut::{
@@ -11,7 +11,7 @@ use crate::{
     mass::FlatFace,
 };
 
-/// Where the parts of a joint touch: its faces less the mouths of its sockets.
+/// Returns the contact face of a joint: its faces less the mouths of its sockets.
 pub(crate) fn contact<'a>(
     planes: &[Plane],
     joint: &Joint,
@@ -28,8 +28,8 @@ pub(crate) fn contact<'a>(
     FlatFace::of_triangles(faces.chain(mouths))
 }
 
-/// The plan with the faces of its joints as they are between these pieces, of a body that was
-/// solved for again.
+/// Updates the joints' faces in a plan to those between these pieces, after the body was solved
+/// again.
 pub(crate) fn refaced(pieces: &[Piece], tree: &CutTree, mut plan: CutPlan) -> CutPlan {
     for joint in joints(pieces, tree) {
         let (cut, parts) = (&plan.cuts[joint.cut].id, joint.parts());

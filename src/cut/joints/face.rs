@@ -1,5 +1,5 @@
-//! The meeting faces of a joint, seen along its pins: where in them a pin and its socket keep the
-//! wall.
+//! The contact faces of a joint, seen along its pins: finds places for pins and sockets that keep
+//! the wall.
 
 use crate::{
     cut::{
@@ -17,26 +17,26 @@ use crate::{
     geom::{Bvh, Plane, Point, Vector, triangle::segment_segment_distance_squared},
 };
 
-/// About how many places are looked at in each joint: more find room in narrower joints, at a cost
-/// in proportion.
+/// Approximate number of places examined per joint. More find room in narrower joints, at
+/// proportional cost.
 const PLACES_PER_JOINT: f64 = 400.0;
 
-/// Places nearer together than this tell nothing new, mm.
+/// Smallest distance of two places, mm; closer ones add no information.
 const MIN_PITCH_MM: f64 = 0.2;
 
-/// How many pairs of places are tried for a pattern that fits one way only.
-const TRIED_PAIRS: usize = 200;
+/// Largest number of pairs tried for a pattern that fits one way only.
+const MAX_PAIRS: usize = 200;
 
-/// Most pins in one joint: three settle a plane; more only add friction.
+/// Largest number of pins per joint: three fix a plane, more only add friction.
 const MAX_PINS: usize = 3;
 
-/// What a pin and its socket take up: all within a distance of a segment.
-pub(crate) struct Taken {
+/// Space occupied by a pin and its socket: all points within a distance of a segment.
+pub(crate) struct OccupiedSpace {
     ends: [Point; 2],
     radius_mm: f64,
 }
 
-impl Taken {
+impl OccupiedSpace {
     pub(crate) fn of(site: &PinSite) -> Self {
         let (center, along) = (Point::from(site.center_mm), Vector::from(site.direction));
         let root = center - along * site.back_mm();
@@ -47,41 +47,46 @@ impl Taken {
         }
     }
 
-    /// Whether a segment keeps `distance_mm` from it.
+    /// Returns true if a segment keeps `distance_mm` from it.
     pub(crate) fn is_clear_of(&self, segment: [&Point; 2], distance_mm: f64) -> bool {
-        let apart_mm = segment_segment_distance_squared(self.ends.each_ref(), segment).sqrt();
-        apart_mm >= self.radius_mm + distance_mm
+        let axis_distance_mm =
+            segment_segment_distance_squared(self.ends.each_ref(), segment).sqrt();
+        axis_distance_mm >= self.radius_mm + distance_mm
     }
 }
 
-/// The meeting faces of a joint, seen along the pins.
+/// The contact faces of a joint, seen along the pins.
 pub(crate) struct Face<'a> {
     scene: &'a PinScene<'a>,
     joint: &'a Joint,
     plane: Plane,
-    /// +1 when pins stand out along the plane's normal, −1 against it.
+    /// +1 if pins protrude along the plane's normal, −1 if against it.
     sign: f64,
     surface: Bvh,
-    /// What the pins of other joints take up.
-    taken: Vec<Taken>,
-    /// Points of the faces, in the plane's own coordinates, with their distance from the edge.
+    /// Space occupied by the pins of other joints.
+    occupied: Vec<OccupiedSpace>,
+    /// Points of the faces, in the plane's own coordinates, with their distance from the edge, mm.
     points: Vec<(Point2, f64)>,
     pub(crate) widest_mm: f64,
 }
 
 impl<'a> Face<'a> {
-    /// The faces of a joint, looked at where the pins of others leave room.
+    /// Returns the faces of a joint with candidate points for pins.
     pub(crate) fn new(scene: &'a PinScene<'a>, joint: &'a Joint, facing: Facing) -> Self {
         let (points, widest_mm) = face_points(scene, joint);
         Self {
             points,
             widest_mm,
-            ..Self::bare(scene, joint, facing)
+            ..Self::without_points(scene, joint, facing)
         }
     }
 
-    /// The faces without points to look at.
-    pub(crate) fn bare(scene: &'a PinScene<'a>, joint: &'a Joint, facing: Facing) -> Self {
+    /// Returns the faces of a joint without candidate points.
+    pub(crate) fn without_points(
+        scene: &'a PinScene<'a>,
+        joint: &'a Joint,
+        facing: Facing,
+    ) -> Self {
         let plane = scene.tree.planes[joint.cut];
         let reach = reach_mm(scene.request);
         let near = |corners: &[Point; 3]| {
@@ -90,11 +95,11 @@ impl<'a> Face<'a> {
         };
         let surface = Bvh::new(scene.material.iter_corners().filter(near));
         let sign = if facing.is_upward { 1.0 } else { -1.0 };
-        let taken = facing
+        let occupied = facing
             .others
             .iter()
             .flat_map(|placement| &placement.sites)
-            .map(Taken::of)
+            .map(OccupiedSpace::of)
             .collect();
         Self {
             scene,
@@ -102,65 +107,67 @@ impl<'a> Face<'a> {
             plane,
             sign,
             surface,
-            taken,
+            occupied,
             points: Vec::new(),
             widest_mm: 0.0,
         }
     }
 
-    /// The unit direction in which pins stand out.
+    /// Returns the unit direction in which pins protrude.
     pub(crate) fn along(&self) -> Vector {
         self.plane.normal * self.sign
     }
 
-    /// The points where a pin and socket of this size keep the wall.
+    /// Returns the points where a pin and socket of this size keep the wall.
     pub(crate) fn places(&self, size: &Size) -> Vec<Point2> {
         let room = size.room_mm(self.scene.request) / 2.0;
-        let wide = self.points.iter().filter(|(_, distance)| *distance >= room);
-        wide.map(|(p, _)| *p)
-            .filter(|p| self.has_meat(p, size))
+        let roomy = self.points.iter().filter(|(_, distance)| *distance >= room);
+        roomy
+            .map(|(p, _)| *p)
+            .filter(|p| self.has_material(p, size))
             .collect()
     }
 
-    /// Whether the socket at a point, with the wall around it, lies inside the material and clear
-    /// of other cuts.
-    pub(crate) fn has_meat(&self, p: &Point2, size: &Size) -> bool {
+    /// Returns true if the socket at a point, with the wall around it, lies inside the material. It
+    /// must also keep off other cuts and other pins.
+    pub(crate) fn has_material(&self, p: &Point2, size: &Size) -> bool {
         let mouth = Chart::of_plane(&self.plane).lift(&self.plane, p);
         let along = self.along();
         let bottom = mouth + along * size.depth;
         let root = mouth - along * size.back_mm();
-        let hollow = if size.dowel.is_some() { root } else { mouth };
+        let socket_start = if size.dowel.is_some() { root } else { mouth };
         let radius = size.corner() + self.scene.request.wall_mm;
         let tree = self.scene.tree;
         let others = (0..tree.planes.len()).filter(|&cut| cut != self.joint.cut);
-        // On either side of the joint.
-        let is_made = |cut: &usize| [root, bottom].iter().any(|end| tree.acts_at(*cut, end));
-        let is_clear = |cut: usize| {
-            let [near, far] = [hollow, bottom].map(|end| tree.planes[cut].distance(&end));
+        // Other cuts that act at either end, on either side of the joint.
+        let acts_there = |cut: &usize| [root, bottom].iter().any(|end| tree.acts_at(*cut, end));
+        let keeps_wall = |cut: usize| {
+            let [near, far] = [socket_start, bottom].map(|end| tree.planes[cut].distance(&end));
             near.abs().min(far.abs()) >= radius && near * far > 0.0
         };
-        others.filter(is_made).all(is_clear)
+        others.filter(acts_there).all(keeps_wall)
             && self
-                .taken
+                .occupied
                 .iter()
-                .all(|taken| taken.is_clear_of([&root, &bottom], radius))
-            && self.keeps_off([&hollow, &bottom], radius)
-            && self.keeps_off([&mouth, &mouth], radius + size.chamfer)
+                .all(|space| space.is_clear_of([&root, &bottom], radius))
+            && self.surface_clears([&socket_start, &bottom], radius)
+            && self.surface_clears([&mouth, &mouth], radius + size.chamfer)
     }
 
-    /// Whether the whole surface of the material is at least `distance_mm` from the segment.
-    fn keeps_off(&self, [from, to]: [&Point; 2], distance_mm: f64) -> bool {
+    /// Returns true if the whole surface of the material is at least `distance_mm` from the
+    /// segment.
+    fn surface_clears(&self, [from, to]: [&Point; 2], distance_mm: f64) -> bool {
         self.surface.segment_distance(from, to, distance_mm) >= distance_mm
     }
 
-    /// How far apart the axes of pins of this size must be, so that their sockets leave a wall
-    /// between them, mm.
+    /// Returns the least distance between the axes of two pins of this size, mm: their sockets
+    /// leave a wall between them.
     pub(crate) fn gap_mm(&self, size: &Size) -> f64 {
         size.room_mm(self.scene.request) - self.scene.request.wall_mm
     }
 
-    /// Up to three places, the first with the first size: the farthest apart that fit one way only;
-    /// else the farthest apart.
+    /// Chooses up to three places, the first with the first size. Takes the widest pattern that
+    /// fits one way only, else the widest pair.
     pub(crate) fn pattern(
         &self,
         places: &[Point2],
@@ -181,18 +188,19 @@ impl<'a> Face<'a> {
                 }
             }
         }
-        let alone = || {
+        let single = || {
             places
                 .first()
                 .map(|&p| vec![(p, sizes[0])])
                 .unwrap_or_default()
         };
-        pairs.first().map_or_else(alone, two)
+        pairs.first().map_or_else(single, two)
     }
 
-    /// The place farthest from the nearer of two pins, if it keeps the gap from both.
+    /// Returns the place farthest from the nearer of two pins. `None` if it is closer than the gap
+    /// to one of them.
     fn third(&self, pattern: &[(Point2, Size)], places: &[Point2], gap: f64) -> Option<Point2> {
-        let off = |p: &Point2| {
+        let nearest_mm = |p: &Point2| {
             pattern
                 .iter()
                 .map(|(q, _)| (p - q).norm())
@@ -201,8 +209,8 @@ impl<'a> Face<'a> {
         let best = places
             .iter()
             .copied()
-            .max_by(|p, q| off(p).total_cmp(&off(q)))?;
-        (pattern.len() < MAX_PINS && off(&best) >= gap).then_some(best)
+            .max_by(|p, q| nearest_mm(p).total_cmp(&nearest_mm(q)))?;
+        (pattern.len() < MAX_PINS && nearest_mm(&best) >= gap).then_some(best)
     }
 
     pub(crate) fn placement(&self, pattern: &[(Point2, Size)], is_one_way: bool) -> Placement {
@@ -214,7 +222,7 @@ impl<'a> Face<'a> {
         }
     }
 
-    /// The pattern as seen along the pins: looking the other way swaps left and right.
+    /// Returns the pattern as seen along the pins; looking the other way swaps left and right.
     pub(crate) fn end_views(&self, pattern: &[(Point2, Size)]) -> Vec<Peg> {
         let view = |&(p, size): &(Point2, Size)| Peg {
             at: Point2::new(p.x, p.y * self.sign),
@@ -258,8 +266,8 @@ impl<'a> Face<'a> {
     }
 }
 
-/// Points spread over the joint's faces with their distances from the edge, and the faces' widest
-/// disc.
+/// Returns points spread over the joint's faces with their distances from the edge, mm. The second
+/// value is the diameter of the faces' largest disc, mm.
 pub(crate) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)>, f64) {
     let (mut points, mut widest_mm) = (Vec::new(), 0.0f64);
     for cap in &joint.faces {
@@ -276,7 +284,7 @@ pub(crate) fn face_points(scene: &PinScene, joint: &Joint) -> (Vec<(Point2, f64)
     (points, widest_mm)
 }
 
-/// A square grid over a face's bounding box, with each point's distance from the edge.
+/// Returns a square grid over a face's bounding box, with each point's distance from the edge.
 fn grid(cap: &Cap, pitch: f64) -> impl Iterator<Item = (Point2, f64)> + '_ {
     let (min, max) = cap.outline.bounds().unwrap_or_default();
     let count = |extent: f64| (extent / pitch).floor() as usize;
@@ -288,7 +296,7 @@ fn grid(cap: &Cap, pitch: f64) -> impl Iterator<Item = (Point2, f64)> + '_ {
     points.map(|p| (p, cap.outline.signed_distance(&p)))
 }
 
-/// Pairs of places at least `gap` apart, the farthest first, [`TRIED_PAIRS`] at most.
+/// Returns pairs of places at least `gap` apart, the farthest first, [`MAX_PAIRS`] at most.
 fn farthest_pairs(places: &[Point2], gap: f64) -> Vec<(usize, usize)> {
     let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
     for i in 0..places.len() {
@@ -300,6 +308,6 @@ fn farthest_pairs(places: &[Point2], gap: f64) -> Vec<(usize, usize)> {
         }
     }
     pairs.sort_by(|a, b| b.0.total_cmp(&a.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    pairs.truncate(TRIED_PAIRS);
+    pairs.truncate(MAX_PAIRS);
     pairs.into_iter().map(|(_, i, j)| (i, j)).collect()
 }

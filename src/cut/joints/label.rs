@@ -1,11 +1,11 @@
-//! Part ids sunk into cut faces, in strokes like those of a seven-segment display.
+//! Part ids engraved into cut faces, in strokes like those of a seven-segment display.
 
 use crate::{
     cut::{
         geometry::chart::{Chart, Point2},
         ids::{CutId, PartId},
         joints::{
-            face::Taken,
+            face::OccupiedSpace,
             placement::{PinScene, Placement},
         },
         pieces::split::{Cap, Joint},
@@ -20,8 +20,8 @@ use serde::{Deserialize, Serialize};
 /// A character's width, height and distance from the next one, in strokes.
 const CELL: [f64; 3] = [4.0, 8.0, 1.5];
 /// The seven strokes of a character, [left, right, bottom, top] in strokes from its lower left
-/// corner: bottom, middle, top, then the left and the right ones from below. Between two of them
-/// 0.4 strokes stay, so that no two bodies touch.
+/// corner. Bottom, middle and top come first, then left and right, each from below. Gaps of 0.4
+/// strokes keep the bodies apart.
 const STROKES: [[f64; 4]; 7] = [
     [0.0, 4.0, 0.0, 1.0],
     [0.0, 4.0, 3.5, 4.5],
@@ -31,57 +31,57 @@ const STROKES: [[f64; 4]; 7] = [
     [3.0, 4.0, 1.4, 3.1],
     [3.0, 4.0, 4.9, 6.6],
 ];
-/// How far the cutting bodies stand out of the face, in strokes, so that booleans meet no
-/// coinciding faces.
-const STANDS_OUT: f64 = 0.5;
-/// Turns that are tried at every place.
+/// Height of the cutting bodies above the face, in strokes, so that booleans meet no coinciding
+/// faces.
+const STUB: f64 = 0.5;
+/// Rotations tried at every place.
 const TURNS: usize = 8;
-/// Places that are looked at in a face: fewer miss room in a narrow one.
+/// Approximate number of places examined per face: fewer miss room in a narrow one.
 const PLACES: f64 = 300.0;
-/// Lines along a label on which its distance from all surfaces is measured.
+/// Lines along a label from which its distance to all surfaces is measured.
 const LINES: usize = 5;
-/// Voids that are solved for again move by less than this, mm.
+/// Extra distance from all surfaces, mm: voids that are solved again move by less.
 const MARGIN_MM: f64 = 0.05;
 
-/// An id sunk into a cut face.
+/// An id engraved into a cut face.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Label {
-    /// The part it is sunk into.
+    /// The part it is engraved into.
     pub part: PartId,
     /// The cut that made the face.
     pub cut: CutId,
-    /// What it says: the part's id, or its number where there is room for no more.
+    /// The part's id, or its number alone if there is no room for more.
     pub text: String,
-    /// Its middle in the face, model frame, mm.
+    /// Its centre in the face, model frame, mm.
     pub center_mm: [f64; 3],
-    /// The unit direction of the text.
+    /// Unit direction of the text.
     pub right: [f64; 3],
-    /// The unit direction into the part.
+    /// Unit direction into the part.
     pub into: [f64; 3],
-    /// The width of a stroke, mm.
+    /// Width of a stroke, mm.
     pub stroke_mm: f64,
-    /// How deep it is, mm.
+    /// Depth, mm.
     pub depth_mm: f64,
 }
 
 impl Label {
-    /// What it takes away, as closed bodies that do not touch.
+    /// Returns the material it removes, as closed bodies that do not touch.
     pub fn taken_away(&self) -> TriMesh {
         self.bodies(0.0)
     }
 
-    /// The bodies that are subtracted from the part: what is taken away, and a stub outside the
+    /// Returns the bodies to subtract from the part: the material removed, and a stub outside the
     /// face.
     pub(crate) fn cutter(&self) -> TriMesh {
-        self.bodies(STANDS_OUT * self.stroke_mm)
+        self.bodies(STUB * self.stroke_mm)
     }
 
-    /// The volume it takes away, mm³.
+    /// Returns the volume it removes, mm³.
     pub fn volume_mm3(&self) -> f64 {
         self.taken_away().signed_volume_mm3()
     }
 
-    /// The middle of every stroke in the face, model frame.
+    /// Returns the centre of every stroke in the face, model frame, mm.
     pub fn strokes(&self) -> Vec<Point> {
         let middle = |[left, right, bottom, top]: [f64; 4]| {
             self.place(&Point::new((left + right) / 2.0, (bottom + top) / 2.0, 0.0))
@@ -89,7 +89,7 @@ impl Label {
         self.boxes().into_iter().map(middle).collect()
     }
 
-    /// The strokes, [left, right, bottom, top] in mm from the label's middle.
+    /// Returns the strokes, [left, right, bottom, top] in mm from the label's centre.
     fn boxes(&self) -> Vec<[f64; 4]> {
         let [width, height] = size_mm(&self.text, self.stroke_mm);
         let cell = (CELL[0] + CELL[2]) * self.stroke_mm;
@@ -115,10 +115,10 @@ impl Label {
         boxes.map(place).collect()
     }
 
-    /// A point given by text direction, up and depth, mm.
+    /// Maps a point from text direction, up and depth to the model frame, mm.
     fn place(&self, p: &Point) -> Point {
         let (right, into) = (Vector::from(self.right), Vector::from(self.into));
-        // Whoever looks at the face looks into the part.
+        // The reader looks into the part.
         let up = right.cross(&into);
         Point::from(self.center_mm) + right * p.x + up * p.y + into * p.z
     }
@@ -129,7 +129,7 @@ impl Label {
                 &Point::new(left, bottom, -out_mm),
                 &Point::new(right, top, self.depth_mm),
             );
-            // Text, up and depth are left-handed.
+            // Text, up and depth form a left-handed frame.
             body.map_vertices(|p| self.place(p)).reversed()
         };
         self.boxes()
@@ -138,7 +138,7 @@ impl Label {
     }
 }
 
-/// Which strokes a character has; none for one that is not known.
+/// Returns the strokes of a character; empty if it is unknown.
 fn strokes_of(character: char) -> &'static [usize] {
     match character {
         '0' => &[0, 2, 3, 4, 5, 6],
@@ -156,7 +156,7 @@ fn strokes_of(character: char) -> &'static [usize] {
     }
 }
 
-/// Width and height of a text, mm.
+/// Returns width and height of a text, mm.
 fn size_mm(text: &str, stroke_mm: f64) -> [f64; 2] {
     let count = text.chars().count() as f64;
     [
@@ -165,17 +165,17 @@ fn size_mm(text: &str, stroke_mm: f64) -> [f64; 2] {
     ]
 }
 
-/// What may be written for the part with this index, the fullest first. A lone 6 or 9 could be read
-/// the other way up.
+/// Returns the possible texts for the part with this index, the fullest first. A lone 6 or 9 is
+/// left out: it could be read upside down.
 fn texts(part: usize) -> Vec<String> {
     let number = (part + 1).to_string();
-    let is_clear = !number.contains(['6', '9']);
+    let is_unambiguous = !number.contains(['6', '9']);
     std::iter::once(PartId::of(part).to_string())
-        .chain(is_clear.then_some(number))
+        .chain(is_unambiguous.then_some(number))
         .collect()
 }
 
-/// The labels of all joints' faces with room for one, and a word on those without.
+/// Returns a label for every joint face with room for one, and a remark for every face without.
 pub(crate) fn labels(
     scene: &PinScene,
     joints: &[Joint],
@@ -185,21 +185,21 @@ pub(crate) fn labels(
         return (Vec::new(), Vec::new());
     };
     let surface = Bvh::new(scene.material.iter_corners());
-    let taken = placements
+    let occupied = placements
         .iter()
         .flat_map(|placement| &placement.sites)
-        .map(Taken::of)
+        .map(OccupiedSpace::of)
         .collect();
-    let marker = Marker {
+    let labeller = Labeller {
         scene,
         style,
         surface,
-        taken,
+        occupied,
     };
     let (mut labels, mut notes) = (Vec::new(), Vec::new());
     for joint in joints {
         for part in [joint.below, joint.above] {
-            match marker.label(joint, part) {
+            match labeller.label(joint, part) {
                 Some(label) => labels.push(label),
                 None => notes.push(Remark::NoRoomForLabel {
                     part: PartId::of(part),
@@ -211,16 +211,17 @@ pub(crate) fn labels(
     (labels, notes)
 }
 
-struct Marker<'a> {
+struct Labeller<'a> {
     scene: &'a PinScene<'a>,
     style: LabelStyle,
     surface: Bvh,
-    /// What pins and sockets take up.
-    taken: Vec<Taken>,
+    /// Space occupied by pins and sockets.
+    occupied: Vec<OccupiedSpace>,
 }
 
-impl Marker<'_> {
-    /// The label of a part's face in a joint: the fullest text for which there is room.
+impl Labeller<'_> {
+    /// Returns the label of a part's face in a joint, with the fullest text that fits. `None` if no
+    /// text fits.
     fn label(&self, joint: &Joint, part: usize) -> Option<Label> {
         let plane = &self.scene.tree.planes[joint.cut];
         let into = if part == joint.above {
@@ -248,15 +249,15 @@ impl Marker<'_> {
                 .faces
                 .iter()
                 .flat_map(|cap| places(cap, size_mm(text, self.style.stroke_mm)[1] / 2.0));
-            let mut turned = places.flat_map(|p| (0..TURNS).map(move |turn| (p, turn)));
-            turned.find_map(|place| {
+            let mut poses = places.flat_map(|p| (0..TURNS).map(move |turn| (p, turn)));
+            poses.find_map(|place| {
                 Some(at(text, place)).filter(|label| self.has_room(label, joint.cut))
             })
         })
     }
 
-    /// Whether the wall stays around all strokes, to the outside, voids, pins, sockets and other
-    /// cuts.
+    /// Returns true if the wall remains around all strokes: to the outside, voids, pins, sockets
+    /// and other cuts.
     fn has_room(&self, label: &Label, cut: usize) -> bool {
         let [width, height] = size_mm(&label.text, label.stroke_mm);
         let wall_mm = self.scene.request.wall_mm + MARGIN_MM;
@@ -265,31 +266,32 @@ impl Marker<'_> {
             let y = height * ((index as f64 + 0.5) / LINES as f64 - 0.5);
             [-width / 2.0, width / 2.0].map(|x| label.place(&Point::new(x, y, label.depth_mm)))
         };
-        let is_clear = |plane: &Plane, ends: &[Point; 2]| {
+        let keeps_wall = |plane: &Plane, ends: &[Point; 2]| {
             let [near, far] = ends.map(|end| plane.distance(&end));
             near.abs().min(far.abs()) >= radius + wall_mm && near * far > 0.0
         };
         let tree = self.scene.tree;
         let others = |at: &Point| {
-            let made =
+            let cuts =
                 (0..tree.planes.len()).filter(|&other| other != cut && tree.acts_at(other, at));
-            made.map(|other| &tree.planes[other]).collect::<Vec<_>>()
+            cuts.map(|other| &tree.planes[other]).collect::<Vec<_>>()
         };
         (0..LINES).map(line).all(|ends| {
             let reach = radius + wall_mm;
             others(&ends[0])
                 .into_iter()
-                .all(|plane| is_clear(plane, &ends))
+                .all(|plane| keeps_wall(plane, &ends))
                 && self
-                    .taken
+                    .occupied
                     .iter()
-                    .all(|taken| taken.is_clear_of(ends.each_ref(), reach))
+                    .all(|space| space.is_clear_of(ends.each_ref(), reach))
                 && self.surface.segment_distance(&ends[0], &ends[1], reach) >= reach
         })
     }
 }
 
-/// Points spread over a face, at least so far from its edge, mm, the farthest from it first.
+/// Returns points spread over a face, at least `least_mm` from its edge, the farthest from it
+/// first.
 fn places(cap: &Cap, least_mm: f64) -> Vec<Point2> {
     let Some((min, max)) = cap.outline.bounds() else {
         return Vec::new();
@@ -300,12 +302,12 @@ fn places(cap: &Cap, least_mm: f64) -> Vec<Point2> {
     let at =
         |i: usize, j: usize| min + nalgebra::Vector2::new(i as f64 + 0.5, j as f64 + 0.5) * pitch;
     let points = (0..columns).flat_map(|i| (0..rows).map(move |j| at(i, j)));
-    let mut deep: Vec<(f64, Point2)> = points
+    let mut by_depth: Vec<(f64, Point2)> = points
         .map(|p| (cap.outline.signed_distance(&p), p))
         .collect();
-    deep.retain(|(distance, _)| *distance >= least_mm);
-    deep.sort_by(|a, b| b.0.total_cmp(&a.0));
-    deep.into_iter().map(|(_, p)| p).collect()
+    by_depth.retain(|(distance, _)| *distance >= least_mm);
+    by_depth.sort_by(|a, b| b.0.total_cmp(&a.0));
+    by_depth.into_iter().map(|(_, p)| p).collect()
 }
 
 #[cfg(test)]
@@ -334,15 +336,15 @@ mod tests {
         let found = bodies(&label.taken_away());
         assert_eq!(found.len(), strokes);
         assert!(found.iter().all(|body| body.signed_volume_mm3() > 0.0));
-        // Horizontal strokes are 4 × 1, upright ones 1.7 × 1, in strokes: P has 2 and 3, 0 has 2
-        // and 4, 2 has 3 and 2, 8 has 3 and 4.
+        // Horizontal strokes are 4 × 1, upright ones 1.7 × 1, in strokes. Horizontal and upright
+        // counts: P has 2 and 3, 0 has 2 and 4, 2 has 3 and 2, 8 has 3 and 4.
         let area = (10.0 * 4.0 + 13.0 * 1.7) * 0.25;
         assert!((label.volume_mm3() - area * 0.4).abs() < 1e-12);
     }
 
     #[test]
     fn a_label_reads_from_left_to_right_for_whoever_looks_at_the_face() {
-        // Seen from above, along −z, x runs to the right and y up: the 1 after P lies at larger x,
+        // Seen from above, along −z, x runs to the right and y up. The 1 after P lies at larger x,
         // the bow of P in the upper half.
         let strokes = label("P1").strokes();
         assert!(

@@ -1,8 +1,8 @@
-//! Whether pins enter sockets they are not meant for.
+//! Checks if pins enter sockets they are not meant for.
 
 use crate::cut::geometry::chart::Point2;
 
-/// The end view of a pin and its socket, looking along the pin, mm.
+/// End view of a pin and its socket, looking along the pin, mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Peg {
     pub(crate) at: Point2,
@@ -10,15 +10,15 @@ pub(crate) struct Peg {
     pub(crate) socket_mm: f64,
 }
 
-/// How much more than its nominal play a printed pin may be forced, mm: the common tolerance of the
-/// printers.
+/// Distance by which a printed pin may be forced beyond its nominal play, mm: the common tolerance
+/// of the printers.
 pub(crate) const FORCE_TOLERANCE_MM: f64 = 0.1;
 
-/// Whether the pins of one joint enter the sockets of another.
+/// Returns true if the pins of one joint enter the sockets of another.
 ///
-/// Exact to the play: a turn of the plane is tried for every ordered pair of sockets that the first
-/// two pins could take, so it costs the square of the sockets. One pin alone enters every wider
-/// socket.
+/// Exact to the play. Tries a rotation of the plane for every ordered pair of sockets that the
+/// first two pins could enter. The cost grows with the square of the number of sockets. A single
+/// pin enters every wider socket.
 pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
     let Some((first, rest)) = pins.split_first() else {
         return false;
@@ -26,38 +26,39 @@ pub(crate) fn fits(pins: &[Peg], sockets: &[Peg]) -> bool {
     if rest.is_empty() {
         sockets.iter().any(|s| enters(first, s))
     } else {
-        fits_turned(pins, sockets, None)
+        fits_rotated(pins, sockets, None)
     }
 }
 
-/// Whether the pins of a joint enter their own sockets in a second way.
+/// Returns true if the pins of a joint enter their own sockets in a second way.
 pub(crate) fn fits_itself(pegs: &[Peg]) -> bool {
-    fits_turned(pegs, pegs, Some((0, 1)))
+    fits_rotated(pegs, pegs, Some((0, 1)))
 }
 
-/// Whether two pins or more enter sockets, the first two of them any but the pair that is left out.
-fn fits_turned(pins: &[Peg], sockets: &[Peg], left_out: Option<(usize, usize)>) -> bool {
+/// Returns true if two or more pins enter sockets in some rotation. The first two may take any pair
+/// of sockets but the excluded one.
+fn fits_rotated(pins: &[Peg], sockets: &[Peg], excluded: Option<(usize, usize)>) -> bool {
     let [first, second, ..] = pins else {
         return false;
     };
     (0..sockets.len()).any(|i| {
         (0..sockets.len())
-            .filter(|&j| j != i && left_out != Some((i, j)))
+            .filter(|&j| j != i && excluded != Some((i, j)))
             .any(|j| {
                 enters(first, &sockets[i])
                     && enters(second, &sockets[j])
-                    && turned_fit(pins, sockets, [&sockets[i], &sockets[j]])
+                    && all_enter(pins, sockets, [&sockets[i], &sockets[j]])
             })
     })
 }
 
-/// Whether a pin is thin enough for a socket.
+/// Returns true if a pin is thin enough for a socket.
 fn enters(pin: &Peg, socket: &Peg) -> bool {
     pin.pin_mm <= socket.socket_mm + FORCE_TOLERANCE_MM
 }
 
-/// Whether all pins find a socket once the first two sit in `seats`.
-fn turned_fit(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
+/// Returns true if all pins find a socket once the first two sit in `seats`.
+fn all_enter(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
     let (from, to) = (pins[1].at - pins[0].at, seats[1].at - seats[0].at);
     let play = |pin: &Peg, socket: &Peg| {
         (socket.socket_mm - pin.pin_mm).max(0.0) / 2.0 + FORCE_TOLERANCE_MM
@@ -70,12 +71,12 @@ fn turned_fit(pins: &[Peg], sockets: &[Peg], seats: [&Peg; 2]) -> bool {
     let (cos, sin) = (a.dot(&b), a.perp(&b));
     pins[2..].iter().all(|pin| {
         let arm = pin.at - pins[0].at;
-        let turned = seats[0].at
+        let rotated = seats[0].at
             + nalgebra::Vector2::new(cos * arm.x - sin * arm.y, sin * arm.x + cos * arm.y);
         let lever = 1.0 + arm.norm() / from.norm();
         sockets
             .iter()
-            .any(|s| enters(pin, s) && (s.at - turned).norm() <= play(pin, s) + lever * slack)
+            .any(|s| enters(pin, s) && (s.at - rotated).norm() <= play(pin, s) + lever * slack)
     })
 }
 
@@ -92,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn two_equal_pins_fit_turned_by_half_and_two_unequal_ones_do_not() {
+    fn two_equal_pins_fit_after_a_half_turn_and_two_unequal_ones_do_not() {
         let equal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 2.0)];
         let unequal = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
         assert!(fits_itself(&equal));
@@ -100,7 +101,7 @@ mod tests {
     }
 
     #[test]
-    fn an_equilateral_triangle_turns_onto_itself_and_a_scalene_one_does_not() {
+    fn an_equilateral_triangle_rotates_onto_itself_and_a_scalene_one_does_not() {
         let equilateral = [
             peg(0.0, 0.0, 2.0),
             peg(8.0, 0.0, 2.0),
@@ -112,13 +113,13 @@ mod tests {
     }
 
     #[test]
-    fn the_same_pattern_in_another_joint_is_not_taken_for_its_own() {
+    fn the_same_pattern_in_another_joint_is_not_mistaken_for_its_own() {
         let pattern = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
         assert!(!fits_itself(&pattern) && fits(&pattern, &pattern));
     }
 
     #[test]
-    fn a_moved_and_turned_copy_of_a_pattern_is_recognised() {
+    fn a_moved_and_rotated_copy_of_a_pattern_is_recognised() {
         let pattern = [peg(0.0, 0.0, 2.0), peg(9.0, 0.0, 1.5)];
         let copy = [peg(5.0, 14.0, 2.0), peg(5.0, 5.0, 1.5)];
         let wider = [peg(5.0, 15.0, 2.0), peg(5.0, 5.0, 1.5)];

@@ -1,4 +1,4 @@
-//! The bodies of pins and sockets.
+//! Bodies of pins and sockets.
 
 use crate::{
     cut::{
@@ -11,13 +11,13 @@ use crate::{
 };
 use serde::{Deserialize, Serialize};
 
-/// Sides of the polygon that stands for a circle: at 3 mm across its flats lie 3 µm inside the
-/// circle, below any printer's pixel; more only makes triangles.
+/// Sides of the polygon that approximates a circle. At a diameter of 3 mm its flats lie 3 µm inside
+/// the circle, below any printer's pixel; more sides only add triangles.
 pub(crate) const SIDES: usize = 48;
 
-/// How far a pin's root reaches into its part and a socket's body out of its mouth, so that
-/// booleans meet no coinciding faces, as a share of the pin's diameter. The material check leaves
-/// more than that free of surfaces.
+/// Depth of a pin's root inside its part, and height of a socket's stub above its mouth, as a share
+/// of the pin's diameter. It spares booleans coinciding faces. The material check keeps more than
+/// that free of surfaces.
 const OVERLAP_RATIO: f64 = 0.2;
 
 /// A pin and its socket: plain data, written into the plan and editable there.
@@ -28,14 +28,14 @@ pub struct PinSite {
     pub id: PinId,
     /// The id of the cut it bridges.
     pub cut: CutId,
-    /// Where its axis passes through the cut, mm.
+    /// Point where its axis passes through the cut, mm.
     pub center_mm: [f64; 3],
-    /// The unit direction in which it stands out: from the part that carries it into the part with
-    /// the socket.
+    /// Unit direction in which it protrudes: from the part that carries it into the part with the
+    /// socket.
     pub direction: [f64; 3],
     /// Diameter of the pin, mm.
     pub diameter_mm: f64,
-    /// How far the pin stands out, mm.
+    /// Length by which the pin protrudes, mm.
     pub length_mm: f64,
     /// Height and width of the chamfer at its tip, mm.
     pub chamfer_mm: f64,
@@ -43,19 +43,19 @@ pub struct PinSite {
     pub socket_diameter_mm: f64,
     /// Depth of the socket, mm.
     pub socket_depth_mm: f64,
-    /// Height and width of the chamfer at its mouth, mm.
+    /// Height and width of the chamfer at the socket's mouth, mm.
     pub socket_chamfer_mm: f64,
-    /// The loose dowel that stands there in place of a printed pin, in a socket on either side;
-    /// `length_mm` is then half of it.
+    /// The loose dowel that replaces a printed pin, with a socket on either side. `length_mm` is
+    /// then half the dowel's length.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dowel: Option<Dowel>,
 }
 
 impl PinSite {
-    /// The pin as it is united with its part: what stands out, and a root inside the part.
+    /// Returns the pin to unite with its part: the protruding body, and a root inside the part.
     pub(crate) fn pin_body(&self) -> TriMesh {
         let radius = self.diameter_mm / 2.0;
-        self.turned(
+        self.revolve(
             &[
                 vec![(radius, -self.overlap_mm())],
                 self.pin_profile()[1..].to_vec(),
@@ -64,7 +64,7 @@ impl PinSite {
         )
     }
 
-    /// The socket as it is subtracted from its part: what is taken away, and a stub outside the
+    /// Returns the body to subtract for the socket: the material removed, and a stub outside the
     /// mouth.
     pub(crate) fn socket_body(&self) -> TriMesh {
         let profile = self.socket_profile();
@@ -74,34 +74,35 @@ impl PinSite {
             0.0
         };
         let mouth = (profile[0].0 + slope * self.overlap_mm(), -self.overlap_mm());
-        self.turned(&[vec![mouth], profile[1..].to_vec()].concat())
+        self.revolve(&[vec![mouth], profile[1..].to_vec()].concat())
     }
 
-    /// What is printed standing out of the cut face, as a closed mesh; nothing of a dowel.
+    /// Returns the printed body that protrudes from the cut face, as a closed mesh; empty for a
+    /// dowel.
     pub fn standing_out(&self) -> TriMesh {
         if self.dowel.is_some() {
             TriMesh::default()
         } else {
-            self.turned(&self.pin_profile())
+            self.revolve(&self.pin_profile())
         }
     }
 
-    /// What the socket takes away, as a closed mesh.
+    /// Returns the material that the socket removes, as a closed mesh.
     pub fn taken_away(&self) -> TriMesh {
-        self.turned(&self.socket_profile())
+        self.revolve(&self.socket_profile())
     }
 
-    /// The volume that stands out of the cut face, mm³.
+    /// Returns the volume that protrudes from the cut face, mm³; 0 for a dowel.
     pub fn pin_volume_mm3(&self) -> f64 {
         self.standing_out().signed_volume_mm3()
     }
 
-    /// The volume the socket takes away, mm³.
+    /// Returns the volume that the socket removes, mm³.
     pub fn socket_volume_mm3(&self) -> f64 {
         self.taken_away().signed_volume_mm3()
     }
 
-    /// The triangles of the socket's mouth in the cut.
+    /// Returns the triangles of the socket's mouth in the cut.
     pub(crate) fn mouth(&self) -> Vec<[Point; 3]> {
         let (axis, center) = (Vector::from(self.direction), Point::from(self.center_mm));
         let (u, v) = orthonormal_basis(&axis);
@@ -115,13 +116,13 @@ impl PinSite {
             .collect()
     }
 
-    /// The radius of the socket polygon's corners: its sides lie on the circle of the socket's
-    /// diameter, so that the gap to the pin is nowhere less than the clearance.
+    /// Returns the radius of the socket polygon's corners, mm. Its sides touch the circle of the
+    /// socket's diameter, so the gap to the pin is nowhere less than the clearance.
     pub(crate) fn socket_corner_mm(socket_diameter_mm: f64) -> f64 {
         socket_diameter_mm / 2.0 / (std::f64::consts::PI / SIDES as f64).cos()
     }
 
-    /// How far the root of a pin of this diameter reaches into its own part, mm.
+    /// Returns the depth of a pin's root inside its own part, mm.
     pub(crate) fn root_mm(diameter_mm: f64) -> f64 {
         OVERLAP_RATIO * diameter_mm
     }
@@ -130,7 +131,7 @@ impl PinSite {
         Self::root_mm(self.diameter_mm)
     }
 
-    /// (radius, height) of the pin's outline from the cut face to the tip, mm.
+    /// Returns (radius, height) of the pin's outline from the cut face to the tip, mm.
     fn pin_profile(&self) -> Vec<(f64, f64)> {
         let (radius, chamfer) = (self.diameter_mm / 2.0, self.chamfer_mm);
         let tip = (radius - chamfer, self.length_mm);
@@ -141,7 +142,7 @@ impl PinSite {
         }
     }
 
-    /// (radius, height) of the socket's outline from its mouth to its bottom, mm.
+    /// Returns (radius, height) of the socket's outline from its mouth to its bottom, mm.
     fn socket_profile(&self) -> Vec<(f64, f64)> {
         let radius = Self::socket_corner_mm(self.socket_diameter_mm);
         let (chamfer, bottom) = (self.socket_chamfer_mm, (radius, self.socket_depth_mm));
@@ -152,9 +153,8 @@ impl PinSite {
         }
     }
 
-    /// The body of [`SIDES`] sides that a profile of rising (radius, height) describes about the
-    /// pin's axis.
-    fn turned(&self, profile: &[(f64, f64)]) -> TriMesh {
+    /// Revolves a profile of rising (radius, height) about the pin's axis, with [`SIDES`] sides.
+    fn revolve(&self, profile: &[(f64, f64)]) -> TriMesh {
         let axis = Vector::from(self.direction);
         let (u, v) = orthonormal_basis(&axis);
         let center = Point::from(self.center_mm);
@@ -173,7 +173,7 @@ impl PinSite {
 }
 
 impl PinSite {
-    /// The dowel as a round bar in its place; none for a printed pin.
+    /// Returns the dowel as a round bar in its place; `None` for a printed pin.
     pub fn dowel_bar(&self) -> Option<RoundBar> {
         let half = self.dowel.as_ref()?.length_mm / 2.0;
         let (middle, along) = (
@@ -187,7 +187,8 @@ impl PinSite {
         ))
     }
 
-    /// The same seen from the other side of the cut: where a dowel's second socket is.
+    /// Returns the pin as seen from the other side of the cut: the place of a dowel's second
+    /// socket.
     pub(crate) fn mirrored(&self) -> Self {
         Self {
             direction: self.direction.map(|x| -x),
@@ -195,8 +196,8 @@ impl PinSite {
         }
     }
 
-    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's
-    /// second socket.
+    /// Returns the depth inside the part that carries it, mm: of a printed pin's root, or of a
+    /// dowel's second socket.
     pub(crate) fn back_mm(&self) -> f64 {
         if self.dowel.is_some() {
             self.socket_depth_mm
@@ -206,8 +207,8 @@ impl PinSite {
     }
 }
 
-/// The triangles of a turned body of that many rings, closed by fans about the two vertices after
-/// the rings.
+/// Returns the triangles of a body of revolution of so many rings. Fans about the two vertices
+/// after the rings close its ends.
 fn lathe_triangles(rings: usize) -> Vec<[u32; 3]> {
     let sides = SIDES as u32;
     let top = (rings as u32 - 1) * sides;

@@ -1,16 +1,16 @@
-//! How large pins and their sockets are made: by the printer's rules, in steps of its pixels and
-//! layers.
+//! Sizes of pins and sockets, by the printer's rules, in steps of its pixels and layers.
 
 use crate::cut::{
     joints::{pattern::FORCE_TOLERANCE_MM, pin_shape::PinSite},
     request::{PinSettings, PlanRequest},
 };
 
-/// Pin diameters that are tried, over the thinnest allowed, the stoutest first: a stout pin aligns
-/// better, a thin one finds room in more places.
+/// Pin diameters tried, as multiples of the thinnest allowed, the thickest first. A thick pin
+/// aligns better, a thin one finds room in more places.
 const DIAMETER_RATIOS: [f64; 4] = [3.0, 2.0, 1.5, 1.0];
 
-/// The shortest pins over their diameter: the short end of what is usual (1 to 1.5 diameters).
+/// Length of the shortest pins over their diameter: the short end of common practice (1 to 1.5
+/// diameters).
 const SHORTEST_RATIO: f64 = 1.0;
 
 /// A pin of some diameter with its socket, by the request's rules, mm.
@@ -21,7 +21,7 @@ pub(crate) struct Size {
     pub(crate) chamfer: f64,
     pub(crate) socket_diameter: f64,
     pub(crate) depth: f64,
-    /// A dowel: which of the request's rods it is cut from, and how long, mm.
+    /// For a dowel, the index of its rod in the request, and its length, mm.
     pub(crate) dowel: Option<(usize, f64)>,
 }
 
@@ -29,7 +29,7 @@ impl Size {
     pub(crate) fn new(request: &PlanRequest, diameter: f64) -> Self {
         let pins = &request.pins;
         let length = round_up(diameter * pins.length_ratio, request.layer_mm);
-        // A chamfer of more than a quarter of the diameter would leave a point instead of a tip.
+        // A chamfer over a quarter of the diameter would leave a point instead of a tip.
         let chamfer = pins.chamfer_mm.min(diameter / 4.0);
         let socket_diameter = round_up(diameter + 2.0 * pins.clearance_mm, request.hole_step_mm);
         let depth = round_up(length + pins.bottom_relief_mm, request.layer_mm);
@@ -43,8 +43,8 @@ impl Size {
         }
     }
 
-    /// A dowel cut from one of the request's rods, to whole millimetres, with a socket on either
-    /// side.
+    /// Returns a dowel cut from one of the request's rods, to whole millimetres, with a socket on
+    /// either side.
     fn of_rod(request: &PlanRequest, rod: usize) -> Self {
         let pins = &request.pins;
         let diameter = request.rods[rod].diameter_mm;
@@ -58,8 +58,8 @@ impl Size {
         }
     }
 
-    /// How far it reaches into the part that carries it, mm: a printed pin's root, or a dowel's
-    /// second socket.
+    /// Returns the depth inside the part that carries it, mm: of a printed pin's root, or of a
+    /// dowel's second socket.
     pub(crate) fn back_mm(&self) -> f64 {
         if self.dowel.is_some() {
             self.depth
@@ -68,7 +68,7 @@ impl Size {
         }
     }
 
-    /// The size that a placed pin has.
+    /// Returns the size of a placed pin.
     pub(crate) fn of(site: &PinSite) -> Self {
         Self {
             diameter: site.diameter_mm,
@@ -80,18 +80,19 @@ impl Size {
         }
     }
 
-    /// The radius of the socket's corners, mm.
+    /// Returns the radius of the socket's corners, mm.
     pub(crate) fn corner(&self) -> f64 {
         PinSite::socket_corner_mm(self.socket_diameter)
     }
 
-    /// The diameter of the disc of material that the socket needs in the cut, mm.
+    /// Returns the diameter of the disc of material that the socket needs in the cut, mm.
     pub(crate) fn room_mm(&self, request: &PlanRequest) -> f64 {
         2.0 * (self.corner() + self.chamfer + request.wall_mm)
     }
 }
 
-/// The smallest multiple of `step` that is not below `value`; `value` itself when there is no step.
+/// Returns the smallest multiple of `step` that is not below `value`; `value` itself if there is no
+/// step.
 fn round_up(value: f64, step: f64) -> f64 {
     // A value that is a multiple already must not climb a step because of rounding.
     const SLACK: f64 = 1e-9;
@@ -102,7 +103,7 @@ fn round_up(value: f64, step: f64) -> f64 {
     }
 }
 
-/// The diameter of the disc of material that the thinnest pin's socket needs, mm.
+/// Returns the diameter of the disc of material that the thinnest pin's socket needs, mm.
 pub(crate) fn needed_room_mm(request: &PlanRequest) -> f64 {
     let rooms = size_pairs(request)
         .into_iter()
@@ -111,7 +112,7 @@ pub(crate) fn needed_room_mm(request: &PlanRequest) -> f64 {
     rooms.fold(f64::INFINITY, f64::min)
 }
 
-/// How far from a cut the stoutest pin's socket with the wall around it reaches, mm.
+/// Returns the reach of the thickest pin's socket, with the wall around it, from the cut, mm.
 pub(crate) fn reach_mm(request: &PlanRequest) -> f64 {
     let reaches = size_pairs(request)
         .into_iter()
@@ -120,19 +121,19 @@ pub(crate) fn reach_mm(request: &PlanRequest) -> f64 {
     reaches.fold(0.0, f64::max)
 }
 
-/// Sizes of a joint's first pin and of the others, the stoutest first: different enough that a pin
-/// does not enter the other's socket; last of all equal ones, for joints with room for nothing
-/// else. At least one pair.
+/// Returns sizes of a joint's first pin and of the others, the thickest first; at least one pair.
+/// They differ enough that no pin enters the other's socket. The last pair is equal, for joints
+/// without room for others.
 pub(crate) fn size_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     if request.rods.is_empty() {
-        printed_pairs(request)
+        pin_pairs(request)
     } else {
         dowel_pairs(request)
     }
 }
 
-/// The same as short as is usual: for joints with material too thin for the sockets of longer ones.
-/// None where pins are short anyway, or cut from rods.
+/// Returns the pairs of [`size_pairs`] as short as is common, for material too thin for longer
+/// sockets. Empty if pins are that short anyway, or cut from rods.
 pub(crate) fn short_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     if !request.rods.is_empty() || request.pins.length_ratio <= SHORTEST_RATIO {
         return Vec::new();
@@ -141,31 +142,31 @@ pub(crate) fn short_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
         length_ratio: SHORTEST_RATIO,
         ..request.pins
     };
-    printed_pairs(&PlanRequest {
+    pin_pairs(&PlanRequest {
         pins,
         ..request.clone()
     })
 }
 
-/// By how much the diameters of two pins differ at least, mm, if neither is to enter the other's
+/// Returns the least difference of two pins' diameters, mm, at which neither enters the other's
 /// socket.
 fn step_mm(request: &PlanRequest) -> f64 {
     let gaps = round_up(2.0 * request.pins.clearance_mm, request.hole_step_mm);
     round_up(gaps + 2.0 * FORCE_TOLERANCE_MM, request.pixel_mm)
 }
 
-fn printed_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
+fn pin_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let pixel = request.pixel_mm;
     let least = round_up(request.pins.min_diameter_mm, pixel);
     let step = step_mm(request);
-    let mut stout: Vec<f64> = DIAMETER_RATIOS
+    let mut thick: Vec<f64> = DIAMETER_RATIOS
         .iter()
         .map(|ratio| round_up(ratio * least, pixel))
         .collect();
-    stout.push(least + step);
-    stout.retain(|&diameter| diameter >= least + step);
-    stout.sort_by(|a, b| b.total_cmp(a));
-    let mut pairs: Vec<[f64; 2]> = stout
+    thick.push(least + step);
+    thick.retain(|&diameter| diameter >= least + step);
+    thick.sort_by(|a, b| b.total_cmp(a));
+    let mut pairs: Vec<[f64; 2]> = thick
         .into_iter()
         .map(|diameter| [diameter, diameter - step])
         .collect();
@@ -176,20 +177,20 @@ fn printed_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
         .collect()
 }
 
-/// Every rod with the thickest that is thinner by enough, no stouter than printed pins are tried
-/// but for the two thinnest.
+/// Pairs every rod with the thickest one that is thinner by enough. Rods thicker than the thickest
+/// printed pin are left out, but the two thinnest always stay.
 fn dowel_pairs(request: &PlanRequest) -> Vec<[Size; 2]> {
     let mut rods: Vec<Size> = (0..request.rods.len())
         .map(|rod| Size::of_rod(request, rod))
         .collect();
     rods.sort_by(|a, b| a.diameter.total_cmp(&b.diameter));
-    let stoutest = DIAMETER_RATIOS[0] * request.pins.min_diameter_mm;
-    let fit = rods
+    let thickest = DIAMETER_RATIOS[0] * request.pins.min_diameter_mm;
+    let count = rods
         .iter()
-        .filter(|size| size.diameter <= stoutest)
+        .filter(|size| size.diameter <= thickest)
         .count()
         .max(rods.len().min(2));
-    rods.truncate(fit);
+    rods.truncate(count);
     let thinner = |size: &Size| {
         let is_thinner = |other: &&Size| other.diameter + step_mm(request) <= size.diameter;
         rods.iter()
@@ -208,7 +209,7 @@ mod tests {
     use crate::cut::scenes::request;
 
     #[test]
-    fn short_pins_are_as_long_as_thick_and_no_thinner_than_others() {
+    fn short_pins_are_as_long_as_they_are_thick_and_no_thinner_than_others() {
         let request = request();
         let [usual, short] = [size_pairs(&request), short_pairs(&request)];
         assert_eq!(usual.len(), short.len());

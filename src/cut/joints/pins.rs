@@ -1,5 +1,5 @@
-//! Where alignment pins go: inside the material with the wall around them, spread wide, and one way
-//! only.
+//! Places alignment pins: inside the material with the wall around them, far apart, and so that the
+//! parts fit one way only.
 
 use crate::{
     cut::{
@@ -18,43 +18,45 @@ use crate::{
     geom::Point,
 };
 
-/// How far from its cut an ordered pin's middle may lie, mm: numbers typed with three decimals.
+/// Distance that an ordered pin's centre may lie from its cut, mm: numbers typed with three
+/// decimals.
 const ON_CUT_MM: f64 = 1e-3;
 
-/// Which pins a plan gets.
+/// Source of a plan's pins.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Pins<'a> {
-    /// Those of the planner in every joint.
+    /// The planner places pins in every joint.
     Placed,
     /// Exactly these.
     Ordered(&'a [PinSite]),
-    /// These, and those of the planner in every joint where none of them stands.
+    /// These, and the planner's in every joint that has none of them.
     Around(&'a [PinSite]),
 }
 
-/// The pins of every joint.
+/// Returns the pins of every joint, in the order of the joints. Fails if an ordered pin lies on no
+/// joint.
 pub(crate) fn pinned(
     scene: &PinScene,
     joints: &[Joint],
     pins: Pins,
 ) -> Result<Vec<Placement>, CutError> {
-    let held = match pins {
+    let given = match pins {
         Pins::Placed => &[],
         Pins::Around(pins) => pins,
-        Pins::Ordered(pins) => return seated(scene, joints, pins),
+        Pins::Ordered(pins) => return seat_ordered(scene, joints, pins),
     };
-    let mut placements = seated(scene, joints, held)?;
+    let mut placements = seat_ordered(scene, joints, given)?;
     for index in 0..joints.len() {
         if placements[index].sites.is_empty() {
             let placed: Vec<&Placement> = placements.iter().collect();
             placements[index] = place(scene, &joints[index], &placed);
         }
     }
-    Ok(numbered(placements, joints))
+    Ok(number_pins(placements, joints))
 }
 
-/// The pins numbered through, and named after their cuts.
-fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> {
+/// Numbers the pins through all joints and sets their cuts.
+fn number_pins(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> {
     let pins = placements.iter_mut().zip(joints);
     let pins = pins
         .flat_map(|(placement, joint)| placement.sites.iter_mut().map(move |site| (site, joint)));
@@ -64,10 +66,10 @@ fn numbered(mut placements: Vec<Placement>, joints: &[Joint]) -> Vec<Placement> 
     placements
 }
 
-/// The pins of a joint; `placed` are those of the joints before it, whose pins its own must keep
-/// off, and with whose patterns its own must not be confused.
+/// Places the pins of a joint. They keep off the pins in `placed`, those of the joints before it,
+/// and must not be confused with their patterns.
 ///
-/// Both directions are tried, the normal's first; the one that aligns better wins.
+/// Tries both directions, the normal's first; the one that aligns better wins.
 fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
     let along = |is_upward: bool| {
         let facing = Facing {
@@ -81,27 +83,27 @@ fn place(scene: &PinScene, joint: &Joint, placed: &[&Placement]) -> Placement {
         return upward;
     }
     let downward = along(false);
-    let worth = |p: &Placement| (p.is_sound(), p.sites.len());
-    if worth(&downward) > worth(&upward) {
+    let rank = |p: &Placement| (p.is_sound(), p.sites.len());
+    if rank(&downward) > rank(&upward) {
         downward
     } else {
         upward
     }
 }
 
-/// The ordered pins joint by joint, with whether they let the parts together one way only. A pin
-/// between no two cut faces is refused.
-pub(crate) fn seated(
+/// Assigns ordered pins to their joints and checks that they let the parts together one way only.
+/// Fails if a pin lies on no joint.
+pub(crate) fn seat_ordered(
     scene: &PinScene,
     joints: &[Joint],
     pins: &[PinSite],
 ) -> Result<Vec<Placement>, CutError> {
-    let mut of_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
+    let mut by_joint: Vec<Vec<&PinSite>> = joints.iter().map(|_| Vec::new()).collect();
     for pin in pins {
-        let lost = || Obstacle::PinOffFace {
+        let off_face = || Obstacle::PinOffFace {
             pin: pin.id.clone(),
         };
-        let is_under = |joint: &Joint| {
+        let carries_pin = |joint: &Joint| {
             let plane = &scene.tree.planes[joint.cut];
             let center = Point::from(pin.center_mm);
             let at = Chart::of_plane(plane).flat(&center);
@@ -109,11 +111,11 @@ pub(crate) fn seated(
                 && plane.distance(&center).abs() <= ON_CUT_MM
                 && joint.faces.iter().any(|face| face.holds(&at))
         };
-        let joint = joints.iter().position(is_under).ok_or_else(lost)?;
-        of_joint[joint].push(pin);
+        let joint = joints.iter().position(carries_pin).ok_or_else(off_face)?;
+        by_joint[joint].push(pin);
     }
     let mut placed: Vec<Placement> = Vec::new();
-    for (joint, pins) in joints.iter().zip(of_joint) {
+    for (joint, pins) in joints.iter().zip(by_joint) {
         let pegs: Vec<Peg> = pins
             .iter()
             .map(|pin| peg(&scene.tree.planes[joint.cut], pin))
@@ -130,7 +132,7 @@ pub(crate) fn seated(
     Ok(placed)
 }
 
-/// The pins of a joint that stand out upward, or downward.
+/// Places the pins of a joint in one direction.
 fn place_along(scene: &PinScene, joint: &Joint, facing: Facing) -> Placement {
     let placed = facing.others;
     let face = Face::new(scene, joint, facing);

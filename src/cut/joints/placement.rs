@@ -1,4 +1,4 @@
-//! The pins of a joint, as they are seen along their axes.
+//! The pins of a joint, and their view along their axes.
 
 use crate::{
     cut::{
@@ -16,11 +16,11 @@ use crate::{
     mesh::TriMesh,
 };
 
-/// What a joint is asked to be fitted into.
+/// The body and the rules for which pins are placed.
 pub(crate) struct PinScene<'a> {
     pub(crate) request: &'a PlanRequest,
     pub(crate) tree: &'a CutTree,
-    /// The surface of the material before it is cut.
+    /// Surface of the material before it is cut.
     pub(crate) material: &'a TriMesh,
 }
 
@@ -29,43 +29,44 @@ pub(crate) struct PinScene<'a> {
 pub(crate) struct Placement {
     pub(crate) sites: Vec<PinSite>,
     pub(crate) pegs: Vec<Peg>,
-    /// Whether only one way of putting the parts together fits.
+    /// True if the parts fit together in one way only.
     pub(crate) is_one_way: bool,
-    /// The diameter of the largest disc of material in the joint, mm.
+    /// Diameter of the largest disc of material in the joint, mm.
     pub(crate) widest_mm: f64,
 }
 
-/// The way that pins in a joint may stand, and what is in theirs.
+/// Direction of the pins in a joint, and the pins they must avoid.
 #[derive(Clone, Copy)]
 pub(crate) struct Facing<'a> {
     /// The pins of other joints, which they must keep off.
     pub(crate) others: &'a [&'a Placement],
-    /// Whether they stand out along the plane's normal, not against it.
+    /// True if they protrude along the plane's normal, false if against it.
     pub(crate) is_upward: bool,
 }
 
 impl Placement {
-    /// Whether at least two pins let the parts together one way only.
+    /// Returns true if it has at least two pins that let the parts together one way only.
     pub(crate) fn is_sound(&self) -> bool {
         self.sites.len() >= 2 && self.is_one_way
     }
 }
 
-/// Whether the pattern fits itself in a second way, or another joint, or another joint fits it.
+/// Returns true if the pattern fits itself in a second way, fits another joint, or another joint
+/// fits it.
 pub(crate) fn is_confused(pattern: &[Peg], placed: &[&Placement]) -> bool {
-    let apart = || placed.iter().filter(|placement| placement.pegs.len() >= 2);
+    let aligned = || placed.iter().filter(|placement| placement.pegs.len() >= 2);
     let is_dowelled =
         |placement: &Placement| placement.sites.iter().all(|site| site.dowel.is_some());
-    // Either side of a dowelled joint has sockets, and shows the pattern as a mirror does.
-    let mirrored: Vec<Vec<Peg>> = apart()
+    // Both sides of a dowelled joint have sockets, and one side shows the pattern mirrored.
+    let mirrored: Vec<Vec<Peg>> = aligned()
         .filter(|p| is_dowelled(p))
-        .map(|p| turned_over(&p.pegs))
+        .map(|p| mirror_pegs(&p.pegs))
         .collect();
-    let mut others = apart().map(|placement| &placement.pegs).chain(&mirrored);
+    let mut others = aligned().map(|placement| &placement.pegs).chain(&mirrored);
     fits_itself(pattern) || others.any(|other| fits(pattern, other) || fits(other, pattern))
 }
 
-fn turned_over(pegs: &[Peg]) -> Vec<Peg> {
+fn mirror_pegs(pegs: &[Peg]) -> Vec<Peg> {
     pegs.iter()
         .map(|peg| Peg {
             at: Point2::new(peg.at.x, -peg.at.y),
@@ -74,7 +75,7 @@ fn turned_over(pegs: &[Peg]) -> Vec<Peg> {
         .collect()
 }
 
-/// A pin's end view, looking along it: from below the plane left and right are swapped.
+/// Returns a pin's end view, looking along it: from below the plane left and right are swapped.
 pub(crate) fn peg(plane: &Plane, pin: &PinSite) -> Peg {
     let sign = plane.normal.dot(&Vector::from(pin.direction)).signum();
     let at = Chart::of_plane(plane).flat(&Point::from(pin.center_mm));

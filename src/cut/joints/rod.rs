@@ -4,25 +4,25 @@ use serde::{Deserialize, Serialize};
 
 use crate::{base::toml_text, cut::error::CutError, printer::Sure};
 
-/// A dowel of a plan: what it is cut from, and how long.
+/// A dowel of a plan: its rod and its length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Dowel {
-    /// The rod it is cut from, such as `beech-4`.
+    /// The id of the rod it is cut from, such as `beech-4`.
     pub rod: String,
-    /// How long it is cut, mm: its middle lies in the cut.
+    /// Length it is cut to, mm; its centre lies in the cut.
     pub length_mm: f64,
-    /// g/cm³.
+    /// Density, g/cm³.
     pub density_g_cm3: f64,
 }
 
-/// Where a number is from.
+/// Source of a number.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RodSource {
     /// The source, in words.
     pub source: String,
-    /// How sure it is.
+    /// Confidence in the number.
     pub sure: Sure,
 }
 
@@ -30,21 +30,21 @@ pub struct RodSource {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rod {
-    /// What it is ordered by, such as `beech-4`.
+    /// Id to order it by, such as `beech-4`.
     pub id: String,
-    /// What it is called in a shop.
+    /// Trade name.
     pub name: String,
-    /// mm.
+    /// Diameter, mm.
     pub diameter_mm: f64,
-    /// g/cm³.
+    /// Density, g/cm³.
     pub density_g_cm3: f64,
-    /// Where the diameter is from.
+    /// Source of the diameter.
     pub size_source: RodSource,
-    /// Where the density is from.
+    /// Source of the density.
     pub density_source: RodSource,
 }
 
-/// The file of the catalogue.
+/// File of the catalogue.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Catalogue {
@@ -53,7 +53,7 @@ struct Catalogue {
     rod: Vec<Rod>,
 }
 
-/// The rods that come with the program, from thin to thick.
+/// Returns the rods that come with the program, from thin to thick.
 pub fn rods() -> Result<Vec<Rod>, CutError> {
     let text = include_str!("../../../profiles/dowels/rods.toml");
     Ok(toml_text::read::<Catalogue>("profiles/dowels/rods.toml", text)?.rod)
@@ -64,7 +64,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_rod_has_sources_and_they_grow() {
+    fn every_rod_has_sources_and_rods_are_sorted_by_diameter() {
         let rods = rods().unwrap();
         assert!(
             rods.windows(2)

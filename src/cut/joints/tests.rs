@@ -1,4 +1,4 @@
-//! What bosses, dowels and films of glue promise, on bodies whose answer is known.
+//! Tests of bosses, dowels and glue films on bodies with known answers.
 
 use crate::{
     cut::{
@@ -11,7 +11,7 @@ use crate::{
     mesh::Csg,
 };
 
-/// A shell of a ball too thin for pins, cut through its middle, and the price of filling it.
+/// Returns a spherical shell too thin for pins, with a plan that cuts it through its centre.
 fn thin_shell() -> (Hollowed, CutPlan) {
     let body = with_balls(ball([0.0; 3], 25.0), &[[0.0, 0.0, 0.0, 23.5]]);
     let plan = plan(&body, &request()).unwrap();
@@ -44,11 +44,11 @@ fn bosses_of(body: &Hollowed, plan: &CutPlan, price: Quadric) -> Vec<Boss> {
     bosses(&order_of(body, plan, price, &request())).unwrap()
 }
 
-/// The same everywhere.
-const EVEN: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
+/// The same price everywhere.
+const UNIFORM: Quadric = Quadric([1.0, 0., 0., 0., 0., 0., 0., 0., 0., 0.]);
 
-/// The body with bosses kept solid in its one void.
-fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
+/// Returns the body with bosses kept solid in its one void.
+fn keep_solid(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
     let void = Csg::of_solid(&body.voids[0].body).unwrap();
     let bodies = bosses.iter().map(|boss| Csg::of_mesh(&boss.body).unwrap());
     let rest = bodies.fold(void, |rest, boss| rest.subtract(&boss).unwrap());
@@ -56,11 +56,11 @@ fn keeping(body: &Hollowed, bosses: &[Boss]) -> Hollowed {
 }
 
 #[test]
-fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_them() {
+fn bosses_give_a_thin_shell_two_pins_that_fit_one_way_with_the_wall_around_them() {
     let (body, plan) = thin_shell();
-    let found = bosses_of(&body, &plan, EVEN);
+    let found = bosses_of(&body, &plan, UNIFORM);
     assert_eq!(found.len(), 2);
-    let body = keeping(&body, &found);
+    let body = keep_solid(&body, &found);
     let order = CutOrder {
         pins: Some(found.iter().map(|boss| boss.pin.clone()).collect()),
         ..CutOrder::of(&plan)
@@ -76,7 +76,7 @@ fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_t
     );
     assert!(plan.voids[0].opening_mm >= request().min_opening_mm);
     assert!(
-        bosses_of(&body, &plan, EVEN).is_empty(),
+        bosses_of(&body, &plan, UNIFORM).is_empty(),
         "one round is enough"
     );
     let surface = crate::geom::Bvh::new(body.to_mesh().iter_corners());
@@ -91,8 +91,8 @@ fn a_thin_shell_with_bosses_has_two_pins_that_fit_one_way_with_the_wall_around_t
 }
 
 #[test]
-fn where_no_place_leaves_the_void_open_two_pins_are_found_that_close_it() {
-    // A tube of 10 mm whose bore of 7 mm must stay open by nearly all of it.
+fn two_pins_that_close_the_void_are_found_if_no_place_leaves_it_open() {
+    // A tube of 10 mm whose bore of 7 mm must stay open over nearly its whole width.
     let body = Hollowed::new(
         cuboid([0.0; 3], [10.0, 10.3, 60.0]),
         vec![cuboid([1.5, 1.5, 2.0], [8.5, 8.8, 58.0])],
@@ -108,12 +108,12 @@ fn where_no_place_leaves_the_void_open_two_pins_are_found_that_close_it() {
         within: Vec::new(),
     };
     let plan = plan_by(&body, &request, &cuts(vec![across])).unwrap();
-    let order = order_of(&body, &plan, EVEN, &request);
+    let order = order_of(&body, &plan, UNIFORM, &request);
     let found = bosses(&order).unwrap();
     assert_eq!(found.len(), 2);
-    let left = plan_by(&keeping(&body, &found), &request, &CutOrder::of(&plan));
+    let left = plan_by(&keep_solid(&body, &found), &request, &CutOrder::of(&plan));
     assert!(left.map_or(0.0, |plan| plan.voids[0].opening_mm) < request.min_opening_mm);
-    // Given up, the joint is not asked for again.
+    // A joint that was given up gets no bosses.
     let given_up = [found[0].joint()];
     assert_eq!(
         bosses(&BossOrder {
@@ -126,11 +126,11 @@ fn where_no_place_leaves_the_void_open_two_pins_are_found_that_close_it() {
 }
 
 #[test]
-fn bosses_stand_where_the_price_of_material_is_least() {
+fn bosses_stand_where_material_is_cheapest() {
     let (body, plan) = thin_shell();
     let cut = plan.cuts[0].plane().unwrap();
     let (u, _) = cut.basis();
-    // The price grows along u, so both pins lie on the far side of the middle.
+    // The price grows along u, so both pins lie on the far side of the centre.
     let slope = Quadric([30.0, u.x, u.y, u.z, 0., 0., 0., 0., 0., 0.]);
     let found = bosses_of(&body, &plan, slope);
     assert_eq!(found.len(), 2);
@@ -144,17 +144,17 @@ fn bosses_stand_where_the_price_of_material_is_least() {
 }
 
 #[test]
-fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
+fn ordered_pins_in_air_get_bosses_and_no_others_do() {
     let (body, plan) = thin_shell();
-    let pins: Vec<PinSite> = bosses_of(&body, &plan, EVEN)
+    let pins: Vec<PinSite> = bosses_of(&body, &plan, UNIFORM)
         .into_iter()
         .map(|boss| boss.pin)
         .collect();
     let price = MaterialPrice {
-        quadric: EVEN,
+        quadric: UNIFORM,
         frame: crate::geom::Frame::identity(),
     };
-    let ask = |pins: &[PinSite]| {
+    let count_bosses = |pins: &[PinSite]| {
         let order = BossOrder {
             hollowed: &body,
             request: &request(),
@@ -166,12 +166,19 @@ fn ordered_pins_get_bosses_where_they_stand_in_air_and_no_others() {
         };
         bosses(&order).unwrap().len()
     };
-    assert_eq!((ask(&pins), ask(&pins[..1]), ask(&[])), (2, 1, 0));
+    assert_eq!(
+        (
+            count_bosses(&pins),
+            count_bosses(&pins[..1]),
+            count_bosses(&[])
+        ),
+        (2, 1, 0)
+    );
     let outside = PinSite {
         center_mm: (Vector::from(pins[0].center_mm) * 3.0).into(),
         ..pins[0].clone()
     };
-    assert_eq!(ask(&[outside]), 0);
+    assert_eq!(count_bosses(&[outside]), 0);
 }
 
 #[test]
@@ -243,8 +250,8 @@ fn no_two_dowelled_joints_can_be_confused_from_either_side() {
     );
 }
 
-/// What no turn and no mirror changes of a joint's pins: how far the others are from the stoutest,
-/// and their diameters, mm.
+/// Returns the invariants of a joint's pins under rotation and mirroring: their diameters, and
+/// their distances from the thickest, mm.
 fn signature(plan: &CutPlan, joint: &JointNote) -> Vec<f64> {
     let mut pins: Vec<&PinSite> = plan
         .pins
